@@ -1,0 +1,37 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "core/model/robot_model.h"
+
+namespace btr {
+
+/// Limits on what a file may ask of the reader; a file that asks for more is refused with the name of the limit.
+struct ModelBudget {
+  std::size_t bytes = 64u << 20;
+  std::size_t nodes = 200'000;
+  std::size_t values = 20'000'000;
+  std::size_t depth = 200;
+  std::size_t triangles = 2'000'000;  ///< of the whole file
+  std::size_t text = 1u << 20;        ///< one string
+  std::size_t identifier = 4096;
+  std::size_t inlineDepth = 8;
+  std::size_t inlineFiles = 64;
+};
+
+/// Reads .wrl (VRML97, OpenHRP/Choreonoid vocabulary) or .urdf by the file's ending, then runs checkModel. Inline files are
+/// opened only below the file's own folder. Throws InputError "FILE:LINE: …"; what was merely ignored becomes a warning.
+RobotModel loadModel(const std::string& path, const ModelBudget& budget = {});
+
+/// The same from memory; `place` begins messages; Inline nodes are refused.
+RobotModel parseVrml(const std::string& text, const std::string& place, const ModelBudget& budget = {});
+RobotModel parseUrdf(const std::string& text, const std::string& place, const ModelBudget& budget = {});
+
+/// Semantic checks: mass > 0, inertia symmetric, positive definite and within the triangle inequality, limits in order,
+/// unit axes, unique names, one root. Throws InputError at the first violation.
+void checkModel(const RobotModel& model, const std::string& place);
+
+/// What `btr model check` prints: links, joints, masses, centre of mass, warnings with line numbers.
+std::string describeModel(const RobotModel& model);
+
+}  // namespace btr

@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/plugin/plugin_host.h"
+#include "core/sim/scene.h"
+#include "core/sim/trial.h"
+#include "core/spec/experiment_spec.h"
+#include "core/spec/scene_spec.h"
+#include "core/store/records.h"
+
+namespace btr {
+
+/// An experiment with everything that a trial needs in memory: plugins made, scene and models read. The same object is made
+/// from files (a new run) or from the database (resume, replay), so both see the same bytes.
+struct PreparedExperiment {
+  ExperimentSpec spec;
+  SceneSpec sceneSpec;
+  ModelSet models;
+  std::vector<StoredFile> files;  ///< the models' texts
+  std::shared_ptr<const Controller> controller;
+  std::shared_ptr<const Fitness> fitness;
+  EffectFactory effects;
+  std::vector<Parameter> genotype;  ///< of the controller
+  std::vector<Parameter> adapted;   ///< simulator parameters that L3 may change
+
+  /// The scene of one simulator version, arranged for the task.
+  Scene scene(const SimulatorSpec& simulator) const;
+  TrialResult trial(const Scene& scene, std::span<const double> parameters, std::uint64_t seed, bool recordTrace) const;
+  double fitnessOf(const TrialResult& result) const;
+};
+
+/// Checks everything that can be checked before a run: plugins, settings, scene, models, and that a scene can be built.
+/// Throws InputError.
+PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host);
+PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
+
+/// The record that stores a prepared experiment as a run, ready to start.
+RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::uint64_t seed);
+
+}  // namespace btr

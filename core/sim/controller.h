@@ -1,0 +1,37 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/sim/scene.h"
+#include "core/sim/world.h"
+
+namespace btr {
+
+/// One motion of one trial, made by a Controller from a parameter vector.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  /// Fills the command of each joint of the robot it drives for the control period that begins at `time` [s].
+  virtual void command(double time, const RobotReadings& readings, std::span<JointInput> inputs) = 0;
+  /// Time at which the motion itself has ended [s].
+  virtual double duration() const = 0;
+};
+
+/// A family of motions: what evolves (its genotype) and what the task is (its settings). Stateless and shared.
+class Controller {
+ public:
+  virtual ~Controller() = default;
+  /// The evolved parameters, in the order of the parameter vector.
+  virtual std::vector<Parameter> genotype() const = 0;
+  /// What the user fixes for an experiment: the task, timings.
+  virtual std::vector<Parameter> settings() const = 0;
+  /// Puts robot and ball to their starting places for this task. The scene's first robot is driven.
+  virtual void arrange(Scene& scene, const Values& settings) const = 0;
+  /// Makes the motion. `scene` is arranged. Never fails: a vector within the genotype's bounds always gives a motion.
+  virtual std::unique_ptr<Motion> begin(const Scene& scene, const Values& settings,
+                                        std::span<const double> parameters) const = 0;
+};
+
+}  // namespace btr

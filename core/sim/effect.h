@@ -1,0 +1,78 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/spec/parameter.h"
+
+namespace btr {
+
+struct Scene;
+
+/// A driven joint at one instant, as an effect sees it. Right-hand rule about the axis of the model file.
+struct JointState {
+  double time = 0;      ///< since the start of the trial [s]
+  double position = 0;  ///< rad or m
+  double rate = 0;      ///< rad/s or m/s
+  double command = 0;   ///< what the servo law follows now (after command effects)
+  double drive = 0;     ///< torque of the drive in the last step [N·m or N]
+};
+
+/// A ball at one instant, world frame.
+struct BallState {
+  double time = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d spin_rad_s = Eigen::Vector3d::Zero();
+  double radius_m = 0, mass_kg = 0;
+  bool onFloor = false;
+};
+
+/// A piece of physics that a simulator may have or lack. One class is both the hypothesis that is fitted to recordings and
+/// the term that then runs in the simulator. Each hook is empty unless the effect fills it. Hooks are functions of their
+/// arguments; whatever must be remembered lies in `state` (stateSize() numbers, zero at the start of a trial), so that a
+/// trial can be copied, stored and replayed.
+class Effect {
+ public:
+  enum class Place { joint, link, ball, floor, world };
+
+  virtual ~Effect() = default;
+  /// Name, unit, meaning, bounds, default and neutral value of each parameter; `values` below follow this order.
+  virtual std::vector<Parameter> parameters() const = 0;
+  virtual Place place() const = 0;
+  /// True if it never adds mechanical energy.
+  virtual bool dissipative() const { return false; }
+  virtual int stateSize() const { return 0; }
+
+  /// Changes masses, gravity, floor, servo numbers … before the world is built.
+  virtual void changeScene(Scene&, const std::string& /*at*/, std::span<const double> /*values*/) const {}
+  /// Command that the servo follows, from the one it was given [rad or m]. Called once a step of `dt` seconds.
+  virtual double command(double command, const JointState&, std::span<const double> /*values*/,
+                         std::span<double> /*state*/, double /*dt*/) const {
+    return command;
+  }
+  /// Drive torque after the servo law and its limit [N·m or N].
+  virtual double driveTorque(double torque, const JointState&, std::span<const double> /*values*/,
+                             std::span<double> /*state*/, double /*dt*/) const {
+    return torque;
+  }
+  /// Torque added at the joint [N·m or N].
+  virtual double torque(const JointState&, std::span<const double> /*values*/) const { return 0; }
+  /// Largest dry friction torque at the joint [N·m or N], ≥ 0; the solver holds or opposes motion with at most that much.
+  virtual double frictionLimit(const JointState&, std::span<const double> /*values*/) const { return 0; }
+  /// Implicit viscous coefficient [N·m·s/rad or N·s/m], ≥ 0.
+  virtual double damping(const JointState&, std::span<const double> /*values*/) const { return 0; }
+  /// What the sensor says of a position. Called once a sample; `dt` is the time since the last.
+  virtual double measured(double position, const JointState&, std::span<const double> /*values*/,
+                          std::span<double> /*state*/, double /*dt*/) const {
+    return position;
+  }
+  /// Force on a ball [N], world frame.
+  virtual Eigen::Vector3d ballForce(const BallState&, std::span<const double> /*values*/) const {
+    return Eigen::Vector3d::Zero();
+  }
+};
+
+}  // namespace btr

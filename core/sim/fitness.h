@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/sim/trial.h"
+
+namespace btr {
+
+/// What a trial is worth. Higher is better. Stateless and shared.
+class Fitness {
+ public:
+  virtual ~Fitness() = default;
+  virtual std::string unit() const = 0;     ///< "m", "m/s"
+  virtual std::string meaning() const = 0;  ///< what the number measures, and from where; one sentence for the measurement sheet
+  virtual std::vector<Parameter> settings() const = 0;
+  /// `controllerSettings` say what the task was.
+  virtual double evaluate(const TrialResult& result, const Values& settings, const Values& controllerSettings) const = 0;
+  /// What a failed trial is worth.
+  virtual double ofFailure() const { return 0; }
+};
+
+}  // namespace btr

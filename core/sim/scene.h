@@ -1,0 +1,72 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/robot_model.h"
+#include "core/sim/effect.h"
+#include "core/spec/scene_spec.h"
+#include "core/spec/simulator_spec.h"
+
+namespace btr {
+
+/// How one joint is driven, all numbers known. SI units.
+struct Drive {
+  enum class Kind { servo, dcMotor, torque, none };  ///< torque also means force on a slide joint
+  Kind kind = Kind::servo;
+  double p = 0, i = 0, d = 0;          ///< servo: torque = p·(command − q) + i·∫ − d·q̇, clamped to ±maxTorque
+  double maxTorque = 1e9;
+  double firmwareGain_v_rad = 0;       ///< DC motor: volts per rad of error, clamped to ±maxDuty·supply
+  double supply_v = 0, torqueConstant_nm_a = 0, resistance_ohm = 1, maxDuty = 1;
+  double rotorInertia_kg_m2 = 0;       ///< at the joint, behind the gear
+  double coulombFriction = 0;          ///< N·m or N
+  double viscousFriction = 0;          ///< N·m·s/rad or N·s/m
+};
+
+struct SceneRobot {
+  std::string name;
+  RobotModel model;                    ///< masses already scaled
+  bool freeBase = true;
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  std::vector<double> jointStart;      ///< by joint of the model
+  std::vector<double> jointStartRate;  ///< by joint of the model, rad/s or m/s
+  std::vector<Drive> drives;           ///< by joint of the model; fixed joints: Kind::none
+  std::string collision = "primitives";
+  bool mergeFixed = true;
+};
+
+struct SceneEffect {
+  std::shared_ptr<const Effect> effect;
+  std::string name, at;
+  std::vector<double> values;  ///< in the order of effect->parameters()
+};
+
+/// The world before anything happens, every number resolved: what one trial starts from. A value; copying it is cheap
+/// beside a trial.
+struct Scene {
+  Eigen::Vector3d gravity_m_s2{0, 0, -9.81};
+  double step_s = 0.001;
+  double controlPeriod_s = 0.008;
+  int nearSubsteps = 1;  ///< each step is divided by this while a robot is within reach of a ball
+  std::optional<FloorSpec> floor;
+  std::vector<SceneRobot> robots;
+  std::vector<BallSpec> balls;
+  std::vector<SceneEffect> effects;
+};
+
+/// Robot models by the path that the scene names, loaded once and shared.
+using ModelSet = std::map<std::string, std::shared_ptr<const RobotModel>>;
+ModelSet loadModels(const SceneSpec& spec);
+
+/// Gives the effect plugin of that name or throws InputError; the plugin host's effect() fits.
+using EffectFactory = std::function<std::shared_ptr<const Effect>(const std::string&)>;
+
+/// Scene file + models + simulator version → the numbers. Applies mass groups, servo scaling, paths and effects in this
+/// order. Throws InputError for a path or place that the scene does not have.
+Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSpec& simulator, const EffectFactory& effects);
+
+}  // namespace btr

@@ -1,0 +1,73 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/sim/effect.h"
+#include "core/sim/scene.h"
+#include "core/sim/trace.h"
+
+namespace btr {
+
+/// What a controller or a recording puts in for one joint over one control period.
+struct JointInput {
+  double command = 0;      ///< rad or m (servo, DC motor), N·m or N (torque)
+  bool enabled = true;     ///< false: the drive is switched off, the joint swings
+  double supply_v = -1;    ///< DC motor: measured supply voltage, negative: the scene's
+};
+
+/// What the robot's sensors say now.
+struct RobotReadings {
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();      ///< root link's frame in the world
+  Eigen::Vector3d baseVelocity_m_s = Eigen::Vector3d::Zero();  ///< of the root frame's origin, world axes
+  Eigen::Vector3d baseSpin_rad_s = Eigen::Vector3d::Zero();    ///< world axes
+  std::vector<double> position, rate, torque;                  ///< by joint of the model; position through sensor effects
+  std::vector<char> contact;                                   ///< by link of the model: touches floor or ball
+  Eigen::Vector3d accelerometer_m_s2 = Eigen::Vector3d::Zero();  ///< specific force, axes of the model's accelerometer
+};
+
+/// One ODE world. ODE keeps process-wide state (its random numbers), so only one World may exist in a process at a time
+/// (checked), and it belongs to one thread. Frames: x forward, y left, z up.
+class World {
+ public:
+  /// Builds all bodies at their starting poses. The same scene and seed give the same bits.
+  World(const Scene& scene, std::uint64_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  double time() const;
+  /// Puts joints of a robot at positions and rates (by joint of the model) and its root frame at a pose with a velocity.
+  void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin,
+                std::span<const double> positions, std::span<const double> rates);
+  void setBall(std::size_t ball, const BallState& state);
+
+  /// Advances by `duration` (a whole number of steps) with inputs held: inputs[robot][joint of the model].
+  void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
+
+  RobotReadings robot(std::size_t index) const;
+  BallState ball(std::size_t index) const;
+  Eigen::Isometry3d ballPose(std::size_t index) const;
+  /// Poses of all links of a robot in the world.
+  std::vector<Eigen::Isometry3d> linkPoses(std::size_t robot) const;
+  /// True while any link of any robot touches the ball.
+  bool ballTouched(std::size_t index) const;
+  /// Kinetic plus gravitational energy of everything [J]; gravitational zero at the world's origin.
+  double energy() const;
+
+  /// Empty while the state is finite, slower than 50 m/s and 500 rad/s, and within 100 m; else what went wrong.
+  std::string fault() const;
+
+  /// Column names of a Trace row, and one row of them.
+  std::vector<std::string> channels() const;
+  void sample(std::vector<double>& row) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace btr

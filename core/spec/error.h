@@ -1,0 +1,17 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace btr {
+
+/// An error for people: where it is (file, line, key), which value was found, what is allowed.
+/// Programs print what() as one line and end with exit code 1.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  /// "PLACE: VALUE is not allowed; ALLOWED", for example "kick.json /learner/settings/population: 1 is not allowed; 2 to 10000".
+  InputError(const std::string& place, const std::string& value, const std::string& allowed)
+      : std::runtime_error(place + ": " + value + " is not allowed; " + allowed) {}
+};
+
+}  // namespace btr

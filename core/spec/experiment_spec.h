@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/spec/parameter.h"
+#include "core/spec/simulator_spec.h"
+
+namespace btr {
+
+/// A plugin by name and its settings; what is absent has the plugin's default.
+struct PluginChoice {
+  std::string name;
+  Values settings;
+  bool operator==(const PluginChoice&) const = default;
+};
+
+/// What the user asked for: everything that a Back-to-Reality run depends on ("format": "uchilsim-experiment-1").
+/// The same spec and seed give the same bits.
+struct ExperimentSpec {
+  std::string name;
+  std::string scene;           ///< path of the scene file, relative to the experiment's file
+  PluginChoice controller;     ///< e.g. "kick": settings = the task (d, β, α)
+  PluginChoice fitness;        ///< e.g. "kick_distance"
+  PluginChoice learner;        ///< L1, e.g. "ga"
+  Values stages;               ///< cadences, counts and stops: stageParameters()
+  PluginChoice adaptation;     ///< L3's learner, e.g. "ga"
+  Values adaptationSettings;   ///< how L3 compares: adaptationParameters()
+  std::vector<std::string> adapted;  ///< names of simulatorParameters() that L3 may change; empty means all
+  SimulatorSpec simulator;     ///< the simulator the run starts with; absent parameters have their defaults
+  std::string reality = "person";    ///< who answers the measurements: "person" or "stand_in"
+  Values standIn;              ///< standInParameters(), used when reality is "stand_in"
+  std::uint64_t seed = 1;
+  std::string directory;       ///< of the experiment's file; not part of the JSON
+};
+
+/// first_generations, next_generations, total_generations, measured_individuals, repeats, …
+const std::vector<Parameter>& stageParameters();
+/// generations, norm (mean_absolute | root_mean_square | maximum), held_out, …
+const std::vector<Parameter>& adaptationParameters();
+/// seed, noise_m, parameter_error, effects, …
+const std::vector<Parameter>& standInParameters();
+
+/// Structure, names and bounds of everything that needs no plugin are checked here; the plugins' settings are checked by
+/// run::validate, which knows the plugins. Throws InputError.
+ExperimentSpec experimentFromJson(const std::string& text, const std::string& place, const std::string& directory);
+ExperimentSpec loadExperiment(const std::string& path);
+std::string toJsonText(const ExperimentSpec& experiment);
+
+}  // namespace btr

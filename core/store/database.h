@@ -1,0 +1,93 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/store/records.h"
+
+namespace btr {
+
+/// The experiment database: one SQLite file (WAL, foreign keys, STRICT tables, numbered migrations, synchronous = FULL).
+/// All SQL of the program stands behind this class. One Database belongs to one thread; open another for another thread or
+/// process. Every writing call is one transaction: all of it is stored or nothing. Errors: InputError (what the user can
+/// mend: foreign, newer, damaged, read-only file, disk full, database locked for more than 5 s, unknown id).
+class Database {
+ public:
+  enum class Mode { readOnly, readWrite, create };
+  /// `create` makes the file if it is not there and migrates an older one; `readOnly` and `readWrite` refuse an absent file.
+  /// A file that is not ours, is damaged (quick_check) or was made by a newer program is refused and left unchanged.
+  static Database open(const std::string& path, Mode mode);
+  ~Database();
+  Database(Database&&) noexcept;
+  Database& operator=(Database&&) noexcept;
+
+  const std::string& path() const;
+  /// Number that changes when any connection has committed (cheap; for polling).
+  std::int64_t dataVersion() const;
+
+  // ---- experiments and runs
+  Id addExperiment(const ExperimentRecord& experiment);
+  std::vector<ExperimentRecord> experiments() const;
+  ExperimentRecord experiment(Id id) const;
+  void setExperimentNote(Id id, const std::string& note);
+  /// Stores run, files and its first simulator version (number 0) together.
+  Id addRun(const RunRecord& run, const SimulatorRecord& first);
+  std::vector<RunRecord> runs(Id experiment = 0) const;  ///< without specs' files; 0: of all experiments
+  RunRecord run(Id id) const;                            ///< with everything
+  std::optional<Id> findRun(const std::string& specSha256, std::uint64_t seed) const;  ///< the latest such run
+  void setRunState(Id run, RunState state, const std::string& message);
+  void setRunNote(Id run, const std::string& note);
+  void setProgress(Id run, const std::string& progressJson);
+  void requestStop(Id run, bool stop);
+
+  // ---- L1
+  /// Generation, its individuals (ids are written back) and the run's counters. Refuses a number that is not the next.
+  void addGeneration(GenerationRecord& generation);
+  std::vector<GenerationRecord> generations(Id run, int after = 0) const;  ///< without individuals and learner states
+  std::optional<GenerationRecord> lastGeneration(Id run) const;            ///< with individuals and states
+  std::vector<IndividualRecord> individuals(Id run, int generation) const;
+  std::vector<IndividualRecord> individualsOfSimulator(Id run, Id simulator) const;  ///< simulated ones only (sameAs = 0)
+  std::vector<IndividualRecord> bestIndividuals(Id run, int count, int firstGeneration, int lastGeneration) const;
+  ///< distinct chromosomes, best first, ties by generation and slot; lastGeneration 0: no limit
+  IndividualRecord individual(Id id) const;
+  void setTrace(Id individual, const std::string& packed, const std::string& sha256);
+  std::optional<std::string> trace(Id individual) const;  ///< packed bytes
+
+  // ---- measurements
+  /// All tasks of a stage at once; the run's state becomes waiting.
+  void addMeasurementStage(Id run, int stage, const std::vector<MeasurementTask>& tasks);
+  std::vector<MeasurementTask> measurementTasks(Id run, int stage = 0) const;  ///< 0: of all stages; by stage, position
+  /// Refuses a value that is not finite and an individual that no task names.
+  Id addMeasurement(const MeasurementRecord& measurement);
+  std::vector<Id> addMeasurements(const std::vector<MeasurementRecord>& measurements);  ///< all or none
+  void setMeasurementVoid(Id measurement, bool isVoid, const std::string& note);
+  std::vector<MeasurementRecord> measurements(Id run) const;
+
+  // ---- L3
+  void addAdaptation(const AdaptationRecord& adaptation);
+  std::vector<AdaptationRecord> adaptations(Id run, int stage) const;
+  /// New simulator version, gap record, stage counter and the state `next`, together. Returns the version's id.
+  Id finishStage(const SimulatorRecord& simulator, GapRecord gap, RunState next);
+  Id addSimulator(const SimulatorRecord& simulator);  ///< by hand or by gap analysis
+  std::vector<SimulatorRecord> simulators(Id run) const;
+  SimulatorRecord simulator(Id id) const;
+  std::vector<GapRecord> gaps(Id run) const;
+
+  // ---- recordings
+  Id addRecording(const RecordingRecord& recording);
+  std::vector<RecordingRecord> recordings(Id experiment) const;  ///< without csv
+  RecordingRecord recording(Id id) const;
+
+ private:
+  struct Impl;
+  explicit Database(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// SHA-256 in hexadecimal.
+std::string sha256(const std::string& bytes);
+/// Now in UTC, "2026-11-21T10:11:12Z".
+std::string utcNow();
+
+}  // namespace btr

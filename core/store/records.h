@@ -1,0 +1,155 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spec/parameter.h"
+#include "core/spec/simulator_spec.h"
+
+// Plain values that cross the border of the database. Ids are the rows' own numbers, 0 means "not stored yet / none".
+// Times are UTC texts "2026-11-21T10:11:12Z".
+namespace btr {
+
+using Id = std::int64_t;
+
+struct ExperimentRecord {
+  Id id = 0;
+  std::string name;
+  std::string specJson;   ///< the experiment as it was opened, see toJsonText(ExperimentSpec)
+  std::string createdAt;
+  std::string note;
+};
+
+/// A file that a run depends on (robot models), stored by content so that a run can be replayed anywhere.
+struct StoredFile {
+  std::string name;    ///< as the scene names it
+  std::string sha256;
+  std::string content;
+};
+
+enum class RunState { ready, learning, waiting, adapting, finished, stopped, failed };
+const char* toText(RunState state);
+RunState runStateFromText(const std::string& text);
+
+struct RunRecord {
+  Id id = 0;
+  Id experiment = 0;
+  std::uint64_t seed = 0;
+  std::string specJson;
+  std::string specSha256;      ///< of specJson + sceneJson + model files: the same spec and seed is the same run
+  std::string sceneJson;
+  std::vector<StoredFile> files;
+  RunState state = RunState::ready;
+  int stage = 0;               ///< measurement stages completed so far
+  int generation = 0;          ///< L1 generations completed
+  std::string reality;         ///< "person" or "stand_in"; a stand-in is labelled wherever this run is shown
+  std::string programVersion;
+  std::string startedAt, updatedAt;
+  std::string note;
+  std::string message;         ///< why it failed or what it waits for
+  std::string progressJson;    ///< latest RunProgress of the runner, "" if none
+  bool stopRequested = false;
+};
+
+/// One generation of L1, stored in one transaction with its individuals.
+struct IndividualRecord {
+  Id id = 0;
+  Id run = 0;
+  int generation = 0;             ///< 1, 2, …
+  int slot = 0;                   ///< place in the population, 0, 1, …
+  Id simulator = 0;
+  std::string chromosome;         ///< "0101…"
+  std::vector<double> parameters; ///< in the order of the controller's genotype
+  double fitness = 0;
+  std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
+  std::string detail;
+  Id sameAs = 0;                  ///< not simulated: the fitness is that of this earlier individual
+  std::uint64_t trialSeed = 0;
+  std::string traceSha256;        ///< of the trial's trace, "" if it was not recorded
+};
+
+struct GenerationRecord {
+  Id run = 0;
+  int number = 0;                 ///< 1, 2, …
+  Id simulator = 0;
+  double best = 0, mean = 0, worst = 0;
+  int trials = 0, reused = 0, failed = 0;
+  double seconds = 0;             ///< wall time; informative, not part of the result
+  std::string randomState, learnerState;  ///< after tell: where a resumed run goes on
+  std::string finishedAt;
+  std::vector<IndividualRecord> individuals;  ///< may be empty when read back, see Database
+};
+
+/// An individual that waits for, or has, real fitness.
+struct MeasurementTask {
+  Id run = 0;
+  int stage = 0;                  ///< 1, 2, …
+  Id individual = 0;
+  int position = 0;               ///< drawn order in which to measure, 1, 2, …
+  double simulatedFitness = 0;    ///< in the simulator version of that time; hidden from the sheet while blind
+  int wantedRepeats = 1;
+  bool heldOut = false;           ///< not shown to L3; the gap on it is reported apart
+};
+
+/// One value typed in (or answered by the stand-in). Never deleted: a correction voids the old one.
+struct MeasurementRecord {
+  Id id = 0;
+  Id run = 0;
+  Id individual = 0;
+  double value = 0;               ///< in the fitness plugin's unit
+  bool isVoid = false;
+  std::string note, who;
+  std::string source = "person";  ///< "person" or "stand_in"
+  std::string enteredAt;
+};
+
+/// One generation of L3 with its candidates.
+struct AdaptationCandidate {
+  std::string chromosome;
+  std::vector<double> parameters;  ///< in the order of the adapted parameters
+  double error = 0;                ///< the norm of real − simulated over the measured individuals
+};
+struct AdaptationRecord {
+  Id run = 0;
+  int stage = 0;
+  int number = 0;                  ///< 1, 2, …
+  double bestError = 0, meanError = 0;
+  std::string randomState, learnerState;
+  std::vector<AdaptationCandidate> candidates;
+};
+
+/// A simulator version: never edited.
+struct SimulatorRecord {
+  Id id = 0;
+  Id run = 0;
+  int number = 0;                  ///< 0 is the one the run started with
+  Id parent = 0;
+  SimulatorSpec simulator;
+  std::string madeBy;              ///< "start", "L3", "gap analysis", "by hand"
+  std::string evidence;            ///< JSON text: from which stage, individuals, recordings
+  int madeAfterGeneration = 0;
+  std::string createdAt;
+};
+
+/// Mean |real − simulated| over measured individuals of a stage, before and after the update that the stage led to.
+struct GapRecord {
+  Id run = 0;
+  int stage = 0;
+  Id simulatorBefore = 0, simulatorAfter = 0;
+  double before = 0, after = 0;                    ///< over the individuals L3 was shown, of this stage and all earlier ones
+  std::optional<double> heldOutBefore, heldOutAfter;  ///< over the held-out individuals of all stages so far
+  double newBefore = 0, newAfter = 0;              ///< over this stage's own individuals: before the update they are unseen
+  double standardError = 0;                        ///< of `before`, from repeats; 0 if each was measured once
+  int individuals = 0;
+};
+
+/// Recording of a real or stand-in robot.
+struct RecordingRecord {
+  Id id = 0;
+  Id experiment = 0;
+  Id individual = 0;
+  std::string name, sha256, mappingJson, csv, source, addedAt;
+};
+
+}  // namespace btr

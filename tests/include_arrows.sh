@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Arrows point one way: ui, app → run → gap, store, plugin → learn, sim → model → spec.
+# Reads every #include "..." and names each that points the wrong way.
+set -u
+cd "${1:-$(dirname "$0")/..}" || exit 2
+declare -A may=(
+  [core/spec]="core/spec"
+  [core/model]="core/spec core/model"
+  [core/sim]="core/spec core/model core/sim"
+  [core/learn]="core/spec core/learn"
+  [core/plugin]="core/spec core/model core/sim core/learn core/plugin"
+  [core/gap]="core/spec core/model core/sim core/learn core/plugin core/gap"
+  [core/store]="core/spec core/model core/sim core/learn core/store"
+  [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [plugins]="core/plugin"
+  [ui]="core ui"
+  [app]="core ui app"
+)
+bad=0
+check() {  # file, layer
+  local file=$1 layer=$2 target ok prefix
+  while read -r target; do
+    ok=0
+    for prefix in ${may[$layer]}; do [[ $target == "$prefix"/* ]] && ok=1; done
+    [ $ok = 1 ] || { echo "$file includes \"$target\": not allowed from $layer"; bad=1; }
+  done < <(sed -nE 's/^[[:space:]]*#include "((core|ui|app|plugins|tests)\/[^"]+)".*/\1/p' "$file")
+}
+for layer in "${!may[@]}"; do
+  while IFS= read -r file; do check "$file" "$layer"; done < <(find "$layer" -name '*.cpp' -o -name '*.h' 2>/dev/null)
+done
+# core never names a widget toolkit, and a plugin sees plugin.h alone.
+grep -rnE '#include <(Q|osg)' core app/btr*.cpp plugins --include=*.cpp --include=*.h && { echo "Qt or OSG outside ui/"; bad=1; }
+grep -rnP '#include "core/plugin/(?!plugin\.h)' plugins --include=*.cpp && { echo "a plugin may include core/plugin/plugin.h alone"; bad=1; }
+exit $bad

@@ -1,0 +1,27 @@
+#include "ui/common/format.h"
+
+#include <QLocale>
+#include <cmath>
+
+namespace btr::ui {
+
+QString shortNumber(double value) {
+  if (!std::isfinite(value)) return QStringLiteral("–");
+  return QLocale::c().toString(value, 'g', 4);
+}
+
+QString withUnit(double value, const QString& unit) {
+  if (unit.isEmpty() || !std::isfinite(value)) return shortNumber(value);
+  return shortNumber(value) + QChar(0x202f) + unit;  // a narrow space keeps number and unit together
+}
+
+QString duration(double seconds) {
+  if (!(seconds >= 0) || !std::isfinite(seconds)) return QStringLiteral("–");
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  const auto two = [](long long number) { return QStringLiteral("%1").arg(number, 2, 10, QLatin1Char('0')); };
+  if (whole >= 3600) return QStringLiteral("%1 h %2 min").arg(whole / 3600).arg(two(whole % 3600 / 60));
+  if (whole >= 60) return QStringLiteral("%1 min %2 s").arg(whole / 60).arg(two(whole % 60));
+  return QStringLiteral("%1 s").arg(whole);
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,13 @@
+#pragma once
+#include <QString>
+
+namespace btr::ui {
+
+/// A number for people: four significant digits, C locale, "–" if it is not finite.
+QString shortNumber(double value);
+/// "0.123 m"; without a unit just the number.
+QString withUnit(double value, const QString& unit);
+/// "2 h 05 min", "3 min 20 s", "12 s"; "–" for negative (not known).
+QString duration(double seconds);
+
+}  // namespace btr::ui

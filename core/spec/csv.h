@@ -1,0 +1,53 @@
+#pragma once
+#include <cstddef>
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace btr {
+
+/// How much of a table is read before it is refused.
+struct CsvLimits {
+  std::size_t bytes = std::size_t{1} << 30;
+  std::size_t fieldBytes = std::size_t{1} << 20;
+  std::size_t fields = 10'000;  ///< of one row
+};
+
+/// Reads a table of comma-separated values (RFC 4180) row by row, in one pass and in constant memory. A byte order
+/// mark, empty lines and either line ending (LF, CRLF, also a lone CR) are accepted; quoted fields may hold separators,
+/// line breaks and doubled quotes. Spaces belong to the field. Throws InputError with line and column for a quote that
+/// is not closed or stands in the middle of a field, for a NUL byte (a binary file), for bytes that cannot be read, and
+/// beyond the limits. The stream is borrowed.
+class CsvReader {
+ public:
+  /// `place` (usually the file's name) begins each message.
+  explicit CsvReader(std::istream& stream, std::string place, char separator = ',', CsvLimits limits = {});
+
+  /// The next row that is not empty; false at the end. `fields` keeps its memory from row to row.
+  bool next(std::vector<std::string>& fields);
+  /// Line on which the row last read begins, from 1; 0 before the first.
+  long line() const { return rowLine_; }
+  /// "PLACE line 3, column 2" for the row last read; columns count from 1, 0 leaves the column out.
+  std::string at(std::size_t column = 0) const;
+
+ private:
+  static constexpr int endOfFile = -1;
+  int peek();
+  int take();
+  bool takeLineEnd();
+  void readQuoted(std::string& field, std::size_t column);
+  void append(std::string& field, char byte, std::size_t column) const;
+
+  std::istream& stream_;
+  std::string place_;
+  char separator_;
+  CsvLimits limits_;
+  std::vector<char> buffer_;
+  std::size_t position_ = 0, filled_ = 0, total_ = 0;
+  long line_ = 1, rowLine_ = 0;
+};
+
+/// The text as one field: quoted when it holds a separator, quote, line break, or a space at either end.
+std::string csvField(const std::string& text);
+
+}  // namespace btr

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/spec/sha256.h"
 #include "core/store/records.h"
 
 namespace btr {
@@ -85,8 +86,6 @@ class Database {
   std::unique_ptr<Impl> impl_;
 };
 
-/// SHA-256 in hexadecimal.
-std::string sha256(const std::string& bytes);
 /// Now in UTC, "2026-11-21T10:11:12Z".
 std::string utcNow();
 

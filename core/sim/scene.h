@@ -18,18 +18,19 @@ namespace btr {
 struct Drive {
   enum class Kind { servo, dcMotor, torque, none };  ///< torque also means force on a slide joint
   Kind kind = Kind::servo;
-  double p = 0, i = 0, d = 0;          ///< servo: torque = p·(command − q) + i·∫ − d·q̇, clamped to ±maxTorque
+  double p = 0, i = 0, d = 0;  ///< servo: torque = p·(command − q) + i·∫ − d·q̇, clamped to ±maxTorque
   double maxTorque = 1e9;
-  double firmwareGain_v_rad = 0;       ///< DC motor: volts per rad of error, clamped to ±maxDuty·supply
+  double firmwareGain_v_rad = 0;  ///< DC motor: volts per rad of error at supply_v, that is gain/supply_v in duty;
+                                  ///< the duty is clamped to ±maxDuty and applied to the supply of the moment
   double supply_v = 0, torqueConstant_nm_a = 0, resistance_ohm = 1, maxDuty = 1;
-  double rotorInertia_kg_m2 = 0;       ///< at the joint, behind the gear
-  double coulombFriction = 0;          ///< N·m or N
-  double viscousFriction = 0;          ///< N·m·s/rad or N·s/m
+  double rotorInertia_kg_m2 = 0;  ///< at the joint, behind the gear
+  double coulombFriction = 0;     ///< N·m or N
+  double viscousFriction = 0;     ///< N·m·s/rad or N·s/m
 };
 
 struct SceneRobot {
   std::string name;
-  RobotModel model;                    ///< masses already scaled
+  RobotModel model;  ///< masses already scaled
   bool freeBase = true;
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   std::vector<double> jointStart;      ///< by joint of the model
@@ -67,6 +68,7 @@ using EffectFactory = std::function<std::shared_ptr<const Effect>(const std::str
 
 /// Scene file + models + simulator version → the numbers. Applies mass groups, servo scaling, paths and effects in this
 /// order. Throws InputError for a path or place that the scene does not have.
-Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSpec& simulator, const EffectFactory& effects);
+Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSpec& simulator,
+                const EffectFactory& effects);
 
 }  // namespace btr

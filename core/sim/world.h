@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,9 +15,12 @@ namespace btr {
 
 /// What a controller or a recording puts in for one joint over one control period.
 struct JointInput {
-  double command = 0;      ///< rad or m (servo, DC motor), N·m or N (torque)
-  bool enabled = true;     ///< false: the drive is switched off, the joint swings
-  double supply_v = -1;    ///< DC motor: measured supply voltage, negative: the scene's
+  double command = 0;    ///< rad or m (servo, DC motor), N·m or N (torque)
+  bool enabled = true;   ///< false: the drive is switched off, the joint swings
+  double supply_v = -1;  ///< DC motor: measured supply voltage, negative: the scene's
+  /// DC motor: the share of the supply that a recording says was applied (−1 … 1); not a number: the firmware computes
+  /// it, duty = gain·(command − q)/(the scene's supply), clamped to ±maxDuty. Volts = duty × measured supply.
+  double duty = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the robot's sensors say now.
@@ -24,8 +28,8 @@ struct RobotReadings {
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();      ///< root link's frame in the world
   Eigen::Vector3d baseVelocity_m_s = Eigen::Vector3d::Zero();  ///< of the root frame's origin, world axes
   Eigen::Vector3d baseSpin_rad_s = Eigen::Vector3d::Zero();    ///< world axes
-  std::vector<double> position, rate, torque;                  ///< by joint of the model; position through sensor effects
-  std::vector<char> contact;                                   ///< by link of the model: touches floor or ball
+  std::vector<double> position, rate, torque;  ///< by joint of the model; position through sensor effects
+  std::vector<char> contact;                   ///< by link of the model: touches floor or ball
   Eigen::Vector3d accelerometer_m_s2 = Eigen::Vector3d::Zero();  ///< specific force, axes of the model's accelerometer
 };
 
@@ -40,12 +44,15 @@ class World {
   World& operator=(const World&) = delete;
 
   double time() const;
-  /// Puts joints of a robot at positions and rates (by joint of the model) and its root frame at a pose with a velocity.
-  void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin,
-                std::span<const double> positions, std::span<const double> rates);
+  /// Puts joints of a robot at positions and rates (by joint of the model) and its root frame at a pose with a
+  /// velocity.
+  void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
+                const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates);
   void setBall(std::size_t ball, const BallState& state);
 
-  /// Advances by `duration` (a whole number of steps) with inputs held: inputs[robot][joint of the model].
+  /// Advances by `duration` with inputs held: inputs[robot][joint of the model]. A whole number of the scene's steps is
+  /// taken in exactly these; any other duration (recordings are sampled when they are) in equal, slightly smaller
+  /// steps.
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
 
   RobotReadings robot(std::size_t index) const;

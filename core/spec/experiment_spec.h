@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,10 +10,12 @@
 
 namespace btr {
 
-/// A plugin by name and its settings; what is absent has the plugin's default.
+/// A plugin by name and its settings; what is absent has the plugin's default. A file says choices by their word; only
+/// the plugin knows which they are, so settings read from a file stay apart until settingsOf() joins them.
 struct PluginChoice {
   std::string name;
   Values settings;
+  std::map<std::string, std::string> words = {};
   bool operator==(const PluginChoice&) const = default;
 };
 
@@ -19,20 +23,26 @@ struct PluginChoice {
 /// The same spec and seed give the same bits.
 struct ExperimentSpec {
   std::string name;
-  std::string scene;           ///< path of the scene file, relative to the experiment's file
-  PluginChoice controller;     ///< e.g. "kick": settings = the task (d, β, α)
-  PluginChoice fitness;        ///< e.g. "kick_distance"
-  PluginChoice learner;        ///< L1, e.g. "ga"
-  Values stages;               ///< cadences, counts and stops: stageParameters()
-  PluginChoice adaptation;     ///< L3's learner, e.g. "ga"
-  Values adaptationSettings;   ///< how L3 compares: adaptationParameters()
+  std::string scene;                 ///< path of the scene file, relative to the experiment's file
+  PluginChoice controller;           ///< e.g. "kick": settings = the task (d, β, α)
+  PluginChoice fitness;              ///< e.g. "kick_distance"
+  PluginChoice learner;              ///< L1, e.g. "ga"
+  Values stages;                     ///< cadences, counts and stops: stageParameters()
+  PluginChoice adaptation;           ///< L3's learner, e.g. "ga"
+  Values adaptationSettings;         ///< how L3 compares: adaptationParameters()
   std::vector<std::string> adapted;  ///< names of simulatorParameters() that L3 may change; empty means all
-  SimulatorSpec simulator;     ///< the simulator the run starts with; absent parameters have their defaults
+  SimulatorSpec simulator;           ///< the simulator the run starts with; absent parameters have their defaults
   std::string reality = "person";    ///< who answers the measurements: "person" or "stand_in"
-  Values standIn;              ///< standInParameters(), used when reality is "stand_in"
+  Values standIn;                    ///< standInParameters(), used when reality is "stand_in"
   std::uint64_t seed = 1;
-  std::string directory;       ///< of the experiment's file; not part of the JSON
+  std::string directory;  ///< of the experiment's file; not part of the JSON
+  bool operator==(const ExperimentSpec&) const = default;
 };
+
+/// Numbers and words as checked values of the declared parameters (what is absent stays absent). Throws InputError.
+Values settingsOf(const PluginChoice& choice, std::span<const Parameter> declared, const std::string& place);
+/// The way back: a plugin with its settings, choices as words. Throws InputError if a choice is not one.
+PluginChoice choiceOf(const std::string& name, const Values& settings, std::span<const Parameter> declared);
 
 /// first_generations, next_generations, total_generations, measured_individuals, repeats, …
 const std::vector<Parameter>& stageParameters();
@@ -41,8 +51,8 @@ const std::vector<Parameter>& adaptationParameters();
 /// seed, noise_m, parameter_error, effects, …
 const std::vector<Parameter>& standInParameters();
 
-/// Structure, names and bounds of everything that needs no plugin are checked here; the plugins' settings are checked by
-/// run::validate, which knows the plugins. Throws InputError.
+/// Structure, names and bounds of everything that needs no plugin are checked here; the plugins' settings are checked
+/// by run::validate, which knows the plugins. Throws InputError.
 ExperimentSpec experimentFromJson(const std::string& text, const std::string& place, const std::string& directory);
 ExperimentSpec loadExperiment(const std::string& path);
 std::string toJsonText(const ExperimentSpec& experiment);

@@ -1,7 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@
 
 namespace btr {
 
-/// Reads a JSON object key by key and remembers where it is, so that each error names file, key, value and what is allowed.
-/// After the last key call finish(): keys that nobody asked for are an error (a typo must not become a default).
+/// Reads a JSON object key by key and remembers where it is, so that each error names file, key, value and what is
+/// allowed. After the last key call finish(): keys that nobody asked for are an error (a typo must not become a
+/// default).
 class JsonReader {
  public:
   /// Parses text; `place` (usually the file name) begins each message. Throws InputError with line and column.
@@ -21,6 +23,8 @@ class JsonReader {
   JsonReader(std::shared_ptr<const nlohmann::json> document, const nlohmann::json* node, std::string place);
 
   const std::string& place() const { return place_; }
+  /// The place of a key, for messages: "kick.json /learner/settings".
+  std::string at(const std::string& key) const;
   const nlohmann::json& node() const { return *node_; }
   bool has(const std::string& key) const;
 
@@ -28,6 +32,8 @@ class JsonReader {
   double number(const std::string& key, double minimum, double maximum, double byDefault);
   long long integer(const std::string& key, long long minimum, long long maximum);
   long long integer(const std::string& key, long long minimum, long long maximum, long long byDefault);
+  /// Any 64-bit number without sign.
+  std::uint64_t seed(const std::string& key, std::uint64_t byDefault);
   bool flag(const std::string& key, bool byDefault);
   std::string text(const std::string& key);
   std::string text(const std::string& key, const std::string& byDefault);
@@ -39,7 +45,7 @@ class JsonReader {
   std::vector<double> numbers(const std::string& key, std::size_t count, const std::vector<double>& byDefault);
   std::vector<std::string> texts(const std::string& key);
 
-  JsonReader object(const std::string& key);                             ///< must exist
+  JsonReader object(const std::string& key);  ///< must exist
   std::optional<JsonReader> objectIfAny(const std::string& key);
   /// Calls `each` with a reader for every element (an object) of the array; absent means none.
   void array(const std::string& key, const std::function<void(JsonReader)>& each);
@@ -58,7 +64,6 @@ class JsonReader {
  private:
   const nlohmann::json* get(const std::string& key);
   const nlohmann::json& need(const std::string& key);
-  std::string at(const std::string& key) const;
 
   std::shared_ptr<const nlohmann::json> document_;
   const nlohmann::json* node_;

@@ -12,8 +12,8 @@ namespace btr {
 /// How a joint is driven, as the contract's scene says. Every number is optional: what is absent comes from the model.
 struct ServoSpec {
   std::string drive = "servo";  ///< "servo", "dc_motor", "torque", "force", "none" (a free joint)
-  /// p, i, d, max_torque_nm (max_force_n on slide joints), firmware_gain_v_per_rad, voltage_v, torque_constant_nm_per_a,
-  /// resistance_ohm, max_duty, rotor_inertia_kg_m2, … : the names in servoNumbers().
+  /// p, i, d, max_torque_nm (max_force_n on slide joints), firmware_gain_v_per_rad, voltage_v,
+  /// torque_constant_nm_per_a, resistance_ohm, max_duty, rotor_inertia_kg_m2, … : the names in servoNumbers().
   Values numbers;
   bool operator==(const ServoSpec&) const = default;
 };
@@ -21,31 +21,33 @@ struct ServoSpec {
 /// One robot of a scene.
 struct RobotSpec {
   std::string name;
-  std::string model;                                ///< path, relative to the scene file
-  std::string base = "free";                        ///< "free" or "fixed"
-  std::array<double, 3> position_m{0, 0, 0};        ///< of the root link's frame, world frame (x forward, y left, z up)
+  std::string model;                          ///< path, relative to the scene file
+  std::string base = "free";                  ///< "free" or "fixed"
+  std::array<double, 3> position_m{0, 0, 0};  ///< of the root link's frame, world frame (x forward, y left, z up)
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
-  std::string collision = "primitives";             ///< "primitives", "mesh" (the simplified meshes) or "none"
-  bool mergeFixed = true;                           ///< fixed parts become one body
-  std::map<std::string, ServoSpec> servos;          ///< by joint name
-  std::map<std::string, double> jointStart;         ///< starting positions by joint name [rad or m], default 0
-  std::map<std::string, Values> links;              ///< by link name: mass_kg
-  std::map<std::string, Values> joints;             ///< by joint name: coulomb_friction_nm, viscous_friction_nm_s_rad, …
+  std::string collision = "primitives";     ///< "primitives", "mesh" (the simplified meshes) or "none"
+  bool mergeFixed = true;                   ///< fixed parts become one body
+  std::map<std::string, ServoSpec> servos;  ///< by joint name
+  Values jointStart;                        ///< starting positions by joint name [rad or m], default 0
+  std::map<std::string, Values> links;      ///< by link name: mass_kg
+  std::map<std::string, Values> joints;     ///< by joint name: coulomb_friction_nm, viscous_friction_nm_s_rad, …
+  bool operator==(const RobotSpec&) const = default;
 };
 
 struct BallSpec {
   std::string name;
   double radius_m = 0.0425;
   double mass_kg = 0.055;
-  double inertiaFactor = 2.0 / 3.0;            ///< I = factor·m·r²; 2/3 a thin shell, 2/5 a solid ball
-  double rollingDeceleration_m_s2 = 0;         ///< of a ball that rolls freely on the floor, 0 none
-  double restitution = 0.0;                    ///< against robots and floor
+  double inertiaFactor = 2.0 / 3.0;     ///< I = factor·m·r²; 2/3 a thin shell, 2/5 a solid ball
+  double rollingDeceleration_m_s2 = 0;  ///< of a ball that rolls freely on the floor, 0 none
+  double restitution = 0.0;             ///< against robots and floor
   std::array<double, 3> position_m{0, 0, 0.0425};
   std::array<double, 3> velocity_m_s{0, 0, 0};
+  bool operator==(const BallSpec&) const = default;
 };
 
-/// A carpet or a hard floor at z = 0. `slip` is force-dependent slip: sliding speed per tangential force [m/(s·N)], along
-/// the floor's x (slip1) and y (slip2). Stiffness and damping are those of the contact normal.
+/// A carpet or a hard floor at z = 0. `slip` is force-dependent slip: sliding speed per tangential force [m/(s·N)],
+/// along the floor's x (slip1) and y (slip2). Stiffness and damping are those of the contact normal.
 struct FloorSpec {
   double friction = 0.8;
   double restitution = 0;
@@ -53,6 +55,7 @@ struct FloorSpec {
   double slip2_m_s_n = 0;
   double stiffness_n_m = 2e4;
   double damping_n_s_m = 100;
+  bool operator==(const FloorSpec&) const = default;
 };
 
 /// A number that the user does not trust, by its path in the scene, with the range a fit may search.
@@ -60,22 +63,24 @@ struct CalibratePath {
   std::string path;
   double minimum = 0;
   double maximum = 0;
+  bool operator==(const CalibratePath&) const = default;
 };
 
 /// The simulated world before anything happens ("format": "uchilsim-scene-1").
 struct SceneSpec {
   std::array<double, 3> gravity_m_s2{0, 0, -9.81};
-  double step_s = 0.001;             ///< 1e-5 … 0.02, divides control_period_s
+  double step_s = 0.001;  ///< 1e-5 … 0.02, divides control_period_s
   double controlPeriod_s = 0.008;
   std::optional<FloorSpec> floor;
   std::vector<RobotSpec> robots;
   std::vector<BallSpec> balls;
   std::vector<CalibratePath> calibrate;
-  std::string directory;             ///< of the scene file; relative model paths start here
+  std::string directory;  ///< of the scene file; relative model paths start here
+  bool operator==(const SceneSpec&) const = default;
 };
 
-/// `place` begins error messages, `directory` is where relative paths start. Unknown keys, wrong types, values out of range
-/// and duplicate names throw InputError.
+/// `place` begins error messages, `directory` is where relative paths start. Unknown keys, wrong types, values out of
+/// range and duplicate names throw InputError.
 SceneSpec sceneFromJson(const std::string& text, const std::string& place, const std::string& directory);
 SceneSpec loadScene(const std::string& path);
 std::string toJsonText(const SceneSpec& scene);

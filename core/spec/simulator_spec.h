@@ -7,6 +7,8 @@
 
 namespace btr {
 
+class JsonReader;
+
 /// An effect that was added to the simulator: its plugin's name, its place, its parameters (all of them, in SI units).
 struct PlacedEffect {
   std::string effect;  ///< e.g. "backlash"
@@ -26,13 +28,18 @@ struct SimulatorSpec {
 
 /// The 12 adaptable parameters of UCHILSIM with units, search ranges and starting values
 /// (sources and certainty: resources/formats.md): head_mass_kg, neck_mass_kg, body_mass_kg, leg_mass_kg (one leg),
-/// friction, gravity_m_s2, slip1_m_s_n, slip2_m_s_n, servo_p_nm_rad, servo_i_nm_rad_s, servo_d_nm_s_rad, servo_max_torque_nm.
-/// The servo numbers are those of a leg's J1; the other joints keep their ratio to it that the robot's file gives.
+/// friction, gravity_m_s2, slip1_m_s_n, slip2_m_s_n, servo_p_nm_rad, servo_i_nm_rad_s, servo_d_nm_s_rad,
+/// servo_max_torque_nm. The servo numbers are those of a leg's J1; the other joints keep their ratio to it that the
+/// robot's file gives.
 const std::vector<Parameter>& simulatorParameters();
 
 /// "format": "uchilsim-simulator-1". `place` begins error messages.
 SimulatorSpec simulatorFromJson(const std::string& text, const std::string& place);
 SimulatorSpec loadSimulator(const std::string& path);
 std::string toJsonText(const SimulatorSpec& simulator);
+
+/// The same as a part of a larger document: keys "values" and "effects" of an object. The caller calls finish().
+SimulatorSpec simulatorFromReader(JsonReader& reader);
+nlohmann::json simulatorToJson(const SimulatorSpec& simulator);
 
 }  // namespace btr

@@ -1,0 +1,179 @@
+#include "core/spec/experiment_spec.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+using nlohmann::json;
+
+PluginChoice choiceFrom(JsonReader reader) {
+  PluginChoice choice;
+  choice.name = reader.text("name");
+  if (choice.name.empty()) reader.refuse("name", "the name of a plugin");
+  // Only the plugin knows which settings are words: both are kept, settingsOf() joins them.
+  if (auto settings = reader.objectIfAny("settings"))
+    for (const auto& [name, value] : settings->node().items()) {
+      if (value.is_string())
+        choice.words[name] = value.get<std::string>();
+      else if (value.is_number())
+        choice.settings[name] = value.get<double>();
+      else
+        settings->refuse(name, "a number or a word");
+    }
+  reader.finish();
+  return choice;
+}
+
+json toJson(const PluginChoice& choice) {
+  json settings = btr::toJson(choice.settings, {});
+  for (const auto& [name, word] : choice.words) settings[name] = word;
+  return {{"name", choice.name}, {"settings", settings}};
+}
+
+constexpr double largestSeed = 9007199254740991;  // 2^53 − 1: every whole number up to it is a double
+
+}  // namespace
+
+Values settingsOf(const PluginChoice& choice, std::span<const Parameter> declared, const std::string& place) {
+  Values values = choice.settings;
+  for (const auto& [name, word] : choice.words) {
+    const Parameter* parameter = find(declared, name);
+    if (!parameter) {
+      resolve(declared, {{name, 0.0}}, place);  // says which names are known
+    } else if (parameter->choices.empty()) {
+      throw InputError(place + "/" + name, "\"" + word + "\"", "a number");
+    } else {
+      const auto found = std::find(parameter->choices.begin(), parameter->choices.end(), word);
+      if (found == parameter->choices.end()) {
+        std::string words;
+        for (const std::string& other : parameter->choices) words += (words.empty() ? "" : ", ") + other;
+        throw InputError(place + "/" + name, "\"" + word + "\"", "one of " + words);
+      }
+      values[name] = static_cast<double>(found - parameter->choices.begin());
+    }
+  }
+  resolve(declared, values, place);
+  return values;
+}
+
+PluginChoice choiceOf(const std::string& name, const Values& settings, std::span<const Parameter> declared) {
+  PluginChoice choice{name, settings, {}};
+  for (const Parameter& parameter : declared) {
+    const auto given = settings.find(parameter.name);
+    if (parameter.choices.empty() || given == settings.end()) continue;
+    check(parameter, given->second, name + "/" + parameter.name);
+    choice.words[parameter.name] = parameter.choices[static_cast<std::size_t>(given->second)];
+    choice.settings.erase(parameter.name);
+  }
+  return choice;
+}
+
+const std::vector<Parameter>& stageParameters() {
+  static const std::vector<Parameter> parameters{
+      {"first_generations", "", "generations before the first measurement", 1, 1e6, 50, {}, true},
+      {"next_generations", "", "generations between further measurements", 1, 1e6, 100, {}, true},
+      {"total_generations", "", "generations of the whole run", 1, 1e6, 500, {}, true},
+      {"measured_individuals", "", "best individuals measured at each stage", 1, 1000, 10, {}, true},
+      {"repeats", "", "wanted measurements of each individual", 1, 100, 1, {}, true},
+      {"hide_simulated", "", "hide the simulated fitness until all is measured", 0, 1, 1, {}, false, {"no", "yes"}},
+      {"store_traces_of_best", "", "best individuals of a generation whose trace is stored", 0, 1000, 1, {}, true},
+      {"trial_maximum_s", "s", "longest simulated time of one trial", 0.1, 600, 20},
+  };
+  return parameters;
+}
+
+const std::vector<Parameter>& adaptationParameters() {
+  static const std::vector<Parameter> parameters{
+      {"generations", "", "generations of one adaptation of the simulator", 1, 1e5, 10, {}, true},
+      {"norm",
+       "",
+       "how real minus simulated fitness becomes one error",
+       0,
+       2,
+       0,
+       {},
+       false,
+       {"mean_absolute", "root_mean_square", "maximum"}},
+      {"held_out", "", "measured individuals of each stage that the adaptation never sees", 0, 999, 0, {}, true},
+  };
+  return parameters;
+}
+
+const std::vector<Parameter>& standInParameters() {
+  static const std::vector<Parameter> parameters{
+      {"seed", "", "draws the concealed reality and its noise", 0, largestSeed, 1, {}, true},
+      {"noise_m", "m", "standard deviation of one measurement", 0, 10, 0.02},
+      {"parameter_error", "", "relative size of the concealed deviations of the simulator's parameters", 0, 0.9, 0.2},
+      {"hidden_effects", "", "concealed effects that the simulator lacks", 0, 10, 1, {}, true},
+  };
+  return parameters;
+}
+
+ExperimentSpec experimentFromJson(const std::string& text, const std::string& place, const std::string& directory) {
+  JsonReader reader = JsonReader::parse(text, place);
+  reader.word("format", {"uchilsim-experiment-1"});
+  ExperimentSpec spec;
+  spec.directory = directory;
+  spec.name = reader.text("name");
+  if (spec.name.empty()) reader.refuse("name", "at least one letter");
+  spec.scene = reader.text("scene");
+  if (spec.scene.empty()) reader.refuse("scene", "the path of a scene file");
+  spec.controller = choiceFrom(reader.object("controller"));
+  spec.fitness = choiceFrom(reader.object("fitness"));
+  spec.learner = choiceFrom(reader.object("learner"));
+  spec.stages = reader.values("stages", stageParameters());
+  JsonReader adaptation = reader.object("adaptation");
+  spec.adaptation = choiceFrom(adaptation.object("learner"));
+  spec.adaptationSettings = adaptation.values("settings", adaptationParameters());
+  spec.adapted = adaptation.texts("parameters");
+  for (auto name = spec.adapted.begin(); name != spec.adapted.end(); ++name)
+    if (!find(simulatorParameters(), *name) || std::find(spec.adapted.begin(), name, *name) != name)
+      adaptation.refuse("parameters", "names of the simulator's parameters, each once; \"" + *name + "\" is not");
+  adaptation.finish();
+  if (auto simulator = reader.objectIfAny("simulator")) {
+    spec.simulator = simulatorFromReader(*simulator);
+    simulator->finish();
+  }
+  spec.reality = reader.word("reality", {"person", "stand_in"}, spec.reality);
+  spec.standIn = reader.values("stand_in", standInParameters());
+  spec.seed = reader.seed("seed", spec.seed);
+  reader.finish();
+
+  const double heldOut = valueOf(adaptationParameters(), spec.adaptationSettings, "held_out");
+  const double measured = valueOf(stageParameters(), spec.stages, "measured_individuals");
+  if (heldOut >= measured)
+    throw InputError(place + " /adaptation/settings/held_out", toText(heldOut),
+                     "less than measured_individuals = " + toText(measured));
+  return spec;
+}
+
+ExperimentSpec loadExperiment(const std::string& path) {
+  return experimentFromJson(readFile(path), path, std::filesystem::path(path).parent_path().string());
+}
+
+std::string toJsonText(const ExperimentSpec& experiment) {
+  const json document{{"format", "uchilsim-experiment-1"},
+                      {"name", experiment.name},
+                      {"scene", experiment.scene},
+                      {"controller", toJson(experiment.controller)},
+                      {"fitness", toJson(experiment.fitness)},
+                      {"learner", toJson(experiment.learner)},
+                      {"stages", btr::toJson(experiment.stages, stageParameters())},
+                      {"adaptation",
+                       {{"learner", toJson(experiment.adaptation)},
+                        {"settings", btr::toJson(experiment.adaptationSettings, adaptationParameters())},
+                        {"parameters", experiment.adapted}}},
+                      {"simulator", simulatorToJson(experiment.simulator)},
+                      {"reality", experiment.reality},
+                      {"stand_in", btr::toJson(experiment.standIn, standInParameters())},
+                      {"seed", experiment.seed}};
+  return document.dump(2) + "\n";
+}
+
+}  // namespace btr

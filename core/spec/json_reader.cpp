@@ -65,6 +65,9 @@ std::string rangeText(double minimum, double maximum) { return toText(minimum) +
 }  // namespace
 
 JsonReader JsonReader::parse(const std::string& text, const std::string& place) {
+  // The parser would take a zero byte for the end of the text.
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+    throw InputError(place + ":" + lineAndColumn(text, zero + 1) + ": not JSON: a zero byte");
   try {
     auto document = std::make_shared<const json>(json::parse(text, Strictness(place)));
     const json* root = document.get();

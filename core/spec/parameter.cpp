@@ -61,7 +61,10 @@ std::vector<double> resolve(std::span<const Parameter> declared, const Values& v
 
 std::string toText(double value) {
   std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  // 100000 rather than 1e+05.
+  const bool plain = value == std::floor(value) && std::abs(value) < 1e9;
+  const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr
+                         : std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
 }
 

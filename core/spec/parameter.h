@@ -37,7 +37,7 @@ std::vector<double> resolve(std::span<const Parameter> declared, const Values& v
 /// Throws InputError if `value` is not allowed for `parameter`; `place` begins the message.
 void check(const Parameter& parameter, double value, const std::string& place);
 
-/// Shortest text that reads back as the same double, independent of the locale.
+/// Shortest text that reads back as the same double (whole numbers below 1e9 in plain digits), independent of the locale.
 std::string toText(double value);
 /// The whole of `text` as a finite double, or nothing. Independent of the locale.
 std::optional<double> toNumber(const std::string& text);

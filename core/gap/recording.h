@@ -1,37 +1,64 @@
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/spec/parameter.h"
+
 namespace btr {
 
-/// A recorded trial: named columns over time. `channels[0]` is "time_s".
+/// A recorded trial: named columns over time. `channels[0]` is "time_s", strictly increasing.
 struct Recording {
-  std::string source;                 ///< file name, for messages
-  std::string sha256;                 ///< of the file's bytes
-  std::vector<std::string> channels;  ///< contract names; unmapped columns keep their own names
+  std::string source;                        ///< path, for messages
+  std::string sha256;                        ///< of the file's bytes
+  std::vector<std::string> channels;         ///< contract names; unmapped columns keep their own names
   std::vector<std::vector<double>> columns;  ///< by channel, each rows() long; NaN where a cell is empty
-  std::vector<std::string> notes;     ///< what was skipped or looks odd
+  Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
+  std::vector<std::string> notes;            ///< what was skipped or looks odd
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
   int column(const std::string& name) const;  ///< or −1
 };
 
-/// How one column of a foreign file becomes a channel: value = scale·(sign of scale included)·x + offset.
+/// The parts of a channel's name: "leg.knee.position_rad", "leg.base.x_m", "ball.x_m" (part is empty).
+struct ChannelName {
+  std::string owner, part, quantity;
+};
+/// The parts of a name that the contract knows, or nothing.
+std::optional<ChannelName> parseChannel(const std::string& name);
+
+/// How one column of a foreign file becomes a channel: value = scale·x + offset; a negative scale turns the sign.
 struct MappedColumn {
   std::string channel;
   std::string column;
   double scale = 1;
   double offset = 0;
+  bool optional = false;  ///< a file without this column is accepted
+};
+/// Numbers of the scene that were set differently from trial to trial and stand in the file's name alone.
+struct TrialSetting {
+  std::string fileContains;
+  Values values;  ///< by path into the scene, e.g. "robots.leg.servos.knee.p"
 };
 struct Mapping {
+  std::string source;
   std::vector<MappedColumn> columns;
+  std::vector<TrialSetting> settings;
 };
-/// "NAME.mapping.json": {"time_s": {"column": "t", "scale": 0.001}, …}. Throws InputError.
-Mapping loadMapping(const std::string& path);
 
-/// Reads a CSV. With no mapping given, `PATH.mapping.json`, then `mapping.json` in the same folder is used if it is there,
-/// else the columns must have contract names. Damaged, empty, unordered, non-numeric files throw InputError with line and
-/// column; files larger than `limit` bytes are refused.
+/// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}]}. Throws
+/// InputError for what is not a channel, a channel or a key that nobody knows.
+Mapping mappingFromJson(const std::string& text, const std::string& place);
+Mapping loadMapping(const std::string& path);
+/// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is
+/// there.
+std::optional<std::string> findMapping(const std::string& recordingPath);
+
+/// Reads a CSV in one pass; memory is that of the numbers. With no mapping given, findMapping() is asked, else the
+/// columns must have contract names. Damaged, empty, unordered, non-numeric files throw InputError with line and
+/// column; files larger than `limit` bytes are refused before they are read. Columns that nobody maps are kept with a
+/// note.
 Recording loadRecording(const std::string& path, const Mapping* mapping = nullptr, std::size_t limit = 1u << 30);
 
 }  // namespace btr

@@ -20,8 +20,8 @@ struct ResidualReport {
   std::vector<std::string> notes;
 };
 
-/// Replays the recorded commands of each recording in the scene, free-running from the initial state that its first samples
-/// give, and compares at the recorded times. Throws InputError for a channel that the scene does not have.
+/// Replays the recorded commands of each recording in the scene, free-running from the initial state that its first
+/// samples give, and compares at the recorded times. Throws InputError for a channel that the scene does not have.
 ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings);
 
 /// Self-contained SVG: recorded and simulated over time, and their difference below.

@@ -1,0 +1,257 @@
+#include "core/gap/recording.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "core/spec/csv.h"
+#include "core/spec/error.h"
+#include "core/spec/sha256.h"
+
+namespace btr {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Hands a file's bytes on and hashes them on the way: what was hashed is what was read.
+class HashingBuffer : public std::streambuf {
+ public:
+  explicit HashingBuffer(const std::string& path) : file_(path, std::ios::binary), bytes_(1 << 16) {}
+  bool isOpen() const { return file_.is_open(); }
+  std::uintmax_t total() const { return total_; }
+  std::string finish() { return hash_.finish(); }
+
+ protected:
+  int_type underflow() override {
+    file_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    const auto count = file_.gcount();
+    if (file_.bad()) throw std::ios_base::failure("read error");  // the stream above sets its badbit
+    if (count <= 0) return traits_type::eof();
+    hash_.add({bytes_.data(), static_cast<std::size_t>(count)});
+    total_ += static_cast<std::uintmax_t>(count);
+    setg(bytes_.data(), bytes_.data(), bytes_.data() + count);
+    return traits_type::to_int_type(bytes_[0]);
+  }
+
+ private:
+  std::ifstream file_;
+  std::vector<char> bytes_;
+  Sha256 hash_;
+  std::uintmax_t total_ = 0;
+};
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// A cell in a message: short and printable whatever the file holds.
+std::string shown(const std::string& text) {
+  std::string safe;
+  for (const char byte : text.substr(0, 40)) {
+    const auto code = static_cast<unsigned char>(byte);
+    safe += code < 0x20 || code >= 0x7f ? '?' : byte;
+  }
+  return "\"" + safe + (text.size() > 40 ? "...\"" : "\"");
+}
+
+bool isText(const std::string& name) {
+  // Control bytes and stray continuation bytes betray a binary or differently encoded file.
+  std::size_t following = 0;
+  for (const char byte : name) {
+    const auto code = static_cast<unsigned char>(byte);
+    if (following > 0) {
+      if ((code & 0xC0) != 0x80) return false;
+      --following;
+    } else if (code < 0x20 || code == 0x7f || (code & 0xC0) == 0x80 || code >= 0xF8) {
+      return false;
+    } else if (code >= 0xC0) {
+      following = code >= 0xF0 ? 3 : code >= 0xE0 ? 2 : 1;
+    }
+  }
+  return following == 0;
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < 20; ++i) text += (i ? ", " : "") + names[i];
+  return names.size() > 20 ? text + ", ..." : text;
+}
+
+/// How a column of the file is used: which channel it fills, and how strictly its cells are read.
+struct Use {
+  std::string channel;
+  std::size_t source = 0;
+  double scale = 1, offset = 0;
+  bool strict = true;  ///< a known channel: a cell that is not a number is an error
+  std::size_t empty = 0, skipped = 0;
+};
+
+std::vector<std::string> readHeader(CsvReader& reader, const std::string& path) {
+  std::vector<std::string> header;
+  if (!reader.next(header))
+    throw InputError(path + ": the file is empty; a header line and rows of numbers are expected");
+  if (header.size() == 1) {
+    for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabulators"}})
+      if (header[0].find(separator) != std::string::npos)
+        throw InputError(reader.at() + ": columns are separated by " + name +
+                         "; commas between columns (and points in numbers) are expected");
+  }
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    header[i] = trimmed(header[i]);
+    if (!isText(header[i])) throw InputError(reader.at(i + 1), shown(header[i]), "a column name in UTF-8 text");
+    if (header[i].empty()) throw InputError(reader.at(i + 1) + ": the column has no name");
+    if (!taken.insert(header[i]).second)
+      throw InputError(reader.at(i + 1), shown(header[i]) + " again", "each column name once");
+  }
+  return header;
+}
+
+/// time_s first, then the columns in the file's order.
+std::vector<Use> usesOf(const std::vector<std::string>& header, const Mapping* mapping, Recording& recording) {
+  std::vector<Use> uses;
+  std::vector<char> mapped(header.size(), 0);
+  std::set<std::string> taken;
+  if (mapping) {
+    for (const MappedColumn& column : mapping->columns) {
+      const auto found = std::find(header.begin(), header.end(), column.column);
+      if (found == header.end()) {
+        if (!column.optional)
+          throw InputError(recording.source + ": column \"" + column.column + "\" is missing, which " +
+                           mapping->source + " maps to " + column.channel + "; the file has " + list(header));
+        recording.notes.push_back("column \"" + column.column + "\" (" + column.channel + ") is not in this file");
+        continue;
+      }
+      const auto source = static_cast<std::size_t>(found - header.begin());
+      mapped[source] = 1;
+      taken.insert(column.channel);
+      uses.push_back({column.channel, source, column.scale, column.offset});
+    }
+  }
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (mapped[i]) continue;
+    if (taken.count(header[i]))
+      throw InputError(recording.source + ": column \"" + header[i] + "\" has the name of a channel that " +
+                       mapping->source + " fills from another column");
+    const bool known = header[i] == "time_s" || parseChannel(header[i]);
+    if (!known) recording.notes.push_back("column \"" + header[i] + "\" is not mapped to a channel; kept, not used");
+    uses.push_back({header[i], i, 1, 0, known});
+  }
+  std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.source < b.source; });
+  const auto time = std::find_if(uses.begin(), uses.end(), [](const Use& use) { return use.channel == "time_s"; });
+  if (time == uses.end())
+    throw InputError(recording.source + ": there is no column time_s; the file has " + list(header) +
+                     "; a mapping (NAME.mapping.json beside it) says which column is what");
+  std::rotate(uses.begin(), time, time + 1);
+  return uses;
+}
+
+double cellValue(const std::string& cell, Use& use, const CsvReader& reader) {
+  const auto first = cell.find_first_not_of(" \t");
+  if (first == std::string::npos) {
+    ++use.empty;
+    return nothing;
+  }
+  const char* begin = cell.data() + first;
+  const char* end = cell.data() + cell.find_last_not_of(" \t") + 1;
+  if (*begin == '+' && end - begin > 1 && begin[1] != '-' && begin[1] != '+') ++begin;
+  double number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  const double value = use.scale * number + use.offset;
+  if (error == std::errc() && stop == end && std::isfinite(value)) return value;
+  if (use.strict) {
+    std::string allowed = "a finite number or an empty cell";
+    if (cell.find(',') != std::string::npos) allowed += " (decimals after a point)";
+    throw InputError(reader.at(use.source + 1) + " (" + use.channel + ")", shown(cell), allowed);
+  }
+  ++use.skipped;
+  return nothing;
+}
+
+void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size, std::vector<Use>& uses,
+              std::size_t width, Recording& recording) {
+  constexpr std::size_t rowsForEstimate = 65536;
+  std::vector<std::string> cells;
+  while (reader.next(cells)) {
+    if (cells.size() != width)
+      throw InputError(reader.at(), std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns"),
+                       "as many as the header has, " + std::to_string(width));
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      recording.columns[i].push_back(cellValue(cells[uses[i].source], uses[i], reader));
+
+    const std::vector<double>& time = recording.columns[0];
+    if (std::isnan(time.back()))
+      throw InputError(reader.at(uses[0].source + 1) + " (time_s)", "an empty cell", "a time in every row");
+    if (time.size() > 1 && !(time.back() > time[time.size() - 2]))
+      throw InputError(reader.at(uses[0].source + 1) + " (time_s)",
+                       toText(time.back()) + (time.back() == time[time.size() - 2] ? " again" : ""),
+                       "times that increase from row to row; before it stands " + toText(time[time.size() - 2]));
+    // Long files: ask for the memory at once, not twice the memory in doublings.
+    if (time.size() == rowsForEstimate) {
+      const double expected = 1.03 * static_cast<double>(size) / static_cast<double>(file.total()) * rowsForEstimate;
+      for (std::vector<double>& column : recording.columns) column.reserve(static_cast<std::size_t>(expected));
+    }
+  }
+}
+
+}  // namespace
+
+int Recording::column(const std::string& name) const {
+  const auto found = std::find(channels.begin(), channels.end(), name);
+  return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+}
+
+Recording loadRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  if (!fs::exists(status)) throw InputError(path + ": there is no such file");
+  if (!fs::is_regular_file(status)) throw InputError(path + ": is not a regular file");
+  const std::uintmax_t size = fs::file_size(path, failure);
+  if (!failure && size > limit)
+    throw InputError(path, std::to_string(size) + " bytes", "at most " + std::to_string(limit) + " bytes");
+
+  Mapping beside;
+  if (!mapping) {
+    if (const auto found = findMapping(path)) {
+      beside = loadMapping(*found);
+      mapping = &beside;
+    }
+  }
+
+  Recording recording;
+  recording.source = path;
+  HashingBuffer buffer(path);
+  if (!buffer.isOpen()) throw InputError(path + ": the file cannot be read");
+  std::istream stream(&buffer);
+  CsvReader reader(stream, path, ',', {.bytes = limit, .fieldBytes = 4096, .fields = 10'000});
+  const std::vector<std::string> header = readHeader(reader, path);
+  std::vector<Use> uses = usesOf(header, mapping, recording);
+  for (const Use& use : uses) recording.channels.push_back(use.channel);
+  recording.columns.resize(uses.size());
+  readRows(reader, buffer, size, uses, header.size(), recording);
+  if (recording.rows() == 0) throw InputError(path + ": there is a header but no row of numbers");
+  recording.sha256 = buffer.finish();
+
+  for (const Use& use : uses) {
+    const std::string of = " of " + std::to_string(recording.rows()) + " cells of \"" + use.channel + "\"";
+    if (use.strict && use.empty > 0) recording.notes.push_back(std::to_string(use.empty) + of + " are empty");
+    if (use.skipped > 0) recording.notes.push_back(std::to_string(use.skipped) + of + " are not numbers; left out");
+  }
+  if (mapping) {
+    const std::string name = fs::path(path).filename().string();
+    for (const TrialSetting& setting : mapping->settings) {
+      if (name.find(setting.fileContains) == std::string::npos) continue;
+      for (const auto& [place, value] : setting.values) recording.settings[place] = value;
+    }
+  }
+  return recording;
+}
+
+}  // namespace btr

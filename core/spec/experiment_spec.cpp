@@ -82,7 +82,15 @@ const std::vector<Parameter>& stageParameters() {
       {"measured_individuals", "", "best individuals measured at each stage", 1, 1000, 10, {}, true},
       {"repeats", "", "wanted measurements of each individual", 1, 100, 1, {}, true},
       {"hide_simulated", "", "hide the simulated fitness until all is measured", 0, 1, 1, {}, false, {"no", "yes"}},
-      {"store_traces_of_best", "", "best individuals of a generation whose trace is stored", 0, 1000, 1, {}, true},
+      {"chosen_from",
+       "",
+       "where the measured individuals are chosen from",
+       0,
+       1,
+       0,
+       {},
+       false,
+       {"last_generation", "since_update"}},
       {"trial_maximum_s", "s", "longest simulated time of one trial", 0.1, 600, 20},
   };
   return parameters;

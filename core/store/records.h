@@ -64,10 +64,14 @@ struct IndividualRecord {
   double fitness = 0;
   std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
   std::string detail;
-  Id sameAs = 0;                  ///< not simulated: the fitness is that of this earlier individual
+  Id sameAs = 0;                  ///< not simulated: the fitness is that of this earlier individual (see sameAsSlot)
   std::uint64_t trialSeed = 0;
   std::string traceSha256;        ///< of the trial's trace, "" if it was not recorded
 };
+
+/// In a generation that is not stored yet, individuals have no ids: `sameAs` of one that equals an earlier slot of the same
+/// generation. Database::addGeneration puts the id in its place.
+constexpr Id sameAsSlot(int slot) { return -1 - static_cast<Id>(slot); }
 
 struct GenerationRecord {
   Id run = 0;

@@ -1,0 +1,22 @@
+# Debian 12 packages that UCHILSIM needs, in one place for app/start, tests/run and .ci/run.
+BUILD_PACKAGES="g++ cmake ninja-build ccache pkg-config
+  qt6-base-dev qt6-charts-dev qt6-svg-dev libqt6svg6 libgl-dev libegl-dev libopenscenegraph-dev
+  libode-dev libeigen3-dev libceres-dev libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev
+  libtinyxml2-dev libboost-dev zlib1g-dev libssl-dev"
+WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
+TEST_PACKAGES="libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal"
+FUZZ_PACKAGES="clang libclang-rt-14-dev"
+
+# Installs those of its arguments that are not there yet, in one apt call.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null)" = installed ] || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  local sudo=""
+  [ "$(id -u)" = 0 ] || sudo=sudo
+  echo "Installing: ${missing[*]}"
+  $sudo apt-get update -qq
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+}

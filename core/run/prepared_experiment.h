@@ -12,10 +12,12 @@
 
 namespace btr {
 
-/// An experiment with everything that a trial needs in memory: plugins made, scene and models read. The same object is made
-/// from files (a new run) or from the database (resume, replay), so both see the same bytes.
+/// An experiment with everything that a trial needs in memory: plugins made, scene and models read. The same object is
+/// made from files (a new run) or from the database (resume, replay), so both see the same bytes. The plugin host must
+/// outlive it.
 struct PreparedExperiment {
-  ExperimentSpec spec;
+  ExperimentSpec spec;         ///< all settings as numbers
+  ExperimentSpec specInWords;  ///< the same with choices as words: what is stored
   SceneSpec sceneSpec;
   ModelSet models;
   std::vector<StoredFile> files;  ///< the models' texts
@@ -27,7 +29,9 @@ struct PreparedExperiment {
 
   /// The scene of one simulator version, arranged for the task.
   Scene scene(const SimulatorSpec& simulator) const;
-  TrialResult trial(const Scene& scene, std::span<const double> parameters, std::uint64_t seed, bool recordTrace) const;
+  TrialResult trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
+                    bool recordTrace) const;
+  /// The fitness plugin's value; ofFailure() for a trial that did not finish or a value that is not finite.
   double fitnessOf(const TrialResult& result) const;
 };
 

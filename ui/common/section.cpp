@@ -1,0 +1,38 @@
+#include "ui/common/section.h"
+
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace btr::ui {
+
+Section::Section(const QString& title, QWidget* content, QWidget* parent)
+    : QWidget(parent), title_(title), header_(new QToolButton(this)), content_(content) {
+  header_->setText(title);
+  header_->setCheckable(true);
+  header_->setChecked(true);
+  header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  header_->setArrowType(Qt::DownArrow);
+  header_->setAutoRaise(true);
+  header_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  header_->setStyleSheet(
+      "QToolButton { font-weight: 600; text-align: left; border: none; border-bottom: 1px solid palette(mid); padding: "
+      "5px 2px; }"
+      "QToolButton:focus { border-bottom: 1px solid palette(highlight); }");
+  connect(header_, &QToolButton::toggled, this, [this](bool open) {
+    header_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
+    content_->setVisible(open);
+  });
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 4);
+  column->setSpacing(2);
+  column->addWidget(header_);
+  column->addWidget(content_);
+}
+
+void Section::setOpen(bool open) { header_->setChecked(open); }
+bool Section::isOpen() const { return header_->isChecked(); }
+void Section::setSummary(const QString& summary) {
+  header_->setText(summary.isEmpty() ? title_ : title_ + QStringLiteral("  ·  ") + summary);
+}
+
+}  // namespace btr::ui

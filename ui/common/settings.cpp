@@ -1,0 +1,65 @@
+#include "ui/common/settings.h"
+
+#include <QCryptographicHash>
+#include <QFileInfo>
+
+namespace btr::ui {
+namespace {
+
+QString runKey(const QString& database) {
+  const auto digest =
+      QCryptographicHash::hash(QFileInfo(database).absoluteFilePath().toUtf8(), QCryptographicHash::Sha1);
+  return "selectedRun/" + QString::fromLatin1(digest.toHex().left(16));
+}
+
+}  // namespace
+
+Settings::Settings(const QString& file)
+    : store_(file.isEmpty() ? QSettings(QSettings::IniFormat, QSettings::UserScope, "uchilsim", "uchilsim").fileName()
+                            : file,
+             QSettings::IniFormat) {}
+
+QByteArray Settings::geometry() const { return store_.value("window/geometry").toByteArray(); }
+
+QByteArray Settings::layout() const {
+  if (store_.value("window/layoutVersion").toInt() != layoutVersion) return {};
+  return store_.value("window/layout").toByteArray();
+}
+
+void Settings::setWindow(const QByteArray& geometry, const QByteArray& layout) {
+  store_.setValue("window/geometry", geometry);
+  store_.setValue("window/layout", layout);
+  store_.setValue("window/layoutVersion", layoutVersion);
+  store_.sync();
+}
+
+Look Settings::look() const { return lookFromText(store_.value("look").toString()); }
+void Settings::setLook(Look look) { store_.setValue("look", toText(look)); }
+
+QStringList Settings::recentDatabases() const {
+  QStringList existing;
+  for (const QString& path : store_.value("recent").toStringList())
+    if (QFileInfo::exists(path)) existing << path;
+  return existing;
+}
+
+void Settings::addRecentDatabase(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  QStringList all = recentDatabases();
+  all.removeAll(absolute);
+  all.prepend(absolute);
+  store_.setValue("recent", QStringList(all.mid(0, 8)));
+}
+
+qint64 Settings::selectedRun(const QString& database) const { return store_.value(runKey(database)).toLongLong(); }
+void Settings::setSelectedRun(const QString& database, qint64 run) { store_.setValue(runKey(database), run); }
+
+int Settings::jobs() const { return store_.value("jobs", 0).toInt(); }
+void Settings::setJobs(int jobs) { store_.setValue("jobs", jobs); }
+
+bool Settings::flag(const QString& name, bool byDefault) const {
+  return store_.value("flags/" + name, byDefault).toBool();
+}
+void Settings::setFlag(const QString& name, bool value) { store_.setValue("flags/" + name, value); }
+
+}  // namespace btr::ui

@@ -1,0 +1,45 @@
+#pragma once
+#include <QByteArray>
+#include <QSettings>
+#include <QString>
+#include <QStringList>
+
+#include "ui/common/theme.h"
+
+namespace btr::ui {
+
+/// What the window remembers between two starts. Each setter stores at once; nothing here belongs to an experiment.
+class Settings {
+ public:
+  /// `file` names an INI file; empty means the user's own settings.
+  explicit Settings(const QString& file = {});
+
+  QByteArray geometry() const;
+  QByteArray layout() const;  ///< of docks and toolbars, empty if none fits `layoutVersion`
+  void setWindow(const QByteArray& geometry, const QByteArray& layout);
+
+  Look look() const;
+  void setLook(Look look);
+
+  /// Databases opened last, the latest first, at most eight, only those that still exist.
+  QStringList recentDatabases() const;
+  void addRecentDatabase(const QString& path);
+
+  /// The run that was selected last in this database, 0 if none.
+  qint64 selectedRun(const QString& database) const;
+  void setSelectedRun(const QString& database, qint64 run);
+
+  int jobs() const;  ///< worker processes of a run, 0: as many as processors
+  void setJobs(int jobs);
+
+  bool flag(const QString& name, bool byDefault) const;
+  void setFlag(const QString& name, bool value);
+
+  /// Raised when the docks change so much that a stored layout no longer fits.
+  static constexpr int layoutVersion = 1;
+
+ private:
+  mutable QSettings store_;
+};
+
+}  // namespace btr::ui

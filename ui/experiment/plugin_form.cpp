@@ -1,0 +1,124 @@
+#include "ui/experiment/plugin_form.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStackedWidget>
+#include <QUndoStack>
+#include <QVBoxLayout>
+
+#include "ui/common/edit_command.h"
+#include "ui/experiment/parameter_form.h"
+
+namespace btr::ui {
+
+PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
+    : QWidget(parent),
+      what_(what),
+      offers_(int(offers.size())),
+      undo_(undo),
+      names_(new QComboBox(this)),
+      pages_(new QStackedWidget(this)) {
+  names_->setAccessibleName(what);
+  names_->setToolTip(tr("%1: one of the installed plugins").arg(what));
+  names_->setFocusPolicy(Qt::StrongFocus);
+  for (const Offer& offer : offers) {
+    names_->addItem(offer.name);
+    names_->setItemData(names_->count() - 1, offer.hint, Qt::ToolTipRole);
+    auto* page = new QWidget(this);
+    auto* column = new QVBoxLayout(page);
+    column->setContentsMargins(0, 0, 0, 0);
+    if (!offer.hint.isEmpty()) {
+      auto* hint = new QLabel(offer.hint, page);
+      hint->setWordWrap(true);
+      hint->setContentsMargins(8, 2, 8, 2);
+      hint->setForegroundRole(QPalette::PlaceholderText);
+      column->addWidget(hint);
+    }
+    auto* form = new ParameterForm(offer.settings, undo, page);
+    column->addWidget(form);
+    column->addStretch();
+    connect(form, &ParameterForm::changed, this, &PluginForm::changed);
+    pages_->addWidget(page);
+  }
+  connect(names_, &QComboBox::activated, this, [this](int index) {
+    if (index == chosen_) return;
+    undo_.push(new EditCommand(tr("choose %1").arg(names_->itemText(index)), {}, -1, chosen_, index,
+                               [this](const QVariant& value) {
+                                 select(value.toInt());
+                                 emit changed();
+                               }));
+  });
+
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 2, 8, 2);
+  auto* label = new QLabel(what, this);
+  label->setBuddy(names_);
+  row->addWidget(label);
+  row->addWidget(names_, 1);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  column->addLayout(row);
+  column->addWidget(pages_);
+  if (offers_ > 0) select(0);
+}
+
+void PluginForm::setChoice(const PluginChoice& choice) {
+  while (names_->count() > offers_) names_->removeItem(names_->count() - 1);
+  missing_ = {};
+  int index = -1;
+  for (int i = 0; i < offers_; ++i)
+    if (names_->itemText(i).toStdString() == choice.name) index = i;
+  if (index < 0) {
+    missing_ = choice;
+    index = names_->count();
+    names_->addItem(choice.name.empty() ? tr("(choose)")
+                                        : tr("%1 (not installed)").arg(QString::fromStdString(choice.name)));
+  }
+  select(index);
+  if (ParameterForm* form = page()) form->setValues(choice.settings);
+  emit changed();
+}
+
+PluginChoice PluginForm::choice() const {
+  if (const ParameterForm* form = page()) return {names_->itemText(chosen_).toStdString(), form->values()};
+  return missing_;
+}
+
+bool PluginForm::isValid() const { return page() && page()->isValid(); }
+
+QStringList PluginForm::problems() const {
+  if (const ParameterForm* form = page()) return form->problems();
+  return {missing_.name.empty() ? tr("%1: nothing is chosen").arg(what_)
+                                : tr("%1: %2 is not installed").arg(what_, QString::fromStdString(missing_.name))};
+}
+
+void PluginForm::setReadOnly(bool readOnly) {
+  names_->setEnabled(!readOnly);
+  for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(readOnly);
+}
+
+void PluginForm::resetAll() {
+  if (ParameterForm* form = page()) form->resetAll();
+}
+
+int PluginForm::changedCount() const { return page() ? page()->changedCount() : 0; }
+
+ParameterForm* PluginForm::page() const {
+  return chosen_ < offers_ ? pages_->widget(chosen_)->findChild<ParameterForm*>() : nullptr;
+}
+
+// Only the chosen page takes room: the others would stretch the section to the longest form.
+void PluginForm::select(int index) {
+  chosen_ = index;
+  names_->setCurrentIndex(index);
+  for (int i = 0; i < pages_->count(); ++i)
+    pages_->widget(i)->setSizePolicy(QSizePolicy::Preferred,
+                                     i == index ? QSizePolicy::Preferred : QSizePolicy::Ignored);
+  pages_->setVisible(index < offers_);
+  if (index < offers_) pages_->setCurrentIndex(index);
+  pages_->adjustSize();
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,51 @@
+#pragma once
+#include <QWidget>
+#include <vector>
+
+#include "core/spec/experiment_spec.h"
+
+class QComboBox;
+class QStackedWidget;
+class QUndoStack;
+
+namespace btr::ui {
+class ParameterForm;
+
+/// A plugin by name and its settings: a list of names and, for the chosen one, the form of its parameters. Settings of
+/// the other plugins stay as they were typed while the form lives.
+class PluginForm : public QWidget {
+  Q_OBJECT
+ public:
+  struct Offer {
+    QString name;
+    std::vector<Parameter> settings;
+    QString hint;  ///< one sentence for people, may be empty
+  };
+  PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
+
+  /// A name that is not offered is shown as missing and makes the form invalid. Not an undo step.
+  void setChoice(const PluginChoice& choice);
+  PluginChoice choice() const;
+  bool isValid() const;
+  QStringList problems() const;
+  void setReadOnly(bool readOnly);
+  void resetAll();
+  int changedCount() const;
+
+ signals:
+  void changed();
+
+ private:
+  ParameterForm* page() const;  ///< of the chosen plugin, or nullptr
+  void select(int index);
+
+  QString what_;
+  int offers_;
+  PluginChoice missing_;  ///< the choice that is not installed, if that is selected
+  int chosen_ = 0;
+  QUndoStack& undo_;
+  QComboBox* names_;
+  QStackedWidget* pages_;
+};
+
+}  // namespace btr::ui

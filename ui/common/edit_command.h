@@ -6,7 +6,7 @@
 namespace btr::ui {
 
 /// An undoable change of one field from one value to another. Changes of the same field within one visit (`key`,
-/// `visit`) become one step. Whoever owns the field owns the undo stack too, so `apply` never outlives it.
+/// `visit`) become one step; a negative visit never merges. Whoever owns the field owns the undo stack too, so `apply` never outlives it.
 class EditCommand final : public QUndoCommand {
  public:
   using Apply = std::function<void(const QVariant&)>;
@@ -23,7 +23,7 @@ class EditCommand final : public QUndoCommand {
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* other) override {
     const auto* later = dynamic_cast<const EditCommand*>(other);
-    if (!later || later->key_ != key_ || later->visit_ != visit_) return false;
+    if (!later || visit_ < 0 || later->key_ != key_ || later->visit_ != visit_) return false;
     after_ = later->after_;
     setObsolete(after_ == before_);
     return true;

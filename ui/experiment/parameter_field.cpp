@@ -4,11 +4,11 @@
 #include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QToolButton>
 
+#include "ui/common/form_undo.h"
 #include "ui/common/number_edit.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/parameter_text.h"
@@ -35,6 +35,7 @@ ParameterField::ParameterField(const Parameter& parameter, bool checkable, QWidg
     number_ = new NumberEdit(form);
     number_->setRange(parameter.minimum, parameter.maximum, parameter.integer);
     connect(number_, &NumberEdit::edited, this, [this](const QString& text) { emit edited(text); });
+    leaveUndoToForm(number_->findChild<QLineEdit*>());
     number_->findChild<QLineEdit*>()->installEventFilter(this);
   } else {
     choice_ = new QComboBox(form);
@@ -136,14 +137,6 @@ bool ParameterField::matches(const QString& filter) const {
 
 bool ParameterField::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusIn) ++visit_;
-  // The form's undo steps are whole edits; the editor's own per-key undo would shadow them.
-  if (event->type() == QEvent::ShortcutOverride) {
-    auto* key = static_cast<QKeyEvent*>(event);
-    if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo)) {
-      event->ignore();
-      return true;
-    }
-  }
   // Scrolling a long form must not change a choice on the way.
   if (event->type() == QEvent::Wheel && watched == choice_ && !choice_->hasFocus()) {
     event->ignore();

@@ -15,7 +15,7 @@ namespace btr::ui {
 PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
     : QWidget(parent),
       what_(what),
-      offers_(int(offers.size())),
+      offers_(offers),
       undo_(undo),
       names_(new QComboBox(this)),
       pages_(new QStackedWidget(this)) {
@@ -61,15 +61,18 @@ PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QU
   column->setSpacing(2);
   column->addLayout(row);
   column->addWidget(pages_);
-  if (offers_ > 0) select(0);
+  if (!offers_.empty()) select(0);
 }
 
 void PluginForm::setChoice(const PluginChoice& choice) {
-  while (names_->count() > offers_) names_->removeItem(names_->count() - 1);
-  missing_ = {};
   int index = -1;
-  for (int i = 0; i < offers_; ++i)
-    if (names_->itemText(i).toStdString() == choice.name) index = i;
+  for (int i = 0; i < offerCount(); ++i)
+    if (offers_[std::size_t(i)].name.toStdString() == choice.name) index = i;
+  const Values values =
+      index < 0 ? Values{} : settingsOf(choice, offers_[std::size_t(index)].settings, choice.name + " settings");
+
+  while (names_->count() > offerCount()) names_->removeItem(names_->count() - 1);
+  missing_ = {};
   if (index < 0) {
     missing_ = choice;
     index = names_->count();
@@ -77,12 +80,14 @@ void PluginForm::setChoice(const PluginChoice& choice) {
                                         : tr("%1 (not installed)").arg(QString::fromStdString(choice.name)));
   }
   select(index);
-  if (ParameterForm* form = page()) form->setValues(choice.settings);
+  if (ParameterForm* form = page()) form->setValues(values);
   emit changed();
 }
 
 PluginChoice PluginForm::choice() const {
-  if (const ParameterForm* form = page()) return {names_->itemText(chosen_).toStdString(), form->values()};
+  if (const ParameterForm* form = page())
+    return choiceOf(offers_[std::size_t(chosen_)].name.toStdString(), form->values(),
+                    offers_[std::size_t(chosen_)].settings);
   return missing_;
 }
 
@@ -106,7 +111,7 @@ void PluginForm::resetAll() {
 int PluginForm::changedCount() const { return page() ? page()->changedCount() : 0; }
 
 ParameterForm* PluginForm::page() const {
-  return chosen_ < offers_ ? pages_->widget(chosen_)->findChild<ParameterForm*>() : nullptr;
+  return chosen_ < offerCount() ? pages_->widget(chosen_)->findChild<ParameterForm*>() : nullptr;
 }
 
 // Only the chosen page takes room: the others would stretch the section to the longest form.
@@ -116,8 +121,8 @@ void PluginForm::select(int index) {
   for (int i = 0; i < pages_->count(); ++i)
     pages_->widget(i)->setSizePolicy(QSizePolicy::Preferred,
                                      i == index ? QSizePolicy::Preferred : QSizePolicy::Ignored);
-  pages_->setVisible(index < offers_);
-  if (index < offers_) pages_->setCurrentIndex(index);
+  pages_->setVisible(index < offerCount());
+  if (index < offerCount()) pages_->setCurrentIndex(index);
   pages_->adjustSize();
 }
 

@@ -23,7 +23,8 @@ class PluginForm : public QWidget {
   };
   PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
 
-  /// A name that is not offered is shown as missing and makes the form invalid. Not an undo step.
+  /// A name that is not offered is shown as missing and makes the form invalid. Not an undo step. Throws InputError,
+  /// with nothing changed, if a setting is not allowed.
   void setChoice(const PluginChoice& choice);
   PluginChoice choice() const;
   bool isValid() const;
@@ -38,9 +39,10 @@ class PluginForm : public QWidget {
  private:
   ParameterForm* page() const;  ///< of the chosen plugin, or nullptr
   void select(int index);
+  int offerCount() const { return int(offers_.size()); }
 
   QString what_;
-  int offers_;
+  std::vector<Offer> offers_;
   PluginChoice missing_;  ///< the choice that is not installed, if that is selected
   int chosen_ = 0;
   QUndoStack& undo_;

@@ -1,0 +1,178 @@
+// The form of a whole experiment: nothing is lost between file, form and file.
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+
+#include "core/spec/error.h"
+#include "ui/common/number_edit.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/experiment/parameter_form.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+ExperimentOffers someOffers() {
+  const std::vector<Parameter> ga{{"population", "", "individuals", 2, 1000, 40, {}, true},
+                                  {"coding", "", "how a number becomes bits", 0, 1, 0, {}, false, {"binary", "gray"}}};
+  return {{{"kick", {{"distance_m", "m", "to the target", 0.1, 3, 1}}, {}}, {"walk", {}, {}}},
+          {{"kick_distance", {{"k", "", "weight of the direction", 0, 10, 1}}, "how far [m]"}},
+          {{"ga", ga, {}}}};
+}
+
+ExperimentSpec aSpec() {
+  ExperimentSpec spec;
+  spec.name = "Kick";
+  spec.scene = "../scenes/kick.json";
+  spec.controller = {"kick", {{"distance_m", 0.1 + 0.2}}, {}};
+  spec.fitness = {"kick_distance", {}, {}};
+  spec.learner = {"ga", {{"population", 30}}, {{"coding", "gray"}}};
+  spec.stages = {{"first_generations", 20}, {"measured_individuals", 5}};
+  spec.adaptation = {"ga", {}, {}};
+  spec.adaptationSettings = {{"norm", 1}, {"held_out", 2}};
+  spec.adapted = {"friction", "leg_mass_kg"};
+  spec.simulator.values = {{"friction", 0.7}, {"robots.dog.links.head.mass_kg", 0.2}};
+  spec.simulator.effects = {{"backlash", "dog.LF_J1", {{"width_rad", 0.02}}}};
+  spec.reality = "stand_in";
+  spec.standIn = {{"seed", 7}};
+  spec.seed = 9007199254740991;
+  return spec;
+}
+
+void type(QLineEdit* edit, const QString& text) {
+  edit->setFocus();
+  edit->selectAll();
+  QTest::keyClicks(edit, text);
+}
+
+}  // namespace
+
+class TestExperimentForm : public QObject {
+  Q_OBJECT
+ private slots:
+  void givesBackTheSameExperiment() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    QVERIFY2(form.isValid(), qPrintable(form.problems().join('\n')));
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(aSpec())));
+  }
+
+  void givesBackTheSameExperimentAfterAFile() {
+    ExperimentForm form(someOffers());
+    const std::string text = toJsonText(aSpec());
+    form.setSpec(experimentFromJson(text, "kick.json", "/somewhere"));
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(text));
+    QCOMPARE(form.spec().directory, std::string("/somewhere"));
+  }
+
+  void refusesASettingThatThePluginDoesNotAllowAndKeepsWhatItShows() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    ExperimentSpec wrong = aSpec();
+    wrong.name = "Wrong";
+    wrong.learner.settings["population"] = 1;
+    QVERIFY_THROWS_EXCEPTION(InputError, form.setSpec(wrong));
+    QCOMPARE(form.spec().name, std::string("Kick"));
+  }
+
+  void anUnknownPluginIsShownAndForbidsTheStart() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.controller = {"swim", {{"depth_m", 2}}, {}};
+    form.setSpec(spec);
+    QVERIFY(!form.isValid());
+    QVERIFY(form.problems().first().contains("swim is not installed"));
+    QVERIFY(!form.findChild<QPushButton*>("start")->isEnabled());
+    QCOMPARE(form.spec().controller, spec.controller);
+  }
+
+  void saysWhatIsMissingInAnEmptyExperiment() {
+    ExperimentForm form(someOffers());
+    QVERIFY(!form.isValid());
+    QVERIFY(form.problems().join(' ').contains("Scene"));
+    QVERIFY(!form.findChild<QPushButton*>("start")->isEnabled());
+  }
+
+  void undoTakesBackNameAndRealityAndParameters() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    QVERIFY(!form.isModified());
+    type(form.findChild<QLineEdit*>("name"), "Other");
+    QCOMPARE(form.spec().name, std::string("Other"));
+    auto* reality = form.findChild<QComboBox*>("reality");
+    QTest::keyClick(reality, Qt::Key_Up);
+    QCOMPARE(form.spec().reality, std::string("person"));
+    type(form.findChild<ParameterForm*>("stages")->findChild<NumberEdit*>("repeats")->findChild<QLineEdit*>(), "3");
+    QCOMPARE(form.spec().stages.at("repeats"), 3.0);
+    QVERIFY(form.isModified());
+    QCOMPARE(form.undoStack().count(), 3);
+    for (int i = 0; i < 3; ++i) form.undoStack().undo();
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(aSpec())));
+    QVERIFY(!form.isModified());
+  }
+
+  void choosingAnotherPluginKeepsTheSettingsOfTheFirst() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    auto* names = form.findChild<QWidget*>("controller")->findChild<QComboBox*>();
+    QTest::keyClick(names, Qt::Key_Down);
+    QCOMPARE(form.spec().controller.name, std::string("walk"));
+    QTest::keyClick(names, Qt::Key_Up);
+    QCOMPARE(form.spec().controller, aSpec().controller);
+  }
+
+  void labelsTheStandInRealityClearly() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    form.setSpec(spec);
+    form.show();
+    auto* note = form.findChild<QLabel*>("standInNote");
+    QVERIFY(note->isVisible());
+    QVERIFY(note->text().startsWith("Stand-in reality: a simulated robot with concealed parameters, for demonstration"));
+    spec.reality = "person";
+    form.setSpec(spec);
+    QVERIFY(!note->isVisible());
+  }
+
+  void anEmptyListOfAdaptedParametersMeansAll() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.adapted.clear();
+    form.setSpec(spec);
+    auto* simulator = form.findChild<ParameterForm*>("simulator");
+    QCOMPARE(simulator->checked().size(), simulatorParameters().size());
+    QVERIFY(form.spec().adapted.empty());
+    simulator->setChecked({"friction"});
+    QCOMPARE(form.spec().adapted, std::vector<std::string>{"friction"});
+    simulator->setChecked({});
+    QVERIFY(!form.isValid());
+  }
+
+  void refusesMoreHeldOutThanMeasured() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.adaptationSettings["held_out"] = 5;
+    form.setSpec(spec);
+    QCOMPARE(form.problems(), QStringList{"Held out: less than the 5 measured individuals"});
+  }
+
+  void aReadOnlyFormOffersACopyInsteadOfAStart() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    form.setReadOnly("Stored run");
+    form.show();
+    QSignalSpy copy(&form, &ExperimentForm::copyRequested);
+    QVERIFY(!form.findChild<QPushButton*>("start")->isVisible());
+    form.findChild<QPushButton*>("copy")->click();
+    QCOMPARE(copy.count(), 1);
+    type(form.findChild<QLineEdit*>("name"), "Other");
+    QCOMPARE(form.spec().name, std::string("Kick"));
+  }
+};
+
+QTEST_MAIN(TestExperimentForm)
+#include "test_experiment_form.moc"

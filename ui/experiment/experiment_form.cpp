@@ -1,0 +1,249 @@
+#include "ui/experiment/experiment_form.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+#include <set>
+
+#include "ui/common/section.h"
+#include "ui/common/theme.h"
+#include "ui/experiment/parameter_form.h"
+
+namespace btr::ui {
+namespace {
+
+std::set<std::string> adaptedNames(const ExperimentSpec& spec) {
+  std::set<std::string> names(spec.adapted.begin(), spec.adapted.end());
+  if (names.empty())
+    for (const Parameter& parameter : simulatorParameters()) names.insert(parameter.name);
+  return names;
+}
+
+void checkSettings(const PluginChoice& choice, const std::vector<PluginForm::Offer>& offers, const std::string& place) {
+  for (const auto& offer : offers)
+    if (offer.name.toStdString() == choice.name) settingsOf(choice, offer.settings, place);
+}
+
+QString changes(int count) { return count == 0 ? QString() : QObject::tr("%n changed", nullptr, count); }
+
+}  // namespace
+
+ExperimentOffers offersOf(const PluginHost& host) {
+  ExperimentOffers offers;
+  for (const auto& name : host.controllers())
+    offers.controllers.push_back({QString::fromStdString(name), host.controller(name)->settings(), {}});
+  for (const auto& name : host.fitnesses()) {
+    const auto fitness = host.fitness(name);
+    offers.fitnesses.push_back({QString::fromStdString(name), fitness->settings(),
+                                QString::fromStdString(fitness->meaning() + " [" + fitness->unit() + "]")});
+  }
+  for (const auto& name : host.learners())
+    offers.learners.push_back({QString::fromStdString(name), host.learner(name)->settings(), {}});
+  return offers;
+}
+
+ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
+    : QWidget(parent),
+      offers_(offers),
+      controller_(new PluginForm(tr("Controller"), offers.controllers, undo_, this)),
+      fitness_(new PluginForm(tr("Fitness"), offers.fitnesses, undo_, this)),
+      learner_(new PluginForm(tr("Learner"), offers.learners, undo_, this)),
+      adaptation_(new PluginForm(tr("Learner"), offers.learners, undo_, this)),
+      stages_(new ParameterForm(stageParameters(), undo_, this)),
+      adaptationSettings_(new ParameterForm(adaptationParameters(), undo_, this)),
+      simulator_(new ParameterForm(simulatorParameters(), undo_, {.checkable = true, .filterFrom = 99}, this)) {
+  controller_->setObjectName("controller");
+  fitness_->setObjectName("fitness");
+  learner_->setObjectName("learner");
+  adaptation_->setObjectName("adaptation");
+  stages_->setObjectName("stages");
+  simulator_->setObjectName("simulator");
+
+  auto* simulatorPart = new QWidget(this);
+  auto* simulatorColumn = new QVBoxLayout(simulatorPart);
+  simulatorColumn->setContentsMargins(0, 0, 0, 0);
+  auto* hint =
+      new QLabel(tr("The value that the first simulator starts with; a tick lets L3 change it."), simulatorPart);
+  hint->setWordWrap(true);
+  hint->setContentsMargins(8, 2, 8, 2);
+  effects_ = new QLabel(simulatorPart);
+  effects_->setWordWrap(true);
+  effects_->setContentsMargins(8, 2, 8, 2);
+  simulatorColumn->addWidget(hint);
+  simulatorColumn->addWidget(simulator_);
+  simulatorColumn->addWidget(effects_);
+
+  auto* adaptationPart = new QWidget(this);
+  auto* adaptationColumn = new QVBoxLayout(adaptationPart);
+  adaptationColumn->setContentsMargins(0, 0, 0, 0);
+  adaptationColumn->addWidget(adaptationSettings_);
+  adaptationColumn->addWidget(adaptation_);
+
+  // The story of a run from top to bottom: what, how it is judged, L1, measuring, L3.
+  auto* inside = new QWidget;
+  auto* column = new QVBoxLayout(inside);
+  column->setContentsMargins(6, 4, 6, 4);
+  add(*column, tr("Experiment"), makeGeneral(), true);
+  add(*column, tr("Task"), controller_, true);
+  add(*column, tr("Fitness"), fitness_, true);
+  add(*column, tr("L1 · learning in simulation"), learner_, true);
+  add(*column, tr("Stages and measuring"), stages_, true);
+  add(*column, tr("Reality"), makeReality(), true);
+  add(*column, tr("L3 · adapting the simulator"), adaptationPart, false);
+  add(*column, tr("Simulator parameters"), simulatorPart, false);
+  column->addStretch();
+
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(inside);
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->setSpacing(0);
+  all->addWidget(scroll, 1);
+  makeBars(*all);
+
+  for (auto* form : findChildren<ParameterForm*>())
+    connect(form, &ParameterForm::changed, this, &ExperimentForm::update);
+  for (auto* form : findChildren<PluginForm*>()) connect(form, &PluginForm::changed, this, &ExperimentForm::update);
+  setSpec({});
+}
+
+// The stack's commands point into this form: it must be empty before the widgets go.
+ExperimentForm::~ExperimentForm() { undo_.clear(); }
+
+void ExperimentForm::setSpec(const ExperimentSpec& spec) {
+  checkSettings(spec.controller, offers_.controllers, "controller/settings");
+  checkSettings(spec.fitness, offers_.fitnesses, "fitness/settings");
+  checkSettings(spec.learner, offers_.learners, "learner/settings");
+  checkSettings(spec.adaptation, offers_.learners, "adaptation/learner/settings");
+  shown_ = spec;
+  name_->setText(QString::fromStdString(spec.name));
+  scene_->setText(QString::fromStdString(spec.scene));
+  seed_->setValues({{"seed", double(spec.seed)}});
+  controller_->setChoice(spec.controller);
+  fitness_->setChoice(spec.fitness);
+  learner_->setChoice(spec.learner);
+  stages_->setValues(spec.stages);
+  adaptation_->setChoice(spec.adaptation);
+  adaptationSettings_->setValues(spec.adaptationSettings);
+  simulator_->setValues(spec.simulator.values);
+  simulator_->setChecked(adaptedNames(spec));
+  reality_->setCurrentIndex(reality_->findData(QString::fromStdString(spec.reality)));
+  standIn_->setValues(spec.standIn);
+
+  QStringList effects;
+  for (const auto& effect : spec.simulator.effects)
+    effects << QString::fromStdString(effect.effect + " at " + effect.at);
+  effects_->setText(tr("Added effects: %1").arg(effects.join(", ")));
+  effects_->setVisible(!effects.isEmpty());
+  undo_.clear();
+  update();
+}
+
+ExperimentSpec ExperimentForm::spec() const {
+  ExperimentSpec spec = shown_;
+  spec.name = name_->text().trimmed().toStdString();
+  spec.scene = scene_->text().trimmed().toStdString();
+  const Values seed = seed_->values();
+  if (const auto value = seed.find("seed"); value != seed.end())
+    spec.seed = static_cast<std::uint64_t>(value->second);
+  else
+    spec.seed = 1;
+  spec.controller = controller_->choice();
+  spec.fitness = fitness_->choice();
+  spec.learner = learner_->choice();
+  spec.stages = stages_->values();
+  spec.adaptation = adaptation_->choice();
+  spec.adaptationSettings = adaptationSettings_->values();
+  spec.simulator.values = simulator_->values();
+  spec.reality = reality_->currentData().toString().toStdString();
+  spec.standIn = standIn_->values();
+  // "All" may be written as nothing or as every name: what was read stays as it was.
+  if (const auto checked = simulator_->checked(); checked != adaptedNames(shown_)) {
+    spec.adapted.clear();
+    if (checked.size() < simulatorParameters().size())
+      for (const Parameter& parameter : simulatorParameters())
+        if (checked.count(parameter.name)) spec.adapted.push_back(parameter.name);
+  }
+  return spec;
+}
+
+QStringList ExperimentForm::problems() const {
+  QStringList problems;
+  if (name_->text().trimmed().isEmpty()) problems << tr("Name: at least one letter");
+  if (scene_->text().trimmed().isEmpty()) problems << tr("Scene: the path of a scene file");
+  problems << seed_->problems() << controller_->problems() << fitness_->problems() << learner_->problems()
+           << stages_->problems();
+  if (reality_->currentData().toString() == "stand_in") problems << standIn_->problems();
+  problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems();
+  if (simulator_->checked().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
+  if (problems.isEmpty()) {
+    const double heldOut = valueOf(adaptationParameters(), adaptationSettings_->values(), "held_out");
+    const double measured = valueOf(stageParameters(), stages_->values(), "measured_individuals");
+    if (heldOut >= measured) problems << tr("Held out: less than the %1 measured individuals").arg(measured);
+  }
+  return problems;
+}
+
+void ExperimentForm::setReadOnly(const QString& why) {
+  readOnly_ = true;
+  name_->setReadOnly(true);
+  scene_->setReadOnly(true);
+  browse_->hide();
+  reality_->setEnabled(false);
+  for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(true);
+  for (auto* form : findChildren<PluginForm*>()) form->setReadOnly(true);
+  why_->setText(why);
+  update();
+}
+
+void ExperimentForm::resetAll() {
+  undo_.beginMacro(tr("reset all fields"));
+  for (auto* form : {controller_, fitness_, learner_, adaptation_}) form->resetAll();
+  for (auto* form : {stages_, adaptationSettings_, simulator_, standIn_}) form->resetAll();
+  undo_.endMacro();
+}
+
+Section* ExperimentForm::add(QVBoxLayout& column, const QString& title, QWidget* content, bool open) {
+  auto* section = new Section(title, content, this);
+  section->setOpen(open);
+  column.addWidget(section);
+  sections_.push_back(section);
+  return section;
+}
+
+// Everything that depends on the fields: which parts are seen, what is wrong, what may be pressed.
+void ExperimentForm::update() {
+  if (!problem_) return;
+  const bool standIn = reality_->currentData().toString() == "stand_in";
+  standIn_->setVisible(standIn);
+  standInNote_->setVisible(standIn);
+  standInNote_->setStyleSheet(QStringLiteral("color: %1; font-weight: 600").arg(tonesOf(palette()).standIn.name()));
+  sections_[1]->setSummary(changes(controller_->changedCount()));
+  sections_[2]->setSummary(changes(fitness_->changedCount()));
+  sections_[3]->setSummary(changes(learner_->changedCount()));
+  sections_[4]->setSummary(changes(stages_->changedCount()));
+  sections_[6]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
+  sections_[7]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
+
+  const QStringList wrong = readOnly_ ? QStringList() : problems();
+  problem_->setText(wrong.isEmpty()
+                        ? QString()
+                        : wrong.first() + (wrong.size() > 1 ? tr(" (and %1 more)").arg(wrong.size() - 1) : QString()));
+  problem_->setStyleSheet(QStringLiteral("color: %1").arg(tonesOf(palette()).bad.name()));
+  problem_->setVisible(!wrong.isEmpty());
+  start_->setEnabled(wrong.isEmpty());
+  save_->setEnabled(wrong.isEmpty());
+  start_->setVisible(!readOnly_);
+  editBar_->setVisible(!readOnly_);
+  copy_->setVisible(readOnly_);
+  why_->setVisible(!why_->text().isEmpty());
+  emit changed();
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,78 @@
+#pragma once
+#include <QUndoStack>
+#include <QWidget>
+
+#include "core/plugin/plugin_host.h"
+#include "core/spec/experiment_spec.h"
+#include "ui/experiment/plugin_form.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QVBoxLayout;
+
+namespace btr::ui {
+class ParameterForm;
+class Section;
+
+/// What the plugins offer to an experiment, as plain values.
+struct ExperimentOffers {
+  std::vector<PluginForm::Offer> controllers, fitnesses, learners;
+};
+ExperimentOffers offersOf(const PluginHost& host);
+
+/// A whole ExperimentSpec as a form with folding sections and undo: spec in, spec out, nothing lost on the way.
+class ExperimentForm : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ExperimentForm(const ExperimentOffers& offers, QWidget* parent = nullptr);
+  ~ExperimentForm() override;
+
+  /// Shows the spec; undo starts afresh. Throws InputError, with nothing changed, if a plugin's setting is not allowed.
+  void setSpec(const ExperimentSpec& spec);
+  ExperimentSpec spec() const;
+  bool isValid() const { return problems().isEmpty(); }
+  QStringList problems() const;
+  /// True since the last setSpec() or markSaved() if the user changed something.
+  bool isModified() const { return !undo_.isClean(); }
+  void markSaved() { undo_.setClean(); }
+  /// For a stored run, whose spec never changes: `why` stands above the form.
+  void setReadOnly(const QString& why);
+  QUndoStack& undoStack() { return undo_; }
+  void resetAll();
+
+ signals:
+  void changed();
+  void saveRequested();
+  void openRequested();
+  void startRequested();
+  void copyRequested();  ///< of a read-only form: begin a new experiment from it
+
+ private:
+  QWidget* makeGeneral();
+  QWidget* makeReality();
+  void makeBars(QVBoxLayout& column);
+  Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
+  QLineEdit* addText(QVBoxLayout& column, const QString& name, const QString& label, const QString& toolTip,
+                     QWidget* beside = nullptr);
+  void browseScene();
+  void update();
+
+  ExperimentOffers offers_;
+  QUndoStack undo_;
+  ExperimentSpec shown_;  ///< keeps what the form has no field for: added effects, the folder, how "all" was written
+  bool readOnly_ = false;
+  int visit_ = 0;
+  QLineEdit *name_ = nullptr, *scene_ = nullptr;
+  QPushButton* browse_ = nullptr;
+  QComboBox* reality_ = nullptr;
+  QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
+  QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
+  QWidget* editBar_ = nullptr;
+  PluginForm *controller_, *fitness_, *learner_, *adaptation_;
+  ParameterForm *seed_ = nullptr, *stages_, *adaptationSettings_, *simulator_, *standIn_ = nullptr;
+  std::vector<Section*> sections_;
+};
+
+}  // namespace btr::ui

@@ -1,0 +1,194 @@
+// The parts of the experiment form that are not made from declared parameters.
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/common/edit_command.h"
+#include "ui/common/form_undo.h"
+#include "ui/common/theme.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/experiment/parameter_form.h"
+
+namespace btr::ui {
+
+QLineEdit* ExperimentForm::addText(QVBoxLayout& column, const QString& name, const QString& label,
+                                   const QString& toolTip, QWidget* beside) {
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 2, 8, 2);
+  auto* caption = new QLabel(label, this);
+  auto* edit = new QLineEdit(this);
+  leaveUndoToForm(edit);
+  caption->setBuddy(edit);
+  caption->setMinimumWidth(fontMetrics().horizontalAdvance("Controller  "));
+  edit->setObjectName(name);
+  edit->setAccessibleName(label);
+  edit->setToolTip(toolTip);
+  row->addWidget(caption);
+  row->addWidget(edit, 1);
+  if (beside) row->addWidget(beside);
+  column.addLayout(row);
+
+  // The text before an edit is remembered, since the line edit tells only what it became.
+  edit->setProperty("before", QString());
+  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
+    if (!edit->isModified()) edit->setProperty("before", text);
+  });
+  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
+  connect(edit, &QLineEdit::textEdited, this, [this, edit, name, label](const QString& text) {
+    const QString before = edit->property("before").toString();
+    edit->setProperty("before", text);
+    undo_.push(
+        new EditCommand(tr("change %1").arg(label), name, visit_, before, text, [this, edit](const QVariant& value) {
+          if (edit->text() != value.toString()) edit->setText(value.toString());
+          edit->setProperty("before", value);
+          update();
+        }));
+  });
+  return edit;
+}
+
+QWidget* ExperimentForm::makeGeneral() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  name_ = addText(*column, "name", tr("Name"), tr("How this experiment is called in the tree, in files and reports"));
+  browse_ = new QPushButton(themeIcon("document-open"), {}, this);
+  browse_->setToolTip(tr("Choose a scene file"));
+  browse_->setAccessibleName(tr("Choose a scene file"));
+  connect(browse_, &QPushButton::clicked, this, &ExperimentForm::browseScene);
+  scene_ =
+      addText(*column, "scene", tr("Scene"), tr("Scene file (*.json), relative to the experiment's own file"), browse_);
+  seed_ = new ParameterForm(
+      {{"seed", "", "same experiment and same seed give the same bits", 0, 9007199254740991, 1, {}, true}}, undo_,
+      part);
+  column->addWidget(seed_);
+  return part;
+}
+
+QWidget* ExperimentForm::makeReality() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 2, 8, 2);
+  auto* caption = new QLabel(tr("Measured by"), part);
+  reality_ = new QComboBox(part);
+  reality_->setObjectName("reality");
+  reality_->setFocusPolicy(Qt::StrongFocus);
+  reality_->addItem(tr("a person, on the real robot"), "person");
+  reality_->addItem(tr("a stand-in reality (demonstration)"), "stand_in");
+  caption->setBuddy(reality_);
+  row->addWidget(caption);
+  row->addWidget(reality_, 1);
+  column->addLayout(row);
+  standInNote_ = new QLabel(
+      tr("Stand-in reality: a simulated robot with concealed parameters, for demonstration. It is no real robot; every "
+         "result of this run is labelled so."),
+      part);
+  standInNote_->setObjectName("standInNote");
+  standInNote_->setWordWrap(true);
+  standInNote_->setContentsMargins(8, 2, 8, 2);
+  column->addWidget(standInNote_);
+  standIn_ = new ParameterForm(standInParameters(), undo_, part);
+  standIn_->setObjectName("standIn");
+  column->addWidget(standIn_);
+
+  reality_->setProperty("shown", 0);
+  connect(reality_, &QComboBox::activated, this, [this](int index) {
+    const QVariant before = reality_->property("shown");
+    if (before.toInt() == index) return;
+    undo_.push(new EditCommand(tr("choose who measures"), {}, -1, before, index, [this](const QVariant& value) {
+      reality_->setCurrentIndex(value.toInt());
+      update();
+    }));
+  });
+  connect(reality_, &QComboBox::currentIndexChanged, this,
+          [this](int index) { reality_->setProperty("shown", index); });
+  return part;
+}
+
+void ExperimentForm::makeBars(QVBoxLayout& column) {
+  // Above: undo and redo, or why nothing can be changed here.
+  editBar_ = new QWidget(this);
+  auto* bar = new QHBoxLayout(editBar_);
+  bar->setContentsMargins(6, 4, 6, 2);
+  const auto button = [&](const QString& icon, const QString& text, const QKeySequence& keys) {
+    auto* action = new QAction(themeIcon(icon), text, this);
+    action->setShortcut(keys);
+    action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    addAction(action);
+    auto* tool = new QToolButton(editBar_);
+    tool->setDefaultAction(action);
+    tool->setAutoRaise(true);
+    bar->addWidget(tool);
+    return action;
+  };
+  auto* undo = button("edit-undo", tr("Undo"), QKeySequence::Undo);
+  auto* redo = button("edit-redo", tr("Redo"), QKeySequence::Redo);
+  auto* reset = button("edit-clear-all", tr("Reset all to defaults"), {});
+  undo->setEnabled(false);
+  redo->setEnabled(false);
+  connect(&undo_, &QUndoStack::canUndoChanged, undo, &QAction::setEnabled);
+  connect(&undo_, &QUndoStack::canRedoChanged, redo, &QAction::setEnabled);
+  connect(&undo_, &QUndoStack::undoTextChanged, undo,
+          [undo](const QString& text) { undo->setToolTip(tr("Undo %1").arg(text)); });
+  connect(undo, &QAction::triggered, &undo_, &QUndoStack::undo);
+  connect(redo, &QAction::triggered, &undo_, &QUndoStack::redo);
+  connect(reset, &QAction::triggered, this, &ExperimentForm::resetAll);
+  bar->addStretch();
+  auto* open = new QPushButton(themeIcon("document-open"), tr("Open…"), editBar_);
+  open->setToolTip(tr("Open an experiment (*.json)"));
+  bar->addWidget(open);
+  connect(open, &QPushButton::clicked, this, &ExperimentForm::openRequested);
+  column.insertWidget(0, editBar_);
+
+  why_ = new QLabel(this);
+  why_->setWordWrap(true);
+  why_->setContentsMargins(10, 6, 10, 6);
+  column.insertWidget(1, why_);
+
+  // Below: what is wrong, and what can be done with the whole.
+  problem_ = new QLabel(this);
+  problem_->setObjectName("problem");
+  problem_->setWordWrap(true);
+  problem_->setContentsMargins(10, 4, 10, 0);
+  column.addWidget(problem_);
+  auto* buttons = new QHBoxLayout;
+  buttons->setContentsMargins(8, 6, 8, 6);
+  save_ = new QPushButton(themeIcon("document-save-as"), tr("Save as JSON…"), this);
+  save_->setObjectName("save");
+  start_ = new QPushButton(themeIcon("media-playback-start"), tr("Start run"), this);
+  start_->setObjectName("start");
+  start_->setDefault(true);
+  start_->setToolTip(tr("Store this experiment and begin learning"));
+  copy_ = new QPushButton(themeIcon("edit-copy"), tr("Use for a new experiment"), this);
+  copy_->setObjectName("copy");
+  buttons->addWidget(save_);
+  buttons->addStretch();
+  buttons->addWidget(copy_);
+  buttons->addWidget(start_);
+  column.addLayout(buttons);
+  connect(save_, &QPushButton::clicked, this, &ExperimentForm::saveRequested);
+  connect(start_, &QPushButton::clicked, this, &ExperimentForm::startRequested);
+  connect(copy_, &QPushButton::clicked, this, &ExperimentForm::copyRequested);
+}
+
+void ExperimentForm::browseScene() {
+  const QDir folder(QString::fromStdString(shown_.directory));
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Scene"), folder.absolutePath(), tr("Scenes (*.json);;All files (*)"));
+  if (file.isEmpty()) return;
+  const QString path = shown_.directory.empty() ? file : folder.relativeFilePath(file);
+  undo_.push(new EditCommand(tr("choose a scene"), {}, -1, scene_->text(), path, [this](const QVariant& value) {
+    scene_->setText(value.toString());
+    update();
+  }));
+}
+
+}  // namespace btr::ui

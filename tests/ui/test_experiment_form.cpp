@@ -132,7 +132,8 @@ class TestExperimentForm : public QObject {
     form.show();
     auto* note = form.findChild<QLabel*>("standInNote");
     QVERIFY(note->isVisible());
-    QVERIFY(note->text().startsWith("Stand-in reality: a simulated robot with concealed parameters, for demonstration"));
+    QVERIFY(
+        note->text().startsWith("Stand-in reality: a simulated robot with concealed parameters, for demonstration"));
     spec.reality = "person";
     form.setSpec(spec);
     QVERIFY(!note->isVisible());

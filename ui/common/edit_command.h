@@ -6,7 +6,8 @@
 namespace btr::ui {
 
 /// An undoable change of one field from one value to another. Changes of the same field within one visit (`key`,
-/// `visit`) become one step; a negative visit never merges. Whoever owns the field owns the undo stack too, so `apply` never outlives it.
+/// `visit`) become one step; a negative visit never merges. Whoever owns the field owns the undo stack too, so `apply`
+/// never outlives it.
 class EditCommand final : public QUndoCommand {
  public:
   using Apply = std::function<void(const QVariant&)>;

@@ -133,7 +133,8 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   adaptationSettings_->setValues(spec.adaptationSettings);
   simulator_->setValues(spec.simulator.values);
   simulator_->setChecked(adaptedNames(spec));
-  reality_->setCurrentIndex(reality_->findData(QString::fromStdString(spec.reality)));
+  chosenReality_ = reality_->findData(QString::fromStdString(spec.reality));
+  reality_->setCurrentIndex(chosenReality_);
   standIn_->setValues(spec.standIn);
 
   QStringList effects;

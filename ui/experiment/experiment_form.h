@@ -63,7 +63,7 @@ class ExperimentForm : public QWidget {
   QUndoStack undo_;
   ExperimentSpec shown_;  ///< keeps what the form has no field for: added effects, the folder, how "all" was written
   bool readOnly_ = false;
-  int visit_ = 0;
+  int visit_ = 0, chosenReality_ = 0;
   QLineEdit *name_ = nullptr, *scene_ = nullptr;
   QPushButton* browse_ = nullptr;
   QComboBox* reality_ = nullptr;

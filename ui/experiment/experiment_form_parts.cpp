@@ -99,17 +99,15 @@ QWidget* ExperimentForm::makeReality() {
   standIn_->setObjectName("standIn");
   column->addWidget(standIn_);
 
-  reality_->setProperty("shown", 0);
+  // The combo box tells only what it became: what was chosen before is remembered here.
   connect(reality_, &QComboBox::activated, this, [this](int index) {
-    const QVariant before = reality_->property("shown");
-    if (before.toInt() == index) return;
-    undo_.push(new EditCommand(tr("choose who measures"), {}, -1, before, index, [this](const QVariant& value) {
-      reality_->setCurrentIndex(value.toInt());
+    if (index == chosenReality_) return;
+    undo_.push(new EditCommand(tr("choose who measures"), {}, -1, chosenReality_, index, [this](const QVariant& value) {
+      chosenReality_ = value.toInt();
+      reality_->setCurrentIndex(chosenReality_);
       update();
     }));
   });
-  connect(reality_, &QComboBox::currentIndexChanged, this,
-          [this](int index) { reality_->setProperty("shown", index); });
   return part;
 }
 

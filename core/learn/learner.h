@@ -9,15 +9,15 @@
 
 namespace btr {
 
-/// One vector that a learner wants evaluated. The chromosome is the learner's own text of it ("0101…" for a GA, else "").
-/// Equal vectors need not be evaluated twice.
+/// One vector that a learner wants evaluated. The chromosome is the learner's own text of it ("0101…" for a GA, else
+/// ""). Equal vectors need not be evaluated twice.
 struct Candidate {
   std::string chromosome;
   std::vector<double> parameters;  ///< in the order of the genotype, within its bounds
 };
 
-/// A learner in ask/tell form: the host owns the loop, so candidates can be evaluated in parallel or by a person, and a run
-/// can stop and go on. Always maximises. Deterministic: all chance comes from the Random handed in.
+/// A learner in ask/tell form: the host owns the loop, so candidates can be evaluated in parallel or by a person, and a
+/// run can stop and go on. Always maximises. Deterministic: all chance comes from the Random handed in.
 class Learner {
  public:
   virtual ~Learner() = default;

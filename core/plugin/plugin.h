@@ -3,10 +3,15 @@
 #include <functional>
 #include <memory>
 
+#include "core/learn/bit_coding.h"
 #include "core/learn/learner.h"
+#include "core/learn/selection.h"
+#include "core/learn/variation.h"
+#include "core/model/kinematics.h"
 #include "core/sim/controller.h"
 #include "core/sim/effect.h"
 #include "core/sim/fitness.h"
+#include "core/spec/error.h"
 
 namespace btr {
 

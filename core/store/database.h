@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,16 +10,21 @@
 
 namespace btr {
 
-/// The experiment database: one SQLite file (WAL, foreign keys, STRICT tables, numbered migrations, synchronous = FULL).
-/// All SQL of the program stands behind this class. One Database belongs to one thread; open another for another thread or
-/// process. Every writing call is one transaction: all of it is stored or nothing. Errors: InputError (what the user can
-/// mend: foreign, newer, damaged, read-only file, disk full, database locked for more than 5 s, unknown id).
+class Connection;
+
+/// The experiment database: one SQLite file (WAL, foreign keys, STRICT tables, numbered migrations, synchronous =
+/// FULL). All SQL of the program stands behind this class. One Database belongs to one thread; open another for another
+/// thread or process. Every writing call is one transaction: all of it is stored or nothing. Errors: InputError (what
+/// the user can mend: foreign, newer, damaged, read-only file, disk full, database locked for more than 5 s, unknown
+/// id).
 class Database {
  public:
   enum class Mode { readOnly, readWrite, create };
-  /// `create` makes the file if it is not there and migrates an older one; `readOnly` and `readWrite` refuse an absent file.
-  /// A file that is not ours, is damaged (quick_check) or was made by a newer program is refused and left unchanged.
-  static Database open(const std::string& path, Mode mode);
+  /// `create` makes the file if it is not there; `readOnly` and `readWrite` refuse an absent one. `create` and
+  /// `readWrite` bring an older file up to date. A file that is empty, not ours, damaged (quick_check) or made by a
+  /// newer program is refused and left unchanged. `readOnly` also works beside a writer and in a folder that cannot be
+  /// written. A call that meets another process's lock waits `patience_ms` for it.
+  static Database open(const std::string& path, Mode mode, int patience_ms = 5000);
   ~Database();
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
@@ -30,62 +36,75 @@ class Database {
   // ---- experiments and runs
   Id addExperiment(const ExperimentRecord& experiment);
   std::vector<ExperimentRecord> experiments() const;
+  std::optional<Id> findExperiment(const std::string& specJson) const;  ///< the latest with exactly this text
   ExperimentRecord experiment(Id id) const;
   void setExperimentNote(Id id, const std::string& note);
-  /// Stores run, files and its first simulator version (number 0) together.
+  /// Stores run, files and its first simulator version (number 0) together. An absent programVersion, startedAt or
+  /// createdAt is filled in. Files are shared by content between runs.
   Id addRun(const RunRecord& run, const SimulatorRecord& first);
   std::vector<RunRecord> runs(Id experiment = 0) const;  ///< without specs' files; 0: of all experiments
   RunRecord run(Id id) const;                            ///< with everything
   std::optional<Id> findRun(const std::string& specSha256, std::uint64_t seed) const;  ///< the latest such run
+  std::optional<Id> latestRun() const;
   void setRunState(Id run, RunState state, const std::string& message);
   void setRunNote(Id run, const std::string& note);
   void setProgress(Id run, const std::string& progressJson);
   void requestStop(Id run, bool stop);
 
   // ---- L1
-  /// Generation, its individuals (ids are written back) and the run's counters. Refuses a number that is not the next.
+  /// Generation, its individuals (ids, and what they take from the generation, are written back) and the run's counter.
+  /// Refuses a number that is not the next. −0 becomes 0, also in the record; NaN is refused, infinity kept.
   void addGeneration(GenerationRecord& generation);
   std::vector<GenerationRecord> generations(Id run, int after = 0) const;  ///< without individuals and learner states
   std::optional<GenerationRecord> lastGeneration(Id run) const;            ///< with individuals and states
-  std::vector<IndividualRecord> individuals(Id run, int generation) const;
-  std::vector<IndividualRecord> individualsOfSimulator(Id run, Id simulator) const;  ///< simulated ones only (sameAs = 0)
+  std::vector<IndividualRecord> individuals(Id run,
+                                            int generation = 0) const;  ///< 0: of all generations, in their order
+  std::vector<IndividualRecord> individualsOfSimulator(Id run,
+                                                       Id simulator) const;  ///< simulated ones only (sameAs = 0)
   std::vector<IndividualRecord> bestIndividuals(Id run, int count, int firstGeneration, int lastGeneration) const;
   ///< distinct chromosomes, best first, ties by generation and slot; lastGeneration 0: no limit
   IndividualRecord individual(Id id) const;
+  /// Refuses a hash that differs from the one stored with the individual: that would be another trial.
   void setTrace(Id individual, const std::string& packed, const std::string& sha256);
   std::optional<std::string> trace(Id individual) const;  ///< packed bytes
 
   // ---- measurements
-  /// All tasks of a stage at once; the run's state becomes waiting.
+  /// All tasks of the next stage at once; the run's state becomes waiting.
   void addMeasurementStage(Id run, int stage, const std::vector<MeasurementTask>& tasks);
   std::vector<MeasurementTask> measurementTasks(Id run, int stage = 0) const;  ///< 0: of all stages; by stage, position
   /// Refuses a value that is not finite and an individual that no task names.
   Id addMeasurement(const MeasurementRecord& measurement);
   std::vector<Id> addMeasurements(const std::vector<MeasurementRecord>& measurements);  ///< all or none
   void setMeasurementVoid(Id measurement, bool isVoid, const std::string& note);
-  std::vector<MeasurementRecord> measurements(Id run) const;
+  std::vector<MeasurementRecord> measurements(Id run) const;  ///< in the order of entry, void ones too
+  MeasurementRecord measurement(Id id) const;
+  std::map<Id, int> measurementCounts(Id run) const;  ///< values that are not void, by individual
 
   // ---- L3
-  void addAdaptation(const AdaptationRecord& adaptation);
+  void addAdaptation(const AdaptationRecord& adaptation);  ///< refuses a stage or number that is not the next
   std::vector<AdaptationRecord> adaptations(Id run, int stage) const;
-  /// New simulator version, gap record, stage counter and the state `next`, together. Returns the version's id.
+  /// New simulator version, gap record, stage counter and the state `next`, together. Returns the version's id, which
+  /// is also the gap's simulatorAfter. A version's number is the next of its run.
   Id finishStage(const SimulatorRecord& simulator, GapRecord gap, RunState next);
   Id addSimulator(const SimulatorRecord& simulator);  ///< by hand or by gap analysis
   std::vector<SimulatorRecord> simulators(Id run) const;
   SimulatorRecord simulator(Id id) const;
+  SimulatorRecord latestSimulator(Id run) const;
   std::vector<GapRecord> gaps(Id run) const;
 
   // ---- recordings
-  Id addRecording(const RecordingRecord& recording);
+  Id addRecording(
+      const RecordingRecord& recording);  ///< refuses a sha256 that is not that of csv; an absent one is filled in
   std::vector<RecordingRecord> recordings(Id experiment) const;  ///< without csv
   RecordingRecord recording(Id id) const;
 
  private:
-  struct Impl;
-  explicit Database(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  explicit Database(std::unique_ptr<Connection> connection);
+  std::unique_ptr<Connection> connection_;
 };
 
+/// The version of this program, e.g. "0.1.0".
+std::string programVersion();
 /// Now in UTC, "2026-11-21T10:11:12Z".
 std::string utcNow();
 

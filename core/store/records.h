@@ -103,9 +103,9 @@ struct MeasurementRecord {
   Id individual = 0;
   double value = 0;               ///< in the fitness plugin's unit
   bool isVoid = false;
-  std::string note, who;
+  std::string note = {}, who = {};
   std::string source = "person";  ///< "person" or "stand_in"
-  std::string enteredAt;
+  std::string enteredAt = {};
 };
 
 /// One generation of L3 with its candidates.

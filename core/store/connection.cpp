@@ -1,0 +1,78 @@
+#include "core/store/connection.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Transaction.h>
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "core/spec/error.h"
+
+namespace btr {
+
+Connection::Connection(std::string path, std::unique_ptr<SQLite::Database> database)
+    : path_(std::move(path)), database_(std::move(database)) {}
+
+Connection::~Connection() = default;
+
+void Connection::refuse(const std::string& message) const { throw InputError(path_ + ": " + message); }
+
+std::int64_t Connection::dataVersion() const {
+  // data_version counts the commits of others, total_changes our own rows: neither ever falls.
+  std::int64_t others = 0;
+  try {
+    others = database_->execAndGet("PRAGMA data_version").getInt64();
+  } catch (const SQLite::Exception& error) {
+    throw InputError(explain(path_, database_.get(), error.getExtendedErrorCode(), error.what()));
+  }
+  return (others << 32) + sqlite3_total_changes64(database_->getHandle());
+}
+
+void Connection::transact(const std::function<void()>& work, bool writes) const {
+  try {
+    // A writer takes its lock first: two writers then wait for each other instead of failing half-way.
+    SQLite::Transaction transaction(
+        *database_, writes ? SQLite::TransactionBehavior::IMMEDIATE : SQLite::TransactionBehavior::DEFERRED);
+    work();
+    transaction.commit();
+  } catch (const SQLite::Exception& error) {
+    throw InputError(explain(path_, database_.get(), error.getExtendedErrorCode(), error.what()));
+  }
+}
+
+std::string explain(const std::string& path, SQLite::Database* database, int extendedCode, const std::string& message) {
+  const int systemError = database ? sqlite3_system_errno(database->getHandle()) : 0;
+  const bool noSpace = systemError == ENOSPC || systemError == EDQUOT || systemError == EFBIG;
+  const std::string begin = path + ": ";
+  switch (extendedCode & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return begin + "another process keeps the database locked; try again when it is done";
+    case SQLITE_FULL:
+      return begin + "disk full: nothing of this step was stored, what was stored before is sound; make room and go on";
+    case SQLITE_IOERR:
+      if (noSpace || extendedCode == SQLITE_IOERR_SHMSIZE)
+        return begin +
+               "disk full: nothing of this step was stored, what was stored before is sound; make room and go on";
+      return begin + "cannot be read or written (" + (systemError ? std::strerror(systemError) : message) + ")";
+    case SQLITE_READONLY:
+      return begin + "cannot be changed: file or folder is read-only, or it was opened for reading only";
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return begin + "is damaged (" + message + "); use a copy of it that is sound";
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return begin + "cannot be opened (" + (systemError ? std::strerror(systemError) : message) +
+             "); file and folder must be readable, for changes also writable";
+    case SQLITE_TOOBIG:
+      return begin + "a text or file of more than 1000000000 bytes cannot be stored";
+    default:
+      return begin + message;
+  }
+}
+
+}  // namespace btr

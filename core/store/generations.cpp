@@ -1,0 +1,193 @@
+#include <cmath>
+#include <unordered_set>
+
+#include "core/store/connection.h"
+#include "core/store/database.h"
+#include "core/store/insert.h"
+
+namespace btr {
+namespace {
+
+constexpr const char* generationColumns =
+    "SELECT run_id, number, simulator_id, best, mean, worst, trials, reused, failed, seconds, finished_at FROM "
+    "generation ";
+
+GenerationRecord generationOf(const Query& row) {
+  GenerationRecord g;
+  row.get(g.run, g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed, g.seconds, g.finishedAt);
+  return g;
+}
+
+constexpr const char* individualColumns =
+    "SELECT id, run_id, generation, slot, simulator_id, chromosome, parameters, fitness, outcome, detail, same_as, "
+    "trial_seed, "
+    "trace_sha256 FROM individual ";
+
+IndividualRecord individualOf(const Query& row) {
+  IndividualRecord i;
+  row.get(i.id, i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
+          i.sameAs, i.trialSeed, i.traceSha256);
+  return i;
+}
+
+template <class... Values>
+std::vector<IndividualRecord> select(const Connection& connection, const char* rest, const Values&... values) {
+  std::vector<IndividualRecord> all;
+  Query row(connection, (std::string(individualColumns) + rest).c_str(), values...);
+  while (row.next()) all.push_back(individualOf(row));
+  return all;
+}
+
+// What the individual takes from its generation, and the meaning of a negative sameAs.
+void complete(const Connection& connection, const GenerationRecord& generation, std::size_t index,
+              IndividualRecord& individual) {
+  const std::string who =
+      "generation " + std::to_string(generation.number) + ", slot " + std::to_string(individual.slot) + ": ";
+  individual.run = generation.run;
+  individual.generation = generation.number;
+  if (individual.simulator == 0) individual.simulator = generation.simulator;
+  individual.fitness += 0.0;
+  if (std::isnan(individual.fitness)) connection.refuse(who + "the fitness nan is not allowed; a number");
+  if (individual.sameAs < 0) {
+    const Id slot = sameAsSlot(0) - individual.sameAs;
+    Id found = 0;
+    for (std::size_t k = 0; k < index; ++k)
+      if (generation.individuals[k].slot == slot) found = generation.individuals[k].id;
+    if (found == 0)
+      connection.refuse(who + "same as slot " + std::to_string(slot) + " is not allowed; an earlier slot");
+    individual.sameAs = found;
+  } else if (individual.sameAs > 0) {
+    requireRowOfRun(connection, "individual", generation.run, individual.sameAs);
+  }
+}
+
+}  // namespace
+
+void Database::addGeneration(GenerationRecord& generation) {
+  // The record is written back only when all of it is stored.
+  GenerationRecord g = generation;
+  connection_->write([&] {
+    const int next = countersOf(*connection_, g.run).generation + 1;
+    if (g.number != next)
+      connection_->refuse("generation " + std::to_string(g.number) + " is not allowed; the next of run " +
+                          std::to_string(g.run) + " is " + std::to_string(next));
+    requireRowOfRun(*connection_, "simulator", g.run, g.simulator);
+    g.finishedAt = orNow(g.finishedAt);
+    for (double* value : {&g.best, &g.mean, &g.worst, &g.seconds}) *value += 0.0;
+    Query(*connection_,
+          "INSERT INTO generation (run_id, number, simulator_id, best, mean, worst, trials, reused, failed, seconds, "
+          "finished_at) "
+          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .run(g.run, g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed, g.seconds,
+             g.finishedAt);
+    Query(*connection_, "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?)")
+        .run(g.run, g.number, g.randomState, g.learnerState);
+
+    Query row(*connection_,
+              "INSERT INTO individual (run_id, generation, slot, simulator_id, chromosome, parameters, fitness, "
+              "outcome, detail, "
+              "same_as, trial_seed, trace_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    Query rowId(*connection_, "SELECT last_insert_rowid()");
+    for (std::size_t k = 0; k < g.individuals.size(); ++k) {
+      IndividualRecord& i = g.individuals[k];
+      complete(*connection_, g, k, i);
+      if (i.simulator != g.simulator) requireRowOfRun(*connection_, "simulator", g.run, i.simulator);
+      row.run(i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
+              Reference{i.sameAs}, i.trialSeed, i.traceSha256);
+      i.id = *rowId.value<Id>();
+      rowId.reset();
+    }
+    Query(*connection_, "UPDATE run_state SET generation = ?, updated_at = ? WHERE run_id = ?")
+        .run(g.number, g.finishedAt, g.run);
+  });
+  generation = std::move(g);
+}
+
+std::vector<GenerationRecord> Database::generations(Id run, int after) const {
+  return connection_->read([&] {
+    std::vector<GenerationRecord> all;
+    Query row(*connection_,
+              (std::string(generationColumns) + "WHERE run_id = ? AND number > ? ORDER BY number").c_str(), run, after);
+    while (row.next()) all.push_back(generationOf(row));
+    return all;
+  });
+}
+
+std::optional<GenerationRecord> Database::lastGeneration(Id run) const {
+  return connection_->read([&]() -> std::optional<GenerationRecord> {
+    Query row(*connection_, (std::string(generationColumns) + "WHERE run_id = ? ORDER BY number DESC LIMIT 1").c_str(),
+              run);
+    if (!row.next()) return std::nullopt;
+    GenerationRecord g = generationOf(row);
+    Query state(*connection_, "SELECT random_state, learner_state FROM learner_state WHERE run_id = ? AND number = ?",
+                run, g.number);
+    if (state.next()) state.get(g.randomState, g.learnerState);
+    g.individuals = select(*connection_, "WHERE run_id = ? AND generation = ? ORDER BY slot", run, g.number);
+    return g;
+  });
+}
+
+std::vector<IndividualRecord> Database::individuals(Id run, int generation) const {
+  return connection_->read([&] {
+    if (generation == 0) return select(*connection_, "WHERE run_id = ? ORDER BY generation, slot", run);
+    return select(*connection_, "WHERE run_id = ? AND generation = ? ORDER BY slot", run, generation);
+  });
+}
+
+std::vector<IndividualRecord> Database::individualsOfSimulator(Id run, Id simulator) const {
+  return connection_->read([&] {
+    return select(*connection_, "WHERE simulator_id = ? AND same_as IS NULL AND run_id = ? ORDER BY id", simulator,
+                  run);
+  });
+}
+
+std::vector<IndividualRecord> Database::bestIndividuals(Id run, int count, int first, int last) const {
+  return connection_->read([&] {
+    std::vector<IndividualRecord> best;
+    std::unordered_set<std::string> seen;
+    Query row(
+        *connection_,
+        (std::string(individualColumns) + "WHERE run_id = ?1 AND generation >= ?2 AND (?3 = 0 OR generation <= ?3) "
+                                          "ORDER BY fitness DESC, generation, slot")
+            .c_str(),
+        run, first, last);
+    while (static_cast<int>(best.size()) < count && row.next()) {
+      IndividualRecord individual = individualOf(row);
+      if (seen.insert(individual.chromosome).second) best.push_back(std::move(individual));
+    }
+    return best;
+  });
+}
+
+IndividualRecord Database::individual(Id id) const {
+  return connection_->read([&] {
+    std::vector<IndividualRecord> found = select(*connection_, "WHERE id = ?", id);
+    if (found.empty()) refuseUnknown(*connection_, "individual", id);
+    return found.front();
+  });
+}
+
+void Database::setTrace(Id individual, const std::string& packed, const std::string& hash) {
+  connection_->write([&] {
+    const auto stored =
+        Query(*connection_, "SELECT trace_sha256 FROM individual WHERE id = ?", individual).value<std::string>();
+    if (!stored) refuseUnknown(*connection_, "individual", individual);
+    if (hash.empty()) connection_->refuse("a trace without its hash is not allowed");
+    if (!stored->empty() && *stored != hash)
+      connection_->refuse("a trace " + hash + " of individual " + std::to_string(individual) +
+                          " is not allowed; that of its trial is " + *stored);
+    if (stored->empty())
+      Query(*connection_, "UPDATE individual SET trace_sha256 = ? WHERE id = ?").run(hash, individual);
+    Query(*connection_, "INSERT OR IGNORE INTO trace (individual_id, packed) VALUES (?, ?)")
+        .run(individual, Blob{packed});
+  });
+}
+
+std::optional<std::string> Database::trace(Id individual) const {
+  return connection_->read([&] {
+    requireRow(*connection_, "individual", individual);
+    return Query(*connection_, "SELECT packed FROM trace WHERE individual_id = ?", individual).value<std::string>();
+  });
+}
+
+}  // namespace btr

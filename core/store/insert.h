@@ -1,0 +1,36 @@
+#pragma once
+#include <string>
+
+#include "core/store/connection.h"
+#include "core/store/database.h"
+
+// What the subjects of core/store share when they store something. All run within Connection::write.
+namespace btr {
+
+/// Runs an INSERT and returns the id of the new row.
+template <class... Values>
+Id insert(const Connection& connection, const char* sql, const Values&... values) {
+  Query(connection, sql).run(values...);
+  return *Query(connection, "SELECT last_insert_rowid()").value<Id>();
+}
+
+/// "PATH: run 17 is not in the database".
+[[noreturn]] void refuseUnknown(const Connection& connection, const std::string& what, Id id);
+/// Refuses an id that the table does not have.
+void requireRow(const Connection& connection, const std::string& table, Id id);
+/// Refuses an id that the table does not have among the rows of this run.
+void requireRowOfRun(const Connection& connection, const std::string& table, Id run, Id id);
+/// The run's completed stages and generations; refuses an unknown run.
+struct RunCounters {
+  int stage = 0;
+  int generation = 0;
+};
+RunCounters countersOf(const Connection& connection, Id run);
+
+/// The time that was given, or now.
+inline std::string orNow(const std::string& time) { return time.empty() ? utcNow() : time; }
+
+/// The version and its numbers; its number is the next of its run.
+Id insertSimulator(const Connection& connection, const SimulatorRecord& simulator);
+
+}  // namespace btr

@@ -1,0 +1,219 @@
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Statement.h>
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "core/spec/error.h"
+#include "core/store/connection.h"
+#include "core/store/database.h"
+#include "core/store/migrations.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+using Handle = std::unique_ptr<SQLite::Database>;
+
+/// The 100 bytes that begin every SQLite file (https://www.sqlite.org/fileformat2.html#the_database_header).
+struct Header {
+  std::int64_t fileSize = 0;
+  bool isSqlite = false;
+  std::int64_t application = 0;
+  std::int64_t version = 0;
+};
+
+// Read through SQLite's own handle: closing another descriptor of the file would drop the locks that this process
+// holds. Neither journal nor write-ahead log is touched by this.
+Header readHeader(const std::string& path, SQLite::Database& database) {
+  sqlite3_file* file = nullptr;
+  sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_FILE_POINTER, &file);
+  Header header;
+  sqlite3_int64 size = 0;
+  if (file == nullptr || file->pMethods == nullptr || file->pMethods->xFileSize(file, &size) != SQLITE_OK)
+    throw InputError(path + ": cannot be read");
+  header.fileSize = size;
+  unsigned char bytes[100] = {};
+  if (size < 100) return header;
+  if (file->pMethods->xRead(file, bytes, sizeof bytes, 0) != SQLITE_OK) throw InputError(path + ": cannot be read");
+  header.isSqlite = std::memcmp(bytes, "SQLite format 3", 16) == 0;
+  const auto number = [&](int at) {
+    return std::int64_t{bytes[at]} << 24 | bytes[at + 1] << 16 | bytes[at + 2] << 8 | bytes[at + 3];
+  };
+  header.version = number(60);
+  header.application = number(68);
+  return header;
+}
+
+void refuseForeign(const std::string& path, const Header& header) {
+  if (header.fileSize == 0)
+    throw InputError(path + ": is empty, not an UCHILSIM database; delete it or choose another name");
+  if (!header.isSqlite) throw InputError(path + ": is not a database (no SQLite file); choose a file made by UCHILSIM");
+  if (header.application != applicationId)
+    throw InputError(path + ": is the SQLite database of another program (application id " +
+                     std::to_string(header.application) + "); choose a file made by UCHILSIM");
+}
+
+void refuseNewer(const std::string& path, std::int64_t version) {
+  const auto newest = static_cast<std::int64_t>(migrations().size());
+  if (version > newest)
+    throw InputError(path + ": was written by a newer UCHILSIM (schema " + std::to_string(version) +
+                     ", this program knows " + std::to_string(newest) + "); update the program");
+}
+
+// Names what stands at the path without opening it.
+void checkPlace(const std::string& path, bool mayBeAbsent) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) {
+    if (!mayBeAbsent) throw InputError(path + ": there is no such file");
+    const fs::path folder = fs::path(path).parent_path();
+    if (!fs::is_directory(folder, error)) throw InputError(path + ": there is no folder " + folder.string());
+    return;
+  }
+  if (status.type() == fs::file_type::directory) throw InputError(path + ": is a folder; a database file is needed");
+  if (status.type() == fs::file_type::none) throw InputError(path + ": cannot be read (" + error.message() + ")");
+  if (status.type() != fs::file_type::regular)
+    throw InputError(path + ": is not a regular file; a database file is needed");
+}
+
+Handle openFile(const std::string& path, int flags, int patience_ms) {
+  Handle database;
+  try {
+    database = std::make_unique<SQLite::Database>(path, flags, patience_ms);
+  } catch (const SQLite::Exception& error) {
+    const int cause = errno;
+    throw InputError(path + ": cannot be opened (" + (cause ? std::strerror(cause) : error.what()) +
+                     "); file and folder must be readable, for changes also writable");
+  }
+  // Until the file is accepted, closing it must not move its write-ahead log into it.
+  sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  return database;
+}
+
+void configure(SQLite::Database& database) {
+  database.exec(
+      "PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
+}
+
+// A path as an SQLite URI that says: nobody changes this file.
+std::string immutableUri(const std::string& path) {
+  static constexpr char digits[] = "0123456789ABCDEF";
+  std::string uri = "file:";
+  for (const unsigned char byte : path) {
+    if (std::isalnum(byte) || std::strchr("/._-~", byte)) {
+      uri += static_cast<char>(byte);
+    } else {
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return uri + "?immutable=1";
+}
+
+// In a folder that cannot be written, SQLite has no place for the shared memory that it coordinates readers and writers
+// with. Where no log is left nobody writes, and the file can be read as it is.
+Handle readableWhereNothingCanBeWritten(const std::string& path, Handle database, int patience_ms) {
+  if (database->tryExec("SELECT count(*) FROM sqlite_master") == SQLITE_OK) return database;
+  const int code = database->getErrorCode();
+  std::error_code error;
+  if ((code != SQLITE_CANTOPEN && code != SQLITE_READONLY) || fs::exists(path + "-wal", error)) return database;
+  database.reset();
+  return openFile(immutableUri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI, patience_ms);
+}
+
+// The new file is complete before it gets its name: a process that dies meanwhile leaves no half-made database, and of
+// two processes that create the same one, the first wins and the second uses it.
+void createFile(const std::string& path, int patience_ms) {
+  const std::string draft = path + ".new-" + std::to_string(gettid());
+  std::error_code error;
+  const auto remove = [&] {
+    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(draft + end, error);
+  };
+  remove();
+  try {
+    const Handle database = openFile(draft, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
+    try {
+      configure(*database);
+      migrate(*database, migrations());
+      database->exec("PRAGMA journal_mode = WAL");
+    } catch (const SQLite::Exception& problem) {
+      throw InputError(explain(path, database.get(), problem.getExtendedErrorCode(), problem.what()));
+    }
+  } catch (const InputError&) {
+    remove();
+    throw;
+  }
+  const bool linked = link(draft.c_str(), path.c_str()) == 0;
+  const int cause = errno;
+  // File systems without hard links: the name is taken by renaming, which does not replace a file either.
+  const bool named = linked || cause == EEXIST ||
+                     renameat2(AT_FDCWD, draft.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0 ||
+                     errno == EEXIST;
+  remove();
+  if (!named) throw InputError(path + ": cannot be created (" + std::strerror(cause) + ")");
+  // The name itself reaches the disk with its folder.
+  const int folder = ::open(fs::path(path).parent_path().c_str(), O_RDONLY | O_DIRECTORY);
+  if (folder >= 0) {
+    fsync(folder);
+    ::close(folder);
+  }
+}
+
+void checkSound(const std::string& path, SQLite::Database& database) {
+  SQLite::Statement check(database, "PRAGMA quick_check(1)");
+  const std::string finding = check.executeStep() ? check.getColumn(0).getString() : "no answer";
+  if (finding != "ok") throw InputError(path + ": is damaged (" + finding + "); use a copy of it that is sound");
+}
+
+}  // namespace
+
+Database Database::open(const std::string& path, Mode mode, int patience_ms) {
+  if (path.empty()) throw InputError("database: no file is named");
+  const std::string absolute = fs::absolute(path).string();
+  checkPlace(absolute, mode == Mode::create);
+  if (mode == Mode::create && !fs::exists(absolute)) createFile(absolute, patience_ms);
+
+  const bool writes = mode != Mode::readOnly;
+  Handle database = openFile(absolute, writes ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms);
+  const Header header = readHeader(path, *database);
+  refuseForeign(path, header);
+  refuseNewer(path, header.version);
+  if (writes && sqlite3_db_readonly(database->getHandle(), "main") == 1)
+    throw InputError(path + ": is read-only; make the file writable or open it for reading");
+  if (!writes) database = readableWhereNothingCanBeWritten(absolute, std::move(database), patience_ms);
+  try {
+    configure(*database);
+    const int version = database->execAndGet("PRAGMA user_version").getInt();
+    refuseNewer(path, version);
+    checkSound(path, *database);
+    const bool older = version < static_cast<int>(migrations().size());
+    if (older && !writes)
+      throw InputError(path + ": was written by an older UCHILSIM; open it for writing once to update it");
+    if (older) migrate(*database, migrations());
+    if (writes) {
+      const std::string journal = database->execAndGet("PRAGMA journal_mode = WAL").getString();
+      if (journal != "wal")
+        throw InputError(path + ": this file system does not allow a write-ahead log; use a local disk");
+    }
+  } catch (const SQLite::Exception& error) {
+    throw InputError(explain(path, database.get(), error.getExtendedErrorCode(), error.what()));
+  }
+  sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
+  return Database(std::make_unique<Connection>(path, std::move(database)));
+}
+
+Database::Database(std::unique_ptr<Connection> connection) : connection_(std::move(connection)) {}
+Database::~Database() = default;
+Database::Database(Database&&) noexcept = default;
+Database& Database::operator=(Database&&) noexcept = default;
+
+const std::string& Database::path() const { return connection_->path(); }
+std::int64_t Database::dataVersion() const { return connection_->dataVersion(); }
+
+}  // namespace btr

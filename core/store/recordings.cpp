@@ -1,0 +1,60 @@
+#include "core/spec/error.h"
+#include "core/store/connection.h"
+#include "core/store/database.h"
+#include "core/store/insert.h"
+
+namespace btr {
+namespace {
+
+constexpr const char* columns =
+    "SELECT id, experiment_id, individual_id, name, sha256, mapping_json, source, added_at FROM recording ";
+
+RecordingRecord recordingOf(const Query& row) {
+  RecordingRecord r;
+  row.get(r.id, r.experiment, r.individual, r.name, r.sha256, r.mappingJson, r.source, r.addedAt);
+  return r;
+}
+
+}  // namespace
+
+Id Database::addRecording(const RecordingRecord& r) {
+  return connection_->write([&] {
+    requireRow(*connection_, "experiment", r.experiment);
+    if (r.individual != 0) requireRow(*connection_, "individual", r.individual);
+    const std::string hash = sha256(r.csv);
+    if (!r.sha256.empty() && r.sha256 != hash)
+      throw InputError(path() + " recording " + r.name, "the hash " + r.sha256, "that of its content, " + hash);
+    const Id id =
+        insert(*connection_,
+               "INSERT INTO recording (experiment_id, individual_id, name, sha256, mapping_json, source, added_at) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?)",
+               r.experiment, Reference{r.individual}, r.name, hash, r.mappingJson, r.source, orNow(r.addedAt));
+    insert(*connection_, "INSERT INTO recording_data (recording_id, csv) VALUES (?, ?)", id, Blob{r.csv});
+    return id;
+  });
+}
+
+std::vector<RecordingRecord> Database::recordings(Id experiment) const {
+  return connection_->read([&] {
+    std::vector<RecordingRecord> all;
+    for (Query row(*connection_, (std::string(columns) + "WHERE experiment_id = ? ORDER BY id").c_str(), experiment);
+         row.next();)
+      all.push_back(recordingOf(row));
+    return all;
+  });
+}
+
+RecordingRecord Database::recording(Id id) const {
+  return connection_->read([&] {
+    Query row(*connection_, (std::string(columns) + "WHERE id = ?").c_str(), id);
+    if (!row.next()) refuseUnknown(*connection_, "recording", id);
+    RecordingRecord r = recordingOf(row);
+    r.csv = Query(*connection_, "SELECT csv FROM recording_data WHERE recording_id = ?", id)
+                .value<std::string>()
+                .value_or("");
+    if (sha256(r.csv) != r.sha256) connection_->refuse("is damaged: the recording " + r.name + " has changed");
+    return r;
+  });
+}
+
+}  // namespace btr

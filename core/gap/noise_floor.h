@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+
+namespace btr {
+
+/// Standard deviation of the noise of evenly enough sampled values: the fourth difference is free of slow motion and
+/// multiplies white noise by √70; its root mean square in blocks of 50 samples, and the median of the blocks, so that a
+/// few fast moments do not count. Differencing overestimates where the motion itself is fast within five samples. 0 for
+/// fewer than five finite values in a row; a channel that rests within one quantisation step also gives 0.
+double noiseFloor(std::span<const double> values);
+
+/// The smallest step between different neighbouring values that all steps are whole multiples of (within 2 %), 0 if
+/// there is none: what the sensor's counts are worth.
+double quantisationStep(std::span<const double> values);
+
+/// What a channel cannot be known better than: the larger of its noise floor and of its rounding error, step/√12.
+double resolution(std::span<const double> values);
+
+}  // namespace btr

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,13 @@
 
 namespace btr {
 
-/// Recorded against simulated, one measured channel of one trial.
+/// Recorded against simulated, one measured channel of one trial. Error = simulated − recorded, in the channel's unit.
 struct ChannelError {
   std::string recording, channel;
-  std::size_t samples = 0;
-  double meanAbsolute = 0, rootMeanSquare = 0, maximum = 0, bias = 0;  ///< in the channel's unit
+  std::size_t samples = 0;  ///< rows where both are finite
+  double meanAbsolute = 0, rootMeanSquare = 0, maximum = 0, bias = 0;
+  double resolution = 0;  ///< what the recording cannot tell: its noise floor or rounding (noise_floor.h)
+  double stepError = 0;   ///< root mean square error of the integration itself, from a replay with half the step
   std::vector<double> time_s, recorded, simulated;
 };
 
@@ -21,10 +24,35 @@ struct ResidualReport {
 };
 
 /// Replays the recorded commands of each recording in the scene, free-running from the initial state that its first
-/// samples give, and compares at the recorded times. Throws InputError for a channel that the scene does not have.
+/// samples give, and compares at the recorded times. The scene is used as it is: a recording's own settings must
+/// already be in it. Throws InputError for a channel that the scene does not have and for a recording with nothing to
+/// compare.
 ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings);
+
+/// What `btr gap residual` was asked for.
+struct ResidualRequest {
+  std::string scene;                    ///< path of the scene file
+  std::vector<std::string> recordings;  ///< paths
+  /// Path of a mapping for all recordings; "": the one beside the recording, else SCENE.mapping.json beside the scene
+  /// (for recordings that have no column time_s of their own).
+  std::string mapping;
+  std::string simulator;  ///< path of a simulator.json, "": the scene as given
+  std::string out;        ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
+};
+/// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings; when
+/// it returns false the work ends early with what is done, and nothing is written. Throws InputError.
+ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& effects,
+                           const std::function<bool(std::size_t, std::size_t)>& progress = {});
+
+/// The numbers for people: a row a channel and recording, then the mean over the recordings, then the notes.
+std::string residualTable(const ResidualReport& report);
+/// The same as JSON, "format": "uchilsim-residual-1" (without the samples).
+std::string toJsonText(const ResidualReport& report);
 
 /// Self-contained SVG: recorded and simulated over time, and their difference below.
 std::string overlaySvg(const ChannelError& error);
+
+/// For people: "position_rad" is in "rad", "torque_nm" in "N·m", "" for none.
+std::string unitOfChannel(const std::string& channel);
 
 }  // namespace btr

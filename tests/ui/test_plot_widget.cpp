@@ -1,0 +1,311 @@
+// The plot behind all charts: what it draws, zooms, hides and exports.
+#include <QClipboard>
+#include <QMimeData>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QWheelEvent>
+#include <cmath>
+
+#include "core/spec/error.h"
+#include "ui/charts/decimate.h"
+#include "ui/charts/nice_numbers.h"
+#include "ui/charts/plot_export.h"
+#include "ui/charts/plot_widget.h"
+#include "ui/charts/statistics.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+PlotData example() {
+  PlotData plot;
+  plot.title = "Fitness by generation";
+  plot.note = "stand-in reality";
+  plot.xTitle = "generation";
+  plot.yTitle = "fitness (m)";
+  plot.xColumn = "generation";
+  plot.yColumn = "fitness_m";
+  plot.series.push_back(
+      {"maximum", 0, PlotSeries::Style::line, {{1, 0.1}, {2, 0.30000000000000004}, {3, 0.25}}, {}, false, 0});
+  plot.series.push_back({"measured", 1, PlotSeries::Style::points, {{2, 0.2}}, {0.05}, false, 0});
+  plot.bands.push_back({"interval", 0, {1, 2, 3}, {0.05, 0.2, 0.2}, {0.15, 0.4, 0.3}});
+  plot.markers.push_back({2, "simulator 1"});
+  return plot;
+}
+
+QByteArray read(const QString& path) {
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+}  // namespace
+
+class TestPlotWidget : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void decimationKeepsEveryColumnsExtremes() {
+    // A long sine with one spike up and one down, each a single sample wide.
+    std::vector<QPointF> points;
+    for (int i = 0; i < 100000; ++i) points.emplace_back(i, std::sin(i * 0.01));
+    points[31415].setY(7);
+    points[77777].setY(-5);
+    const auto kept = decimate(points, 0, 99999, 500);
+    QVERIFY(kept.size() <= 4 * 502);
+    QVERIFY(std::find(kept.begin(), kept.end(), QPointF(31415, 7)) != kept.end());
+    QVERIFY(std::find(kept.begin(), kept.end(), QPointF(77777, -5)) != kept.end());
+    QCOMPARE(kept.front(), points.front());
+    QCOMPARE(kept.back(), points.back());
+    QVERIFY(std::is_sorted(kept.begin(), kept.end(), [](auto& a, auto& b) { return a.x() < b.x(); }));
+    for (const QPointF& point : kept) QCOMPARE(point, points[static_cast<std::size_t>(point.x())]);
+  }
+
+  void decimationKeepsTheNeighboursOfTheVisibleRange() {
+    const std::vector<QPointF> points{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
+    const std::vector<QPointF> expected{{1, 2}, {2, 3}, {3, 4}};
+    QCOMPARE(decimate(points, 1.5, 2.5, 100), expected);
+  }
+
+  void stepsAreOneTwoOrFiveTimesAPowerOfTen_data() {
+    QTest::addColumn<double>("range");
+    QTest::addColumn<int>("most");
+    QTest::addColumn<bool>("whole");
+    QTest::addColumn<double>("step");
+    QTest::newRow("exact") << 10.0 << 10 << false << 1.0;
+    QTest::newRow("a little more") << 10.1 << 10 << false << 2.0;
+    QTest::newRow("quarter") << 0.9 << 4 << false << 0.25;
+    QTest::newRow("whole skips 2.5") << 9.0 << 4 << true << 5.0;
+    QTest::newRow("whole is at least one") << 2.0 << 10 << true << 1.0;
+    QTest::newRow("large") << 3000.0 << 8 << false << 500.0;
+    QTest::newRow("nothing") << 0.0 << 8 << false << 1.0;
+  }
+  void stepsAreOneTwoOrFiveTimesAPowerOfTen() {
+    QFETCH(double, range);
+    QFETCH(int, most);
+    QFETCH(bool, whole);
+    QFETCH(double, step);
+    QCOMPARE(niceStep(range, most, whole), step);
+  }
+
+  void tickLabelsHaveAsManyDigitsAsTheStep() {
+    QCOMPARE(tickFormat(0.25, 1), QString("%.2f"));
+    QCOMPARE(tickFormat(0.5, 1), QString("%.1f"));
+    QCOMPARE(tickFormat(20, 100), QString("%.0f"));
+    QCOMPARE(tickFormat(1e-7, 1e-6), QString("%g"));
+  }
+
+  void theIntervalOfTheMeanIsStudents() {
+    // Of 1, 2, 3: s = 1, s/√3, and t(0.975, 2) = 4.302653 from the published table.
+    const std::vector<double> values{1, 2, 3};
+    const Spread spread = spreadOf(values);
+    QCOMPARE(spread.mean, 2.0);
+    QCOMPARE(spread.deviation, 1.0);
+    QCOMPARE(spread.standardError, 1 / std::sqrt(3.0));
+    QVERIFY(std::abs(spread.halfWidth95 - 4.302653 / std::sqrt(3.0)) < 1e-5);
+    QCOMPARE(spreadOf(std::vector<double>{5}).deviation, 0.0);
+    QCOMPARE(spreadOf({}).count, 0);
+  }
+
+  void drawsTheNumbersThatItWasGiven() {
+    PlotWidget plot;
+    plot.setData(example());
+    const std::vector<QPointF> expected{{1, 0.1}, {2, 0.30000000000000004}, {3, 0.25}};
+    QCOMPARE(plot.drawnPoints("maximum"), expected);
+    QCOMPARE(plot.drawnPoints("nobody").size(), std::size_t(0));
+    const QRectF range = plot.visibleRange();
+    QVERIFY(range.left() <= 1 && range.right() >= 3);
+    QVERIFY(range.top() <= 0.05 && range.bottom() >= 0.4);
+  }
+
+  void errorBarsAreInsideTheVisibleRange() {
+    PlotWidget plot;
+    PlotData data;
+    data.series.push_back({"measured", 0, PlotSeries::Style::points, {{1, 10}, {2, 11}}, {4, 0}, false, 0});
+    plot.setData(data);
+    QVERIFY(plot.visibleRange().top() <= 6);
+    QVERIFY(plot.visibleRange().bottom() >= 14);
+  }
+
+  void aHiddenSeriesKeepsItsNameInTheLegend() {
+    PlotWidget plot;
+    PlotData data = example();
+    data.series.push_back({"worst", 2, PlotSeries::Style::line, {{1, -100}}, {}, true, 0});
+    data.series.push_back({"", 2, PlotSeries::Style::line, {{1, 0}}, {}, false, 0});
+    plot.setData(data);
+    plot.show();
+    QVERIFY(!plot.isSeriesShown("worst"));
+    QVERIFY(plot.visibleRange().top() > -1);
+    QCOMPARE(plot.legendNames(), (QStringList{"maximum", "measured", "worst", "interval"}));
+
+    plot.setSeriesShown("worst", true);
+    plot.setSeriesShown("maximum", false);
+    QVERIFY(plot.visibleRange().top() <= -100);
+    QCOMPARE(plot.legendNames(), (QStringList{"maximum", "measured", "worst", "interval"}));
+    // Newer data do not undo the choice.
+    plot.setData(data);
+    QVERIFY(plot.isSeriesShown("worst"));
+    QVERIFY(!plot.isSeriesShown("maximum"));
+  }
+
+  void zoomStaysWhileNewDataArrive() {
+    PlotWidget plot;
+    plot.setData(example());
+    plot.zoomTo({QPointF(1.5, 0.1), QPointF(2.5, 0.2)});
+    PlotData longer = example();
+    longer.series[0].points.emplace_back(50, 3);
+    plot.setData(longer);
+    QVERIFY(plot.isZoomed());
+    QCOMPARE(plot.visibleRange(), QRectF(QPointF(1.5, 0.1), QPointF(2.5, 0.2)));
+    QTest::keyClick(&plot, Qt::Key_Home);
+    QVERIFY(!plot.isZoomed());
+    QVERIFY(plot.visibleRange().right() >= 50);
+  }
+
+  void draggingZoomsAndDoubleClickShowsEverything() {
+    PlotWidget plot;
+    plot.resize(800, 500);
+    plot.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&plot));
+    plot.setData(example());
+    auto* viewport = plot.findChild<QWidget*>("plotArea");
+    QVERIFY(viewport);
+    const QPoint a = plot.placeOf({1.5, 0.1}), b = plot.placeOf({2.5, 0.3});
+    QTest::mousePress(viewport, Qt::LeftButton, {}, a);
+    QTest::mouseMove(viewport, b);
+    QTest::mouseRelease(viewport, Qt::LeftButton, {}, b);
+    QVERIFY(plot.isZoomed());
+    QVERIFY(std::abs(plot.visibleRange().left() - 1.5) < 0.02);
+    QVERIFY(std::abs(plot.visibleRange().right() - 2.5) < 0.02);
+    QVERIFY(std::abs(plot.visibleRange().bottom() - 0.3) < 0.01);
+    QTest::mouseDClick(viewport, Qt::LeftButton, {}, a);
+    QVERIFY(!plot.isZoomed());
+  }
+
+  void theWheelZoomsAtThePointer() {
+    PlotWidget plot;
+    plot.resize(800, 500);
+    plot.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&plot));
+    plot.setData(example());
+    auto* viewport = plot.findChild<QWidget*>("plotArea");
+    const QPointF value(2, 0.2);
+    const QPoint place = plot.placeOf(value);
+    const QRectF before = plot.visibleRange();
+    QWheelEvent wheel(place, plot.mapToGlobal(place), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(viewport, &wheel);
+    QVERIFY(std::abs(plot.visibleRange().width() - before.width() * 0.8) < 1e-9);
+    QVERIFY((plot.placeOf(value) - place).manhattanLength() <= 2);
+  }
+
+  void theReadOutShowsExactNumbers() {
+    PlotWidget plot;
+    plot.resize(800, 500);
+    plot.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&plot));
+    plot.setData(example());
+    const QString text = plot.readOutAt(plot.placeOf({2, 0.30000000000000004}));
+    QVERIFY2(text.contains("maximum") && text.contains("0.30000000000000004"), qPrintable(text));
+    const QString measured = plot.readOutAt(plot.placeOf({2, 0.2}));
+    QVERIFY2(measured.contains("0.2 ± 0.05"), qPrintable(measured));
+    QCOMPARE(plot.readOutAt({0, 0}), QString());
+  }
+
+  void aLogarithmicAxisLeavesOutWhatItCannotShow() {
+    PlotWidget plot;
+    PlotData data;
+    data.series.push_back({"error", 0, PlotSeries::Style::line, {{1, 10}, {2, 0}, {3, -1}, {4, 0.01}}, {}, false, 0});
+    plot.setData(data);
+    plot.setLogarithmic(true);
+    const std::vector<QPointF> expected{{1, 10}, {4, 0.01}};
+    QCOMPARE(plot.drawnPoints("error"), expected);
+    QVERIFY(plot.visibleRange().top() > 0 && plot.visibleRange().top() <= 0.01);
+    plot.setLogarithmic(false);
+    QCOMPARE(plot.drawnPoints("error").size(), std::size_t(4));
+  }
+
+  void aPlotWithoutAnyPointCanBeShownAndExported() {
+    QTemporaryDir folder;
+    PlotWidget plot;
+    plot.resize(400, 300);
+    plot.setData({});
+    plot.setLogarithmic(true);
+    QVERIFY(!plot.grab().isNull());
+    plot.exportTo(folder.filePath("empty.png"));
+    QVERIFY(QFileInfo(folder.filePath("empty.png")).size() > 0);
+  }
+
+  void exportsPicturesThatCarryTitleAndNote() {
+    QTemporaryDir folder;
+    PlotWidget plot;
+    plot.resize(700, 400);
+    plot.setData(example());
+    for (const char* ending : {"png", "svg", "pdf", "csv"}) plot.exportTo(folder.filePath(QString("chart.") + ending));
+
+    const QByteArray svg = read(folder.filePath("chart.svg"));
+    for (const char* text :
+         {"Fitness by generation", "stand-in reality", "fitness (m)", "generation", "simulator 1", "maximum"})
+      QVERIFY2(svg.contains(text), text);
+    const QImage picture(folder.filePath("chart.png"));
+    QCOMPARE(picture.size(), QSize(1400, 800));
+    QCOMPARE(picture.pixelColor(2, 2), QColor(Qt::white));
+    QVERIFY(read(folder.filePath("chart.pdf")).startsWith("%PDF-"));
+  }
+
+  void csvHoldsEveryNumberExactly() {
+    const QByteArray expected =
+        "series,generation,fitness_m,error,lower,upper,note\n"
+        "maximum,1,0.1,,,,stand-in reality\n"
+        "maximum,2,0.30000000000000004,,,,stand-in reality\n"
+        "maximum,3,0.25,,,,stand-in reality\n"
+        "measured,2,0.2,0.05,,,stand-in reality\n"
+        "interval,1,,,0.05,0.15,stand-in reality\n"
+        "interval,2,,,0.2,0.4,stand-in reality\n"
+        "interval,3,,,0.2,0.3,stand-in reality\n"
+        "simulator 1,2,,,,,stand-in reality\n";
+    QCOMPARE(QByteArray::fromStdString(toCsv(example())), expected);
+  }
+
+  void columnsEndInTheirUnit() {
+    QCOMPARE(columnName("fitness", "m"), QString("fitness_m"));
+    QCOMPARE(columnName("fitness", "cm/s"), QString("fitness_cm_s"));
+    QCOMPARE(columnName("fitness", ""), QString("fitness"));
+  }
+
+  void anUnknownEndingAndAMissingFolderAreRefused() {
+    QTemporaryDir folder;
+    PlotWidget plot;
+    plot.setData(example());
+    QVERIFY_EXCEPTION_THROWN(plot.exportTo(folder.filePath("chart.bmp")), InputError);
+    QVERIFY_EXCEPTION_THROWN(plot.exportTo(folder.filePath("nowhere/chart.csv")), InputError);
+  }
+
+  void copiesPictureAndNumbers() {
+    PlotWidget plot;
+    plot.resize(500, 300);
+    plot.setData(example());
+    plot.copyToClipboard();
+    const QMimeData* content = QApplication::clipboard()->mimeData();
+    QVERIFY(content->hasImage());
+    QVERIFY(content->text().startsWith("series,generation,fitness_m"));
+  }
+
+  void followsThePaletteAndExportsOnWhiteAllTheSame() {
+    QTemporaryDir folder;
+    PlotWidget plot;
+    plot.resize(500, 300);
+    plot.setData(example());
+    QPalette dark;
+    dark.setColor(QPalette::Base, QColor(20, 22, 26));
+    dark.setColor(QPalette::Text, Qt::white);
+    plot.setPalette(dark);
+    QCOMPARE(plot.grab().toImage().pixelColor(3, 3), QColor(20, 22, 26));
+    plot.exportTo(folder.filePath("chart.png"));
+    QCOMPARE(QImage(folder.filePath("chart.png")).pixelColor(3, 3), QColor(Qt::white));
+    QCOMPARE(plot.grab().toImage().pixelColor(3, 3), QColor(20, 22, 26));
+  }
+};
+
+QTEST_MAIN(TestPlotWidget)
+#include "test_plot_widget.moc"

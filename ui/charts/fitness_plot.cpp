@@ -1,0 +1,165 @@
+#include "ui/charts/fitness_plot.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <map>
+
+#include "ui/charts/statistics.h"
+
+namespace btr::ui {
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("FitnessPlot", text); }
+
+PlotData frame(const QString& unit) {
+  PlotData plot;
+  plot.title = tr("Fitness by generation");
+  plot.xTitle = tr("generation");
+  plot.yTitle = axisTitle(tr("fitness"), unit);
+  plot.xColumn = "generation";
+  plot.yColumn = columnName("fitness", unit);
+  plot.wholeX = true;
+  plot.xFrom = 0;
+  plot.empty = tr("No generation yet");
+  return plot;
+}
+
+std::vector<QPointF> curve(const std::vector<GenerationRecord>& generations, double GenerationRecord::*value) {
+  std::vector<QPointF> points;
+  for (const GenerationRecord& generation : generations) points.emplace_back(generation.number, generation.*value);
+  return points;
+}
+
+/// Fitness of two simulator versions is not comparable, so the best so far starts anew with each.
+std::vector<QPointF> bestSoFar(const std::vector<GenerationRecord>& generations) {
+  std::vector<QPointF> points;
+  Id simulator = 0;
+  for (const GenerationRecord& generation : generations) {
+    const bool goesOn = !points.empty() && generation.simulator == simulator;
+    points.emplace_back(generation.number, goesOn ? std::max(points.back().y(), generation.best) : generation.best);
+    simulator = generation.simulator;
+  }
+  return points;
+}
+
+PlotSeries measured(const FitnessRun& run) {
+  std::map<Id, std::vector<double>> values;
+  for (const MeasurementRecord& measurement : run.measurements)
+    if (!measurement.isVoid) values[measurement.individual].push_back(measurement.value);
+
+  PlotSeries series;
+  series.name = run.standIn ? tr("measured in stand-in reality (mean ± standard error)")
+                            : tr("measured in reality (mean ± standard error)");
+  series.colour = 1;
+  series.style = PlotSeries::Style::points;
+  for (const IndividualRecord& individual : run.measuredIndividuals) {
+    const auto found = values.find(individual.id);
+    if (found == values.end()) continue;
+    const Spread spread = spreadOf(found->second);
+    series.points.emplace_back(individual.generation, spread.mean);
+    series.errors.push_back(spread.standardError);
+  }
+  return series;
+}
+
+std::vector<PlotMarker> updates(const std::vector<SimulatorRecord>& simulators) {
+  std::vector<PlotMarker> markers;
+  for (const SimulatorRecord& simulator : simulators) {
+    if (simulator.number < 1) continue;
+    QString label = tr("simulator %1").arg(simulator.number);
+    if (simulator.madeBy != "L3" && !simulator.madeBy.empty())
+      label += " (" + QString::fromStdString(simulator.madeBy) + ')';
+    markers.push_back({static_cast<double>(simulator.madeAfterGeneration), label});
+  }
+  std::stable_sort(markers.begin(), markers.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  return markers;
+}
+
+/// Mean and interval over runs of the same group, generation by generation.
+void addJoined(PlotData& plot, const QString& name, const std::vector<const FitnessRun*>& runs, int colour) {
+  std::map<int, std::vector<double>> values;
+  for (const FitnessRun* run : runs)
+    for (const GenerationRecord& generation : run->generations) values[generation.number].push_back(generation.best);
+  PlotSeries mean;
+  mean.name = tr("%1: maximum, mean of %2 seeds and 95 % interval").arg(name).arg(runs.size());
+  mean.colour = colour;
+  PlotBand band;
+  band.name = mean.name;
+  band.colour = colour;
+  for (const auto& [number, sample] : values) {
+    const Spread spread = spreadOf(sample);
+    mean.points.emplace_back(number, spread.mean);
+    if (spread.count < 2) continue;
+    band.x.push_back(number);
+    band.lower.push_back(spread.mean - spread.halfWidth95);
+    band.upper.push_back(spread.mean + spread.halfWidth95);
+  }
+  plot.series.push_back(std::move(mean));
+  plot.bands.push_back(std::move(band));
+}
+
+}  // namespace
+
+QString realityNote(bool standIn) { return standIn ? tr("stand-in reality") : QString(); }
+
+PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
+  PlotData plot = frame(unit);
+  if (!run.name.isEmpty()) plot.title = tr("%1: fitness by generation").arg(run.name);
+  plot.note = realityNote(run.standIn);
+  using Style = PlotSeries::Style;
+  plot.series.push_back({tr("maximum"), 0, Style::line, curve(run.generations, &GenerationRecord::best), {}, false});
+  plot.series.push_back({tr("average"), 2, Style::line, curve(run.generations, &GenerationRecord::mean), {}, false});
+  plot.series.push_back({tr("worst"), 7, Style::thinLine, curve(run.generations, &GenerationRecord::worst), {}, true});
+  plot.series.push_back({tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
+  if (PlotSeries points = measured(run); !points.points.empty()) plot.series.push_back(std::move(points));
+  plot.markers = updates(run.simulators);
+  return plot;
+}
+
+PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit, bool joinSeeds) {
+  PlotData plot = frame(unit);
+  plot.empty = tr("Tick runs to compare them");
+  if (std::any_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; }))
+    plot.note = std::all_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; })
+                    ? realityNote(true)
+                    : tr("some runs in stand-in reality");
+
+  // Groups keep the order in which their first run comes.
+  std::vector<std::vector<const FitnessRun*>> groups;
+  for (const FitnessRun& run : runs) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](auto& group) {
+      return joinSeeds && !run.group.isEmpty() && group.front()->group == run.group;
+    });
+    if (same == groups.end())
+      groups.push_back({&run});
+    else
+      same->push_back(&run);
+  }
+  using Style = PlotSeries::Style;
+  int colour = 0;
+  for (const auto& group : groups) {
+    const FitnessRun& first = *group.front();
+    const QString name = first.standIn ? tr("%1 (stand-in)").arg(first.name) : first.name;
+    if (group.size() > 1) {
+      addJoined(plot, name, group, colour++);
+      continue;
+    }
+    plot.series.push_back({tr("%1: maximum").arg(name),
+                           colour,
+                           Style::line,
+                           curve(first.generations, &GenerationRecord::best),
+                           {},
+                           false});
+    plot.series.push_back({tr("%1: average").arg(name),
+                           colour,
+                           Style::thinLine,
+                           curve(first.generations, &GenerationRecord::mean),
+                           {},
+                           false});
+    if (groups.size() == 1) plot.markers = updates(first.simulators);
+    ++colour;
+  }
+  return plot;
+}
+
+}  // namespace btr::ui

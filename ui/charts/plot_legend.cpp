@@ -1,0 +1,121 @@
+#include "ui/charts/plot_legend.h"
+
+#include <QCursor>
+#include <QFontMetricsF>
+#include <QGraphicsSceneMouseEvent>
+#include <QPainter>
+#include <algorithm>
+
+namespace btr::ui {
+namespace {
+constexpr double symbolWidth = 18, symbolGap = 6, entryGap = 18;
+}
+
+PlotLegend::PlotLegend(const PlotData& data, const std::set<QString>& hidden, QGraphicsItem* parent)
+    : QGraphicsObject(parent), data_(data), hidden_(hidden) {
+  setCursor(Qt::PointingHandCursor);
+  setToolTip(tr("Click to hide or show"));
+}
+
+void PlotLegend::setColours(const PlotColours& colours) {
+  colours_ = colours;
+  update();
+}
+
+void PlotLegend::setFont(const QFont& font) { font_ = font; }
+
+std::vector<PlotLegend::Entry> PlotLegend::entries() const {
+  std::vector<Entry> all;
+  for (const PlotSeries& series : data_.series)
+    if (!series.name.isEmpty()) all.push_back({series.name, &series, nullptr, {}});
+  for (const PlotBand& band : data_.bands) {
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Entry& entry) { return entry.name == band.name; });
+    if (same != all.end())
+      same->band = &band;
+    else if (!band.name.isEmpty())
+      all.push_back({band.name, nullptr, &band, {}});
+  }
+  return all;
+}
+
+QStringList PlotLegend::names() const {
+  QStringList names;
+  for (const Entry& entry : entries()) names << entry.name;
+  return names;
+}
+
+double PlotLegend::arrange(double width) {
+  prepareGeometryChange();
+  const QFontMetricsF metrics(font_);
+  const double rowHeight = metrics.height() + 5;
+  arranged_ = entries();
+  width_ = width;
+  double y = 0;
+  for (auto first = arranged_.begin(); first != arranged_.end(); y += rowHeight) {
+    // Fill a row, then centre it.
+    double x = 0;
+    auto last = first;
+    for (; last != arranged_.end(); ++last) {
+      const double needed = symbolWidth + symbolGap + metrics.horizontalAdvance(last->name);
+      if (last != first && x + needed > width) break;
+      last->place = QRectF(x, y, needed, rowHeight);
+      x += needed + entryGap;
+    }
+    const double shift = std::max(0.0, (width - (x - entryGap)) / 2);
+    for (; first != last; ++first) first->place.translate(shift, 0);
+  }
+  height_ = y;
+  update();
+  return height_;
+}
+
+void PlotLegend::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  painter->setRenderHint(QPainter::Antialiasing);
+  for (const Entry& entry : arranged_) {
+    const bool shown = !hidden_.contains(entry.name);
+    painter->setOpacity(shown ? 1 : 0.45);
+    paintSymbol(*painter, entry, QRectF(entry.place.topLeft(), QSizeF(symbolWidth, entry.place.height())));
+    QFont font = font_;
+    font.setStrikeOut(!shown);
+    painter->setFont(font);
+    painter->setPen(colours_.text);
+    painter->drawText(entry.place.adjusted(symbolWidth + symbolGap, 0, 2, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                      entry.name);
+  }
+  painter->setOpacity(1);
+}
+
+void PlotLegend::paintSymbol(QPainter& painter, const Entry& entry, const QRectF& place) const {
+  const double y = place.center().y();
+  if (entry.band) {
+    QColor fill = colours_.series(entry.band->colour);
+    fill.setAlphaF(0.3F);
+    painter.fillRect(QRectF(place.left(), y - 5, symbolWidth, 10), fill);
+  }
+  if (!entry.series) return;
+  using Style = PlotSeries::Style;
+  const QColor colour = colours_.series(entry.series->colour);
+  const Style style = entry.series->style;
+  if (style == Style::points || style == Style::hollowPoints) {
+    painter.setPen(QPen(colour, 2));
+    painter.setBrush(style == Style::points ? colour : colours_.background);
+    painter.drawEllipse(QPointF(place.center().x(), y), 3.5, 3.5);
+    return;
+  }
+  const bool thick = style == Style::line || style == Style::lineWithPoints;
+  painter.setPen(QPen(colour, thick ? 2.4 : 1.3, style == Style::dotted ? Qt::DotLine : Qt::SolidLine));
+  painter.drawLine(QPointF(place.left(), y), QPointF(place.left() + symbolWidth, y));
+  painter.setBrush(colour);
+  if (style == Style::lineWithPoints) painter.drawEllipse(QPointF(place.center().x(), y), 2.5, 2.5);
+}
+
+void PlotLegend::mousePressEvent(QGraphicsSceneMouseEvent* event) {
+  for (const Entry& entry : arranged_)
+    if (entry.place.contains(event->pos())) {
+      emit clicked(entry.name);
+      return;
+    }
+  event->ignore();
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,54 @@
+#pragma once
+#include <QFont>
+#include <QGraphicsObject>
+#include <set>
+#include <vector>
+
+#include "ui/charts/plot_colours.h"
+#include "ui/charts/plot_data.h"
+
+namespace btr::ui {
+
+/// Names of what a plot shows, in as many centred rows as they need, never shortened. A click hides or shows; a hidden
+/// name stays, struck out. A band and a series of the same name are one entry.
+class PlotLegend final : public QGraphicsObject {
+  Q_OBJECT
+
+ public:
+  /// Borrows the data and the hidden names of its ChartScene.
+  PlotLegend(const PlotData& data, const std::set<QString>& hidden, QGraphicsItem* parent);
+
+  void setColours(const PlotColours& colours);
+  void setFont(const QFont& font);
+  /// Arranges the entries; returns the height they need.
+  double arrange(double width);
+  QStringList names() const;
+
+  QRectF boundingRect() const override { return {0, 0, width_, height_}; }
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem* option, QWidget* widget) override;
+
+ signals:
+  void clicked(const QString& name);
+
+ protected:
+  void mousePressEvent(QGraphicsSceneMouseEvent* event) override;
+
+ private:
+  struct Entry {
+    QString name;
+    const PlotSeries* series = nullptr;
+    const PlotBand* band = nullptr;
+    QRectF place;
+  };
+  std::vector<Entry> entries() const;
+  void paintSymbol(QPainter& painter, const Entry& entry, const QRectF& place) const;
+
+  const PlotData& data_;
+  const std::set<QString>& hidden_;
+  PlotColours colours_;
+  QFont font_;
+  double width_ = 0, height_ = 0;
+  std::vector<Entry> arranged_;
+};
+
+}  // namespace btr::ui

@@ -10,7 +10,13 @@ namespace btr {
 std::vector<Eigen::Isometry3d> forwardKinematics(const RobotModel& model, const Eigen::Isometry3d& root,
                                                  std::span<const double> positions);
 
-/// Total mass [kg] and centre of mass in the root's frame [m] at the given joint positions.
+/// Total mass [kg], centre of mass and inertia about it in the root's frame, at the given joint positions.
 Inertial massProperties(const RobotModel& model, std::span<const double> positions);
+
+/// The mass properties of two bodies joined, both in the same frame (Huygens and Steiner: I + m·(d²·1 − d·dᵀ)).
+Inertial combined(const Inertial& a, const Inertial& b);
+
+/// The same body seen from the frame in which its own frame has this pose.
+Inertial carried(const Inertial& body, const Eigen::Isometry3d& pose);
 
 }  // namespace btr

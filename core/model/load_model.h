@@ -19,8 +19,9 @@ struct ModelBudget {
   std::size_t inlineFiles = 64;
 };
 
-/// Reads .wrl (VRML97, OpenHRP/Choreonoid vocabulary) or .urdf by the file's ending, then runs checkModel. Inline files are
-/// opened only below the file's own folder. Throws InputError "FILE:LINE: …"; what was merely ignored becomes a warning.
+/// Reads .wrl (VRML97, OpenHRP/Choreonoid vocabulary) or .urdf by the file's ending, then runs checkModel. Inline files
+/// are opened only below the file's own folder. Throws InputError "FILE:LINE: …"; what was merely ignored becomes a
+/// warning.
 RobotModel loadModel(const std::string& path, const ModelBudget& budget = {});
 
 /// The same from memory; `place` begins messages; Inline nodes are refused.

@@ -18,23 +18,25 @@ struct Inertial {
 struct Shape {
   enum class Kind { box, sphere, cylinder, mesh };
   Kind kind = Kind::box;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the link's frame; a cylinder lies along its own y axis (VRML)
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();        ///< box: edges; sphere: x = radius; cylinder: x = radius, y = height
-  std::vector<Eigen::Vector3f> vertices;                   ///< mesh, in the shape's frame [m]
-  std::vector<std::array<int, 3>> triangles;               ///< mesh, counter-clockwise seen from outside
-  std::vector<Eigen::Vector3f> normals;                    ///< mesh: one a vertex, or empty
-  std::array<float, 4> colour{0.8f, 0.8f, 0.8f, 1.f};      ///< red, green, blue, opacity, 0…1
+  Eigen::Isometry3d pose =
+      Eigen::Isometry3d::Identity();  ///< in the link's frame; a cylinder lies along its own y axis (VRML)
+  Eigen::Vector3d size_m =
+      Eigen::Vector3d::Zero();                ///< box: edges; sphere: x = radius; cylinder: x = radius, y = height
+  std::vector<Eigen::Vector3f> vertices;      ///< mesh, in the shape's frame [m]
+  std::vector<std::array<int, 3>> triangles;  ///< mesh, counter-clockwise seen from outside
+  std::vector<Eigen::Vector3f> normals;       ///< mesh: one a vertex, or empty
+  std::array<float, 4> colour{0.8f, 0.8f, 0.8f, 1.f};  ///< red, green, blue, opacity, 0…1
   bool collides = true;
   bool drawn = true;
-  std::string part;                                        ///< word for switching variants: "", "red", "blue" (jackets)
+  std::string part;  ///< word for switching variants: "", "red", "blue" (jackets)
 };
 
 struct Link {
   std::string name;
   Inertial inertial;
   std::vector<Shape> shapes;
-  /// Which of the simulator's mass parameters scales it: "head", "neck", "body", "leg:LF" … or "". All links with the same
-  /// text are scaled together so that their sum is the parameter.
+  /// Which of the simulator's mass parameters scales it: "head", "neck", "body", "leg:LF" … or "". All links with the
+  /// same text are scaled together so that their sum is the parameter.
   std::string massGroup;
   int line = 0;  ///< in the file, for messages
 };
@@ -49,15 +51,17 @@ struct ServoData {
 struct Joint {
   enum class Type { rotate, slide, fixed };
   std::string name;
-  int id = -1;                 ///< jointId, −1 none
+  int id = -1;  ///< jointId, −1 none
   Type type = Type::rotate;
-  int parentLink = 0;          ///< index; always smaller than the child's
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< the joint's frame (= the child link's at position 0) in the parent link's
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();           ///< unit, in the joint's frame; positions follow the right-hand rule
-  double lower = -1e9, upper = 1e9;                          ///< rad or m
-  double speedLimit = 0;                                     ///< rad/s or m/s, 0 none given
+  int parentLink = 0;  ///< index; always smaller than the child's
+  Eigen::Isometry3d origin =
+      Eigen::Isometry3d::Identity();  ///< the joint's frame (= the child link's at position 0) in the parent link's
+  Eigen::Vector3d axis =
+      Eigen::Vector3d::UnitZ();      ///< unit, in the joint's frame; positions follow the right-hand rule
+  double lower = -1e9, upper = 1e9;  ///< rad or m
+  double speedLimit = 0;             ///< rad/s or m/s, 0 none given
   ServoData servo;
-  std::string primitive;       ///< the OPEN-R name, if any
+  std::string primitive;  ///< the OPEN-R name, if any
   int line = 0;
 };
 
@@ -76,15 +80,15 @@ struct Warning {
   std::string text;
 };
 
-/// A robot as a tree of rigid links, however it was written down. links[0] is the root; joints[i] moves links[i + 1], so
-/// parents come before their children. A plain value: copy it, change its masses, hand it on.
+/// A robot as a tree of rigid links, however it was written down. links[0] is the root; joints[i] moves links[i + 1],
+/// so parents come before their children. A plain value: copy it, change its masses, hand it on.
 struct RobotModel {
   std::string name;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Sensor> sensors;
   std::vector<Warning> warnings;
-  bool freeBase = true;        ///< what the file says of its root
+  bool freeBase = true;  ///< what the file says of its root
 
   int findLink(const std::string& name) const;   ///< index or −1
   int findJoint(const std::string& name) const;  ///< index or −1

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/model/load_model.h"
+
+namespace btr {
+
+/// What stands in a URDF file, link by link and joint by joint, before it is a tree.
+struct UrdfLink {
+  Link link;
+  bool hasInertial = false;
+};
+
+struct UrdfJoint {
+  Joint joint;
+  std::string parent, child;
+  bool floating = false;
+};
+
+struct UrdfTree {
+  std::string name;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+  std::unordered_map<std::string, std::size_t> linkNumber;
+  std::vector<Warning> warnings;
+};
+
+/// Orders links and joints from the root on. Links without mass that are fixed to another one (frames, covers) are
+/// joined to it. A root without mass is a place in the world: the base is fixed. A floating joint below such a root
+/// frees the base. Throws InputError for unknown or several parents, several roots and cycles.
+RobotModel makeModel(UrdfTree tree, const std::string& place);
+
+}  // namespace btr

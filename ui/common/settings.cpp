@@ -34,7 +34,7 @@ void Settings::setWindow(const QByteArray& geometry, const QByteArray& layout) {
 }
 
 Look Settings::look() const { return lookFromText(store_.value("look").toString()); }
-void Settings::setLook(Look look) { store_.setValue("look", toText(look)); }
+void Settings::setLook(Look look) { store_.setValue("look", nameOf(look)); }
 
 QStringList Settings::recentDatabases() const {
   QStringList existing;

@@ -67,7 +67,7 @@ QProgressBar::chunk { background: palette(highlight); border-radius: 3px; }
 
 }  // namespace
 
-QString toText(Look look) {
+QString nameOf(Look look) {
   return look == Look::light  ? QStringLiteral("light")
          : look == Look::dark ? QStringLiteral("dark")
                               : QStringLiteral("system");

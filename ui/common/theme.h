@@ -9,7 +9,7 @@ class QApplication;
 namespace btr::ui {
 
 enum class Look { system, light, dark };
-QString toText(Look look);
+QString nameOf(Look look);
 Look lookFromText(const QString& text);  ///< anything else is system
 
 /// Fusion with our own light and dark palettes and Breeze icons. One lives as long as the application; `system` follows

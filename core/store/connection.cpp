@@ -32,19 +32,41 @@ std::int64_t Connection::dataVersion() const {
 }
 
 void Connection::transact(const std::function<void()>& work, bool writes) const {
+  std::optional<SQLite::Transaction> transaction;
   try {
     // A writer takes its lock first: two writers then wait for each other instead of failing half-way.
-    SQLite::Transaction transaction(
-        *database_, writes ? SQLite::TransactionBehavior::IMMEDIATE : SQLite::TransactionBehavior::DEFERRED);
+    transaction.emplace(*database_,
+                        writes ? SQLite::TransactionBehavior::IMMEDIATE : SQLite::TransactionBehavior::DEFERRED);
     work();
-    transaction.commit();
+    transaction->commit();
   } catch (const SQLite::Exception& error) {
+    // Explained while the transaction is still there: rolling it back would overwrite the cause.
     throw InputError(explain(path_, database_.get(), error.getExtendedErrorCode(), error.what()));
   }
 }
 
+namespace {
+
+// Why the operating system refused: asked of the connection, then of its file and its log.
+int systemErrorOf(SQLite::Database* database) {
+  if (database == nullptr) return 0;
+  sqlite3* handle = database->getHandle();
+  if (const int error = sqlite3_system_errno(handle); error != 0) return error;
+  for (const int which : {SQLITE_FCNTL_JOURNAL_POINTER, SQLITE_FCNTL_FILE_POINTER}) {
+    sqlite3_file* file = nullptr;
+    int error = 0;
+    if (sqlite3_file_control(handle, "main", which, &file) == SQLITE_OK && file != nullptr &&
+        file->pMethods != nullptr && file->pMethods->xFileControl(file, SQLITE_FCNTL_LAST_ERRNO, &error) == SQLITE_OK &&
+        error != 0)
+      return error;
+  }
+  return 0;
+}
+
+}  // namespace
+
 std::string explain(const std::string& path, SQLite::Database* database, int extendedCode, const std::string& message) {
-  const int systemError = database ? sqlite3_system_errno(database->getHandle()) : 0;
+  const int systemError = systemErrorOf(database);
   const bool noSpace = systemError == ENOSPC || systemError == EDQUOT || systemError == EFBIG;
   const std::string begin = path + ": ";
   switch (extendedCode & 0xff) {

@@ -84,16 +84,18 @@ void checkPlace(const std::string& path, bool mayBeAbsent) {
 }
 
 Handle openFile(const std::string& path, int flags, int patience_ms) {
+  std::error_code error;
+  const bool hasLog = fs::exists(path + "-wal", error);
   Handle database;
   try {
     database = std::make_unique<SQLite::Database>(path, flags, patience_ms);
-  } catch (const SQLite::Exception& error) {
-    const int cause = errno;
-    throw InputError(path + ": cannot be opened (" + (cause ? std::strerror(cause) : error.what()) +
+  } catch (const SQLite::Exception& problem) {
+    const bool unreadable = access(path.c_str(), R_OK) != 0;
+    throw InputError(path + ": cannot be opened (" + (unreadable ? std::strerror(errno) : problem.what()) +
                      "); file and folder must be readable, for changes also writable");
   }
-  // Until the file is accepted, closing it must not move its write-ahead log into it.
-  sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  // Until the file is accepted, closing it must not move a write-ahead log that somebody left into it.
+  if (hasLog) sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   return database;
 }
 
@@ -130,6 +132,9 @@ Handle readableWhereNothingCanBeWritten(const std::string& path, Handle database
 // The new file is complete before it gets its name: a process that dies meanwhile leaves no half-made database, and of
 // two processes that create the same one, the first wins and the second uses it.
 void createFile(const std::string& path, int patience_ms) {
+  const fs::path parent = fs::path(path).parent_path();
+  if (access(parent.c_str(), W_OK | X_OK) != 0)
+    throw InputError(path + ": cannot be created in " + parent.string() + " (" + std::strerror(errno) + ")");
   const std::string draft = path + ".new-" + std::to_string(gettid());
   std::error_code error;
   const auto remove = [&] {
@@ -158,7 +163,7 @@ void createFile(const std::string& path, int patience_ms) {
   remove();
   if (!named) throw InputError(path + ": cannot be created (" + std::strerror(cause) + ")");
   // The name itself reaches the disk with its folder.
-  const int folder = ::open(fs::path(path).parent_path().c_str(), O_RDONLY | O_DIRECTORY);
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY);
   if (folder >= 0) {
     fsync(folder);
     ::close(folder);
@@ -168,7 +173,10 @@ void createFile(const std::string& path, int patience_ms) {
 void checkSound(const std::string& path, SQLite::Database& database) {
   SQLite::Statement check(database, "PRAGMA quick_check(1)");
   const std::string finding = check.executeStep() ? check.getColumn(0).getString() : "no answer";
-  if (finding != "ok") throw InputError(path + ": is damaged (" + finding + "); use a copy of it that is sound");
+  if (finding == "ok") return;
+  // The last line says it; those before name the part of the file.
+  throw InputError(path + ": is damaged (" + finding.substr(finding.rfind('\n') + 1) +
+                   "); use a copy of it that is sound");
 }
 
 }  // namespace
@@ -179,8 +187,10 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
   checkPlace(absolute, mode == Mode::create);
   if (mode == Mode::create && !fs::exists(absolute)) createFile(absolute, patience_ms);
 
+  // A reader opens the file for writing too, where it may, and then forswears it: the last to leave puts log and shared
+  // memory away, which SQLite's own read-only connections cannot.
   const bool writes = mode != Mode::readOnly;
-  Handle database = openFile(absolute, writes ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, patience_ms);
+  Handle database = openFile(absolute, SQLite::OPEN_READWRITE, patience_ms);
   const Header header = readHeader(path, *database);
   refuseForeign(path, header);
   refuseNewer(path, header.version);
@@ -189,6 +199,7 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
   if (!writes) database = readableWhereNothingCanBeWritten(absolute, std::move(database), patience_ms);
   try {
     configure(*database);
+    if (!writes) database->exec("PRAGMA query_only = ON");
     const int version = database->execAndGet("PRAGMA user_version").getInt();
     refuseNewer(path, version);
     checkSound(path, *database);

@@ -13,11 +13,12 @@ struct Scene;
 
 /// A driven joint at one instant, as an effect sees it. Right-hand rule about the axis of the model file.
 struct JointState {
-  double time = 0;      ///< since the start of the trial [s]
-  double position = 0;  ///< rad or m
-  double rate = 0;      ///< rad/s or m/s
-  double command = 0;   ///< what the servo law follows now (after command effects)
-  double drive = 0;     ///< torque of the drive in the last step [N·m or N]
+  double time = 0;              ///< since the start of the trial [s]
+  double position = 0;          ///< rad or m
+  double rate = 0;              ///< rad/s or m/s
+  double command = 0;           ///< what the servo law follows now (after command effects)
+  double drive = 0;             ///< torque of the drive in the last step [N·m or N]
+  bool followsPosition = true;  ///< the command is a position (servo, DC motor), not a torque
 };
 
 /// A ball at one instant, world frame.
@@ -30,10 +31,10 @@ struct BallState {
   bool onFloor = false;
 };
 
-/// A piece of physics that a simulator may have or lack. One class is both the hypothesis that is fitted to recordings and
-/// the term that then runs in the simulator. Each hook is empty unless the effect fills it. Hooks are functions of their
-/// arguments; whatever must be remembered lies in `state` (stateSize() numbers, zero at the start of a trial), so that a
-/// trial can be copied, stored and replayed.
+/// A piece of physics that a simulator may have or lack. One class is both the hypothesis that is fitted to recordings
+/// and the term that then runs in the simulator. Each hook is empty unless the effect fills it. Hooks are functions of
+/// their arguments; whatever must be remembered lies in `state` (stateSize() numbers, zero at the start of a trial), so
+/// that a trial can be copied, stored and replayed.
 class Effect {
  public:
   enum class Place { joint, link, ball, floor, world };
@@ -60,7 +61,8 @@ class Effect {
   }
   /// Torque added at the joint [N·m or N].
   virtual double torque(const JointState&, std::span<const double> /*values*/) const { return 0; }
-  /// Largest dry friction torque at the joint [N·m or N], ≥ 0; the solver holds or opposes motion with at most that much.
+  /// Largest dry friction torque at the joint [N·m or N], ≥ 0; the solver holds or opposes motion with at most that
+  /// much.
   virtual double frictionLimit(const JointState&, std::span<const double> /*values*/) const { return 0; }
   /// Implicit viscous coefficient [N·m·s/rad or N·s/m], ≥ 0.
   virtual double damping(const JointState&, std::span<const double> /*values*/) const { return 0; }

@@ -1,0 +1,44 @@
+/// Play between motor and joint: a gap of width w. Motor torque reaches the joint only while the tooth lies on the
+/// flank that the torque pushes; otherwise the motor first runs through the gap.
+///   −w/2 ≤ φ ≤ w/2      φ: motor ahead of joint [rad]
+///   φ' = τ·s − ω        in the gap: an unloaded motor with negligible inertia turns at s per torque [rad/(s·N·m)]
+///   τ_joint = τ         while φ = ±w/2 on the side of τ's sign, else 0
+/// In a step in which the gap closes, τ acts for the rest of the step, so the torque is continuous in w. Neutral: w =
+/// 0. The position sensor sits on the joint, as an AIBO's potentiometers do. After Nordin and Gutman 2002 (Controlling
+/// mechanical systems with backlash: a survey), without elastic flanks. State: φ, in the middle of the gap at the
+/// start.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class Backlash final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {
+        {"width_rad", "rad", "width of the gap, m on a slide joint", 0, 0.2, 0.02, 0.0},
+        {"free_speed_rad_s_nm", "rad/(s·N·m)", "speed of the motor per torque while it crosses the gap", 1, 100, 6}};
+  }
+  Place place() const override { return Place::joint; }
+  int stateSize() const override { return 1; }
+
+  double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
+                     std::span<double> state, double dt) const override {
+    const double half = values[0] / 2;
+    if (half == 0) return torque;
+    double& ahead = state[0];
+    const double travel = (torque * values[1] - joint.rate) * dt;
+    const double wall = std::copysign(half, torque);
+    const double distance = wall - ahead;
+    ahead = std::clamp(ahead + travel, -half, half);
+    // The flank is not reached, or only after a part of the step.
+    if (std::abs(ahead) < half || std::signbit(ahead) != std::signbit(wall)) return 0;
+    return distance == 0 ? torque : torque * (1 - distance / travel);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(Backlash, "backlash")

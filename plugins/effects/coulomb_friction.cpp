@@ -1,0 +1,22 @@
+/// Dry friction of a joint that does not depend on speed (Coulomb 1785):
+///   |τ| ≤ T at rest, holding;   τ = −T·sign(ω) in motion        T in N·m (N on a slide joint), ω in rad/s (m/s)
+/// The solver holds or brakes the joint with at most T, so no smoothing of sign() is needed. Neutral: T = 0.
+/// Shows up as flat tops at reversals and as a standing error of a servo without integral part.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class CoulombFriction final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"torque_nm", "N·m", "dry friction, N on a slide joint", 0, 1, 0.03, 0.0}};
+  }
+  Place place() const override { return Place::joint; }
+  bool dissipative() const override { return true; }
+  double frictionLimit(const btr::JointState&, std::span<const double> values) const override { return values[0]; }
+};
+
+}  // namespace
+
+BTR_EFFECT(CoulombFriction, "coulomb_friction")

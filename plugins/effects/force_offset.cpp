@@ -1,0 +1,19 @@
+/// A constant torque at a joint: τ = T      T in N·m (N on a slide joint), right-hand rule about the joint's axis
+/// Offset of a current sensor or amplifier, a hanging weight, friction that differs by direction. Neutral: T = 0.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class ForceOffset final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"torque_nm", "N·m", "constant torque, N on a slide joint", -1, 1, 0, 0.0}};
+  }
+  Place place() const override { return Place::joint; }
+  double torque(const btr::JointState&, std::span<const double> values) const override { return values[0]; }
+};
+
+}  // namespace
+
+BTR_EFFECT(ForceOffset, "force_offset")

@@ -1,0 +1,28 @@
+/// The floor is not level. It is tilted by the angle a about x, then b about y (right-hand rule: b > 0 falls towards
+/// +x). Everything is described in the floor's own axes, in which gravity then leans: g' = (R_y(b)·R_x(a))⁻¹ · g. Exact
+/// for all that stands, rolls or falls; the start poses are given relative to the floor, as before. Neutral: a = b = 0.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class GroundSlope final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"about_x_rad", "rad", "tilt of the floor about x", -0.3, 0.3, 0, 0.0},
+            {"about_y_rad", "rad", "tilt of the floor about y, positive falls forward", -0.3, 0.3, 0, 0.0}};
+  }
+  Place place() const override { return Place::floor; }
+
+  void changeScene(btr::Scene& scene, const std::string&, std::span<const double> values) const override {
+    if (values[0] == 0 && values[1] == 0) return;
+    const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(values[1], Eigen::Vector3d::UnitY()) *
+                                  Eigen::AngleAxisd(values[0], Eigen::Vector3d::UnitX()))
+                                     .toRotationMatrix();
+    scene.gravity_m_s2 = tilt.transpose() * scene.gravity_m_s2;
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(GroundSlope, "ground_slope")

@@ -1,0 +1,28 @@
+/// The position sensor's zero is wrong by e: it says q + e. The sensor also closes the servo's loop, so the joint
+/// itself settles e below its command: the law acts on c − (q + e). With a level base it resembles a turn of gravity.
+/// Neutral: e = 0.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class PositionOffset final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0, 0.0}};
+  }
+  Place place() const override { return Place::joint; }
+
+  double command(double command, const btr::JointState& joint, std::span<const double> values, std::span<double>,
+                 double) const override {
+    return joint.followsPosition ? command - values[0] : command;
+  }
+  double measured(double position, const btr::JointState&, std::span<const double> values, std::span<double>,
+                  double) const override {
+    return position + values[0];
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(PositionOffset, "position_offset")

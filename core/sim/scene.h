@@ -14,6 +14,8 @@
 
 namespace btr {
 
+struct Hull;
+
 /// How one joint is driven, all numbers known. SI units.
 struct Drive {
   enum class Kind { servo, dcMotor, torque, none };  ///< torque also means force on a slide joint
@@ -38,6 +40,9 @@ struct SceneRobot {
   std::vector<Drive> drives;           ///< by joint of the model; fixed joints: Kind::none
   std::string collision = "primitives";
   bool mergeFixed = true;
+  /// Simplified meshes of the model's colliding mesh shapes, in the order of links and shapes; makeScene fills it so
+  /// that a world needs not. May be empty.
+  std::vector<std::shared_ptr<const Hull>> hulls;
 };
 
 struct SceneEffect {

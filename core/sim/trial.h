@@ -10,8 +10,8 @@
 
 namespace btr {
 
-/// Where a ball will lie when it has rolled out; from the last state by the closed form of uniform deceleration where the
-/// trial ended while the ball rolled freely.
+/// Where a ball will lie when it has rolled out; from the last state by the closed form of uniform deceleration where
+/// the trial ended while the ball rolled freely.
 struct BallRest {
   Eigen::Vector3d start_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
@@ -20,21 +20,21 @@ struct BallRest {
 struct TrialResult {
   enum class Outcome { finished, exploded, timedOut, workerDied };
   Outcome outcome = Outcome::finished;
-  std::string detail;            ///< for people, empty if finished
+  std::string detail;  ///< for people, empty if finished
   double simulated_s = 0;
-  std::vector<BallRest> balls;   ///< by ball of the scene
+  std::vector<BallRest> balls;                                                                 ///< by ball of the scene
   Eigen::Vector3d baseStart_m = Eigen::Vector3d::Zero(), baseEnd_m = Eigen::Vector3d::Zero();  ///< first robot
-  bool fell = false;             ///< first robot: the body's up axis ended more than 60° from vertical
-  Trace trace;                   ///< empty unless asked for; a failed trial keeps its last states
+  bool fell = false;  ///< first robot: the body's up axis ended more than 60° from vertical
+  Trace trace;        ///< empty unless asked for; a failed trial keeps its last states
 };
 
 const char* toText(TrialResult::Outcome outcome);
 
 struct TrialOptions {
-  double maximum_s = 20;        ///< simulated; reaching it is timedOut unless the motion has ended
-  double settle_s = 1.0;        ///< after the motion, while the ball is still touched or not rolling
+  double maximum_s = 20;  ///< simulated; reaching it is timedOut unless the motion has ended
+  double settle_s = 1.0;  ///< after the motion, while the ball is still touched or not rolling
   bool recordTrace = false;
-  bool closedFormRoll = true;   ///< end when the ball rolls free and add the closed form
+  bool closedFormRoll = true;  ///< end when the ball rolls free and add the closed form
 };
 
 /// A pure function: the same scene, controller, settings, parameters and seed give the same bits, on any worker, at any

@@ -1,0 +1,74 @@
+#include "core/sim/contact_builder.h"
+
+#include <cmath>
+
+namespace btr {
+namespace {
+using Eigen::Vector3d;
+
+Vector3d pointVelocity(dBodyID body, const Vector3d& point) {
+  if (!body) return Vector3d::Zero();
+  const dReal* p = dBodyGetPosition(body);
+  const dReal* v = dBodyGetLinearVel(body);
+  const dReal* w = dBodyGetAngularVel(body);
+  return Vector3d(v[0], v[1], v[2]) + Vector3d(w[0], w[1], w[2]).cross(point - Vector3d(p[0], p[1], p[2]));
+}
+
+void copy(const Vector3d& from, dVector3 to) {
+  to[0] = from.x();
+  to[1] = from.y();
+  to[2] = from.z();
+  to[3] = 0;
+}
+
+// First friction direction: across the normal, as near to the wanted one as can be.
+Vector3d across(const Vector3d& normal, const Vector3d& wanted) {
+  Vector3d direction = wanted - normal * normal.dot(wanted);
+  if (direction.squaredNorm() < 1e-12) direction = Vector3d::UnitY() - normal * normal.y();
+  return direction.normalized();
+}
+
+}  // namespace
+
+void ContactBuilder::begin(double step, double gravity_m_s2) {
+  step_ = step;
+  bounceAbove_ = 0.01 + 1.5 * gravity_m_s2 * step;
+}
+
+void ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface) {
+  dContact contact{};
+  copy(point.position_m, contact.geom.pos);
+  copy(point.normal, contact.geom.normal);
+  contact.geom.depth = point.depth_m;
+  const Vector3d velocity = pointVelocity(first, point.position_m) - pointVelocity(second, point.position_m);
+  const double approach = -velocity.dot(point.normal);
+
+  auto& s = contact.surface;
+  s.mode = dContactApprox1 | dContactFDir1 | dContactSoftERP | dContactSoftCFM;
+  s.mu = surface.friction;
+  if (surface.restitution > 0 && approach > bounceAbove_) {
+    // A hit: Newton's law of impact, without softness.
+    s.mode |= dContactBounce;
+    s.bounce = surface.restitution;
+    s.bounce_vel = 0;
+    s.soft_erp = 0;
+    s.soft_cfm = 0;
+  } else {
+    const double denominator = step_ * surface.stiffness_n_m + surface.damping_n_s_m;
+    s.soft_erp = step_ * surface.stiffness_n_m / denominator;
+    s.soft_cfm = 1 / denominator;
+  }
+  Vector3d wanted = Vector3d::UnitX();
+  if (surface.slip1_m_s_n > 0 || surface.slip2_m_s_n > 0) {
+    s.mode |= dContactSlip1 | dContactSlip2;
+    s.slip1 = surface.slip1_m_s_n;
+    s.slip2 = surface.slip2_m_s_n;
+  } else {
+    const Vector3d sliding = velocity + approach * point.normal;
+    if (sliding.squaredNorm() > 1e-6) wanted = sliding;
+  }
+  copy(across(point.normal, wanted), contact.fdir1);
+  dJointAttach(dJointCreateContact(session_.world(), session_.contacts(), &contact), first, second);
+}
+
+}  // namespace btr

@@ -1,0 +1,45 @@
+#pragma once
+#include <ode/ode.h>
+
+#include <Eigen/Core>
+
+#include "core/sim/collision.h"
+#include "core/sim/ode_session.h"
+#include "core/spec/scene_spec.h"
+
+namespace btr {
+
+/// What two touching surfaces do to each other. Stiffness and damping are physical: what ODE needs for them is worked
+/// out for each step, so that a contact does not change with the step.
+struct ContactSurface {
+  double friction = 0.3;
+  double restitution = 0;
+  double stiffness_n_m = 2e4, damping_n_s_m = 100;
+  double slip1_m_s_n = 0, slip2_m_s_n = 0;  ///< along the world's x and y
+};
+
+/// A ball and a robot's shell, both smooth plastic.
+inline constexpr double shellFriction = 0.3;
+
+/// Makes ODE's contact joints of one step.
+class ContactBuilder {
+ public:
+  explicit ContactBuilder(const OdeSession& session) : session_(session) {}
+
+  void begin(double step, double gravity_m_s2);
+  /// Contact of `first` (the normal points to it) with `second` (nullptr: what never moves). Force on the first body:
+  ///   normal    max(0, k·depth − d·v)  implicit: ERP = hk/(hk+d), CFM = 1/(hk+d);  a hit with restitution e: v' = −e·v
+  ///   exactly friction  at most μ times the normal force along each of two directions. With slip both are the world's
+  ///   x and y and the
+  ///             surface creeps by slip·force; without slip the first one is the direction of sliding (isotropic).
+  void add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
+  /// Removes the step's contacts.
+  void clear() { dJointGroupEmpty(session_.contacts()); }
+
+ private:
+  const OdeSession& session_;
+  double step_ = 0;
+  double bounceAbove_ = 0;  ///< slower hits are resting contact [m/s]
+};
+
+}  // namespace btr

@@ -1,0 +1,161 @@
+// Scene file and models → a Scene.
+#include "core/sim/scene_build.h"
+
+#include <filesystem>
+
+#include "core/model/load_model.h"
+#include "core/sim/collision.h"
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+Drive driveFromModel(const Joint& joint) {
+  Drive drive;
+  if (joint.type == Joint::Type::fixed) {
+    drive.kind = Drive::Kind::none;
+    return drive;
+  }
+  const ServoData& servo = joint.servo;
+  drive.p = servo.p_nm_rad.value_or(7.5);
+  drive.i = servo.i_nm_rad_s.value_or(0);
+  drive.d = servo.d_nm_s_rad.value_or(0.05);
+  drive.maxTorque = servo.maxTorque_nm.value_or(joint.type == Joint::Type::slide ? 10 : 0.85);
+  drive.coulombFriction = servo.coulombFriction_nm.value_or(0);
+  drive.viscousFriction = servo.viscousFriction_nm_s_rad.value_or(0);
+  const double ratio = servo.gearRatio.value_or(1);
+  drive.rotorInertia_kg_m2 = servo.rotorInertia_kg_m2.value_or(0) * ratio * ratio;
+  return drive;
+}
+
+Drive::Kind kindOf(const ServoSpec& servo, const Joint& joint, const std::string& place) {
+  const bool slides = joint.type == Joint::Type::slide;
+  if (servo.drive == "servo") return Drive::Kind::servo;
+  if (servo.drive == "dc_motor") return Drive::Kind::dcMotor;
+  if (servo.drive == "none") return Drive::Kind::none;
+  if (servo.drive == (slides ? "force" : "torque")) return Drive::Kind::torque;
+  throw InputError(
+      place + ".drive", servo.drive,
+      slides ? "servo, dc_motor, force or none on a slide joint" : "servo, dc_motor, torque or none on a rotary joint");
+}
+
+int jointOf(const SceneRobot& robot, const std::string& name, const std::string& place) {
+  const int joint = robot.model.findJoint(name);
+  if (joint < 0 || robot.model.joints[static_cast<std::size_t>(joint)].type == Joint::Type::fixed)
+    throw InputError(place, name, "a moving joint of the model " + robot.model.name);
+  return joint;
+}
+
+SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
+  SceneRobot robot;
+  robot.name = spec.name;
+  robot.model = model;
+  robot.freeBase = spec.base == "free";
+  robot.collision = spec.collision;
+  robot.mergeFixed = spec.mergeFixed;
+  const auto& q = spec.orientation_wxyz;
+  robot.start = Eigen::Translation3d(spec.position_m[0], spec.position_m[1], spec.position_m[2]) *
+                Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  robot.jointStart.assign(model.joints.size(), 0);
+  robot.jointStartRate.assign(model.joints.size(), 0);
+  for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
+  for (const auto& link : model.links)
+    for (const auto& shape : link.shapes)
+      if (shape.collides && shape.kind == Shape::Kind::mesh) robot.hulls.push_back(convexHull(shape.vertices));
+
+  const std::string place = "scene robots." + spec.name;
+  for (const auto& [name, start] : spec.jointStart)
+    robot.jointStart[static_cast<std::size_t>(jointOf(robot, name, place + ".joint_start"))] = start;
+  for (const auto& [name, servo] : spec.servos) {
+    const auto joint = static_cast<std::size_t>(jointOf(robot, name, place + ".servos"));
+    Drive& drive = robot.drives[joint];
+    drive.kind = kindOf(servo, model.joints[joint], place + ".servos." + name);
+    // What a kind of drive does not have stays out of it: only a servo's numbers come from the model.
+    if (drive.kind != Drive::Kind::servo) drive.maxTorque = 1e9;
+    if (drive.kind == Drive::Kind::dcMotor)
+      for (const char* number : {"voltage_v", "resistance_ohm", "max_duty"})
+        setDriveNumber(drive, model.joints[joint], number, find(servoNumbers(), number)->byDefault, place);
+    for (const auto& [number, value] : servo.numbers)
+      setDriveNumber(drive, model.joints[joint], number, value, place + ".servos." + name);
+  }
+  return robot;
+}
+
+}  // namespace
+
+void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
+                    const std::string& place) {
+  const bool slides = joint.type == Joint::Type::slide;
+  const auto is = [&](const char* rotary, const char* sliding) { return number == (slides ? sliding : rotary); };
+  if (number == "p")
+    drive.p = value;
+  else if (number == "i")
+    drive.i = value;
+  else if (number == "d")
+    drive.d = value;
+  else if (is("max_torque_nm", "max_force_n"))
+    drive.maxTorque = value;
+  else if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m"))
+    drive.firmwareGain_v_rad = value;
+  else if (number == "voltage_v")
+    drive.supply_v = value;
+  else if (is("torque_constant_nm_per_a", "force_constant_n_per_a"))
+    drive.torqueConstant_nm_a = value;
+  else if (number == "resistance_ohm")
+    drive.resistance_ohm = value;
+  else if (number == "max_duty")
+    drive.maxDuty = value;
+  else if (is("rotor_inertia_kg_m2", "rotor_inertia_kg"))
+    drive.rotorInertia_kg_m2 = value;
+  else if (is("coulomb_friction_nm", "coulomb_friction_n"))
+    drive.coulombFriction = value;
+  else if (is("viscous_friction_nm_s_rad", "viscous_friction_n_s_m"))
+    drive.viscousFriction = value;
+  else
+    throw InputError(place, number,
+                     slides ? "a number of a slide joint's drive (p, i, d, max_force_n, …)"
+                            : "a number of a rotary joint's drive (p, i, d, max_torque_nm, …)");
+}
+
+void scaleMass(Link& link, double factor) {
+  link.inertial.mass_kg *= factor;
+  link.inertial.inertia_kg_m2 *= factor;
+}
+
+ModelSet loadModels(const SceneSpec& spec) {
+  ModelSet models;
+  for (const auto& robot : spec.robots) {
+    if (models.contains(robot.model)) continue;
+    const std::filesystem::path path(robot.model);
+    const auto full = path.is_absolute() ? path : std::filesystem::path(spec.directory) / path;
+    models[robot.model] = std::make_shared<const RobotModel>(loadModel(full.string()));
+  }
+  return models;
+}
+
+Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models) {
+  Scene scene;
+  scene.gravity_m_s2 << spec.gravity_m_s2[0], spec.gravity_m_s2[1], spec.gravity_m_s2[2];
+  scene.step_s = spec.step_s;
+  scene.controlPeriod_s = spec.controlPeriod_s;
+  scene.floor = spec.floor;
+  scene.balls = spec.balls;
+  for (const auto& robot : spec.robots) {
+    const auto model = models.find(robot.model);
+    if (model == models.end())
+      throw InputError("scene robots." + robot.name + ".model", robot.model, "a model that was loaded");
+    scene.robots.push_back(robotFrom(robot, *model->second));
+  }
+  // Numbers of single links and joints are paths into the scene like those of a simulator version.
+  for (const auto& robot : spec.robots) {
+    for (const auto& [link, values] : robot.links)
+      for (const auto& [number, value] : values)
+        setByPath(scene, "robots." + robot.name + ".links." + link + "." + number, value);
+    for (const auto& [joint, values] : robot.joints)
+      for (const auto& [number, value] : values)
+        setByPath(scene, "robots." + robot.name + ".joints." + joint + "." + number, value);
+  }
+  return scene;
+}
+
+}  // namespace btr

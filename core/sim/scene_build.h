@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "core/sim/scene.h"
+
+namespace btr {
+
+/// The first steps of makeScene: the scene file's numbers over the models'. No simulator version, no effects yet.
+Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models);
+
+/// Sets one number of a scene by its path: "robots.leg.servos.knee.p", "robots.leg.links.lower.mass_kg",
+/// "robots.leg.joints.knee.coulomb_friction_nm", "floor.friction", "balls.ball.mass_kg", "gravity_m_s2.z". Throws
+/// InputError for a path that the scene does not have or a number out of its bounds.
+void setByPath(Scene& scene, const std::string& path, double value);
+
+/// Sets one of simulatorParameters().
+void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::string& name, double value);
+
+/// Sets one of servoNumbers() or jointNumbers(). Throws InputError for a number that this kind of joint does not have.
+void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
+                    const std::string& place);
+
+/// Mass and inertia together.
+void scaleMass(Link& link, double factor);
+
+}  // namespace btr

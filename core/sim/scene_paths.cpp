@@ -1,0 +1,192 @@
+// Numbers of a scene by name: the simulator's parameters and dotted paths.
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/scene_build.h"
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+[[noreturn]] void noSuch(const std::string& path, const std::string& allowed) {
+  throw InputError("simulator value", path, allowed);
+}
+
+std::string next(std::string& rest) {
+  const auto dot = rest.find('.');
+  std::string word = rest.substr(0, dot);
+  rest = dot == std::string::npos ? "" : rest.substr(dot + 1);
+  return word;
+}
+
+void inBounds(const std::vector<Parameter>& declared, const std::string& number, double value,
+              const std::string& path) {
+  const Parameter* parameter = find(declared, number);
+  if (!parameter) {
+    std::string names;
+    for (const auto& each : declared) names += (names.empty() ? "" : ", ") + each.name;
+    noSuch(path, "one of " + names);
+  }
+  check(*parameter, value, path);
+}
+
+void setRobotNumber(Scene& scene, const std::string& path, std::string rest, double value) {
+  const std::string name = next(rest), kind = next(rest), item = next(rest), number = next(rest);
+  const auto robot =
+      std::find_if(scene.robots.begin(), scene.robots.end(), [&](const auto& r) { return r.name == name; });
+  if (robot == scene.robots.end() || !rest.empty()) noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
+  if (kind == "links") {
+    const int link = robot->model.findLink(item);
+    if (link < 0) noSuch(path, "a link of " + robot->model.name);
+    inBounds(linkNumbers(), number, value, path);
+    Link& changed = robot->model.links[static_cast<std::size_t>(link)];
+    scaleMass(changed, value / changed.inertial.mass_kg);
+    return;
+  }
+  if (kind != "servos" && kind != "joints") noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
+  const int joint = robot->model.findJoint(item);
+  if (joint < 0) noSuch(path, "a joint of " + robot->model.name);
+  inBounds(kind == "servos" ? servoNumbers() : jointNumbers(), number, value, path);
+  const auto index = static_cast<std::size_t>(joint);
+  setDriveNumber(robot->drives[index], robot->model.joints[index], number, value, path);
+}
+
+struct Field {
+  const char* name;
+  double minimum, maximum;
+};
+
+void setFloorNumber(Scene& scene, const std::string& path, const std::string& number, double value) {
+  if (!scene.floor) noSuch(path, "only in a scene with a floor");
+  FloorSpec& floor = *scene.floor;
+  const std::vector<std::pair<Field, double*>> fields{
+      {{"friction", 0, 100}, &floor.friction},           {{"restitution", 0, 1}, &floor.restitution},
+      {{"slip1_m_s_n", 0, 10}, &floor.slip1_m_s_n},      {{"slip2_m_s_n", 0, 10}, &floor.slip2_m_s_n},
+      {{"stiffness_n_m", 1, 1e9}, &floor.stiffness_n_m}, {{"damping_n_s_m", 0, 1e7}, &floor.damping_n_s_m}};
+  for (const auto& [field, target] : fields)
+    if (number == field.name) {
+      check({field.name, "", "", field.minimum, field.maximum}, value, path);
+      *target = value;
+      return;
+    }
+  noSuch(path, "floor.friction, restitution, slip1_m_s_n, slip2_m_s_n, stiffness_n_m or damping_n_s_m");
+}
+
+void setBallNumber(Scene& scene, const std::string& path, std::string rest, double value) {
+  const std::string name = next(rest), number = rest;
+  const auto ball = std::find_if(scene.balls.begin(), scene.balls.end(), [&](const auto& b) { return b.name == name; });
+  if (ball == scene.balls.end()) noSuch(path, "a ball of the scene");
+  const std::vector<std::pair<Field, double*>> fields{
+      {{"radius_m", 0.001, 10}, &ball->radius_m},
+      {{"mass_kg", 1e-6, 1000}, &ball->mass_kg},
+      {{"inertia_factor", 0.01, 2.0 / 3.0}, &ball->inertiaFactor},
+      {{"rolling_deceleration_m_s2", 0, 100}, &ball->rollingDeceleration_m_s2},
+      {{"restitution", 0, 1}, &ball->restitution}};
+  for (const auto& [field, target] : fields)
+    if (number == field.name) {
+      check({field.name, "", "", field.minimum, field.maximum}, value, path);
+      *target = value;
+      return;
+    }
+  noSuch(path, "balls.NAME.radius_m, mass_kg, inertia_factor, rolling_deceleration_m_s2 or restitution");
+}
+
+bool startsWith(const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; }
+
+/// "leg" names every group that begins with "leg:"; each is scaled by itself.
+void setGroupMass(Scene& scene, const std::string& group, const std::string& name, double value) {
+  bool any = false;
+  for (auto& robot : scene.robots) {
+    std::vector<std::string> groups;
+    for (const auto& link : robot.model.links)
+      if ((link.massGroup == group || startsWith(link.massGroup, group + ":")) &&
+          std::find(groups.begin(), groups.end(), link.massGroup) == groups.end())
+        groups.push_back(link.massGroup);
+    for (const auto& each : groups) {
+      double sum = 0;
+      for (const auto& link : robot.model.links)
+        if (link.massGroup == each) sum += link.inertial.mass_kg;
+      for (auto& link : robot.model.links)
+        if (link.massGroup == each) scaleMass(link, value / sum);
+      any = true;
+    }
+  }
+  if (!any) noSuch(name, "only for robots whose model has a " + group);
+}
+
+/// The joint whose servo the parameters describe: the first of a leg.
+int referenceJoint(const RobotModel& model) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (model.joints[i].type == Joint::Type::rotate && startsWith(model.links[i + 1].massGroup, "leg"))
+      return static_cast<int>(i);
+  return -1;
+}
+
+/// Every servo whose number the scene file leaves to the model keeps its ratio to the reference joint's.
+void setServos(Scene& scene, const SceneSpec& spec, const std::string& name, double value) {
+  constexpr double byDefault_p = 7.5;
+  bool any = false;
+  for (std::size_t r = 0; r < scene.robots.size(); ++r) {
+    SceneRobot& robot = scene.robots[r];
+    const int reference = referenceJoint(robot.model);
+    if (reference < 0) continue;
+    any = true;
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+      Drive& drive = robot.drives[j];
+      if (drive.kind != Drive::Kind::servo) continue;
+      const ServoData& own = robot.model.joints[j].servo;
+      const ServoData& first = robot.model.joints[static_cast<std::size_t>(reference)].servo;
+      const auto given = spec.robots[r].servos.find(robot.model.joints[j].name);
+      const auto fixedByScene = [&](const char* number) {
+        return given != spec.robots[r].servos.end() && given->second.numbers.contains(number);
+      };
+      const auto ratio = [](const std::optional<double>& a, const std::optional<double>& b, double usual) {
+        const double base = b.value_or(usual);
+        return base > 0 ? a.value_or(usual) / base : 1;
+      };
+      if (name == "servo_p_nm_rad" && !fixedByScene("p"))
+        drive.p = value * ratio(own.p_nm_rad, first.p_nm_rad, byDefault_p);
+      else if (name == "servo_i_nm_rad_s" && !fixedByScene("i"))
+        drive.i = value * own.p_nm_rad.value_or(byDefault_p) / byDefault_p;
+      else if (name == "servo_d_nm_s_rad" && !fixedByScene("d"))
+        drive.d = value * ratio(own.d_nm_s_rad, first.d_nm_s_rad, 0.05);
+      else if (name == "servo_max_torque_nm" && !fixedByScene("max_torque_nm"))
+        drive.maxTorque = value * ratio(own.maxTorque_nm, first.maxTorque_nm, 0.85);
+    }
+  }
+  if (!any) noSuch(name, "only for robots with legs");
+}
+
+}  // namespace
+
+void setByPath(Scene& scene, const std::string& path, double value) {
+  if (!std::isfinite(value)) throw InputError(path, toText(value), "a finite number");
+  std::string rest = path;
+  const std::string first = next(rest);
+  if (first == "robots") return setRobotNumber(scene, path, rest, value);
+  if (first == "floor") return setFloorNumber(scene, path, rest, value);
+  if (first == "balls") return setBallNumber(scene, path, rest, value);
+  if (first == "gravity_m_s2" && rest.size() == 1 && rest[0] >= 'x' && rest[0] <= 'z') {
+    check({"gravity_m_s2", "m/s²", "", -1000, 1000}, value, path);
+    scene.gravity_m_s2[rest[0] - 'x'] = value;
+    return;
+  }
+  noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls or gravity_m_s2");
+}
+
+void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::string& name, double value) {
+  check(*find(simulatorParameters(), name), value, "simulator");
+  for (const char* group : {"head", "neck", "body", "leg"})
+    if (name == std::string(group) + "_mass_kg") return setGroupMass(scene, group, name, value);
+  if (name == "gravity_m_s2") {
+    const double strength = scene.gravity_m_s2.norm();
+    scene.gravity_m_s2 =
+        strength > 0 ? Eigen::Vector3d(scene.gravity_m_s2 / strength * value) : Eigen::Vector3d(0, 0, -value);
+    return;
+  }
+  if (name == "friction" || name == "slip1_m_s_n" || name == "slip2_m_s_n")
+    return setFloorNumber(scene, name, name, value);
+  setServos(scene, spec, name, value);
+}
+
+}  // namespace btr

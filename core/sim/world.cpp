@@ -1,0 +1,146 @@
+#include "core/sim/world.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/sim/world_impl.h"
+
+namespace btr {
+
+World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScene), session(seed) {
+  const dWorldID world = session.world();
+  dWorldSetGravity(world, scene.gravity_m_s2.x(), scene.gravity_m_s2.y(), scene.gravity_m_s2.z());
+
+  for (const auto& sceneRobot : scene.robots) {
+    WorldRobot robot;
+    robot.scene = &sceneRobot;
+    robot.body = std::make_unique<Articulation>(world, sceneRobot);
+    robot.drives.resize(robot.body->joints.size());
+    robot.contact.assign(sceneRobot.model.links.size(), 0);
+    for (const auto& sensor : sceneRobot.model.sensors)
+      if (sensor.kind == Sensor::Kind::accelerometer && robot.accelerometerLink < 0) {
+        robot.accelerometerLink = sensor.link;
+        robot.accelerometer = sensor.pose;
+      }
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].command = robot.body->joints[j].position;
+    robots.push_back(std::move(robot));
+  }
+  for (const auto& spec : scene.balls) {
+    WorldBall ball;
+    ball.spec = &spec;
+    ball.id = dBodyCreate(world);
+    const double inertia = spec.inertiaFactor * spec.mass_kg * spec.radius_m * spec.radius_m;
+    dMass mass;
+    dMassSetParameters(&mass, spec.mass_kg, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
+    dBodySetMass(ball.id, &mass);
+    if (spec.rollingDeceleration_m_s2 > 0 && scene.floor) {
+      ball.rolling = dJointCreateAMotor(world, nullptr);
+      dJointAttach(ball.rolling, ball.id, nullptr);
+      dJointSetAMotorMode(ball.rolling, dAMotorUser);
+      dJointSetAMotorNumAxes(ball.rolling, 2);
+    }
+    BallState start;
+    start.position_m << spec.position_m[0], spec.position_m[1], spec.position_m[2];
+    start.velocity_m_s << spec.velocity_m_s[0], spec.velocity_m_s[1], spec.velocity_m_s[2];
+    placeBall(ball, start);
+    balls.push_back(std::move(ball));
+  }
+
+  // Effects to the joints and balls that they act on; those of floor and world that push balls act on all of them.
+  for (const auto& effect : scene.effects) {
+    for (auto& robot : robots)
+      for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+        const auto model = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
+        if (effect.at == robot.scene->name + "." + robot.scene->model.joints[model].name)
+          robot.drives[j].effects.add(effect);
+      }
+    for (auto& ball : balls)
+      if (effect.at == ball.spec->name || effect.at == "floor" || effect.at == "world") ball.effects.push_back(&effect);
+  }
+  for (auto& robot : robots) sense(robot, 0);
+  checkFault();
+}
+
+void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, double duration) {
+  if (inputs.size() != robots.size()) throw std::logic_error("World::advance: inputs for each robot");
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    if (inputs[i].size() != robots[i].scene->model.joints.size())
+      throw std::logic_error("World::advance: an input for each joint of the model");
+  const long count = std::lround(duration / scene.step_s);
+  if (count < 1 || std::abs(static_cast<double>(count) * scene.step_s - duration) > 1e-6 * duration)
+    throw std::logic_error("World::advance: a whole number of steps");
+  if (!fault.empty()) return;
+
+  for (long i = 0; i < count && fault.empty(); ++i) {
+    const int parts = scene.nearSubsteps > 1 && nearBall(scene.step_s) ? scene.nearSubsteps : 1;
+    const double h = scene.step_s / parts, begin = time();
+    for (int part = 0; part < parts && fault.empty(); ++part) step(inputs, begin + part * h, h);
+    ++steps;
+  }
+  if (fault.empty())
+    for (auto& robot : robots) sense(robot, duration);
+}
+
+void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, double now, double h) {
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
+      driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
+  makeContacts(h);
+  for (auto& ball : balls) driveBall(ball, now, h);
+
+  try {
+    session.step(h);
+  } catch (const OdeFailure& failure) {
+    fault = failure.what();
+    return;
+  }
+  contacts.clear();
+
+  for (auto& robot : robots) {
+    robot.body->refresh();
+    // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
+    if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
+    robot.body->updateRings();
+    for (std::size_t j = 0; j < robot.drives.size(); ++j)
+      robot.drives[j].torque = robot.drives[j].row.torqueAt(robot.body->joints[j].solvedRate);
+  }
+  for (auto& ball : balls) {
+    const Eigen::Vector3d before = ball.state.velocity_m_s;
+    readBall(ball, now + h);
+    if (ball.touched || ball.state.onFloor) continue;
+    ball.state.position_m += h / 2 * (before - ball.state.velocity_m_s);
+    const Eigen::Vector3d& p = ball.state.position_m;
+    dBodySetPosition(ball.id, p.x(), p.y(), p.z());
+    ball.pose.translation() = p;
+  }
+  checkFault();
+}
+
+World::World(const Scene& scene, std::uint64_t seed) : impl_(std::make_unique<Impl>(scene, seed)) {}
+World::~World() = default;
+
+void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
+                     const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates) {
+  WorldRobot& robot = impl_->robots.at(index);
+  robot.body->set(base, velocity, spin, positions, rates);
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    JointDrive& drive = robot.drives[j];
+    drive.effects.reset();
+    drive.integral = drive.torque = 0;
+    drive.dryRow = drive.passiveRow = robot.body->joints[j].extra != nullptr;
+    drive.command = robot.body->joints[j].position;
+  }
+  impl_->sense(robot, 0);
+  impl_->checkFault();
+}
+
+void World::setBall(std::size_t index, const BallState& state) {
+  impl_->placeBall(impl_->balls.at(index), state);
+  impl_->checkFault();
+}
+
+void World::advance(const std::vector<std::vector<JointInput>>& inputs, double duration) {
+  impl_->advance(inputs, duration);
+}
+
+}  // namespace btr

@@ -1,0 +1,151 @@
+// Who touches whom, and what balls feel beside contact forces.
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/world_impl.h"
+
+namespace btr {
+namespace {
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
+  return {floor.friction, restitution, floor.stiffness_n_m, floor.damping_n_s_m, floor.slip1_m_s_n, floor.slip2_m_s_n};
+}
+
+}  // namespace
+
+void World::Impl::touchFloor(WorldRobot& robot, RobotBody& body) {
+  if (body.pose.translation().z() >= body.reach_m) return;
+  for (const auto& collider : body.colliders) {
+    floorContacts(collider, body.pose, points);
+    for (const auto& point : points) {
+      contacts.add(point, body.id, nullptr, floorSurface(*scene.floor, scene.floor->restitution));
+      robot.contact[static_cast<std::size_t>(collider.link)] = 1;
+      robot.touches = true;
+    }
+  }
+}
+
+void World::Impl::touchBalls(WorldRobot& robot, const std::vector<Collider>& colliders, const Isometry3d& pose,
+                             dBodyID id) {
+  for (auto& ball : balls) {
+    for (const auto& collider : colliders) {
+      ContactPoint point;
+      if (!sphereContact(collider, pose, ball.state.position_m, ball.spec->radius_m, point)) continue;
+      contacts.add(point, ball.id, id, {shellFriction, ball.spec->restitution});
+      robot.contact[static_cast<std::size_t>(collider.link)] = 1;
+      robot.touches = true;
+      ball.touched = true;
+    }
+  }
+}
+
+void World::Impl::makeContacts(double h) {
+  contacts.begin(h, scene.gravity_m_s2.norm());
+  for (auto& ball : balls) {
+    ball.touched = false;
+    ball.state.onFloor = false;
+  }
+  for (auto& robot : robots) {
+    std::fill(robot.contact.begin(), robot.contact.end(), 0);
+    robot.touches = false;
+    for (auto& body : robot.body->bodies) {
+      if (scene.floor) touchFloor(robot, body);
+      bool reaches = false;
+      for (const auto& ball : balls)
+        reaches =
+            reaches || (ball.state.position_m - body.pose.translation()).norm() < body.reach_m + ball.spec->radius_m;
+      if (reaches) touchBalls(robot, body.colliders, body.pose, body.id);
+    }
+    touchBalls(robot, robot.body->baseColliders, robot.body->poseOf(-1), nullptr);
+  }
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    WorldBall& ball = balls[i];
+    if (scene.floor && ball.state.position_m.z() < ball.spec->radius_m) {
+      const Vector3d lowest = ball.state.position_m - Vector3d(0, 0, ball.spec->radius_m);
+      contacts.add({lowest, Vector3d::UnitZ(), -lowest.z()}, ball.id, nullptr,
+                   floorSurface(*scene.floor, std::max(scene.floor->restitution, ball.spec->restitution)));
+      ball.state.onFloor = true;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      WorldBall& other = balls[j];
+      const Vector3d between = ball.state.position_m - other.state.position_m;
+      const double distance = between.norm(), reach = ball.spec->radius_m + other.spec->radius_m;
+      if (distance >= reach || distance < 1e-12) continue;
+      const Vector3d normal = between / distance;
+      contacts.add({ball.state.position_m - normal * ball.spec->radius_m, normal, reach - distance}, ball.id, other.id,
+                   {shellFriction, std::max(ball.spec->restitution, other.spec->restitution)});
+      ball.touched = other.touched = true;
+    }
+  }
+}
+
+void World::Impl::driveBall(WorldBall& ball, double now, double h) {
+  // Rolling resistance: a moment M against horizontal spin. A ball that rolls freely (I = f·m·r²) loses a =
+  // M/((1+f)·m·r).
+  const double most = ball.spec->rollingDeceleration_m_s2 * (1 + ball.spec->inertiaFactor) * ball.spec->mass_kg *
+                      ball.spec->radius_m * (ball.state.onFloor ? 1 : 0);
+  if (ball.rolling) {
+    Vector3d along(ball.state.spin_rad_s.x(), ball.state.spin_rad_s.y(), 0);
+    along = along.squaredNorm() > 1e-18 ? along.normalized() : Vector3d::UnitX();
+    dJointSetAMotorAxis(ball.rolling, 0, 0, along.x(), along.y(), 0);
+    dJointSetAMotorAxis(ball.rolling, 1, 0, -along.y(), along.x(), 0);
+    dJointSetAMotorParam(ball.rolling, dParamFMax, most);
+    dJointSetAMotorParam(ball.rolling, dParamFMax2, most);
+  }
+  if (ball.effects.empty()) return;
+
+  BallState state = ball.state;
+  state.time = now;
+  const double speed = state.velocity_m_s.norm();
+  for (const SceneEffect* placed : ball.effects) {
+    Vector3d force = placed->effect->ballForce(state, placed->values);
+    // A force of a dissipative effect that brakes fades with the speed that it takes away: it cannot turn the ball
+    // round.
+    if (const double braking = -force.dot(state.velocity_m_s); placed->effect->dissipative() && braking > 0)
+      force /= 1 + h * braking / (speed * speed * ball.spec->mass_kg);
+    dBodyAddForce(ball.id, force.x(), force.y(), force.z());
+  }
+}
+
+void World::Impl::placeBall(WorldBall& ball, const BallState& state) {
+  dBodySetPosition(ball.id, state.position_m.x(), state.position_m.y(), state.position_m.z());
+  dBodySetLinearVel(ball.id, state.velocity_m_s.x(), state.velocity_m_s.y(), state.velocity_m_s.z());
+  dBodySetAngularVel(ball.id, state.spin_rad_s.x(), state.spin_rad_s.y(), state.spin_rad_s.z());
+  readBall(ball, state.time);
+  ball.state.onFloor = scene.floor && state.position_m.z() <= ball.spec->radius_m + 1e-9;
+}
+
+void World::Impl::readBall(WorldBall& ball, double now) {
+  const dReal* p = dBodyGetPosition(ball.id);
+  const dReal* v = dBodyGetLinearVel(ball.id);
+  const dReal* w = dBodyGetAngularVel(ball.id);
+  const dReal* q = dBodyGetQuaternion(ball.id);
+  ball.state.time = now;
+  ball.state.position_m << p[0], p[1], p[2];
+  ball.state.velocity_m_s << v[0], v[1], v[2];
+  ball.state.spin_rad_s << w[0], w[1], w[2];
+  ball.state.radius_m = ball.spec->radius_m;
+  ball.state.mass_kg = ball.spec->mass_kg;
+  ball.pose = Eigen::Translation3d(ball.state.position_m) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+bool World::Impl::nearBall(double h) const {
+  for (const auto& ball : balls)
+    for (const auto& robot : robots)
+      for (const auto& body : robot.body->bodies) {
+        // What both can travel in the step, and a centimetre.
+        const double travel =
+            0.01 + h * ((ball.state.velocity_m_s - body.velocity_m_s).norm() + body.reach_m * body.spin_rad_s.norm());
+        const double reach = ball.spec->radius_m + travel;
+        const double apart = (ball.state.position_m - body.pose.translation()).norm();
+        if (apart > reach + body.reach_m) continue;
+        for (const auto& collider : body.colliders)
+          if ((body.pose * collider.pose.translation() - ball.state.position_m).norm() < reach + collider.bound_m)
+            return true;
+      }
+  return false;
+}
+
+}  // namespace btr

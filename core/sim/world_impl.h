@@ -1,0 +1,79 @@
+#pragma once
+#include "core/sim/articulation.h"
+#include "core/sim/contact_builder.h"
+#include "core/sim/drive_law.h"
+#include "core/sim/ode_session.h"
+#include "core/sim/world.h"
+
+namespace btr {
+
+/// One joint's drive while the world runs.
+struct JointDrive {
+  JointEffects effects;
+  double command = 0;   ///< that was given
+  double integral = 0;  ///< ∫(command − q)dt of the servo
+  DriveRow row;         ///< the drive's part of the last step
+  double torque = 0;    ///< of the drive in the last step
+  double measured = 0;  ///< position through the sensor's effects
+  bool dryRow = false;  ///< the extra row for dry friction is on
+  bool passiveRow = false;
+};
+
+struct WorldRobot {
+  const SceneRobot* scene = nullptr;
+  std::unique_ptr<Articulation> body;
+  std::vector<JointDrive> drives;  ///< by moving joint
+  std::vector<char> contact;       ///< by link
+  bool touches = false;            ///< anything, in the last step
+  int accelerometerLink = -1;
+  Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
+  Eigen::Vector3d accelerometerVelocity_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d specificForce_m_s2 = Eigen::Vector3d::Zero();
+};
+
+struct WorldBall {
+  const BallSpec* spec = nullptr;
+  dBodyID id = nullptr;
+  dJointID rolling = nullptr;  ///< bounded moment against rolling
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  BallState state;
+  bool touched = false;  ///< by a robot or another ball
+  std::vector<const SceneEffect*> effects;
+};
+
+struct World::Impl {
+  Impl(const Scene& givenScene, std::uint64_t seed);
+
+  Scene scene;  ///< a copy: a world outlives what it was made from
+  OdeSession session;
+  ContactBuilder contacts{session};
+  std::vector<WorldRobot> robots;
+  std::vector<WorldBall> balls;
+  std::vector<ContactPoint> points;  ///< scratch
+  double start_s = 0;                ///< time at which `steps` was zero
+  long steps = 0;
+  std::string fault;
+
+  double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }
+  JointState stateOf(const WorldRobot& robot, std::size_t joint, double now) const;
+
+  void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
+  void step(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
+  bool nearBall(double h) const;
+
+  // world_joints.cpp
+  void driveJoint(WorldRobot& robot, std::size_t joint, const JointInput& input, double now, double h);
+  void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
+  // world_contacts.cpp
+  void makeContacts(double h);
+  void touchFloor(WorldRobot& robot, RobotBody& body);
+  void touchBalls(WorldRobot& robot, const std::vector<Collider>& colliders, const Eigen::Isometry3d& pose, dBodyID id);
+  void driveBall(WorldBall& ball, double now, double h);
+  void readBall(WorldBall& ball, double now);
+  void placeBall(WorldBall& ball, const BallState& state);
+  // world_sense.cpp
+  void sense(WorldRobot& robot, double dt);
+  void checkFault();
+};
+
+}  // namespace btr

@@ -1,0 +1,111 @@
+// Servos, friction, stops: everything that acts at a joint becomes rows of ODE's solver.
+#include <cmath>
+
+#include "core/sim/world_impl.h"
+
+namespace btr {
+namespace {
+
+constexpr double noDamping = 1e-12;
+
+// Parameters of one of a joint's own motor rows.
+void setJointRow(const RobotJoint& joint, double velocity, double softness, double most) {
+  const int g = joint.group;
+  if (joint.slides) {
+    dJointSetSliderParam(joint.id, dParamVel, velocity);
+    dJointSetSliderParam(joint.id, dParamCFM, softness);
+    dJointSetSliderParam(joint.id, dParamFMax, most);
+  } else if (g == 0 && !joint.axisFollowsChild) {
+    dJointSetHingeParam(joint.id, dParamVel, velocity);
+    dJointSetHingeParam(joint.id, dParamCFM, softness);
+    dJointSetHingeParam(joint.id, dParamFMax, most);
+  } else {
+    dJointSetUniversalParam(joint.id, dParamVel + g, velocity);
+    dJointSetUniversalParam(joint.id, dParamCFM + g, softness);
+    dJointSetUniversalParam(joint.id, dParamFMax + g, most);
+  }
+}
+
+void setExtraRow(const RobotJoint& joint, int row, double velocity, double softness, double most) {
+  const int g = row == 0 ? 0 : dParamGroup2;
+  const auto set = joint.slides ? dJointSetLMotorParam : dJointSetAMotorParam;
+  set(joint.extra, dParamVel + g, velocity);
+  set(joint.extra, dParamCFM + g, softness);
+  set(joint.extra, dParamFMax + g, most);
+}
+
+}  // namespace
+
+JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, double now) const {
+  const RobotJoint& moving = robot.body->joints[joint];
+  const JointDrive& drive = robot.drives[joint];
+  return {now, moving.position, moving.rate, drive.command, drive.torque};
+}
+
+// A stop is a spring that has yielded by the end of the step, with a damper against being pushed in further.
+void World::Impl::addStop(DriveRow& passive, const RobotJoint& joint, double h) const {
+  const double beyond = joint.position < joint.lowStop    ? joint.position - joint.lowStop
+                        : joint.position > joint.highStop ? joint.position - joint.highStop
+                                                          : 0;
+  if (beyond == 0) return;
+  const double stiffness = joint.stopInertia * stopFrequency_rad_s * stopFrequency_rad_s;
+  passive.p -= stiffness * beyond;
+  passive.d += h * stiffness;
+  if (beyond * joint.rate > 0) passive.d += 2 * joint.stopInertia * stopFrequency_rad_s;
+}
+
+void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointInput& input, double now, double h) {
+  RobotJoint& joint = robot.body->joints[index];
+  JointDrive& drive = robot.drives[index];
+  const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+
+  // Command, servo law, drive torque.
+  drive.command = input.command;
+  JointState state = stateOf(robot, index, now);
+  if (!drive.effects.empty()) state.command = drive.effects.command(input.command, state, h);
+  if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
+  DriveRow row = driveRow(spec, state, drive.integral, input, h);
+  if (!drive.effects.empty() && input.enabled && spec.kind != Drive::Kind::none)
+    row = drive.effects.drive(row, spec, state, drive.integral, input, h);
+  drive.row = row;
+
+  // What acts at the joint itself: viscous friction, effects, the rotor behind its gear (kinetic energy ½·J·rate², the
+  // limit of a large gear ratio: the rotor's own share in the body's spin is left out), stops.
+  DriveRow passive;
+  passive.d = spec.viscousFriction;
+  if (!drive.effects.empty()) drive.effects.addPassive(passive, state, h);
+  if (spec.rotorInertia_kg_m2 > 0) {
+    passive.d += spec.rotorInertia_kg_m2 / h;
+    passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
+  }
+  addStop(passive, joint, h);
+
+  // Dry friction is a row of its own: it holds, or opposes motion, with at most its limit.
+  double dry = spec.coulombFriction;
+  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(state);
+  const bool apart = row.limited() && passive.d > noDamping;
+  if (!joint.extra && (dry > 0 || apart)) robot.body->makeExtraRows(joint);
+  if (dry > 0 || drive.dryRow) setExtraRow(joint, 0, 0, 0, dry);
+  drive.dryRow = dry > 0;
+
+  // A limited servo and passive terms do not fit into one row.
+  if (apart) setExtraRow(joint, 1, passive.p / passive.d, 1 / passive.d, dInfinity);
+  if (!apart && drive.passiveRow) setExtraRow(joint, 1, 0, 0, 0);
+  drive.passiveRow = apart;
+  if (!apart) {
+    if (row.limited()) {
+      robot.body->addTorque(joint, passive.p);
+    } else {
+      row.p += passive.p;
+      row.d += passive.d;
+    }
+  }
+  if (row.d > noDamping) {
+    setJointRow(joint, row.p / row.d, 1 / row.d, row.limited() ? row.limit : dInfinity);
+  } else {
+    setJointRow(joint, 0, 0, 0);
+    if (const double torque = row.torqueAt(0); torque != 0) robot.body->addTorque(joint, torque);
+  }
+}
+
+}  // namespace btr

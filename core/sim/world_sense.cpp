@@ -1,0 +1,179 @@
+// What can be known of the world from outside: sensors, poses, energy, faults, rows of a trace.
+#include <cmath>
+
+#include "core/sim/world_impl.h"
+
+namespace btr {
+namespace {
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double fastest_m_s = 50, fastestSpin_rad_s = 500, farthest_m = 100;
+
+std::string faultOf(const std::string& name, const Vector3d& position, const Vector3d& velocity, const Vector3d& spin) {
+  if (!position.allFinite() || !velocity.allFinite() || !spin.allFinite()) return name + " is not finite";
+  if (velocity.norm() > fastest_m_s) return name + " moves at " + toText(velocity.norm()) + " m/s";
+  if (spin.norm() > fastestSpin_rad_s) return name + " spins at " + toText(spin.norm()) + " rad/s";
+  if (position.norm() > farthest_m) return name + " is " + toText(position.norm()) + " m away";
+  return {};
+}
+
+// Links whose contacts a trace keeps: the ends of limbs that can touch something.
+bool isPaw(const RobotModel& model, std::size_t link) {
+  for (const auto& joint : model.joints)
+    if (joint.parentLink == static_cast<int>(link)) return false;
+  for (const auto& shape : model.links[link].shapes)
+    if (shape.collides) return true;
+  return false;
+}
+
+std::string accelerometerName(const WorldRobot& robot) {
+  for (const auto& sensor : robot.scene->model.sensors)
+    if (sensor.kind == Sensor::Kind::accelerometer) return sensor.name;
+  return {};
+}
+
+void push(std::vector<double>& row, const Vector3d& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
+
+// One of the two quaternions of a rotation: w ≥ 0.
+void push(std::vector<double>& row, const Eigen::Quaterniond& q) {
+  const double sign = q.w() < 0 ? -1 : 1;
+  row.insert(row.end(), {sign * q.w(), sign * q.x(), sign * q.y(), sign * q.z()});
+}
+
+}  // namespace
+
+void World::Impl::checkFault() {
+  if (!fault.empty()) return;
+  for (const auto& robot : robots)
+    for (const auto& body : robot.body->bodies) {
+      const std::string& link = robot.scene->model.links[static_cast<std::size_t>(body.firstLink)].name;
+      if (body.velocity_m_s.squaredNorm() <= fastest_m_s * fastest_m_s &&
+          body.spin_rad_s.squaredNorm() <= fastestSpin_rad_s * fastestSpin_rad_s &&
+          body.pose.translation().squaredNorm() <= farthest_m * farthest_m)
+        continue;
+      fault = faultOf(robot.scene->name + "." + link, body.pose.translation(), body.velocity_m_s, body.spin_rad_s);
+      if (!fault.empty()) return;
+    }
+  for (const auto& ball : balls) {
+    fault = faultOf(ball.spec->name, ball.state.position_m, ball.state.velocity_m_s, ball.state.spin_rad_s);
+    if (!fault.empty()) return;
+  }
+}
+
+void World::Impl::sense(WorldRobot& robot, double dt) {
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    JointDrive& drive = robot.drives[j];
+    drive.measured = robot.body->joints[j].position;
+    if (!drive.effects.empty()) drive.measured = drive.effects.measured(drive.measured, stateOf(robot, j, time()), dt);
+  }
+  // Specific force: the mean acceleration since the last sample minus gravity, in the sensor's axes.
+  if (robot.accelerometerLink < 0) return;
+  const auto poses = robot.body->linkPoses();
+  const Isometry3d sensor = poses[static_cast<std::size_t>(robot.accelerometerLink)] * robot.accelerometer;
+  const Vector3d velocity = robot.body->pointVelocity(robot.accelerometerLink, sensor.translation());
+  const Vector3d acceleration = dt > 0 ? Vector3d((velocity - robot.accelerometerVelocity_m_s) / dt) : Vector3d::Zero();
+  robot.accelerometerVelocity_m_s = velocity;
+  robot.specificForce_m_s2 = sensor.linear().transpose() * (acceleration - scene.gravity_m_s2);
+}
+
+RobotReadings World::robot(std::size_t index) const {
+  const WorldRobot& robot = impl_->robots.at(index);
+  RobotReadings readings;
+  readings.base = robot.body->base();
+  if (!robot.body->fixedBase()) {
+    readings.baseVelocity_m_s = robot.body->pointVelocity(0, readings.base.translation());
+    readings.baseSpin_rad_s = robot.body->bodies[0].spin_rad_s;
+  }
+  const std::size_t joints = robot.scene->model.joints.size();
+  readings.position.assign(joints, 0);
+  readings.rate.assign(joints, 0);
+  readings.torque.assign(joints, 0);
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    const auto model = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
+    readings.position[model] = robot.drives[j].measured;
+    readings.rate[model] = robot.body->joints[j].rate;
+    readings.torque[model] = robot.drives[j].torque;
+  }
+  readings.contact = robot.contact;
+  readings.accelerometer_m_s2 = robot.specificForce_m_s2;
+  return readings;
+}
+
+std::vector<Isometry3d> World::linkPoses(std::size_t robot) const { return impl_->robots.at(robot).body->linkPoses(); }
+BallState World::ball(std::size_t index) const { return impl_->balls.at(index).state; }
+Isometry3d World::ballPose(std::size_t index) const { return impl_->balls.at(index).pose; }
+bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index).touched; }
+double World::time() const { return impl_->time(); }
+std::string World::fault() const { return impl_->fault; }
+
+double World::energy() const {
+  double sum = 0;
+  const Vector3d& gravity = impl_->scene.gravity_m_s2;
+  for (const auto& robot : impl_->robots) {
+    for (const auto& body : robot.body->bodies) {
+      const Vector3d spin = body.pose.linear().transpose() * body.spin_rad_s;
+      const double ring = spin.dot(body.ringAxis);
+      sum += body.mass_kg * (body.velocity_m_s.squaredNorm() / 2 - gravity.dot(body.pose.translation())) +
+             spin.dot(body.inertia_kg_m2 * spin) / 2 + body.ringInertia_kg_m2 * ring * ring / 2;
+    }
+    for (const auto& joint : robot.body->joints)
+      sum += robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)].rotorInertia_kg_m2 * joint.rate *
+             joint.rate / 2;
+  }
+  for (const auto& ball : impl_->balls) {
+    const double m = ball.spec->mass_kg, r = ball.spec->radius_m;
+    sum += m * (ball.state.velocity_m_s.squaredNorm() / 2 - gravity.dot(ball.state.position_m)) +
+           ball.spec->inertiaFactor * m * r * r * ball.state.spin_rad_s.squaredNorm() / 2;
+  }
+  return sum;
+}
+
+std::vector<std::string> World::channels() const {
+  std::vector<std::string> names{"time_s"};
+  for (const auto& robot : impl_->robots) {
+    const RobotModel& model = robot.scene->model;
+    const std::string prefix = robot.scene->name + ".";
+    for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
+      names.push_back(prefix + "base." + quantity);
+    for (const auto& joint : robot.body->joints) {
+      const std::string at = prefix + model.joints[static_cast<std::size_t>(joint.modelJoint)].name + ".";
+      if (joint.slides)
+        names.insert(names.end(), {at + "command_m", at + "position_m", at + "velocity_m_s", at + "force_n"});
+      else
+        names.insert(names.end(), {at + "command_rad", at + "position_rad", at + "velocity_rad_s", at + "torque_nm"});
+    }
+    for (std::size_t link = 0; link < model.links.size(); ++link)
+      if (isPaw(model, link)) names.push_back(prefix + model.links[link].name + ".contact");
+    if (robot.accelerometerLink >= 0)
+      for (const char* axis : {"ax_m_s2", "ay_m_s2", "az_m_s2"})
+        names.push_back(prefix + accelerometerName(robot) + "." + axis);
+  }
+  for (const auto& ball : impl_->balls)
+    for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
+      names.push_back(ball.spec->name + "." + quantity);
+  return names;
+}
+
+void World::sample(std::vector<double>& row) const {
+  row.push_back(time());
+  for (const auto& robot : impl_->robots) {
+    const RobotModel& model = robot.scene->model;
+    const Isometry3d base = robot.body->base();
+    push(row, base.translation());
+    push(row, Eigen::Quaterniond(base.linear()));
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+      const JointDrive& drive = robot.drives[j];
+      row.insert(row.end(), {drive.command, drive.measured, robot.body->joints[j].rate, drive.torque});
+    }
+    for (std::size_t link = 0; link < model.links.size(); ++link)
+      if (isPaw(model, link)) row.push_back(robot.contact[link]);
+    if (robot.accelerometerLink >= 0) push(row, robot.specificForce_m_s2);
+  }
+  for (const auto& ball : impl_->balls) {
+    push(row, ball.state.position_m);
+    push(row, Eigen::Quaterniond(ball.pose.linear()));
+  }
+}
+
+}  // namespace btr

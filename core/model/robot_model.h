@@ -26,7 +26,7 @@ struct Shape {
   std::vector<std::array<int, 3>> triangles;  ///< mesh, counter-clockwise seen from outside
   std::vector<Eigen::Vector3f> normals;       ///< mesh: one a vertex, or empty
   std::array<float, 4> colour{0.8f, 0.8f, 0.8f, 1.f};  ///< red, green, blue, opacity, 0…1
-  bool collides = true;
+  bool collides = true;  ///< a link's colliding meshes are the alternative to its primitives
   bool drawn = true;
   std::string part;  ///< word for switching variants: "", "red", "blue" (jackets)
 };
@@ -71,8 +71,8 @@ struct Sensor {
   Kind kind = Kind::accelerometer;
   int link = 0;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the link's frame
-  int width = 0, height = 0;                               ///< vision [pixels]
-  double fieldOfView_rad = 0;
+  int width = 0, height = 0;                               ///< vision [pixels]; it looks along its own -z, +y up
+  double fieldOfView_rad = 0;                              ///< of the shorter side, as VRML's Viewpoint
 };
 
 struct Warning {

@@ -36,7 +36,6 @@ class RobotBuilder {
     if (model_.name.empty()) model_.name = humanoid->def;
     children(*humanoid, "humanoidBody", Place{});
     if (model_.links.empty()) document_.fail(*humanoid, "the Humanoid has no Joint in its humanoidBody");
-    decideCollisions();
     return std::move(model_);
   }
 
@@ -106,8 +105,7 @@ class RobotBuilder {
       Shape& each = shapes[i];
       each.part = place.part;
       each.drawn = place.role != Place::Role::collisionOnly;
-      each.collides = place.role == Place::Role::collisionOnly ||
-                      (place.role == Place::Role::usual && each.kind != Shape::Kind::mesh && place.part.empty());
+      each.collides = place.role != Place::Role::drawnOnly && place.part.empty();
     }
   }
 
@@ -147,9 +145,7 @@ class RobotBuilder {
     model_.links[at].inertial = combined(model_.links[at].inertial, carried(own, pose));
 
     Place inner = place;
-    const Value* collision = node.given("collision");
-    if (collision) {
-      saysCollision_[at] = true;
+    if (node.given("collision")) {
       inner.role = Place::Role::collisionOnly;
       children(node, "collision", inner);
       inner.role = Place::Role::drawnOnly;
@@ -194,20 +190,11 @@ class RobotBuilder {
   Vector3d readAxis(const Node& node) const;
   ServoData readServo(const Node& node) const;
 
-  void decideCollisions() {
-    for (std::size_t i = 0; i < model_.links.size(); ++i) {
-      auto& shapes = model_.links[i].shapes;
-      const bool some = std::any_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.collides; });
-      if (saysCollision_[i] || some) continue;
-      for (Shape& each : shapes) each.collides = each.part.empty();
-    }
-  }
-
   Document& document_;
   const ModelBudget& budget_;
   ShapeReader shapes_;
   RobotModel model_;
-  std::vector<bool> namedBySegment_, saysCollision_;  // by link
+  std::vector<bool> namedBySegment_;  // by link
   std::size_t visits_ = 0;
 };
 
@@ -236,7 +223,6 @@ void RobotBuilder::joint(const Node& node, const Place& place) {
   made.line = node.line;
   model_.links.push_back(std::move(made));
   namedBySegment_.push_back(false);
-  saysCollision_.push_back(false);
   Place inner;
   inner.link = static_cast<int>(model_.links.size()) - 1;
   children(node, "children", inner);

@@ -10,9 +10,8 @@ namespace btr::vrml {
 ///   name.
 /// - The outermost Joint is the root ("free" or "fixed"); where it stands is the scene's business.
 /// - What `Segment.children` shows is drawn. `Segment.collision` (ours, MFNode) holds what collides and isn't drawn; an
-/// empty
-///   list means that nothing collides. Without the field the drawn boxes, spheres and cylinders collide, or the drawn
-///   meshes of a link that has nothing else.
+///   empty list means that nothing collides. Without the field all that is drawn collides. Where a link collides with
+///   primitives and with meshes, the scene chooses: meshes are the alternative to the primitives, never added to them.
 /// - `Part { name choice }` (ours) marks shapes by a word for switching variants ("red", "blue"); all choices are read.
 /// - A VisionSensor looks along its own −z axis with +y up, as in OpenHRP.
 RobotModel extractRobot(Document& document, const ModelBudget& budget);

@@ -1,0 +1,48 @@
+// The experiments that come with the program.
+#include <gtest/gtest.h>
+
+#include "core/spec/experiment_spec.h"
+#include "core/spec/scene_spec.h"
+
+namespace btr {
+namespace {
+
+ExperimentSpec example(const std::string& name) {
+  return loadExperiment(std::string(SOURCE_DIR) + "/resources/experiments/" + name);
+}
+
+TEST(ExampleExperiments, KickHasAllSettingsOfThePaper) {
+  const ExperimentSpec kick = example("kick.json");
+  const auto stage = [&](const std::string& name) { return valueOf(stageParameters(), kick.stages, name); };
+  EXPECT_EQ("kick", kick.controller.name);
+  EXPECT_EQ(0.75, kick.learner.settings.at("crossover"));
+  EXPECT_EQ(0.015, kick.learner.settings.at("mutation"));
+  EXPECT_EQ(8, kick.learner.settings.at("bits"));
+  EXPECT_EQ(50, stage("first_generations"));
+  EXPECT_EQ(100, stage("next_generations"));
+  EXPECT_EQ(500, stage("total_generations"));
+  EXPECT_EQ(10, stage("measured_individuals"));
+  EXPECT_EQ(10, valueOf(adaptationParameters(), kick.adaptationSettings, "generations"));
+  EXPECT_TRUE(kick.adapted.empty());
+  EXPECT_EQ("person", kick.reality);
+}
+
+TEST(ExampleExperiments, TheShortKickMeasuresThreeTimesByTheStandIn) {
+  const ExperimentSpec kick = example("kick-short.json");
+  const auto stage = [&](const std::string& name) { return valueOf(stageParameters(), kick.stages, name); };
+  EXPECT_EQ(150, stage("total_generations"));
+  EXPECT_EQ(150, stage("first_generations") + 2 * stage("next_generations"));
+  EXPECT_EQ("stand_in", kick.reality);
+}
+
+TEST(ExampleExperiments, TheirScenesCanBeRead) {
+  for (const char* name : {"kick.json", "kick-short.json"}) {
+    const ExperimentSpec spec = example(name);
+    const SceneSpec scene = loadScene(spec.directory + "/" + spec.scene);
+    EXPECT_EQ(1u, scene.robots.size());
+    EXPECT_EQ(1u, scene.balls.size());
+  }
+}
+
+}  // namespace
+}  // namespace btr

@@ -1,0 +1,77 @@
+#include "ui/scene3d/replay_data.h"
+
+#include "core/model/kinematics.h"
+#include "core/spec/error.h"
+
+namespace btr::ui {
+
+ReplayData toReplayData(const Replay& replay, std::vector<ReplayBall> balls, const QString& title,
+                        const QString& fitnessUnit) {
+  ReplayData data;
+  data.trace = replay.result.trace;
+  data.model = replay.model;
+  data.robotName = replay.robotName;
+  data.balls = std::move(balls);
+  data.title = title;
+  data.check = replay.identical ? ReplayData::Check::identical : ReplayData::Check::differs;
+  data.fitness = replay.fitness;
+  data.storedFitness = replay.storedFitness;
+  data.fitnessUnit = fitnessUnit;
+  if (replay.result.outcome != TrialResult::Outcome::finished)
+    data.note = QString::fromUtf8(toText(replay.result.outcome)) + ": " + QString::fromStdString(replay.result.detail);
+  return data;
+}
+
+ReplayFrames::ReplayFrames(const ReplayData& data)
+    : trace_(data.trace), model_(data.model), fixedBase_(data.fixedBase) {
+  const int time = trace_.column("time_s");
+  if (time < 0) throw InputError("trace of " + data.title.toStdString() + ": no column time_s");
+  for (std::size_t row = 0; row < trace_.rows(); ++row) {
+    times_.push_back(trace_.at(row, time));
+    if (row > 0 && !(times_[row] > times_[row - 1]))
+      throw InputError("trace of " + data.title.toStdString() + " row " + std::to_string(row + 1) + " time_s",
+                       std::to_string(times_[row]), "times increase");
+  }
+  base_ = find(trace_, data.robotName + ".base");
+  if (model_)
+    for (const Joint& joint : model_->joints) {
+      const bool slides = joint.type == Joint::Type::slide;
+      joints_.push_back(trace_.column(data.robotName + "." + joint.name + (slides ? ".position_m" : ".position_rad")));
+    }
+  for (const ReplayBall& ball : data.balls) {
+    const PoseColumns columns = find(trace_, ball.name);
+    if (columns.column[0] < 0) continue;
+    balls_.push_back(columns);
+    radii_.push_back(ball.radius_m);
+  }
+}
+
+ReplayFrames::PoseColumns ReplayFrames::find(const Trace& trace, const std::string& prefix) {
+  PoseColumns result{};
+  const char* names[] = {".x_m", ".y_m", ".z_m", ".qw", ".qx", ".qy", ".qz"};
+  for (int i = 0; i < 7; ++i) result.column[i] = trace.column(prefix + names[i]);
+  return result;
+}
+
+Eigen::Isometry3d ReplayFrames::read(std::size_t row, const PoseColumns& columns) const {
+  const auto value = [&](int i, double otherwise) {
+    return columns.column[i] < 0 ? otherwise : trace_.at(row, static_cast<std::size_t>(columns.column[i]));
+  };
+  Eigen::Isometry3d pose(Eigen::Translation3d(value(0, 0), value(1, 0), value(2, 0)));
+  const Eigen::Quaterniond turn(value(3, 1), value(4, 0), value(5, 0), value(6, 0));
+  if (turn.norm() > 1e-6) pose.linear() = turn.normalized().toRotationMatrix();
+  return pose;
+}
+
+ScenePose ReplayFrames::pose(std::size_t frame) const {
+  ScenePose result;
+  if (model_) {
+    std::vector<double> positions;
+    for (int column : joints_) positions.push_back(column < 0 ? 0 : trace_.at(frame, static_cast<std::size_t>(column)));
+    result.links = forwardKinematics(*model_, base_.column[0] < 0 ? fixedBase_ : read(frame, base_), positions);
+  }
+  for (const PoseColumns& columns : balls_) result.balls.push_back(read(frame, columns));
+  return result;
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,77 @@
+#pragma once
+#include <QMetaType>
+#include <QString>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/model/robot_model.h"
+#include "core/run/replay.h"
+#include "core/sim/trace.h"
+#include "ui/scene3d/scene_builder.h"
+
+namespace btr::ui {
+
+struct ReplayBall {
+  std::string name = "ball";  ///< prefix of its channels
+  double radius_m = 0.0425;
+};
+
+/// Everything that the replay panel shows, as plain values. Made in a worker thread, shown in the window's.
+struct ReplayData {
+  enum class Check { notChecked, identical, differs };
+
+  Trace trace;
+  std::shared_ptr<const RobotModel> model;  ///< null: balls only
+  std::string robotName;                    ///< prefix of its channels
+  /// Where the root link is when the trace has no base channels (a robot bolted to the ground).
+  Eigen::Isometry3d fixedBase = Eigen::Isometry3d::Identity();
+  std::vector<ReplayBall> balls;
+  Ground ground = Ground::field;
+  QString title;         ///< "kick-short, run 1, individual 17"
+  QString simulator;     ///< "simulator 3"; empty: not shown
+  bool standIn = false;  ///< reality was played by another simulation: always labelled
+  Check check = Check::notChecked;
+  double fitness = 0;
+  double storedFitness = 0;
+  QString fitnessUnit;
+  QString note;  ///< a failed trial's reason, or empty
+};
+
+/// What core/run says of a stored individual, with the words and sizes that it does not know.
+ReplayData toReplayData(const Replay& replay, std::vector<ReplayBall> balls, const QString& title,
+                        const QString& fitnessUnit);
+
+/// Rows of a trace as poses. The columns are looked up once. Robots without base channels stand at fixedBase; joints
+/// without a position channel stay at 0; a ball without channels is not drawn.
+class ReplayFrames {
+ public:
+  ReplayFrames() = default;
+  /// Throws InputError if the trace has no time_s column or a row's times do not increase.
+  explicit ReplayFrames(const ReplayData& data);
+
+  const std::vector<double>& times() const { return times_; }
+  ScenePose pose(std::size_t frame) const;
+  /// Radii of the balls that pose() gives, in its order.
+  const std::vector<double>& ballRadii() const { return radii_; }
+
+ private:
+  /// Columns of x, y, z, qw, qx, qy, qz, or −1.
+  struct PoseColumns {
+    int column[7];
+  };
+  static PoseColumns find(const Trace& trace, const std::string& prefix);
+  Eigen::Isometry3d read(std::size_t row, const PoseColumns& columns) const;
+
+  Trace trace_;
+  std::shared_ptr<const RobotModel> model_;
+  Eigen::Isometry3d fixedBase_ = Eigen::Isometry3d::Identity();
+  PoseColumns base_{};
+  std::vector<int> joints_;
+  std::vector<PoseColumns> balls_;
+  std::vector<double> radii_, times_;
+};
+
+}  // namespace btr::ui
+
+Q_DECLARE_METATYPE(btr::ui::ReplayData)

@@ -1,0 +1,307 @@
+#include "ui/scene3d/scene_builder.h"
+
+#include <osg/BlendFunc>
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/Geometry>
+#include <osg/LineWidth>
+#include <osg/MatrixTransform>
+#include <osg/PolygonMode>
+#include <osg/PolygonOffset>
+
+#include <algorithm>
+
+#include "ui/scene3d/field.h"
+#include "ui/scene3d/triangle_mesh.h"
+
+namespace btr::ui {
+namespace {
+
+const std::string kJackets[] = {"red", "blue"};
+constexpr unsigned kHidden = 0;
+
+osg::Matrixd matrix(const Eigen::Isometry3d& pose) { return osg::Matrixd(pose.matrix().data()); }
+
+void useBuffers(osg::Geometry& geometry) {
+  geometry.setUseDisplayList(false);
+  geometry.setUseVertexBufferObjects(true);
+}
+
+template <typename Array, typename Values>
+osg::ref_ptr<Array> copied(const Values& values) {
+  osg::ref_ptr<Array> array = new Array;
+  array->reserve(values.size());
+  for (const auto& value : values) {
+    typename Array::ElementDataType element;
+    for (int i = 0; i < Array::ElementDataType::num_components; ++i) element[i] = value[i];
+    array->push_back(element);
+  }
+  return array;
+}
+
+osg::ref_ptr<osg::Geometry> toGeometry(const TriangleMesh& mesh, float gloss) {
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  useBuffers(*geometry);
+  geometry->setVertexArray(copied<osg::Vec3Array>(mesh.positions));
+  geometry->setNormalArray(copied<osg::Vec3Array>(mesh.normals), osg::Array::BIND_PER_VERTEX);
+  geometry->setColorArray(copied<osg::Vec4Array>(mesh.colours), osg::Array::BIND_PER_VERTEX);
+  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.indices.size(), mesh.indices.data()));
+  geometry->getOrCreateStateSet()->addUniform(new osg::Uniform("gloss", gloss));
+  return geometry;
+}
+
+osg::ref_ptr<osg::Geometry> toGeometry(const LineSegments& lines, const Colour& colour) {
+  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+  useBuffers(*geometry);
+  geometry->setVertexArray(copied<osg::Vec3Array>(lines));
+  geometry->setColorArray(copied<osg::Vec4Array>(std::vector<Colour>{colour}), osg::Array::BIND_OVERALL);
+  geometry->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, static_cast<int>(lines.size())));
+  osg::StateSet& state = *geometry->getOrCreateStateSet();
+  state.addUniform(new osg::Uniform("unlit", 1.f));
+  state.setAttribute(new osg::LineWidth(2.f));
+  geometry->setNodeMask(kCastsNoShadow);
+  return geometry;
+}
+
+/// Blended in a bin of its own after everything solid. With `depthOnly` it first fills the depth buffer alone, so that
+/// only the nearest surface of a ghost shows and not its insides.
+void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
+  osg::StateSet& state = *node.getOrCreateStateSet();
+  state.setRenderBinDetails(bin, "RenderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  if (depthOnly) {
+    state.setAttribute(new osg::ColorMask(false, false, false, false));
+  } else {
+    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+    state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  }
+}
+
+/// One drawn body: a robot and balls whose parts follow a pose. The solid one and every ghost are such.
+struct Figure {
+  osg::ref_ptr<osg::Group> group = new osg::Group;
+  std::vector<osg::ref_ptr<osg::MatrixTransform>> links, balls;
+  std::vector<osg::ref_ptr<osg::Node>> jackets[2], outlines;
+
+  /// With a colour everything is drawn in it, without collision outlines: a ghost.
+  Figure(const RobotModel* model, const std::vector<double>& radii, const Colour* colour) {
+    for (std::size_t i = 0; model && i < model->links.size(); ++i) links.push_back(addLink(model->links[i], colour));
+    for (double radius : radii) {
+      balls.push_back(new osg::MatrixTransform);
+      TriangleMesh mesh = ballMesh(radius);
+      if (colour) mesh.colours.assign(mesh.colours.size(), *colour);
+      balls.back()->addChild(toGeometry(mesh, 0.35f));
+      group->addChild(balls.back());
+    }
+  }
+
+  void place(const ScenePose& pose) {
+    move(links, pose.links);
+    move(balls, pose.balls);
+  }
+
+  void showJacket(const std::string& part) {
+    for (int i = 0; i < 2; ++i)
+      for (auto& node : jackets[i]) node->setNodeMask(kJackets[i] == part ? kCastsShadow : kHidden);
+  }
+
+ private:
+  static void move(std::vector<osg::ref_ptr<osg::MatrixTransform>>& nodes,
+                   const std::vector<Eigen::Isometry3d>& poses) {
+    // A trial that exploded may have ended in poses that are no numbers.
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const bool known = poses.size() >= nodes.size() && poses[i].matrix().allFinite();
+      nodes[i]->setNodeMask(known ? ~0u : kHidden);
+      if (known) nodes[i]->setMatrix(matrix(poses[i]));
+    }
+  }
+
+  osg::ref_ptr<osg::MatrixTransform> addLink(const Link& link, const Colour* ghost) {
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
+    TriangleMesh common, clear, jacket[2];
+    LineSegments outline;
+    for (const Shape& shape : link.shapes) {
+      if (shape.drawn) {
+        TriangleMesh* mesh = &common;
+        for (int i = 0; i < 2; ++i)
+          if (shape.part == kJackets[i]) mesh = &jacket[i];
+        if (!ghost && mesh == &common && shape.colour[3] < 1) mesh = &clear;
+        mesh->addShape(shape, shape.pose, ghost ? *ghost : shape.colour);
+      }
+      if (shape.collides && !ghost) addOutline(outline, shape, shape.pose);
+    }
+    const auto add = [&](const osg::ref_ptr<osg::Geometry>& geometry, unsigned mask) {
+      geometry->setNodeMask(mask);
+      transform->addChild(geometry);
+      return geometry;
+    };
+    if (!common.empty()) add(toGeometry(common, 0.30f), kCastsShadow);
+    if (!clear.empty()) makeTranslucent(*add(toGeometry(clear, 0.6f), kCastsShadow), 10, false);
+    for (int i = 0; i < 2; ++i)
+      if (!jacket[i].empty()) jackets[i].push_back(add(toGeometry(jacket[i], 0.12f), kHidden));
+    if (!outline.empty()) outlines.push_back(add(toGeometry(outline, Colour{0.95f, 0.15f, 0.75f, 1}), kHidden));
+    group->addChild(transform);
+    return transform;
+  }
+};
+
+}  // namespace
+
+struct SceneBuilder::Impl {
+  osg::ref_ptr<osg::Group> root = new osg::Group, ground = new osg::Group, body = new osg::Group,
+                           ghosts = new osg::Group;
+  std::shared_ptr<const RobotModel> model;
+  std::vector<double> radii;
+  ScenePose pose;
+  std::vector<Ghost> ghostPoses;
+  std::vector<Figure> ghostFigures;
+  std::unique_ptr<Figure> figure;
+  std::string jacket = "red";
+  Ground groundKind = Ground::field;
+  bool collisionShapes = false, dark = false;
+
+  void rebuildFigure();
+  void rebuildGhosts();
+  void rebuildGround();
+  void showOutlines() {
+    for (auto& node : figure->outlines) node->setNodeMask(collisionShapes ? kCastsNoShadow : kHidden);
+  }
+};
+
+void SceneBuilder::Impl::rebuildFigure() {
+  pose = {};
+  figure = std::make_unique<Figure>(model.get(), radii, nullptr);
+  figure->showJacket(jacket);
+  figure->place(pose);
+  showOutlines();
+  body->removeChildren(0, body->getNumChildren());
+  body->addChild(figure->group);
+  ghostPoses.clear();
+  rebuildGhosts();
+}
+
+void SceneBuilder::Impl::rebuildGhosts() {
+  ghosts->removeChildren(0, ghosts->getNumChildren());
+  ghostFigures.clear();
+  int bin = 20;
+  for (const Ghost& ghost : ghostPoses) {
+    const Colour colour{float(ghost.colour.redF()), float(ghost.colour.greenF()), float(ghost.colour.blueF()),
+                        float(ghost.colour.alphaF())};
+    Figure shape(model.get(), radii, &colour);
+    shape.showJacket(jacket);
+    shape.place(ghost.pose);
+    for (bool depthOnly : {true, false}) {
+      osg::ref_ptr<osg::Group> pass = new osg::Group;
+      makeTranslucent(*pass, bin++, depthOnly);
+      pass->setNodeMask(kCastsNoShadow);
+      pass->addChild(shape.group);
+      ghosts->addChild(pass);
+    }
+    ghostFigures.push_back(std::move(shape));
+  }
+}
+
+void SceneBuilder::Impl::rebuildGround() {
+  ground->removeChildren(0, ground->getNumChildren());
+  if (groundKind == Ground::none) return;
+  const auto add = [this](const TriangleMesh& mesh, float gloss, unsigned mask) -> osg::StateSet& {
+    osg::ref_ptr<osg::Geometry> geometry = toGeometry(mesh, gloss);
+    geometry->setNodeMask(mask);
+    ground->addChild(geometry);
+    return *geometry->getOrCreateStateSet();
+  };
+  // Floors sink behind what lies on them, and the outermost one into the horizon.
+  const Colour floor = dark ? Colour{0.20f, 0.21f, 0.23f, 1} : Colour{0.64f, 0.66f, 0.68f, 1};
+  const auto sink = [](osg::StateSet& state, float amount) {
+    state.setAttributeAndModes(new osg::PolygonOffset(amount, amount));
+  };
+  osg::StateSet& around = add(plainFloor(14, groundKind == Ground::field ? -0.004 : 0, floor), 0, kCastsNoShadow);
+  around.addUniform(new osg::Uniform("fade", 12.f));
+  sink(around, 2);
+  if (groundKind == Ground::plain) {
+    const Colour grid = dark ? Colour{0.30f, 0.31f, 0.34f, 1} : Colour{0.50f, 0.52f, 0.55f, 1};
+    add(floorGrid(3, grid), 0, kCastsNoShadow).addUniform(new osg::Uniform("fade", 4.f));
+    return;
+  }
+  const FieldSize size;
+  osg::StateSet& carpet = add(fieldCarpet(size), 0, kCastsNoShadow);
+  carpet.addUniform(new osg::Uniform("weave", 0.30f));
+  sink(carpet, 1);
+  add(fieldLines(size), 0, kCastsNoShadow);
+  add(fieldFixtures(size), 0.15f, kCastsShadow);
+}
+
+SceneBuilder::SceneBuilder() : impl_(std::make_unique<Impl>()) {
+  for (auto& part : {impl_->ground, impl_->body, impl_->ghosts}) impl_->root->addChild(part);
+  impl_->rebuildFigure();
+  impl_->rebuildGround();
+}
+
+SceneBuilder::~SceneBuilder() = default;
+
+osg::Node& SceneBuilder::node() const { return *impl_->root; }
+const ScenePose& SceneBuilder::pose() const { return impl_->pose; }
+
+void SceneBuilder::setRobot(std::shared_ptr<const RobotModel> model) {
+  impl_->model = std::move(model);
+  impl_->rebuildFigure();
+}
+
+void SceneBuilder::setBalls(std::vector<double> radii_m) {
+  impl_->radii = std::move(radii_m);
+  impl_->rebuildFigure();
+}
+
+void SceneBuilder::setPose(const ScenePose& pose) {
+  impl_->pose = pose;
+  impl_->figure->place(pose);
+}
+
+void SceneBuilder::setGhosts(std::vector<Ghost> ghosts) {
+  // In a replay the same ghosts only move.
+  const auto sameColour = [](const Ghost& a, const Ghost& b) { return a.colour == b.colour; };
+  const bool same =
+      std::equal(ghosts.begin(), ghosts.end(), impl_->ghostPoses.begin(), impl_->ghostPoses.end(), sameColour);
+  impl_->ghostPoses = std::move(ghosts);
+  if (!same) return impl_->rebuildGhosts();
+  for (std::size_t i = 0; i < impl_->ghostPoses.size(); ++i) impl_->ghostFigures[i].place(impl_->ghostPoses[i].pose);
+}
+
+void SceneBuilder::setGround(Ground ground) {
+  impl_->groundKind = ground;
+  impl_->rebuildGround();
+}
+
+void SceneBuilder::setJacket(const std::string& part) {
+  impl_->jacket = part;
+  impl_->figure->showJacket(part);
+  impl_->rebuildGhosts();
+}
+
+void SceneBuilder::setWireframe(bool on) {
+  osg::StateSet& state = *impl_->body->getOrCreateStateSet();
+  if (on)
+    state.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+  else
+    state.removeAttribute(osg::StateAttribute::POLYGONMODE);
+}
+
+void SceneBuilder::setCollisionShapes(bool on) {
+  impl_->collisionShapes = on;
+  impl_->showOutlines();
+}
+
+void SceneBuilder::setDark(bool dark) {
+  impl_->dark = dark;
+  impl_->rebuildGround();
+}
+
+RenderOptions SceneBuilder::renderOptions() const {
+  RenderOptions options;
+  if (impl_->dark) {
+    options.skyTop = QColor(28, 31, 37);
+    options.skyHorizon = QColor(52, 56, 63);
+  }
+  return options;
+}
+
+}  // namespace btr::ui

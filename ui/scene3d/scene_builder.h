@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <QColor>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/model/robot_model.h"
+#include "ui/scene3d/renderer.h"
+
+namespace btr::ui {
+
+/// Where everything that moves is at one moment, in the world's frame.
+struct ScenePose {
+  std::vector<Eigen::Isometry3d> links;  ///< by link of the model; fewer than the model has: no robot is drawn
+  std::vector<Eigen::Isometry3d> balls;
+};
+
+/// A second, translucent robot and its balls, to compare with the solid ones.
+struct Ghost {
+  ScenePose pose;
+  QColor colour{60, 130, 230, 110};
+};
+
+enum class Ground { field, plain, none };
+
+/// Robot, balls and ground as an OpenSceneGraph scene. Owns the graph; a graph belongs to one thread.
+class SceneBuilder {
+ public:
+  SceneBuilder();
+  ~SceneBuilder();
+  SceneBuilder(const SceneBuilder&) = delete;
+  SceneBuilder& operator=(const SceneBuilder&) = delete;
+
+  osg::Node& node() const;
+
+  /// Draws the model's drawn shapes; null takes the robot away. Poses are forgotten.
+  void setRobot(std::shared_ptr<const RobotModel> model);
+  /// One ball a radius [m]. Poses are forgotten.
+  void setBalls(std::vector<double> radii_m);
+  void setPose(const ScenePose& pose);
+  const ScenePose& pose() const;
+  void setGhosts(std::vector<Ghost> ghosts);
+
+  void setGround(Ground ground);
+  /// Shapes of a part with this word are drawn, those of the other jacket are not: "red" or "blue".
+  void setJacket(const std::string& part);
+  void setWireframe(bool on);
+  /// Outlines of the shapes that collide.
+  void setCollisionShapes(bool on);
+  /// Floor and sky for a dark window.
+  void setDark(bool dark);
+  /// Sky colours that go with it; shadows and supersampling as by default.
+  RenderOptions renderOptions() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace btr::ui

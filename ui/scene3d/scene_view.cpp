@@ -1,0 +1,312 @@
+#include "ui/scene3d/scene_view.h"
+
+#include <QAction>
+#include <QElapsedTimer>
+#include <QEvent>
+#include <QFileDialog>
+#include <QKeyEvent>
+#include <QMessageBox>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QWheelEvent>
+
+namespace btr::ui {
+namespace {
+
+constexpr double kSlowPicture_s = 0.030;  ///< a finer picture that takes longer is left for moments of rest
+
+QColor toneColour(Badge::Tone tone) {
+  switch (tone) {
+    case Badge::Tone::good:
+      return QColor(34, 125, 62);
+    case Badge::Tone::bad:
+      return QColor(180, 35, 40);
+    case Badge::Tone::warning:
+      return QColor(150, 92, 0);
+    case Badge::Tone::neutral:
+      return QColor(90, 96, 105);
+  }
+  return {};
+}
+
+}  // namespace
+
+SceneView::SceneView(QWidget* parent, GlContextFactory factory) : QWidget(parent), renderer_(std::move(factory)) {
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setAccessibleName(tr("3D view of robot, ball and field"));
+  makeActions();
+  refine_.setSingleShot(true);
+  refine_.setInterval(150);
+  connect(&refine_, &QTimer::timeout, this, &SceneView::redraw);
+  applyTheme();
+}
+
+SceneView::~SceneView() = default;
+
+void SceneView::makeActions() {
+  const auto make = [this](const QString& text, const QString& icon, const QString& hint, bool checkable) {
+    auto* action = new QAction(QIcon::fromTheme(icon), text, this);
+    action->setToolTip(hint);
+    action->setCheckable(checkable);
+    return action;
+  };
+  home_ = make(tr("Home"), "go-home", tr("Back to the first point of view (H)"), false);
+  followAction_ =
+      make(tr("Follow"), "zoom-fit-selection", tr("Keep the robot, the ball or nothing in the middle (F)"), false);
+  shadows_ = make(tr("Shadows"), "weather-clear", tr("Draw shadows (S)"), true);
+  shadows_->setChecked(true);
+  wireframe_ = make(tr("Wireframe"), "draw-polyline", tr("Draw edges instead of surfaces (W)"), true);
+  collision_ =
+      make(tr("Collision shapes"), "draw-cuboid", tr("Outline what collides; meshes show their box (B)"), true);
+  jacket_ = make(tr("Blue jacket"), "color-picker", tr("Change between the red and the blue jacket (J)"), true);
+  save_ = make(tr("Save picture…"), "document-save", tr("Save what is shown as a PNG file"), false);
+  connect(home_, &QAction::triggered, this, &SceneView::goHome);
+  connect(followAction_, &QAction::triggered, this, [this] { setFollow(Follow((int(follow_) + 1) % 3)); });
+  connect(shadows_, &QAction::toggled, this, &SceneView::redraw);
+  connect(wireframe_, &QAction::toggled, this, [this](bool on) {
+    scene_.setWireframe(on);
+    redraw();
+  });
+  connect(collision_, &QAction::toggled, this, [this](bool on) {
+    scene_.setCollisionShapes(on);
+    redraw();
+  });
+  connect(jacket_, &QAction::toggled, this, [this](bool blue) {
+    scene_.setJacket(blue ? "blue" : "red");
+    redraw();
+  });
+  connect(save_, &QAction::triggered, this, &SceneView::askAndSave);
+}
+
+QList<QAction*> SceneView::viewActions() const {
+  return {home_, followAction_, shadows_, wireframe_, collision_, jacket_, save_};
+}
+
+void SceneView::setRobot(std::shared_ptr<const RobotModel> model) {
+  scene_.setRobot(std::move(model));
+  redraw();
+}
+
+void SceneView::setBalls(std::vector<double> radii_m) {
+  scene_.setBalls(std::move(radii_m));
+  redraw();
+}
+
+void SceneView::setPose(const ScenePose& pose) {
+  scene_.setPose(pose);
+  applyFollow();
+  redraw();
+}
+
+void SceneView::setGhosts(std::vector<Ghost> ghosts) {
+  scene_.setGhosts(std::move(ghosts));
+  redraw();
+}
+
+void SceneView::setGround(Ground ground) {
+  scene_.setGround(ground);
+  redraw();
+}
+
+void SceneView::setJacket(const QString& part) { jacket_->setChecked(part == "blue"); }
+
+void SceneView::setFollow(Follow follow) {
+  follow_ = follow;
+  const QString names[] = {tr("Follow"), tr("Follows the robot"), tr("Follows the ball")};
+  followAction_->setText(names[int(follow)]);
+  applyFollow();
+  redraw();
+}
+
+/// Moves the focus, and with it the eye, onto what is followed.
+void SceneView::applyFollow() {
+  const ScenePose& pose = scene_.pose();
+  const auto& followed = follow_ == Follow::ball ? pose.balls : pose.links;
+  if (follow_ != Follow::nothing && !followed.empty() && followed.front().matrix().allFinite())
+    camera_.focus = followed.front().translation();
+}
+
+void SceneView::setCaption(const QStringList& lines) {
+  caption_ = lines;
+  update();
+}
+
+void SceneView::setBadges(const QList<Badge>& badges) {
+  badges_ = badges;
+  update();
+}
+
+void SceneView::setCamera(const ViewCamera& camera) {
+  camera_ = camera;
+  applyFollow();
+  redraw();
+  emit cameraChanged();
+}
+
+void SceneView::goHome() {
+  // Home looks at the robot wherever it stands now.
+  ViewCamera home;
+  if (const auto& links = scene_.pose().links; !links.empty() && links.front().matrix().allFinite()) {
+    const Eigen::Vector3d base = links.front().translation();
+    home.focus += Eigen::Vector3d(base.x(), base.y(), 0);
+  }
+  follow_ = Follow::nothing;
+  followAction_->setText(tr("Follow"));
+  setCamera(home);
+}
+
+void SceneView::setMoving(bool moving) {
+  moving_ = moving;
+  if (!moving && coarse_) refine_.start();
+}
+
+void SceneView::redraw() {
+  stale_ = true;
+  update();
+}
+
+QImage SceneView::rendered(QSize pixels, int supersampling) {
+  RenderOptions options = scene_.renderOptions();
+  options.shadows = shadows_->isChecked();
+  options.supersampling = supersampling;
+  return renderer_.render(scene_.node(), camera_, pixels, options);
+}
+
+QString SceneView::problem() const { return renderer_.problem(); }
+
+QImage SceneView::picture(QSize size) {
+  QImage result = rendered(size, 2);
+  if (result.isNull()) return result;
+  QPainter painter(&result);
+  painter.setFont(font());
+  drawTexts(painter, size);
+  return result;
+}
+
+bool SceneView::savePicture(const QString& path) {
+  const QImage image = picture(size() * devicePixelRatioF());
+  return !image.isNull() && image.save(path, "PNG");
+}
+
+void SceneView::askAndSave() {
+  QString path = QFileDialog::getSaveFileName(this, tr("Save picture"), "picture.png", tr("PNG pictures (*.png)"));
+  if (path.isEmpty()) return;
+  if (!path.endsWith(".png", Qt::CaseInsensitive)) path += ".png";
+  if (!savePicture(path))
+    QMessageBox::warning(
+        this, tr("Save picture"),
+        problem().isEmpty() ? tr("%1 cannot be written.").arg(path) : tr("No picture: %1.").arg(problem()));
+}
+
+void SceneView::paintEvent(QPaintEvent*) {
+  // Render only what changed; while things move, a slow machine draws one sample a pixel.
+  const QSize pixels = (QSizeF(size()) * devicePixelRatioF()).toSize();
+  if (stale_ || image_.size() != pixels ||
+      (coarse_ && !moving_ && dragButton_ == Qt::NoButton && !refine_.isActive())) {
+    const bool busy = moving_ || dragButton_ != Qt::NoButton || refine_.isActive();
+    coarse_ = busy && fineSeconds_ > kSlowPicture_s;
+    QElapsedTimer watch;
+    watch.start();
+    image_ = rendered(pixels, coarse_ ? 1 : 2);
+    if (!coarse_) fineSeconds_ = watch.nsecsElapsed() * 1e-9;
+    stale_ = false;
+    if (coarse_ && !moving_) refine_.start();
+  }
+  QPainter painter(this);
+  if (image_.isNull()) {
+    painter.fillRect(rect(), palette().window());
+    painter.setPen(palette().windowText().color());
+    painter.drawText(
+        rect().adjusted(20, 20, -20, -20), Qt::AlignCenter | Qt::TextWordWrap,
+        tr("The 3D view needs OpenGL, and this machine offers none:\n%1.\nEverything else works without it.")
+            .arg(problem()));
+  } else {
+    painter.drawImage(rect(), image_);
+  }
+  drawTexts(painter, size());
+}
+
+void SceneView::drawTexts(QPainter& painter, const QSize& size) const {
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QFontMetrics metrics(painter.font());
+  const int pad = metrics.height() / 3, margin = metrics.height() / 2, line = metrics.height() + 2 * pad;
+  const auto plate = [&](QRect area, const QColor& colour) {
+    QPainterPath path;
+    path.addRoundedRect(area, pad + 2, pad + 2);
+    painter.fillPath(path, colour);
+  };
+  if (!caption_.isEmpty()) {
+    int width = 0;
+    for (const QString& text : caption_) width = std::max(width, metrics.horizontalAdvance(text));
+    const QRect area(margin, margin, width + 4 * pad, metrics.height() * int(caption_.size()) + 2 * pad);
+    plate(area, QColor(20, 24, 30, 150));
+    painter.setPen(Qt::white);
+    painter.drawText(area.adjusted(2 * pad, pad, -2 * pad, -pad), Qt::AlignLeft | Qt::AlignTop, caption_.join('\n'));
+  }
+  int y = margin;
+  for (const Badge& badge : badges_) {
+    const int width = metrics.horizontalAdvance(badge.text) + 4 * pad;
+    const QRect area(size.width() - width - margin, y, width, line);
+    plate(area, toneColour(badge.tone));
+    painter.setPen(Qt::white);
+    painter.drawText(area, Qt::AlignCenter, badge.text);
+    y += line + pad;
+  }
+}
+
+void SceneView::mousePressEvent(QMouseEvent* event) {
+  if (dragButton_ != Qt::NoButton || (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton)) return;
+  dragButton_ = event->button();
+  dragFrom_ = event->position();
+}
+
+void SceneView::mouseMoveEvent(QMouseEvent* event) {
+  if (dragButton_ == Qt::NoButton) return;
+  const QPointF by = event->position() - dragFrom_;
+  dragFrom_ = event->position();
+  ViewCamera camera = camera_;
+  if (dragButton_ == Qt::MiddleButton || event->modifiers() & Qt::ShiftModifier) {
+    if (follow_ != Follow::nothing) setFollow(Follow::nothing);
+    camera.pan(by, height());
+  } else {
+    camera.orbit(by);
+  }
+  setCamera(camera);
+}
+
+void SceneView::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != dragButton_) return;
+  dragButton_ = Qt::NoButton;
+  if (coarse_) refine_.start();
+}
+
+void SceneView::wheelEvent(QWheelEvent* event) {
+  ViewCamera camera = camera_;
+  camera.zoom(event->angleDelta().y() / 120.0);
+  if (fineSeconds_ > kSlowPicture_s) refine_.start();
+  setCamera(camera);
+  event->accept();
+}
+
+void SceneView::keyPressEvent(QKeyEvent* event) {
+  const std::pair<int, QAction*> keys[] = {{Qt::Key_H, home_},      {Qt::Key_F, followAction_}, {Qt::Key_S, shadows_},
+                                           {Qt::Key_W, wireframe_}, {Qt::Key_B, collision_},    {Qt::Key_J, jacket_}};
+  if (!(event->modifiers() & ~Qt::ShiftModifier))
+    for (const auto& [key, action] : keys)
+      if (event->key() == key) return action->trigger();
+  QWidget::keyPressEvent(event);  // the panel around takes the rest
+}
+
+void SceneView::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) applyTheme();
+  QWidget::changeEvent(event);
+}
+
+void SceneView::applyTheme() {
+  scene_.setDark(palette().window().color().lightnessF() < 0.5);
+  redraw();
+}
+
+}  // namespace btr::ui

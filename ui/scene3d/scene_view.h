@@ -1,0 +1,110 @@
+#pragma once
+#include <QColor>
+#include <QList>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+
+#include "ui/scene3d/renderer.h"
+#include "ui/scene3d/scene_builder.h"
+#include "ui/scene3d/view_camera.h"
+
+class QAction;
+
+namespace btr::ui {
+
+/// A short word on coloured ground in the view's upper right corner.
+struct Badge {
+  enum class Tone { good, bad, neutral, warning };
+  QString text;
+  Tone tone = Tone::neutral;
+};
+
+/// The 3D view: a widget that paints what the renderer draws, only when something changed. Left drag orbits, middle or
+/// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, W wireframe, B collision shapes, S shadows,
+/// J red or blue jacket. Without OpenGL it says so in words and everything else works on.
+class SceneView : public QWidget {
+  Q_OBJECT
+
+ public:
+  enum class Follow { nothing, robot, ball };
+
+  explicit SceneView(QWidget* parent = nullptr, GlContextFactory factory = createGlContext);
+  ~SceneView() override;
+
+  void setRobot(std::shared_ptr<const RobotModel> model);
+  void setBalls(std::vector<double> radii_m);
+  void setPose(const ScenePose& pose);
+  void setGhosts(std::vector<Ghost> ghosts);
+  void setGround(Ground ground);
+  void setJacket(const QString& part);  ///< "red" or "blue"
+  void setFollow(Follow follow);
+  Follow follow() const { return follow_; }
+
+  /// Lines of text in the upper left corner, and badges in the upper right one, topmost first.
+  void setCaption(const QStringList& lines);
+  void setBadges(const QList<Badge>& badges);
+
+  const ViewCamera& camera() const { return camera_; }
+  void setCamera(const ViewCamera& camera);
+  void goHome();
+
+  /// While true the view may draw without supersampling if the machine is slow; it redraws finely afterwards.
+  void setMoving(bool moving);
+
+  /// Home, follow, shadows, wireframe, collision shapes, jacket, save picture: for a tool bar or menu.
+  QList<QAction*> viewActions() const;
+  QAction* shadowsAction() const { return shadows_; }
+  QAction* wireframeAction() const { return wireframe_; }
+  QAction* collisionAction() const { return collision_; }
+  QAction* jacketAction() const { return jacket_; }
+
+  /// What the view shows, with its texts, as a picture of that size.
+  QImage picture(QSize size);
+  /// PNG of picture(); false if the file cannot be written.
+  bool savePicture(const QString& path);
+  /// Why there is no picture; empty if there is one.
+  QString problem() const;
+
+  QSize sizeHint() const override { return {800, 600}; }
+  QSize minimumSizeHint() const override { return {200, 150}; }
+
+ signals:
+  void cameraChanged();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void makeActions();
+  void askAndSave();
+  void redraw();
+  void applyTheme();
+  void applyFollow();
+  QImage rendered(QSize pixels, int supersampling);
+  void drawTexts(QPainter& painter, const QSize& size) const;
+
+  SceneBuilder scene_;
+  OffscreenRenderer renderer_;
+  ViewCamera camera_;
+  Follow follow_ = Follow::nothing;
+  QStringList caption_;
+  QList<Badge> badges_;
+  QAction *home_, *followAction_, *shadows_, *wireframe_, *collision_, *jacket_, *save_;
+  QImage image_;         ///< what was rendered last, in device pixels
+  bool stale_ = true;    ///< image_ no longer shows the scene
+  bool coarse_ = false;  ///< image_ was drawn without supersampling
+  bool moving_ = false;
+  double fineSeconds_ = 0;  ///< what the last supersampled picture took
+  QTimer refine_;           ///< draws finely once nothing moves
+  QPointF dragFrom_;
+  Qt::MouseButton dragButton_ = Qt::NoButton;
+};
+
+}  // namespace btr::ui

@@ -1,0 +1,121 @@
+#include "ui/scene3d/shaders.h"
+
+namespace btr::ui::shaders {
+
+const char* const kMainVertex = R"(#version 120
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec2 ground;
+void shadowCoordinates(vec4 position);
+void main() {
+  vec4 position = gl_ModelViewMatrix * gl_Vertex;
+  eyePosition = position.xyz;
+  eyeNormal = gl_NormalMatrix * gl_Normal;
+  ground = gl_Vertex.xy;
+  gl_FrontColor = gl_Color;
+  gl_BackColor = gl_Color;
+  shadowCoordinates(position);
+  gl_Position = ftransform();
+}
+)";
+
+// gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the world's z axis at which
+// a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
+const char* const kMainFragment = R"(#version 120
+uniform vec3 skyTop;
+uniform vec3 skyHorizon;
+uniform vec2 viewport;
+uniform vec3 up;
+uniform float gloss;
+uniform float unlit;
+uniform float fade;
+uniform float weave;
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec2 ground;
+float DynamicShadow();
+float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
+float grain(vec2 p) {
+  vec2 cell = floor(p);
+  vec2 f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(hash(cell), hash(cell + vec2(1.0, 0.0)), f.x),
+             mix(hash(cell + vec2(0.0, 1.0)), hash(cell + vec2(1.0, 1.0)), f.x), f.y);
+}
+void main() {
+  vec3 albedo = pow(gl_Color.rgb, vec3(2.2));
+  if (unlit > 0.5) {
+    gl_FragColor = gl_Color;
+    return;
+  }
+  if (weave > 0.0) {
+    float pixel = max(length(dFdx(ground)), length(dFdy(ground)));
+    float near = clamp(0.004 / pixel - 0.6, 0.0, 1.0);
+    float fine = near > 0.0 ? near * (grain(ground * 260.0) - 0.5) : 0.0;
+    albedo *= 1.0 + weave * (1.3 * fine + 0.35 * (grain(ground * 9.0) - 0.5));
+  }
+  vec3 normal = normalize(eyeNormal);
+  vec3 toEye = normalize(-eyePosition);
+  if (dot(normal, toEye) < 0.0) normal = -normal;
+  vec3 toSun = normalize(gl_LightSource[0].position.xyz);
+  float sun = dot(normal, toSun);
+  float lit = sun > 0.0 ? DynamicShadow() * smoothstep(0.0, 0.12, sun) : 0.0;
+  vec3 sky = mix(vec3(0.24, 0.24, 0.23), vec3(0.44, 0.46, 0.49), 0.5 + 0.5 * dot(normal, up));
+  float fill = 0.12 * max(0.0, dot(normal, toEye));
+  vec3 light = sky + fill + lit * max(sun, 0.0) * vec3(0.74, 0.71, 0.66);
+  vec3 halfway = normalize(toSun + toEye);
+  float highlight = gloss * lit * pow(max(0.0, dot(normal, halfway)), 42.0);
+  float rim = gloss * 0.22 * pow(1.0 - max(0.0, dot(normal, toEye)), 4.0);
+  vec3 colour = pow(clamp(albedo * light + highlight + rim * sky, 0.0, 1.0), vec3(1.0 / 2.2));
+  if (fade > 0.0) {
+    float height = gl_FragCoord.y / viewport.y;
+    vec3 background = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));
+    colour = mix(colour, background, smoothstep(0.25 * fade, fade, length(ground)));
+  }
+  gl_FragColor = vec4(colour, gl_Color.a);
+}
+)";
+
+const char* const kShadowVertex = R"(#version 120
+void shadowCoordinates(vec4 position) {
+  gl_TexCoord[1] = vec4(dot(position, gl_EyePlaneS[1]), dot(position, gl_EyePlaneT[1]),
+                        dot(position, gl_EyePlaneR[1]), dot(position, gl_EyePlaneQ[1]));
+}
+)";
+
+// Four taps, each a bilinear comparison, soften the edge over about three texels.
+const char* const kShadowFragment = R"(#version 120
+uniform sampler2DShadow shadowTexture;
+uniform float shadowTexel;
+float DynamicShadow() {
+  vec3 centre = gl_TexCoord[1].xyz / gl_TexCoord[1].w;
+  vec2 d = 0.75 * vec2(shadowTexel, -shadowTexel);
+  return 0.25 * (shadow2D(shadowTexture, centre + vec3(d.xx, 0.0)).r + shadow2D(shadowTexture, centre + vec3(d.xy, 0.0)).r +
+                 shadow2D(shadowTexture, centre + vec3(d.yx, 0.0)).r + shadow2D(shadowTexture, centre + vec3(d.yy, 0.0)).r);
+}
+)";
+
+const char* const kNoShadowVertex = R"(#version 120
+void shadowCoordinates(vec4 position) {}
+)";
+
+const char* const kNoShadowFragment = R"(#version 120
+float DynamicShadow() { return 1.0; }
+)";
+
+const char* const kSkyVertex = R"(#version 120
+varying float height;
+void main() {
+  height = 0.5 * gl_Vertex.y + 0.5;
+  gl_Position = vec4(gl_Vertex.xy, 0.9999, 1.0);
+}
+)";
+
+const char* const kSkyFragment = R"(#version 120
+uniform vec3 skyTop;
+uniform vec3 skyHorizon;
+varying float height;
+void main() { gl_FragColor = vec4(mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height)), 1.0); }
+)";
+
+}  // namespace btr::ui::shaders

@@ -1,0 +1,60 @@
+#include "ui/scene3d/view_camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace btr::ui {
+namespace {
+
+/// Columns right, up, back.
+Eigen::Matrix3d axes(const ViewCamera& camera) {
+  const Eigen::Vector3d back = (camera.eye() - camera.focus).normalized();
+  const Eigen::Vector3d right(-std::sin(camera.azimuth), std::cos(camera.azimuth), 0);
+  Eigen::Matrix3d result;
+  result << right, back.cross(right), back;
+  return result;
+}
+
+}  // namespace
+
+Eigen::Vector3d ViewCamera::eye() const {
+  return focus + distance * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+}
+
+Eigen::Matrix4d ViewCamera::viewMatrix() const {
+  Eigen::Matrix4d result = Eigen::Matrix4d::Identity();
+  const Eigen::Matrix3d rotation = axes(*this).transpose();
+  result.topLeftCorner<3, 3>() = rotation;
+  result.topRightCorner<3, 1>() = -rotation * eye();
+  return result;
+}
+
+double ViewCamera::nearPlane() const { return std::max(0.01, 0.08 * distance); }
+double ViewCamera::farPlane() const { return distance + 25; }
+
+std::optional<QPointF> ViewCamera::project(const Eigen::Vector3d& point, QSize size) const {
+  const Eigen::Vector4d p = viewMatrix() * point.homogeneous();
+  if (p.z() > -nearPlane()) return std::nullopt;
+  const double scale = size.height() / (2 * std::tan(fieldOfView / 2) * -p.z());
+  return QPointF(size.width() / 2.0 + scale * p.x(), size.height() / 2.0 - scale * p.y());
+}
+
+double ViewCamera::metresPerPixel(int height) const {
+  return 2 * distance * std::tan(fieldOfView / 2) / std::max(1, height);
+}
+
+void ViewCamera::orbit(QPointF pixels) {
+  constexpr double radiansPerPixel = 0.006;
+  azimuth = std::remainder(azimuth - radiansPerPixel * pixels.x(), 2 * std::numbers::pi);
+  elevation = std::clamp(elevation + radiansPerPixel * pixels.y(), -0.2, 1.55);
+}
+
+void ViewCamera::pan(QPointF pixels, int height) {
+  const Eigen::Matrix3d frame = axes(*this);
+  focus += metresPerPixel(height) * (-pixels.x() * frame.col(0) + pixels.y() * frame.col(1));
+}
+
+void ViewCamera::zoom(double steps) { distance = std::clamp(distance * std::pow(1.15, -steps), 0.08, 15.0); }
+
+}  // namespace btr::ui

@@ -23,13 +23,16 @@ DriveRow servoRow(const Drive& drive, const JointState& state, double integral, 
 
 DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInput& input, double h) {
   const double supply = input.supply_v >= 0 ? input.supply_v : drive.supply_v;
-  const double most = drive.maxDuty * supply;
-  const double wanted = drive.firmwareGain_v_rad * (state.command - state.position);
   const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
+  const bool given = std::isfinite(input.duty);
+  // The firmware knows the supply that it was made for: a sagging one weakens its gain.
+  const double gain = !given && drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0;
+  const double wanted = given ? input.duty : gain * (state.command - state.position);
+  const bool limited = !given && std::abs(wanted) > drive.maxDuty;
   DriveRow row;
-  row.p = perVolt * std::clamp(wanted, -most, most);
+  row.p = perVolt * supply * (limited ? std::copysign(drive.maxDuty, wanted) : wanted);
   row.d = perVolt * drive.torqueConstant_nm_a;
-  if (std::abs(wanted) < most) row.d += h / 2 * perVolt * drive.firmwareGain_v_rad;
+  if (!limited) row.d += h / 2 * perVolt * supply * gain;
   return row;
 }
 

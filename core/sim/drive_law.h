@@ -26,8 +26,8 @@ struct DriveRow {
 /// torque limit gets no limit in its row (such rows are cheaper to solve). `state.position`, `.rate`, `.command` are
 /// those of now.
 ///   servo     clamp(p·(command − q) + i·∫ − d·rate, ±max)
-///   DC motor  kt·u/R − kt²·rate/R,  u = clamp(gain·(command − q), ±maxDuty·supply)
-///   torque    clamp(command, ±max)
+///   DC motor  kt·u/R − kt²·rate/R,  u = supply·clamp(gain·(command − q)/nominal supply, ±maxDuty) or supply·duty as
+///   given torque    clamp(command, ±max)
 /// A drive that is switched off gives nothing (a DC motor: open circuit, no braking by its own voltage).
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input, double h);
 

@@ -66,17 +66,22 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
   for (std::size_t i = 0; i < robots.size(); ++i)
     if (inputs[i].size() != robots[i].scene->model.joints.size())
       throw std::logic_error("World::advance: an input for each joint of the model");
-  const long count = std::lround(duration / scene.step_s);
-  if (count < 1 || std::abs(static_cast<double>(count) * scene.step_s - duration) > 1e-6 * duration)
-    throw std::logic_error("World::advance: a whole number of steps");
+  if (!(duration > 0) || duration > 1e6) throw std::logic_error("World::advance: a positive duration");
   if (!fault.empty()) return;
 
+  // The scene's steps where a whole number of them fits, else equal steps that are a little smaller.
+  long count = std::lround(duration / scene.step_s);
+  const bool whole = count >= 1 && std::abs(static_cast<double>(count) * scene.step_s - duration) <= 1e-6 * duration;
+  if (!whole) count = static_cast<long>(std::ceil(duration / scene.step_s));
+  const double stepSize = whole ? scene.step_s : duration / static_cast<double>(count);
   for (long i = 0; i < count && fault.empty(); ++i) {
-    const int parts = scene.nearSubsteps > 1 && nearBall(scene.step_s) ? scene.nearSubsteps : 1;
-    const double h = scene.step_s / parts, begin = time();
+    const int parts = scene.nearSubsteps > 1 && nearBall(stepSize) ? scene.nearSubsteps : 1;
+    const double h = stepSize / parts, begin = time() + (whole ? 0 : static_cast<double>(i) * stepSize);
     for (int part = 0; part < parts && fault.empty(); ++part) step(inputs, begin + part * h, h);
-    ++steps;
+    if (whole) ++steps;
   }
+  // Time is counted in whole steps so that it does not gather rounding; what lies between is added as it is.
+  if (!whole) start_s += duration;
   if (fault.empty())
     for (auto& robot : robots) sense(robot, duration);
 }

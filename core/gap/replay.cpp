@@ -1,0 +1,225 @@
+#include "core/gap/replay.h"
+
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "core/gap/initial_state.h"
+#include "core/sim/world.h"
+#include "core/spec/parameter.h"
+
+namespace btr {
+namespace {
+
+using Input = Binding::Input;
+using Measured = Binding::Measured;
+constexpr double flightWindow_s = 0.05;
+
+std::span<const double> tail(const std::vector<double>& column, std::size_t row) {
+  return std::span(column).subspan(row);
+}
+
+bool anyFinite(std::span<const double> values) {
+  for (const double value : values)
+    if (std::isfinite(value)) return true;
+  return false;
+}
+
+/// A coordinate of something that may fly: with gravity where the first samples fit better so.
+Start startOfBody(std::span<const double> time, std::span<const double> values, double gravity) {
+  const bool falls =
+      gravity != 0 && startMisfit(time, values, flightWindow_s, gravity) < startMisfit(time, values, flightWindow_s, 0);
+  const Start still = estimateStart(time, values, flightWindow_s);
+  if (!still.moving) return still;
+  return estimateStart(time, values, flightWindow_s, falls ? gravity : 0);
+}
+
+/// What the recording says of the inputs in one row.
+void setInputs(const Recording& recording, const Binding& binding, std::size_t row,
+               std::vector<std::vector<JointInput>>& inputs) {
+  for (const Input& input : binding.inputs) {
+    const double value = recording.columns[input.column][row];
+    if (!std::isfinite(value)) continue;  // holds the last one
+    JointInput& joint = inputs[input.robot][input.joint];
+    switch (input.what) {
+      case Input::What::command:
+        joint.command = value;
+        break;
+      case Input::What::enabled:
+        joint.enabled = value > 0.5;
+        break;
+      case Input::What::supply:
+        joint.supply_v = std::max(0.0, value);
+        break;
+      case Input::What::duty:
+        joint.duty = value;
+        break;
+      case Input::What::volts:
+        joint.duty = value < 0 ? -1 : 1;
+        joint.supply_v = std::abs(value);
+        break;
+    }
+  }
+}
+
+/// Simulated counterparts of the measured columns. Quaternions take the sign that is nearer to the recorded one.
+void readMeasured(const World& world, const Scene& scene, const Recording& recording, const Binding& binding,
+                  std::size_t row, std::vector<std::vector<double>>& values) {
+  std::vector<RobotReadings> robots;
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) robots.push_back(world.robot(i));
+  std::vector<double> agreement(scene.robots.size(), 0);
+  const auto orientation = [&](const Measured& measured) {
+    const Eigen::Quaterniond q(robots[measured.object].base.linear());
+    return std::array{q.w(), q.x(), q.y(), q.z()}[measured.part];
+  };
+  for (const Measured& measured : binding.measured)
+    if (measured.what == Measured::What::baseOrientation && std::isfinite(recording.columns[measured.column][row]))
+      agreement[measured.object] += orientation(measured) * recording.columns[measured.column][row];
+
+  for (std::size_t i = 0; i < binding.measured.size(); ++i) {
+    const Measured& measured = binding.measured[i];
+    double value = 0;
+    switch (measured.what) {
+      case Measured::What::position:
+        value = robots[measured.object].position[measured.part];
+        break;
+      case Measured::What::rate:
+        value = robots[measured.object].rate[measured.part];
+        break;
+      case Measured::What::torque:
+        value = robots[measured.object].torque[measured.part];
+        break;
+      case Measured::What::basePosition:
+        value = robots[measured.object].base.translation()[static_cast<int>(measured.part)];
+        break;
+      case Measured::What::baseOrientation:
+        value = agreement[measured.object] < 0 ? -orientation(measured) : orientation(measured);
+        break;
+      case Measured::What::ballPosition:
+        value = world.ball(measured.object).position_m[static_cast<int>(measured.part)];
+        break;
+    }
+    values[i][row] = value;
+  }
+}
+
+/// Every input before the recording says anything: a servo holds where it starts.
+std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const StartState& start) {
+  std::vector<std::vector<JointInput>> inputs;
+  for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
+    inputs.emplace_back(scene.robots[robot].model.joints.size());
+    for (std::size_t joint = 0; joint < inputs[robot].size(); ++joint) {
+      const Drive::Kind kind = scene.robots[robot].drives[joint].kind;
+      if (kind == Drive::Kind::servo) inputs[robot][joint].command = start.robots[robot].positions[joint];
+      if (kind == Drive::Kind::dcMotor) inputs[robot][joint].duty = 0;
+    }
+  }
+  return inputs;
+}
+
+}  // namespace
+
+StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row) {
+  StartState state;
+  for (const SceneRobot& robot : scene.robots) {
+    StartState::Robot start;
+    start.base = robot.start;
+    start.positions = robot.jointStart;
+    start.rates = robot.jointStartRate;
+    start.positions.resize(robot.model.joints.size(), 0);
+    start.rates.resize(robot.model.joints.size(), 0);
+    state.robots.push_back(std::move(start));
+  }
+  for (const BallSpec& ball : scene.balls) {
+    BallState start;
+    for (int axis = 0; axis < 3; ++axis) {
+      start.position_m[axis] = ball.position_m[static_cast<std::size_t>(axis)];
+      start.velocity_m_s[axis] = ball.velocity_m_s[static_cast<std::size_t>(axis)];
+    }
+    start.radius_m = ball.radius_m;
+    start.mass_kg = ball.mass_kg;
+    state.balls.push_back(start);
+  }
+
+  const auto time = tail(recording.columns[0], row);
+  std::vector<std::array<std::span<const double>, 4>> attitudes(scene.robots.size());
+  for (const Measured& measured : binding.measured) {
+    const auto values = tail(recording.columns[measured.column], row);
+    if (!anyFinite(values)) continue;
+    const bool ofBase =
+        measured.what == Measured::What::basePosition || measured.what == Measured::What::baseOrientation;
+    if (ofBase && !scene.robots[measured.object].freeBase) continue;  // it stands where the scene says
+    const int axis = static_cast<int>(measured.part);
+    if (measured.what == Measured::What::position) {
+      const Start start = estimateStart(time, values);
+      state.robots[measured.object].positions[measured.part] = start.position;
+      state.robots[measured.object].rates[measured.part] = start.rate;
+    } else if (measured.what == Measured::What::basePosition) {
+      const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
+      state.robots[measured.object].base.translation()[axis] = start.position;
+      state.robots[measured.object].velocity_m_s[axis] = start.rate;
+    } else if (measured.what == Measured::What::baseOrientation) {
+      attitudes[measured.object][measured.part] = values;
+    } else if (measured.what == Measured::What::ballPosition) {
+      const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
+      state.balls[measured.object].position_m[axis] = start.position;
+      state.balls[measured.object].velocity_m_s[axis] = start.rate;
+    }
+  }
+
+  for (std::size_t i = 0; i < attitudes.size(); ++i) {
+    // An attitude needs all four columns.
+    bool complete = true;
+    for (const auto& column : attitudes[i]) complete = complete && !column.empty();
+    if (!complete) continue;
+    const StartAttitude start = estimateAttitude(time, attitudes[i]);
+    state.robots[i].base.linear() = start.orientation.toRotationMatrix();
+    state.robots[i].spin_rad_s = start.spin_rad_s;
+  }
+  for (BallState& ball : state.balls) {
+    // Spin is not recorded: a ball on the floor rolls.
+    ball.onFloor = scene.floor && ball.position_m.z() < 1.1 * ball.radius_m;
+    if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+  }
+  return state;
+}
+
+ReplayedRecording replayRecording(const Scene& scene, const Recording& recording, const Binding& binding,
+                                  const StartState& start, std::size_t first, std::size_t last) {
+  constexpr std::uint64_t seed = 1;  // nothing in a replay is drawn by chance
+  const std::size_t rows = recording.rows();
+  last = std::min(last, rows);
+  assert(first < last);
+  ReplayedRecording replayed;
+  replayed.values.assign(binding.measured.size(), std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
+
+  World world(scene, seed);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    const StartState::Robot& robot = start.robots[i];
+    world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+  }
+  for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
+
+  auto inputs = restingInputs(scene, start);
+  for (const Input& input : binding.inputs)
+    if (input.what == Input::What::command)
+      inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();
+  // Inputs of a window that begins in the middle: the last ones that were given.
+  for (std::size_t row = 0; row < first; ++row) setInputs(recording, binding, row, inputs);
+
+  const std::vector<double>& time = recording.columns[0];
+  for (std::size_t row = first; row < last; ++row) {
+    readMeasured(world, scene, recording, binding, row, replayed.values);
+    setInputs(recording, binding, row, inputs);
+    if (row + 1 == last) break;
+    world.advance(inputs, time[row + 1] - time[row]);
+    replayed.fault = world.fault();
+    if (!replayed.fault.empty()) {
+      replayed.fault += ", at " + toText(time[row + 1]) + " s";
+      break;
+    }
+  }
+  return replayed;
+}
+
+}  // namespace btr

@@ -1,0 +1,102 @@
+#pragma once
+#include <QAbstractTableModel>
+#include <QUndoStack>
+
+#include "ui/measure/measurement_row.h"
+#include "ui/measure/number_entry.h"
+
+namespace btr::ui {
+
+/// The measurement sheet's numbers: one row an individual in the drawn order, several repeats as columns. Stored values
+/// are read-only; typed ones wait, undoable, until they are submitted and come back among the stored ones. While blind,
+/// the simulated fitness is in no answer of this model, whatever the role.
+class MeasurementModel : public QAbstractTableModel {
+  Q_OBJECT
+
+ public:
+  explicit MeasurementModel(QObject* parent = nullptr);
+
+  // ---- what the sheet is about
+  void setUnit(const QString& unit);
+  void setAllowed(const AllowedRange& allowed);
+  /// Individuals of one stage. Drops unsaved edits if it is another run or stage.
+  void setTasks(std::vector<MeasurementTask> tasks);
+  /// Everything stored for the run; what was submitted and is now here loses its unsaved text.
+  void setMeasurements(const std::vector<MeasurementRecord>& measurements);
+  const std::vector<MeasurementRow>& rows() const { return rows_; }
+
+  // ---- blindness
+  void setSimulatedShown(bool shown);
+  /// The switch is on, or every individual is done.
+  bool isSimulatedVisible() const;
+
+  // ---- columns
+  static constexpr int positionColumn = 0, individualColumn = 1, simulatedColumn = 2, firstRepeat = 3;
+  int repeatColumns() const { return repeats_; }
+  void addRepeatColumn();
+  int meanColumn() const { return firstRepeat + repeats_; }
+  int countColumn() const { return meanColumn() + 1; }
+  int voidColumn() const { return meanColumn() + 2; }
+  int noteColumn() const { return meanColumn() + 3; }
+  /// Without data: the view puts its buttons there.
+  int replayColumn() const { return meanColumn() + 4; }
+  bool isRepeat(int column) const { return column >= firstRepeat && column < meanColumn(); }
+
+  // ---- unsaved edits; each call is one step of the undo stack
+  struct Text {
+    int row = 0, column = 0;
+    QString text;
+  };
+  /// Writes texts into unsaved repeats and notes; others are left alone. Adds repeat columns where needed.
+  void write(const std::vector<Text>& texts, const QString& what);
+  void setVoid(int row, bool isVoid);
+  QUndoStack& undoStack() { return undo_; }
+  bool hasUnsaved() const;
+  /// First cell whose text is not allowed, in reading order; an invalid index if all are.
+  QModelIndex firstInvalid() const;
+  /// Why the cell is not allowed, "" if it is.
+  QString problem(int row, int column) const;
+  /// Unsaved values as records, to be handed to the store. They stay unsaved until setMeasurements brings them.
+  std::vector<MeasurementRecord> submit(const QString& who);
+  /// The store refused: nothing is awaited any more.
+  void submissionFailed();
+
+  // ---- progress
+  int doneCount() const;
+  int voidCount() const;
+  bool isComplete() const { return !rows_.empty() && doneCount() == static_cast<int>(rows_.size()); }
+  /// The stored record shown in a cell, or nullptr.
+  const MeasurementRecord* savedAt(const QModelIndex& index) const;
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role = Qt::EditRole) override;
+
+ signals:
+  /// Rows done, unsaved edits or blindness changed.
+  void changed();
+  /// A decimal comma was read as a point.
+  void converted(const QString& message);
+
+ private:
+  class EditCommand;
+  QVariant textAt(const MeasurementRow& row, int column) const;
+  QVariant toolTipAt(const QModelIndex& index) const;
+  QVariant colourAt(const QModelIndex& index, int role) const;
+  void apply(const std::vector<std::pair<int, MeasurementEdit>>& edits);
+  void growTo(int repeats);
+  void announceAll();
+
+  QString unit_;
+  AllowedRange allowed_;
+  std::vector<MeasurementRow> rows_;
+  std::vector<MeasurementRecord> measurements_;
+  int repeats_ = 1;
+  bool simulatedShown_ = false;
+  QUndoStack undo_;
+};
+
+}  // namespace btr::ui

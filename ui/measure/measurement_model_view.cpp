@@ -1,0 +1,165 @@
+// What a MeasurementModel answers to its view.
+#include <QFont>
+#include <QGuiApplication>
+#include <QPalette>
+
+#include "ui/charts/plot_data.h"
+#include "ui/charts/statistics.h"
+#include "ui/common/format.h"
+#include "ui/common/theme.h"
+#include "ui/measure/measurement_model.h"
+
+namespace btr::ui {
+
+int MeasurementModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+
+int MeasurementModel::columnCount(const QModelIndex& parent) const { return parent.isValid() ? 0 : replayColumn() + 1; }
+
+QVariant MeasurementModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::DisplayRole) {
+    if (section == positionColumn) return tr("order");
+    if (section == individualColumn) return tr("individual");
+    if (section == simulatedColumn) return axisTitle(tr("simulated"), unit_);
+    if (isRepeat(section))
+      return repeats_ == 1 ? axisTitle(tr("measured"), unit_)
+                           : axisTitle(tr("repeat %1").arg(section - firstRepeat + 1), unit_);
+    if (section == meanColumn()) return axisTitle(tr("mean ± sd"), unit_);
+    if (section == countColumn()) return tr("n");
+    if (section == voidColumn()) return tr("void");
+    if (section == noteColumn()) return tr("note");
+    if (section == replayColumn()) return tr("replay");
+  }
+  if (role == Qt::ToolTipRole) {
+    if (section == positionColumn) return tr("Measure in this order: it was drawn at random");
+    if (section == simulatedColumn) return tr("Fitness in the simulator version of that time");
+    if (isRepeat(section)) return tr("Real fitness: %1").arg(allowed_.text(unit_));
+    if (section == meanColumn()) return tr("Mean ± standard deviation of the repeats that are not void");
+    if (section == countColumn()) return tr("Number of repeats that count");
+    if (section == voidColumn()) return tr("It fell or could not be measured: counts as done, but not in any mean");
+  }
+  return {};
+}
+
+QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
+  if (column == positionColumn) return row.task.position;
+  if (column == individualColumn) return static_cast<qlonglong>(row.task.individual);
+  if (column == simulatedColumn)
+    return isSimulatedVisible() ? QVariant(shortNumber(row.task.simulatedFitness)) : QVariant();
+  if (isRepeat(column)) {
+    const auto place = static_cast<std::size_t>(column - firstRepeat);
+    if (place < row.saved.size()) return exactText(row.saved[place].value);
+    const auto unsaved = place - row.saved.size();
+    return unsaved < row.edit.texts.size() ? row.edit.texts[unsaved] : QString();
+  }
+  const std::vector<double> values = row.values();
+  if (column == meanColumn()) {
+    if (values.empty()) return row.state() == MeasurementRow::State::isVoid ? tr("void") : QString();
+    const Spread spread = spreadOf(values);
+    return shortNumber(spread.mean) + (spread.count > 1 ? " ± " + shortNumber(spread.deviation) : QString());
+  }
+  if (column == countColumn()) return static_cast<int>(values.size());
+  if (column == noteColumn()) {
+    if (!row.edit.note.isEmpty()) return row.edit.note;
+    QStringList notes;
+    for (const MeasurementRecord& record : row.saved)
+      if (const QString note = QString::fromStdString(record.note); !note.isEmpty() && !notes.contains(note))
+        notes << note;
+    return notes.join("; ");
+  }
+  return {};
+}
+
+QVariant MeasurementModel::toolTipAt(const QModelIndex& index) const {
+  if (const QString text = problem(index.row(), index.column()); !text.isEmpty()) return text;
+  if (const MeasurementRecord* saved = savedAt(index)) {
+    QString text = tr("Saved %1").arg(QString::fromStdString(saved->enteredAt));
+    if (!saved->who.empty()) text += tr(" by %1").arg(QString::fromStdString(saved->who));
+    if (saved->source == "stand_in") text += tr(", answered by the stand-in reality");
+    if (!saved->note.empty()) text += '\n' + QString::fromStdString(saved->note);
+    return text + '\n' +
+           (saved->isVoid ? tr("Void: counts in no mean.") : tr("To correct it, void it and enter a further repeat."));
+  }
+  if (isRepeat(index.column())) return tr("Allowed is %1").arg(allowed_.text(unit_));
+  return {};
+}
+
+QVariant MeasurementModel::colourAt(const QModelIndex& index, int role) const {
+  const Tones tones = tonesOf(QGuiApplication::palette());
+  const MeasurementRow& row = rows_[static_cast<std::size_t>(index.row())];
+  const MeasurementRecord* saved = savedAt(index);
+  if (role == Qt::BackgroundRole) {
+    QColor colour;
+    if (!problem(index.row(), index.column()).isEmpty()) {
+      colour = tones.bad;
+      colour.setAlpha(90);
+    } else if (isRepeat(index.column()) && !saved && !textAt(row, index.column()).toString().isEmpty()) {
+      colour = tones.accent;
+      colour.setAlpha(38);
+    }
+    return colour.isValid() ? QVariant(colour) : QVariant();
+  }
+  if (saved && saved->isVoid) return tones.muted;
+  if (index.column() == positionColumn || index.column() == individualColumn) return tones.muted;
+  if (saved && saved->source == "stand_in") return tones.standIn;
+  if (index.column() == meanColumn() && row.state() == MeasurementRow::State::measured) return tones.good;
+  return {};
+}
+
+QVariant MeasurementModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const int column = index.column();
+  const MeasurementRow& row = rows_[static_cast<std::size_t>(index.row())];
+  switch (role) {
+    case Qt::DisplayRole:
+    case Qt::EditRole:
+      return column == voidColumn() ? QVariant() : textAt(row, column);
+    case Qt::CheckStateRole:
+      if (column != voidColumn()) return {};
+      return row.edit.isVoid || row.state() == MeasurementRow::State::isVoid ? Qt::Checked : Qt::Unchecked;
+    case Qt::ToolTipRole:
+      return toolTipAt(index);
+    case Qt::BackgroundRole:
+    case Qt::ForegroundRole:
+      return colourAt(index, role);
+    case Qt::FontRole: {
+      QFont font;
+      const MeasurementRecord* saved = savedAt(index);
+      if (!saved || !saved->isVoid) return {};
+      font.setStrikeOut(true);
+      return font;
+    }
+    case Qt::TextAlignmentRole:
+      return QVariant(column == noteColumn() ? Qt::AlignLeft | Qt::AlignVCenter : Qt::AlignRight | Qt::AlignVCenter);
+    case Qt::AccessibleTextRole:
+      return headerData(column, Qt::Horizontal, Qt::DisplayRole).toString() + ' ' + textAt(row, column).toString();
+    default:
+      return {};
+  }
+}
+
+Qt::ItemFlags MeasurementModel::flags(const QModelIndex& index) const {
+  if (!index.isValid()) return Qt::NoItemFlags;
+  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
+  if ((isRepeat(index.column()) && !savedAt(index)) || index.column() == noteColumn()) flags |= Qt::ItemIsEditable;
+  const bool isVoid = rows_[static_cast<std::size_t>(index.row())].state() == MeasurementRow::State::isVoid;
+  if (index.column() == voidColumn() && !isVoid) flags |= Qt::ItemIsUserCheckable;
+  return flags;
+}
+
+bool MeasurementModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (!index.isValid()) return false;
+  if (role == Qt::CheckStateRole && (flags(index) & Qt::ItemIsUserCheckable)) {
+    setVoid(index.row(), value.toInt() == Qt::Checked);
+    return true;
+  }
+  if (role != Qt::EditRole || !(flags(index) & Qt::ItemIsEditable)) return false;
+  // A note that is only shown again is no edit.
+  if (value.toString() != data(index, Qt::EditRole).toString())
+    write({{index.row(), index.column(), value.toString()}}, tr("entry"));
+  return true;
+}
+
+}  // namespace btr::ui

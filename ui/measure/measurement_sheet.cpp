@@ -1,0 +1,223 @@
+#include "ui/measure/measurement_sheet.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QToolButton>
+
+#include "ui/common/message_banner.h"
+#include "ui/common/theme.h"
+#include "ui/measure/measurement_view.h"
+
+namespace btr::ui {
+
+MeasurementSheet::MeasurementSheet(QWidget* parent)
+    : QWidget(parent), view_(new MeasurementView(model_, this)), banner_(new MessageBanner(this)) {
+  title_ = new QLabel(this);
+  title_->setWordWrap(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(8, 8, 8, 8);
+  layout->addWidget(title_);
+  layout->addWidget(makeToolBar());
+  layout->addWidget(banner_);
+  layout->addWidget(view_, 1);
+  layout->addWidget(makeFooter());
+
+  connect(&model_, &MeasurementModel::changed, this, &MeasurementSheet::refresh);
+  connect(&model_, &MeasurementModel::converted, this, [this](const QString& message) {
+    banner_->showMessage(MessageBanner::Kind::information, tr("Decimal comma: %1").arg(message));
+  });
+  connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::refresh);
+  connect(view_, &MeasurementView::replayRequested, this, &MeasurementSheet::replayRequested);
+  connect(view_, &MeasurementView::voidRequested, this, &MeasurementSheet::askVoid);
+  setWho(qEnvironmentVariable("USER"));
+  setFocusProxy(view_);
+  refresh();
+}
+
+QAction* MeasurementSheet::addKey(const QString& text, const char* icon, const QKeySequence& keys) {
+  auto* action = new QAction(themeIcon(icon), text, this);
+  action->setShortcut(keys);
+  action->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  action->setToolTip(text + " (" + keys.toString(QKeySequence::NativeText) + ')');
+  addAction(action);
+  return action;
+}
+
+QWidget* MeasurementSheet::makeToolBar() {
+  auto* bar = new QWidget(this);
+  auto* layout = new QHBoxLayout(bar);
+  layout->setContentsMargins(0, 0, 0, 0);
+  const auto button = [&](QAction* action, Qt::ToolButtonStyle style) {
+    auto* tool = new QToolButton(bar);
+    tool->setDefaultAction(action);
+    tool->setToolButtonStyle(style);
+    tool->setAutoRaise(true);
+    layout->addWidget(tool);
+  };
+  undo_ = addKey(tr("Undo"), "edit-undo", QKeySequence::Undo);
+  redo_ = addKey(tr("Redo"), "edit-redo", QKeySequence("Ctrl+Y"));
+  redo_->setShortcuts({QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")});
+  connect(undo_, &QAction::triggered, &model_.undoStack(), &QUndoStack::undo);
+  connect(redo_, &QAction::triggered, &model_.undoStack(), &QUndoStack::redo);
+  button(undo_, Qt::ToolButtonIconOnly);
+  button(redo_, Qt::ToolButtonIconOnly);
+
+  QAction* repeat = addKey(tr("Add repeat"), "list-add", QKeySequence("Ctrl++"));
+  connect(repeat, &QAction::triggered, &model_, &MeasurementModel::addRepeatColumn);
+  button(repeat, Qt::ToolButtonTextBesideIcon);
+  QAction* import = addKey(tr("Import CSV…"), "document-import", QKeySequence("Ctrl+I"));
+  connect(import, &QAction::triggered, this, &MeasurementSheet::importRequested);
+  button(import, Qt::ToolButtonTextBesideIcon);
+
+  showSimulated_ = new QCheckBox(tr("Show simulated fitness"), bar);
+  showSimulated_->setToolTip(
+      tr("Hidden until everything is entered: who knows the simulated value tends to see it in reality "
+         "too, stops a bad trial early or repeats it. Blind values keep the reality gap honest."));
+  connect(showSimulated_, &QCheckBox::toggled, &model_, &MeasurementModel::setSimulatedShown);
+  layout->addSpacing(8);
+  layout->addWidget(showSimulated_);
+  layout->addStretch(1);
+
+  auto* label = new QLabel(tr("Measured &by"), bar);
+  who_ = new QLineEdit(bar);
+  who_->setMaximumWidth(140);
+  who_->setToolTip(tr("Stored with every value"));
+  label->setBuddy(who_);
+  layout->addWidget(label);
+  layout->addWidget(who_);
+  return bar;
+}
+
+QWidget* MeasurementSheet::makeFooter() {
+  auto* bar = new QWidget(this);
+  auto* layout = new QHBoxLayout(bar);
+  layout->setContentsMargins(0, 0, 0, 0);
+  progressText_ = new QLabel(bar);
+  progress_ = new QProgressBar(bar);
+  progress_->setTextVisible(false);
+  progress_->setMaximumWidth(180);
+  layout->addWidget(progress_);
+  layout->addWidget(progressText_, 1);
+
+  saveAction_ = addKey(tr("Save measurements"), "document-save", QKeySequence::Save);
+  connect(saveAction_, &QAction::triggered, this, &MeasurementSheet::save);
+  save_ = new QPushButton(saveAction_->icon(), saveAction_->text(), bar);
+  save_->setToolTip(tr("Stores what is entered (Ctrl+S). Stored values are corrected by voiding them."));
+  connect(save_, &QPushButton::clicked, this, &MeasurementSheet::save);
+  continue_ = new QPushButton(themeIcon("media-playback-start"), tr("Start learning again"), bar);
+  connect(continue_, &QPushButton::clicked, this, &MeasurementSheet::continueRequested);
+  layout->addWidget(save_);
+  layout->addWidget(continue_);
+  return bar;
+}
+
+void MeasurementSheet::setUnit(const QString& unit) { model_.setUnit(unit); }
+void MeasurementSheet::setAllowed(const AllowedRange& allowed) { model_.setAllowed(allowed); }
+void MeasurementSheet::setWho(const QString& who) { who_->setText(who); }
+QString MeasurementSheet::who() const { return who_->text().trimmed(); }
+
+void MeasurementSheet::setStandIn(bool standIn) {
+  standIn_ = standIn;
+  refresh();
+}
+
+void MeasurementSheet::setTasks(const std::vector<MeasurementTask>& tasks) {
+  model_.setTasks(tasks);
+  refresh();
+}
+
+void MeasurementSheet::setMeasurements(const std::vector<MeasurementRecord>& measurements) {
+  model_.setMeasurements(measurements);
+}
+
+void MeasurementSheet::setWaiting(bool waiting) {
+  waiting_ = waiting;
+  refresh();
+}
+
+void MeasurementSheet::submissionFailed(const QString& message) {
+  model_.submissionFailed();
+  banner_->showMessage(MessageBanner::Kind::error, message);
+}
+
+QString MeasurementSheet::progressText() const {
+  const int rows = model_.rowCount(), voids = model_.voidCount();
+  if (rows == 0) return tr("Nothing to measure");
+  QString text = tr("%1 of %2 measured").arg(model_.doneCount() - voids).arg(rows);
+  if (voids > 0) text += tr(", %1 void").arg(voids);
+  if (model_.hasUnsaved()) text += tr(" · not saved yet");
+  return text;
+}
+
+void MeasurementSheet::refresh() {
+  const auto& rows = model_.rows();
+  QString title = tr("<b>Nothing to measure now.</b> The run stops here by itself when real fitness is wanted.");
+  if (!rows.empty())
+    title = tr("<b>Stage %1: measure these %2 individuals</b> in the order given, %3 each.")
+                .arg(rows.front().task.stage)
+                .arg(rows.size())
+                .arg(rows.front().task.wantedRepeats == 1 ? tr("once")
+                                                          : tr("%1 times").arg(rows.front().task.wantedRepeats));
+  if (standIn_)
+    title += QString(" <span style=\"color:%1\">").arg(tonesOf(palette()).standIn.name()) +
+             tr("The stand-in reality answers this run.") + "</span>";
+  title_->setText(title);
+  progress_->setRange(0, std::max(1, model_.rowCount()));
+  progress_->setValue(model_.doneCount());
+  progressText_->setText(progressText());
+  undo_->setEnabled(model_.undoStack().canUndo());
+  redo_->setEnabled(model_.undoStack().canRedo());
+  save_->setEnabled(model_.hasUnsaved());
+  showSimulated_->setEnabled(!model_.isComplete());
+
+  const bool ready = waiting_ && model_.isComplete() && !model_.hasUnsaved();
+  continue_->setEnabled(ready);
+  continue_->setDefault(ready);
+  continue_->setToolTip(ready                 ? tr("The simulator adapts to what was measured, then learning goes on")
+                        : !waiting_           ? tr("The run does not wait for measurements now")
+                        : model_.hasUnsaved() ? tr("Save the measurements first")
+                                              : tr("Measure every individual first, or mark it void"));
+}
+
+void MeasurementSheet::save() {
+  // An open editor counts as entered.
+  view_->setFocus();
+  if (const QModelIndex bad = model_.firstInvalid(); bad.isValid()) {
+    view_->setCurrentIndex(bad);
+    banner_->showMessage(MessageBanner::Kind::error,
+                         tr("Individual %1: %2")
+                             .arg(bad.siblingAtColumn(MeasurementModel::individualColumn).data().toString(),
+                                  model_.problem(bad.row(), bad.column())));
+    return;
+  }
+  const std::vector<MeasurementRecord> records = model_.submit(who());
+  if (records.empty()) {
+    if (model_.hasUnsaved())
+      banner_->showMessage(MessageBanner::Kind::warning,
+                           tr("A note is stored together with a value or void: enter one beside it"));
+    return;
+  }
+  banner_->clear();
+  emit submitted(records);
+  if (!model_.isComplete()) view_->goToNextOpen();
+}
+
+void MeasurementSheet::askVoid(const QModelIndex& cell) {
+  const MeasurementRecord* saved = model_.savedAt(cell);
+  if (!saved) return;
+  const Id id = saved->id;
+  const bool toVoid = !saved->isVoid;
+  bool ok = false;
+  const QString note = QInputDialog::getText(this, toVoid ? tr("Void this value") : tr("Count this value again"),
+                                             tr("The value %1 stays stored. Why?").arg(cell.data().toString()),
+                                             QLineEdit::Normal, QString::fromStdString(saved->note), &ok);
+  if (ok) emit voidRequested(id, toVoid, note.trimmed());
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,234 @@
+#include "ui/measure/measurement_view.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMenu>
+#include <QStyledItemDelegate>
+#include <QToolButton>
+#include <algorithm>
+
+#include "ui/common/theme.h"
+
+namespace btr::ui {
+namespace {
+
+/// Up and down leave the editor and move, as in a spreadsheet while typing.
+class CellDelegate final : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem&, const QModelIndex& index) const override {
+    auto* editor = new QLineEdit(parent);
+    editor->setFrame(false);
+    editor->setAlignment(Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()));
+    return editor;
+  }
+
+  bool eventFilter(QObject* object, QEvent* event) override {
+    if (event->type() == QEvent::KeyPress) {
+      const int key = static_cast<QKeyEvent*>(event)->key();
+      if (key == Qt::Key_Up || key == Qt::Key_Down) {
+        auto* editor = static_cast<QWidget*>(object);
+        QWidget* viewport = editor->parentWidget();
+        emit commitData(editor);
+        emit closeEditor(editor, QAbstractItemDelegate::NoHint);
+        QKeyEvent move(QEvent::KeyPress, key, Qt::NoModifier);
+        QApplication::sendEvent(viewport->parentWidget(), &move);
+        return true;
+      }
+    }
+    return QStyledItemDelegate::eventFilter(object, event);
+  }
+};
+
+}  // namespace
+
+MeasurementView::MeasurementView(MeasurementModel& model, QWidget* parent) : QTableView(parent), model_(model) {
+  setModel(&model);
+  setItemDelegate(new CellDelegate(this));
+  setSelectionMode(QAbstractItemView::ContiguousSelection);
+  setEditTriggers(AnyKeyPressed | DoubleClicked | EditKeyPressed);
+  setAlternatingRowColors(true);
+  setAccessibleName(tr("Measurements"));
+  verticalHeader()->hide();
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 12);
+  horizontalHeader()->setHighlightSections(false);
+  setHorizontalScrollMode(ScrollPerPixel);
+  connect(&model, &QAbstractItemModel::modelReset, this, &MeasurementView::placeButtons);
+  connect(&model, &QAbstractItemModel::columnsInserted, this, &MeasurementView::arrangeColumns);
+  connect(&model, &MeasurementModel::changed, this,
+          [this] { setColumnHidden(MeasurementModel::simulatedColumn, !model_.isSimulatedVisible()); });
+  placeButtons();
+}
+
+void MeasurementView::placeButtons() {
+  for (int row = 0; row < model_.rowCount(); ++row) {
+    auto* button = new QToolButton(this);
+    button->setText(tr("Replay"));
+    button->setIcon(themeIcon("media-playback-start"));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setAutoRaise(true);
+    button->setFocusPolicy(Qt::NoFocus);
+    const Id individual = model_.rows()[static_cast<std::size_t>(row)].task.individual;
+    button->setAccessibleName(tr("Replay individual %1").arg(individual));
+    button->setToolTip(tr("Show individual %1 in the 3D view (Ctrl+R)").arg(individual));
+    connect(button, &QToolButton::clicked, this, [this, individual] { emit replayRequested(individual); });
+    setIndexWidget(model_.index(row, model_.replayColumn()), button);
+  }
+  setColumnHidden(MeasurementModel::simulatedColumn, !model_.isSimulatedVisible());
+  arrangeColumns();
+  goToNextOpen();
+}
+
+void MeasurementView::arrangeColumns() {
+  const int digit = fontMetrics().horizontalAdvance('0');
+  for (int column = 0; column < model_.columnCount(); ++column) {
+    const QString header = model_.headerData(column, Qt::Horizontal).toString();
+    int width = fontMetrics().horizontalAdvance(header) + 3 * digit;
+    if (model_.isRepeat(column)) width = std::max(width, 12 * digit);
+    if (column == model_.meanColumn()) width = std::max(width, 18 * digit);
+    if (column == model_.replayColumn()) width = std::max(width, 12 * digit);
+    setColumnWidth(column, width);
+    horizontalHeader()->setSectionResizeMode(
+        column, column == model_.noteColumn() ? QHeaderView::Stretch : QHeaderView::Interactive);
+  }
+}
+
+QModelIndex MeasurementView::nextEditable(const QModelIndex& from, int direction) const {
+  const int columns = model_.columnCount(), cells = model_.rowCount() * columns;
+  for (int cell = from.row() * columns + from.column() + direction; cell >= 0 && cell < cells; cell += direction) {
+    const QModelIndex index = model_.index(cell / columns, cell % columns);
+    if (model_.flags(index) & (Qt::ItemIsEditable | Qt::ItemIsUserCheckable)) return index;
+  }
+  return from;
+}
+
+QModelIndex MeasurementView::moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) {
+  if (action == MoveNext) return nextEditable(currentIndex(), 1);
+  if (action == MovePrevious) return nextEditable(currentIndex(), -1);
+  return QTableView::moveCursor(action, modifiers);
+}
+
+void MeasurementView::moveDown() {
+  const QModelIndex here = currentIndex();
+  if (here.isValid() && here.row() + 1 < model_.rowCount()) setCurrentIndex(here.siblingAtRow(here.row() + 1));
+}
+
+void MeasurementView::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
+  // Move on without opening the next editor: the next key starts it.
+  QTableView::closeEditor(editor, QAbstractItemDelegate::NoHint);
+  if (hint == QAbstractItemDelegate::SubmitModelCache) moveDown();
+  if (hint == QAbstractItemDelegate::EditNextItem) setCurrentIndex(nextEditable(currentIndex(), 1));
+  if (hint == QAbstractItemDelegate::EditPreviousItem) setCurrentIndex(nextEditable(currentIndex(), -1));
+}
+
+void MeasurementView::keyPressEvent(QKeyEvent* event) {
+  if (state() == EditingState) return QTableView::keyPressEvent(event);
+  if (event->matches(QKeySequence::Copy)) return copySelection();
+  if (event->matches(QKeySequence::Paste)) return paste();
+  switch (event->key()) {
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      return moveDown();
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      return clearUnsaved();
+    case Qt::Key_R:
+      if (event->modifiers() == Qt::ControlModifier && currentIndex().isValid()) {
+        emit replayRequested(model_.rows()[static_cast<std::size_t>(currentIndex().row())].task.individual);
+        return;
+      }
+      break;
+    default:
+      break;
+  }
+  QTableView::keyPressEvent(event);
+}
+
+void MeasurementView::copySelection() const {
+  QModelIndexList cells = selectedIndexes();
+  std::sort(cells.begin(), cells.end());
+  QString text;
+  for (qsizetype i = 0; i < cells.size(); ++i) {
+    if (isColumnHidden(cells[i].column())) continue;
+    if (i > 0 && !text.isEmpty()) text += cells[i].row() == cells[i - 1].row() ? '\t' : '\n';
+    text += cells[i].data().toString();
+  }
+  QApplication::clipboard()->setText(text);
+}
+
+void MeasurementView::paste() {
+  const QModelIndex corner = currentIndex();
+  if (!corner.isValid()) return;
+  std::vector<MeasurementModel::Text> texts;
+  int row = corner.row();
+  for (const QStringList& line : cellsOf(QApplication::clipboard()->text())) {
+    // A block may be wider than the sheet: it adds repeats. Only the note column takes anything but repeats.
+    for (int i = 0; i < line.size(); ++i)
+      if (corner.column() == model_.noteColumn() ? i == 0 : corner.column() >= MeasurementModel::firstRepeat)
+        texts.push_back({row, corner.column() + i, line[i]});
+    ++row;
+  }
+  if (corner.column() != model_.noteColumn() && !model_.isRepeat(corner.column())) return;
+  model_.write(texts, tr("paste"));
+}
+
+void MeasurementView::clearUnsaved() {
+  std::vector<MeasurementModel::Text> texts;
+  for (const QModelIndex& index : selectedIndexes())
+    if (model_.isRepeat(index.column()) || index.column() == model_.noteColumn())
+      texts.push_back({index.row(), index.column(), {}});
+  model_.write(texts, tr("delete"));
+}
+
+void MeasurementView::goToNextOpen() {
+  for (int row = 0; row < model_.rowCount(); ++row) {
+    const MeasurementRow& r = model_.rows()[static_cast<std::size_t>(row)];
+    if (r.isDone() || r.edit.isVoid) continue;
+    if (r.repeats() >= std::max(1, r.task.wantedRepeats)) continue;
+    setCurrentIndex(model_.index(row, MeasurementModel::firstRepeat + r.repeats()));
+    return;
+  }
+}
+
+void MeasurementView::contextMenuEvent(QContextMenuEvent* event) {
+  const QModelIndex index = indexAt(event->pos());
+  if (!index.isValid()) return;
+  QMenu menu(this);
+  const Id individual = model_.rows()[static_cast<std::size_t>(index.row())].task.individual;
+  menu.addAction(themeIcon("media-playback-start"), tr("Replay individual %1").arg(individual), this,
+                 [this, individual] { emit replayRequested(individual); });
+  menu.addSeparator();
+  menu.addAction(themeIcon("edit-copy"), tr("Copy"), this, &MeasurementView::copySelection);
+  menu.addAction(themeIcon("edit-paste"), tr("Paste"), this, &MeasurementView::paste);
+  menu.addAction(themeIcon("edit-delete"), tr("Clear what is not saved"), this, &MeasurementView::clearUnsaved);
+  if (const MeasurementRecord* saved = model_.savedAt(index)) {
+    menu.addSeparator();
+    menu.addAction(saved->isVoid ? tr("Count this value again…") : tr("Void this value…"), this,
+                   [this, index] { emit voidRequested(index); });
+  }
+  menu.exec(event->globalPos());
+}
+
+std::vector<QStringList> cellsOf(const QString& text) {
+  QString clean = text;
+  clean.replace("\r\n", "\n").replace('\r', '\n');
+  while (clean.endsWith('\n')) clean.chop(1);
+  const QStringList lines = clean.split('\n');
+  QChar between = '\t';
+  if (!clean.contains('\t')) {
+    const bool manyCommas = std::any_of(lines.begin(), lines.end(), [](const QString& line) {
+      return line.count(',') > 1 || (line.contains(',') && line.contains('.'));
+    });
+    between = clean.contains(';') ? ';' : manyCommas ? ',' : '\t';
+  }
+  std::vector<QStringList> cells;
+  for (const QString& line : lines) cells.push_back(line.split(between));
+  return cells;
+}
+
+}  // namespace btr::ui

@@ -66,6 +66,8 @@ struct Stored {
     });
     sheet.resize(1000, 400);
     sheet.show();
+    sheet.activateWindow();
+    if (!QTest::qWaitForWindowActive(&sheet)) qFatal("the sheet's window did not become active");
     sheet.view().setFocus();
   }
   MeasurementModel& model() { return sheet.model(); }
@@ -80,8 +82,8 @@ struct Stored {
     QCoreApplication::processEvents();  // an editor closes after its key has been handled
   }
   QWidget* target() {
-    auto* editor = sheet.view().viewport()->findChild<QLineEdit*>();
-    return editor && editor->isVisible() ? static_cast<QWidget*>(editor) : &sheet.view();
+    auto* editor = qobject_cast<QLineEdit*>(QApplication::focusWidget());
+    return editor ? static_cast<QWidget*>(editor) : &sheet.view();
   }
   QPushButton* button(const QString& text) {
     for (auto* candidate : sheet.findChildren<QPushButton*>())
@@ -278,7 +280,8 @@ class TestMeasurementSheet : public QObject {
     s.records = {saved(1, 102, 0.25)};
     s.sheet.setMeasurements(s.records);
     s.model().write({{0, first + 1, "0.5"}}, "entry");
-    s.sheet.view().selectRow(0);
+    s.goTo(0, first);
+    s.press(Qt::Key_Right, Qt::ShiftModifier);
     s.press(Qt::Key_Delete);
     QCOMPARE(s.text(0, first), QString("0.25"));
     QCOMPARE(s.text(0, first + 1), QString());
@@ -395,6 +398,15 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(s.sheet.progressText(), QString("0 of 2 measured, 1 void"));
     QCOMPARE(s.text(0, s.model().meanColumn()), QString("void"));
     QCOMPARE(s.model().index(0, s.model().countColumn()).data().toInt(), 0);
+  }
+
+  void aClickAnywhereInItsCellTogglesVoid() {
+    Stored s(2);
+    const QModelIndex cell = s.model().index(1, s.model().voidColumn());
+    QTest::mouseClick(s.sheet.view().viewport(), Qt::LeftButton, {}, s.sheet.view().visualRect(cell).center());
+    QCOMPARE(cell.data(Qt::CheckStateRole).toInt(), int(Qt::Checked));
+    QTest::keyClick(&s.sheet.view(), Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(cell.data(Qt::CheckStateRole).toInt(), int(Qt::Unchecked));
   }
 
   void voidValuesAreStruckOutAndLeaveTheMean() {

@@ -1,6 +1,7 @@
 #include "ui/common/message_banner.h"
 
 #include <QEvent>
+#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -52,7 +53,9 @@ void MessageBanner::changeEvent(QEvent* event) {
 }
 
 void MessageBanner::paint() {
-  const Tones tones = tonesOf(palette());
+  // Our own palette follows the style sheet that is set below; judged by it, light and dark would alternate without
+  // end.
+  const Tones tones = tonesOf(QGuiApplication::palette());
   const QColor tone = kind_ == Kind::error ? tones.bad : kind_ == Kind::warning ? tones.warning : tones.accent;
   const QString name = kind_ == Kind::error     ? QStringLiteral("dialog-error")
                        : kind_ == Kind::warning ? QStringLiteral("dialog-warning")

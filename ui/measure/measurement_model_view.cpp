@@ -1,6 +1,7 @@
 // What a MeasurementModel answers to its view.
 #include <QFont>
 #include <QGuiApplication>
+#include <QLocale>
 #include <QPalette>
 
 #include "ui/charts/plot_data.h"
@@ -75,7 +76,7 @@ QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
 QVariant MeasurementModel::toolTipAt(const QModelIndex& index) const {
   if (const QString text = problem(index.row(), index.column()); !text.isEmpty()) return text;
   if (const MeasurementRecord* saved = savedAt(index)) {
-    QString text = tr("Saved %1").arg(QString::fromStdString(saved->enteredAt));
+    QString text = tr("%1, saved %2").arg(exactText(saved->value), QString::fromStdString(saved->enteredAt));
     if (!saved->who.empty()) text += tr(" by %1").arg(QString::fromStdString(saved->who));
     if (saved->source == "stand_in") text += tr(", answered by the stand-in reality");
     if (!saved->note.empty()) text += '\n' + QString::fromStdString(saved->note);
@@ -114,8 +115,11 @@ QVariant MeasurementModel::data(const QModelIndex& index, int role) const {
   const MeasurementRow& row = rows_[static_cast<std::size_t>(index.row())];
   switch (role) {
     case Qt::DisplayRole:
+      // Stored numbers may be long: exact in the tip and when copied, short in the cell.
+      if (const MeasurementRecord* saved = savedAt(index)) return QLocale::c().toString(saved->value, 'g', 6);
+      return textAt(row, column);
     case Qt::EditRole:
-      return column == voidColumn() ? QVariant() : textAt(row, column);
+      return textAt(row, column);
     case Qt::CheckStateRole:
       if (column != voidColumn()) return {};
       return row.edit.isVoid || row.state() == MeasurementRow::State::isVoid ? Qt::Checked : Qt::Unchecked;

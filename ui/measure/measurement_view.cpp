@@ -5,51 +5,17 @@
 #include <QContextMenuEvent>
 #include <QHeaderView>
 #include <QKeyEvent>
-#include <QLineEdit>
 #include <QMenu>
-#include <QStyledItemDelegate>
 #include <QToolButton>
 #include <algorithm>
 
 #include "ui/common/theme.h"
+#include "ui/measure/measurement_delegate.h"
 
 namespace btr::ui {
-namespace {
-
-/// Up and down leave the editor and move, as in a spreadsheet while typing.
-class CellDelegate final : public QStyledItemDelegate {
- public:
-  using QStyledItemDelegate::QStyledItemDelegate;
-
-  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem&, const QModelIndex& index) const override {
-    auto* editor = new QLineEdit(parent);
-    editor->setFrame(false);
-    editor->setAlignment(Qt::Alignment(index.data(Qt::TextAlignmentRole).toInt()));
-    return editor;
-  }
-
-  bool eventFilter(QObject* object, QEvent* event) override {
-    if (event->type() == QEvent::KeyPress) {
-      const int key = static_cast<QKeyEvent*>(event)->key();
-      if (key == Qt::Key_Up || key == Qt::Key_Down) {
-        auto* editor = static_cast<QWidget*>(object);
-        QWidget* viewport = editor->parentWidget();
-        emit commitData(editor);
-        emit closeEditor(editor, QAbstractItemDelegate::NoHint);
-        QKeyEvent move(QEvent::KeyPress, key, Qt::NoModifier);
-        QApplication::sendEvent(viewport->parentWidget(), &move);
-        return true;
-      }
-    }
-    return QStyledItemDelegate::eventFilter(object, event);
-  }
-};
-
-}  // namespace
-
 MeasurementView::MeasurementView(MeasurementModel& model, QWidget* parent) : QTableView(parent), model_(model) {
   setModel(&model);
-  setItemDelegate(new CellDelegate(this));
+  setItemDelegate(new MeasurementDelegate(model, this));
   setSelectionMode(QAbstractItemView::ContiguousSelection);
   setEditTriggers(AnyKeyPressed | DoubleClicked | EditKeyPressed);
   setAlternatingRowColors(true);
@@ -156,7 +122,7 @@ void MeasurementView::copySelection() const {
   for (qsizetype i = 0; i < cells.size(); ++i) {
     if (isColumnHidden(cells[i].column())) continue;
     if (i > 0 && !text.isEmpty()) text += cells[i].row() == cells[i - 1].row() ? '\t' : '\n';
-    text += cells[i].data().toString();
+    text += cells[i].data(Qt::EditRole).toString();
   }
   QApplication::clipboard()->setText(text);
 }

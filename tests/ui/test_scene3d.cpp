@@ -501,7 +501,7 @@ void TestScene3d::savesAPngWithItsTexts() {
   QTemporaryDir folder;
   SceneView view;
   view.resize(kSize);
-  view.setBadges({{"stand-in reality", Badge::Tone::warning}});
+  view.setBadges({{"stand-in reality", Badge::Tone::standIn}});
   const QString path = folder.filePath("view.png");
   QVERIFY(view.savePicture(path));
   QCOMPARE(QImage(path).convertToFormat(QImage::Format_RGB32), view.picture(kSize));

@@ -90,6 +90,11 @@ TriangleMesh fieldFixtures(const FieldSize& size) {
     addBeacon(mesh, size, x, size.beaconY, colour, kPink);
     addBeacon(mesh, size, x, -size.beaconY, kPink, colour);
   }
+  return mesh;
+}
+
+TriangleMesh fieldWall(const FieldSize& size) {
+  TriangleMesh mesh;
   const double t = size.wallThickness, h = size.wallHeight;
   for (double side : {-1.0, 1.0}) {
     mesh.addBox(at(side * (size.carpetX + t / 2), 0, h / 2), {t, 2 * size.carpetY, h}, kWall);

@@ -19,7 +19,8 @@ struct FieldSize {
 /// Parts of the field, apart because they are shaded differently.
 TriangleMesh fieldCarpet(const FieldSize& size);
 TriangleMesh fieldLines(const FieldSize& size);     ///< half a millimetre above the carpet
-TriangleMesh fieldFixtures(const FieldSize& size);  ///< goals, beacons, wall
+TriangleMesh fieldFixtures(const FieldSize& size);  ///< goals and beacons
+TriangleMesh fieldWall(const FieldSize& size);
 
 /// An endless-looking floor, and lines every 0.1 m and 0.5 m on it.
 TriangleMesh plainFloor(double halfWidth, double z, const Colour& colour);

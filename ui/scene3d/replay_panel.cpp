@@ -59,16 +59,12 @@ const std::vector<double>& ReplayPanel::speeds() {
 
 ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
     : QWidget(parent), view_(new SceneView(this, std::move(factory))) {
-  title_ = new QLabel(this);
-  title_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  title_->setFocusPolicy(Qt::NoFocus);
   result_ = new QLabel(this);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->setFocusPolicy(Qt::NoFocus);
 
   auto* head = new QHBoxLayout;
-  head->addWidget(title_, 1);
-  head->addWidget(result_);
+  head->addWidget(result_, 1);
   for (QAction* action : view_->viewActions()) {
     auto* button = new QToolButton(this);
     button->setDefaultAction(action);
@@ -154,15 +150,15 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
   view_->setGround(replay.ground);
   view_->setRobot(replay.model);
   view_->setBalls(frames_.ballRadii());
-  title_->setText(replay.title);
   QStringList result;
+  if (!replay.title.isEmpty()) result << replay.title;
   if (replay.check != ReplayData::Check::notChecked || replay.fitness != 0)
     result << tr("fitness %1").arg(withUnit(replay.fitness, replay.fitnessUnit));
   if (!replay.simulator.isEmpty()) result << replay.simulator;
   if (!replay.note.isEmpty()) result << replay.note;
   result_->setText(result.join("  ·  "));
   QList<Badge> badges{checkBadge(replay)};
-  if (replay.standIn) badges << Badge{tr("stand-in reality, not a robot"), Badge::Tone::warning};
+  if (replay.standIn) badges << Badge{tr("stand-in reality, not a robot"), Badge::Tone::standIn};
   view_->setBadges(badges);
   slider_->setRange(0, std::max(0, int(playback_.frames()) - 1));
   setPlaying(false);
@@ -185,7 +181,6 @@ void ReplayPanel::showMessage(const QString& text, Badge::Tone tone) {
   view_->setBalls({});
   view_->setCaption({});
   view_->setBadges({Badge{text, tone}});
-  title_->clear();
   result_->clear();
   slider_->setRange(0, 0);
   setPlaying(false);

@@ -69,7 +69,7 @@ class ReplayPanel : public QWidget {
   QToolButton *first_, *back_, *play_, *forward_, *loop_;
   QSlider* slider_;
   QComboBox* speed_;
-  QLabel *time_, *title_, *result_;
+  QLabel *time_, *result_;
   Playback playback_;
   ReplayData data_;
   ReplayFrames frames_;

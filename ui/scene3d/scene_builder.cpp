@@ -210,7 +210,8 @@ void SceneBuilder::Impl::rebuildGround() {
     return *geometry->getOrCreateStateSet();
   };
   // Floors sink behind what lies on them, and the outermost one into the horizon.
-  const Colour floor = dark ? Colour{0.20f, 0.21f, 0.23f, 1} : Colour{0.64f, 0.66f, 0.68f, 1};
+  const float shade = groundKind == Ground::field ? 0.75f : 0.66f;
+  const Colour floor = dark ? Colour{0.20f, 0.21f, 0.23f, 1} : Colour{shade, shade, shade + 0.02f, 1};
   const auto sink = [](osg::StateSet& state, float amount) {
     state.setAttributeAndModes(new osg::PolygonOffset(amount, amount));
   };
@@ -228,6 +229,7 @@ void SceneBuilder::Impl::rebuildGround() {
   sink(carpet, 1);
   add(fieldLines(size), 0, kCastsNoShadow);
   add(fieldFixtures(size), 0.15f, kCastsShadow);
+  add(fieldWall(size), 0, kCastsNoShadow);
 }
 
 SceneBuilder::SceneBuilder() : impl_(std::make_unique<Impl>()) {

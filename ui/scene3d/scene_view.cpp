@@ -14,7 +14,7 @@
 namespace btr::ui {
 namespace {
 
-constexpr double kSlowPicture_s = 0.030;  ///< a finer picture that takes longer is left for moments of rest
+constexpr double kMovingPicture_s = 0.030;  ///< finer pictures that would take longer are left for moments of rest
 
 QColor toneColour(Badge::Tone tone) {
   switch (tone) {
@@ -24,6 +24,8 @@ QColor toneColour(Badge::Tone tone) {
       return QColor(180, 35, 40);
     case Badge::Tone::warning:
       return QColor(150, 92, 0);
+    case Badge::Tone::standIn:
+      return QColor(123, 63, 181);
     case Badge::Tone::neutral:
       return QColor(90, 96, 105);
   }
@@ -53,14 +55,13 @@ void SceneView::makeActions() {
     return action;
   };
   home_ = make(tr("Home"), "go-home", tr("Back to the first point of view (H)"), false);
-  followAction_ =
-      make(tr("Follow"), "zoom-fit-selection", tr("Keep the robot, the ball or nothing in the middle (F)"), false);
-  shadows_ = make(tr("Shadows"), "weather-clear", tr("Draw shadows (S)"), true);
+  followAction_ = make(tr("Follow"), "crosshairs", tr("Keep the robot, the ball or nothing in the middle (F)"), false);
+  shadows_ = make(tr("Shadows"), "contrast", tr("Draw shadows (S)"), true);
   shadows_->setChecked(true);
   wireframe_ = make(tr("Wireframe"), "draw-polyline", tr("Draw edges instead of surfaces (W)"), true);
   collision_ =
       make(tr("Collision shapes"), "draw-cuboid", tr("Outline what collides; meshes show their box (B)"), true);
-  jacket_ = make(tr("Blue jacket"), "color-picker", tr("Change between the red and the blue jacket (J)"), true);
+  jacket_ = make(tr("Blue jacket"), "fill-color", tr("Change between the red and the blue jacket (J)"), true);
   save_ = make(tr("Save picture…"), "document-save", tr("Save what is shown as a PNG file"), false);
   connect(home_, &QAction::triggered, this, &SceneView::goHome);
   connect(followAction_, &QAction::triggered, this, [this] { setFollow(Follow((int(follow_) + 1) % 3)); });
@@ -200,20 +201,27 @@ void SceneView::askAndSave() {
         problem().isEmpty() ? tr("%1 cannot be written.").arg(path) : tr("No picture: %1.").arg(problem()));
 }
 
+/// At rest 2 × 2 samples a pixel; while things move as many as the machine draws in time, down to a quarter of one.
+void SceneView::draw(QSize pixels) {
+  const bool busy = moving_ || dragButton_ != Qt::NoButton || refine_.isActive();
+  const double perPixel_s = sampleSeconds_ * pixels.width() * pixels.height();
+  const bool fine = !busy || 4 * perPixel_s <= kMovingPicture_s, half = !fine && perPixel_s > kMovingPicture_s;
+  const QSize size = half ? QSize((pixels.width() + 1) / 2, (pixels.height() + 1) / 2) : pixels;
+  QElapsedTimer watch;
+  watch.start();
+  image_ = rendered(size, fine ? 2 : 1);
+  sampleSeconds_ = watch.nsecsElapsed() * 1e-9 / (double(size.width()) * size.height() * (fine ? 4 : 1));
+  coarse_ = !fine;
+  stale_ = false;
+  drawnFor_ = pixels;
+  if (coarse_ && !moving_) refine_.start();
+}
+
 void SceneView::paintEvent(QPaintEvent*) {
-  // Render only what changed; while things move, a slow machine draws one sample a pixel.
+  // Render only what changed.
   const QSize pixels = (QSizeF(size()) * devicePixelRatioF()).toSize();
-  if (stale_ || image_.size() != pixels ||
-      (coarse_ && !moving_ && dragButton_ == Qt::NoButton && !refine_.isActive())) {
-    const bool busy = moving_ || dragButton_ != Qt::NoButton || refine_.isActive();
-    coarse_ = busy && fineSeconds_ > kSlowPicture_s;
-    QElapsedTimer watch;
-    watch.start();
-    image_ = rendered(pixels, coarse_ ? 1 : 2);
-    if (!coarse_) fineSeconds_ = watch.nsecsElapsed() * 1e-9;
-    stale_ = false;
-    if (coarse_ && !moving_) refine_.start();
-  }
+  const bool resting = !moving_ && dragButton_ == Qt::NoButton && !refine_.isActive();
+  if (stale_ || drawnFor_ != pixels || (coarse_ && resting)) draw(pixels);
   QPainter painter(this);
   if (image_.isNull()) {
     painter.fillRect(rect(), palette().window());
@@ -223,6 +231,7 @@ void SceneView::paintEvent(QPaintEvent*) {
         tr("The 3D view needs OpenGL, and this machine offers none:\n%1.\nEverything else works without it.")
             .arg(problem()));
   } else {
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.drawImage(rect(), image_);
   }
   drawTexts(painter, size());
@@ -285,7 +294,7 @@ void SceneView::mouseReleaseEvent(QMouseEvent* event) {
 void SceneView::wheelEvent(QWheelEvent* event) {
   ViewCamera camera = camera_;
   camera.zoom(event->angleDelta().y() / 120.0);
-  if (fineSeconds_ > kSlowPicture_s) refine_.start();
+  refine_.start();  // more steps may follow
   setCamera(camera);
   event->accept();
 }

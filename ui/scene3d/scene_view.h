@@ -15,7 +15,7 @@ namespace btr::ui {
 
 /// A short word on coloured ground in the view's upper right corner.
 struct Badge {
-  enum class Tone { good, bad, neutral, warning };
+  enum class Tone { good, bad, neutral, warning, standIn };
   QString text;
   Tone tone = Tone::neutral;
 };
@@ -49,7 +49,7 @@ class SceneView : public QWidget {
   void setCamera(const ViewCamera& camera);
   void goHome();
 
-  /// While true the view may draw without supersampling if the machine is slow; it redraws finely afterwards.
+  /// While true the view may draw coarsely where the machine is slow; it redraws finely afterwards.
   void setMoving(bool moving);
 
   /// Home, follow, shadows, wireframe, collision shapes, jacket, save picture: for a tool bar or menu.
@@ -88,6 +88,7 @@ class SceneView : public QWidget {
   void applyTheme();
   void applyFollow();
   QImage rendered(QSize pixels, int supersampling);
+  void draw(QSize pixels);
   void drawTexts(QPainter& painter, const QSize& size) const;
 
   SceneBuilder scene_;
@@ -97,12 +98,13 @@ class SceneView : public QWidget {
   QStringList caption_;
   QList<Badge> badges_;
   QAction *home_, *followAction_, *shadows_, *wireframe_, *collision_, *jacket_, *save_;
-  QImage image_;         ///< what was rendered last, in device pixels
+  QImage image_;         ///< what was rendered last, in device pixels or half of them
+  QSize drawnFor_;       ///< the widget's device pixels when it was rendered
   bool stale_ = true;    ///< image_ no longer shows the scene
   bool coarse_ = false;  ///< image_ was drawn without supersampling
   bool moving_ = false;
-  double fineSeconds_ = 0;  ///< what the last supersampled picture took
-  QTimer refine_;           ///< draws finely once nothing moves
+  double sampleSeconds_ = 0;  ///< what one sample of the last picture took
+  QTimer refine_;             ///< draws finely once nothing moves
   QPointF dragFrom_;
   Qt::MouseButton dragButton_ = Qt::NoButton;
 };

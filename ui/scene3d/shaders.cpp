@@ -66,7 +66,11 @@ void main() {
   vec3 halfway = normalize(toSun + toEye);
   float highlight = gloss * lit * pow(max(0.0, dot(normal, halfway)), 42.0);
   float rim = gloss * 0.22 * pow(1.0 - max(0.0, dot(normal, toEye)), 4.0);
-  vec3 colour = pow(clamp(albedo * light + highlight + rim * sky, 0.0, 1.0), vec3(1.0 / 2.2));
+  // A soft shoulder keeps form in white plastic under full sun.
+  vec3 linear = albedo * light + highlight + rim * sky;
+  vec3 over = max(linear - 0.65, 0.0);
+  linear = min(linear, 0.65) + 0.35 * (1.0 - exp(-over / 0.35));
+  vec3 colour = pow(clamp(linear, 0.0, 1.0), vec3(1.0 / 2.2));
   if (fade > 0.0) {
     float height = gl_FragCoord.y / viewport.y;
     vec3 background = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));

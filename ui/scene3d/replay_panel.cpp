@@ -125,6 +125,7 @@ QLayout* ReplayPanel::makeTransport() {
   connect(forward_, &QToolButton::clicked, this, [this] { step(1); });
   connect(loop_, &QToolButton::toggled, this, [this](bool on) { playback_.setLooping(on); });
   connect(slider_, &QSlider::valueChanged, this, [this](int frame) { showFrame(static_cast<std::size_t>(frame)); });
+  connect(slider_, &QSlider::sliderReleased, this, &ReplayPanel::refresh);
   connect(speed_, &QComboBox::currentIndexChanged, this, [this] {
     playback_.setSpeed(speed_->currentData().toDouble());
     refreshCaption();
@@ -227,7 +228,7 @@ void ReplayPanel::refresh() {
   } else if (!playing) {
     timer_.stop();
   }
-  view_->setMoving(playing);
+  view_->setMoving(playing || slider_->isSliderDown());
   play_->setIcon(playing ? QIcon::fromTheme("media-playback-pause", style()->standardIcon(QStyle::SP_MediaPause))
                          : QIcon::fromTheme("media-playback-start", style()->standardIcon(QStyle::SP_MediaPlay)));
   play_->setAccessibleName(playing ? tr("Pause") : tr("Play"));

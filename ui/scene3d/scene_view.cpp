@@ -41,7 +41,9 @@ SceneView::SceneView(QWidget* parent, GlContextFactory factory) : QWidget(parent
   makeActions();
   refine_.setSingleShot(true);
   refine_.setInterval(150);
-  connect(&refine_, &QTimer::timeout, this, &SceneView::redraw);
+  connect(&refine_, &QTimer::timeout, this, [this] {
+    if (coarse_) redraw();
+  });
   applyTheme();
 }
 
@@ -214,7 +216,7 @@ void SceneView::draw(QSize pixels) {
   coarse_ = !fine;
   stale_ = false;
   drawnFor_ = pixels;
-  if (coarse_ && !moving_) refine_.start();
+  if (coarse_ && !moving_ && dragButton_ == Qt::NoButton) refine_.start();
 }
 
 void SceneView::paintEvent(QPaintEvent*) {

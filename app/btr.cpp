@@ -1,1 +1,53 @@
-int main() { return 0; }
+// Everything that UCHILSIM does, without a window.
+#include <signal.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "app/btr_commands.h"
+#include "core/spec/error.h"
+
+namespace {
+
+std::atomic<bool> stopRequested{false};
+
+// The first Ctrl-C asks for a clean stop; the second ends the program at once (nothing stored is lost by that either).
+void onInterrupt(int number) {
+  if (stopRequested.exchange(true)) {
+    signal(number, SIG_DFL);
+    raise(number);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  signal(SIGPIPE, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = onInterrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+
+  CLI::App app{"Back to Reality without a window: run, measure, adapt, replay, compare with recordings", "btr"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "btr " UCHILSIM_VERSION);
+  app.fallthrough();
+  btr::cli::Shell shell;
+  shell.stop = &stopRequested;
+  app.add_flag("--json", shell.json, "machine-readable standard output");
+  btr::cli::addRunCommands(app, shell);
+  btr::cli::addFitnessCommands(app, shell);
+  btr::cli::addDataCommands(app, shell);
+  btr::cli::addModelCommands(app, shell);
+  btr::cli::addGapCommands(app, shell);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? btr::cli::done : btr::cli::badUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "btr: %s\n", error.what());
+    return btr::cli::badInput;
+  }
+  return shell.exitCode;
+}

@@ -1,0 +1,43 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/plugin/plugin_host.h"
+
+// Commands of btr. Each function adds its subcommands to the parser; their callbacks do the work and set the exit code.
+namespace btr::cli {
+
+enum ExitCode { done = 0, badInput = 1, badUsage = 2, stoppedEarly = 3, waitsForFitness = 10 };
+
+/// What all commands share.
+struct Shell {
+  bool json = false;                ///< machine-readable standard output
+  int exitCode = done;
+  const std::atomic<bool>* stop = nullptr;  ///< raised by Ctrl-C
+
+  /// Loaded when first needed; modules that could not be loaded are named on stderr once.
+  const PluginHost& plugins();
+
+ private:
+  std::unique_ptr<PluginHost> plugins_;
+};
+
+void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, stand-in
+void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import
+void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export
+void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list, bench
+void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
+
+/// Writes to the file, or to standard output if `path` is empty.
+void writeOut(const std::string& path, const std::string& text);
+
+/// Rows under a header, columns as wide as needed; numbers to the right.
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
+
+/// Four significant digits for people.
+std::string brief(double value);
+
+}  // namespace btr::cli

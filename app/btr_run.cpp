@@ -1,0 +1,149 @@
+// btr run, status, stop, stand-in.
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/run/back_to_reality.h"
+#include "core/run/stand_in.h"
+#include "core/spec/error.h"
+#include "core/spec/experiment_spec.h"
+#include "core/store/database.h"
+
+namespace btr::cli {
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 0) return "?";
+  char text[32];
+  const auto s = static_cast<long>(seconds + 0.5);
+  std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+  return text;
+}
+
+void showProgress(const RunProgress& p) {
+  std::fprintf(stderr, "\r%-9s %d/%d  generation %d/%d  best %.4g  mean %.4g  %.0f trials/s  left %s \x1b[K", p.stage.c_str(),
+               p.stageDone, p.stageTotal, p.generation, p.totalGenerations, p.best, p.mean, p.trialsPerSecond,
+               duration(p.secondsLeft).c_str());
+  std::fflush(stderr);
+}
+
+nlohmann::json describe(const Database& db, const RunRecord& run) {
+  nlohmann::json gaps = nlohmann::json::array();
+  for (const GapRecord& g : db.gaps(run.id))
+    gaps.push_back({{"stage", g.stage}, {"before", g.before}, {"after", g.after}, {"new_before", g.newBefore},
+                    {"individuals", g.individuals}});
+  int waiting = 0;
+  const std::vector<MeasurementRecord> measured = db.measurements(run.id);
+  for (const MeasurementTask& task : db.measurementTasks(run.id, run.stage + 1)) {
+    int have = 0;
+    for (const MeasurementRecord& m : measured) have += m.individual == task.individual;
+    waiting += have < task.wantedRepeats;
+  }
+  return {{"run", run.id},
+          {"experiment", db.experiment(run.experiment).name},
+          {"seed", run.seed},
+          {"state", toText(run.state)},
+          {"reality", run.reality},
+          {"generation", run.generation},
+          {"stages_done", run.stage},
+          {"simulators", db.simulators(run.id).size()},
+          {"waiting_for_fitness", waiting},
+          {"active", isRunActive(db.path(), run.id)},
+          {"message", run.message},
+          {"gaps", gaps}};
+}
+
+void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool asJson) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const RunRecord& run : runs) all.push_back(describe(db, run));
+  if (asJson) {
+    std::cout << all.dump(1) << '\n';
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& r : all) {
+    const bool standIn = r["reality"] == "stand_in";
+    std::string state = r["state"].get<std::string>() + (r["active"].get<bool>() ? " (working)" : "");
+    std::string gap = r["gaps"].empty() ? "" : brief(r["gaps"].back()["before"]) + " → " + brief(r["gaps"].back()["after"]);
+    rows.push_back({std::to_string(r["run"].get<long>()), r["experiment"].get<std::string>(),
+                    std::to_string(r["seed"].get<std::uint64_t>()), state, std::to_string(r["generation"].get<int>()),
+                    std::to_string(r["stages_done"].get<int>()), std::to_string(r["simulators"].get<int>() - 1), gap,
+                    standIn ? "stand-in" : "person", r["message"].get<std::string>()});
+  }
+  writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "reality", "message"},
+                     rows));
+}
+
+struct RunArguments {
+  std::string spec, database;
+  Id run = 0;
+  int jobs = 0;
+  std::uint64_t seed = 0;
+  bool seedGiven = false, again = false, quiet = false;
+};
+
+void run(const RunArguments& arguments, Shell& shell) {
+  if (arguments.spec.empty() == (arguments.run == 0))
+    throw InputError("btr run: give either an experiment file or --run with the number of a stored run");
+  Database db = Database::open(arguments.database, arguments.run ? Database::Mode::readWrite : Database::Mode::create);
+  Id id = arguments.run;
+  if (id == 0) {
+    const ExperimentSpec spec = loadExperiment(arguments.spec);
+    id = startRun(db, shell.plugins(), spec, arguments.seedGiven ? arguments.seed : spec.seed, arguments.again);
+  }
+  RunOptions options;
+  options.jobs = arguments.jobs;
+  const bool show = isatty(STDERR_FILENO) && !arguments.quiet;
+  if (show) options.progress = showProgress;
+  const RunEnd end = continueRun(db, shell.plugins(), id, *shell.stop, options);
+  if (show) std::fprintf(stderr, "\n");
+  printStatus(db, {db.run(id)}, shell.json);
+  shell.exitCode = end == RunEnd::finished ? done : end == RunEnd::waiting ? waitsForFitness : stoppedEarly;
+}
+
+}  // namespace
+
+void addRunCommands(CLI::App& app, Shell& shell) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "start an experiment, or resume it if it is already in the database");
+  command->add_option("SPEC", arguments->spec, "experiment file (.json)");
+  command->add_option("--db", arguments->database, "experiment database")->required();
+  command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")->check(CLI::PositiveNumber);
+  command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors)")->check(CLI::Range(0, 1024));
+  CLI::Option* seed = command->add_option("--seed", arguments->seed, "instead of the seed in the file");
+  command->add_flag("--again", arguments->again, "start a new run even if the same one is stored");
+  command->add_flag("--quiet", arguments->quiet, "no progress on stderr");
+  command->callback([arguments, seed, &shell] {
+    arguments->seedGiven = seed->count() > 0;
+    run(*arguments, shell);
+  });
+
+  auto statusDb = std::make_shared<std::string>();
+  CLI::App* status = app.add_subcommand("status", "runs, stage of each, what it waits for");
+  status->add_option("--db", *statusDb, "experiment database")->required();
+  status->callback([statusDb, &shell] {
+    const Database db = Database::open(*statusDb, Database::Mode::readOnly);
+    printStatus(db, db.runs(), shell.json);
+  });
+
+  auto stop = std::make_shared<RunArguments>();
+  CLI::App* stopCommand = app.add_subcommand("stop", "ask a working run to stop; what it has done is kept");
+  stopCommand->add_option("--db", stop->database, "experiment database")->required();
+  stopCommand->add_option("--run", stop->run, "number of the run")->required()->check(CLI::PositiveNumber);
+  stopCommand->callback([stop] { Database::open(stop->database, Database::Mode::readWrite).requestStop(stop->run, true); });
+
+  auto standIn = std::make_shared<RunArguments>();
+  CLI::App* standInCommand =
+      app.add_subcommand("stand-in", "play the real robot of a run: JSON requests on standard input, answers on standard output");
+  standInCommand->add_option("--db", standIn->database, "experiment database")->required();
+  standInCommand->add_option("--run", standIn->run, "number of the run")->required()->check(CLI::PositiveNumber);
+  standInCommand->callback([standIn, &shell] {
+    const RunRecord record = Database::open(standIn->database, Database::Mode::readOnly).run(standIn->run);
+    serveStandIn(prepareFromRun(record, shell.plugins()), shell.plugins(), std::cin, std::cout);
+  });
+}
+
+}  // namespace btr::cli

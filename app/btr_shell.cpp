@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "app/btr_commands.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/parameter.h"
+
+namespace btr::cli {
+
+const PluginHost& Shell::plugins() {
+  if (!plugins_) {
+    plugins_ = std::make_unique<PluginHost>(PluginHost::standardDirectory());
+    for (const std::string& problem : plugins_->problems()) std::fprintf(stderr, "btr: %s\n", problem.c_str());
+  }
+  return *plugins_;
+}
+
+void writeOut(const std::string& path, const std::string& text) {
+  if (path.empty())
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  else
+    writeFile(path, text);
+}
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+namespace {
+
+// Columns on the screen: bytes that do not continue a UTF-8 character.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const std::string& h : header) widths.push_back(width(h));
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width(row[c]));
+  std::string text;
+  const auto line = [&](const std::vector<std::string>& cells, bool numbersRight) {
+    std::string out;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::string pad(widths[c] - width(cells[c]), ' ');
+      const bool right = numbersRight && toNumber(cells[c]).has_value();
+      out += (c ? "  " : "") + (right ? pad + cells[c] : cells[c] + pad);
+    }
+    out.erase(out.find_last_not_of(' ') + 1);
+    text += out + '\n';
+  };
+  line(header, false);
+  for (const auto& row : rows) line(row, true);
+  return text;
+}
+
+}  // namespace btr::cli

@@ -1,0 +1,103 @@
+#include "core/run/evaluator.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+using nlohmann::json;
+
+std::string encode(const TrialJob& job) {
+  return json{{"simulator", toJsonText(job.simulator)},
+              {"parameters", job.parameters},
+              {"seed", job.seed},
+              {"wantTrace", job.wantTrace}}
+      .dump();
+}
+
+TrialJob decodeJob(const std::string& text) {
+  const json j = json::parse(text);
+  TrialJob job;
+  job.simulator = simulatorFromJson(j.at("simulator").get<std::string>(), "job");
+  job.parameters = j.at("parameters").get<std::vector<double>>();
+  job.seed = j.at("seed").get<std::uint64_t>();
+  job.wantTrace = j.at("wantTrace").get<bool>();
+  return job;
+}
+
+// One line of JSON, then the trace's bytes.
+std::string encode(const TrialReply& reply) {
+  return json{{"fitness", reply.fitness},
+              {"outcome", reply.outcome},
+              {"detail", reply.detail},
+              {"sha256", reply.traceSha256}}
+             .dump(-1, ' ', false, json::error_handler_t::replace) +
+         '\n' + reply.packedTrace;
+}
+
+TrialReply decodeReply(const std::string& bytes) {
+  const std::size_t line = bytes.find('\n');
+  const json j = json::parse(bytes.substr(0, line));
+  return {j.at("fitness").get<double>(), j.at("outcome").get<std::string>(), j.at("detail").get<std::string>(),
+          j.at("sha256").get<std::string>(), bytes.substr(line + 1)};
+}
+
+TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, const TrialJob& job) {
+  const TrialResult result = prepared.trial(scene, job.parameters, job.seed, true);
+  TrialReply reply;
+  reply.outcome = toText(result.outcome);
+  reply.detail = result.detail;
+  reply.fitness = prepared.fitnessOf(result);
+  if (!std::isfinite(reply.fitness)) {
+    reply.fitness = prepared.fitness->ofFailure();
+    if (reply.detail.empty()) reply.detail = "the fitness was not a finite number";
+  }
+  reply.traceSha256 = result.trace.sha256();
+  if (job.wantTrace) reply.packedTrace = result.trace.pack();
+  return reply;
+}
+
+}  // namespace
+
+TrialReply runTrialJob(const PreparedExperiment& prepared, const TrialJob& job) {
+  return evaluateIn(prepared, prepared.scene(job.simulator), job);
+}
+
+Evaluator::Evaluator(const PreparedExperiment& prepared, int workers) : prepared_(prepared) {
+  // A worker keeps the scene of the last simulator: L1 asks for the same one all the time.
+  struct Cache {
+    std::optional<SimulatorSpec> simulator;
+    Scene scene;
+  };
+  pool_ = std::make_unique<WorkerPool>(workers > 0 ? workers : processorCount(),
+                                       [&prepared, cache = std::make_shared<Cache>()](const std::string& text) {
+                                         const TrialJob job = decodeJob(text);
+                                         if (!cache->simulator || *cache->simulator != job.simulator) {
+                                           cache->scene = prepared.scene(job.simulator);
+                                           cache->simulator = job.simulator;
+                                         }
+                                         return encode(evaluateIn(prepared, cache->scene, job));
+                                       });
+}
+
+std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<TrialJob>& jobs,
+                                                           const std::atomic<bool>& stop,
+                                                           const std::function<void(std::size_t)>& done) {
+  std::vector<std::string> texts;
+  texts.reserve(jobs.size());
+  for (const TrialJob& job : jobs) texts.push_back(encode(job));
+  const std::vector<WorkerPool::Reply> replies = pool_->run(texts, stop, done);
+  if (replies.size() != jobs.size()) return std::nullopt;
+  std::vector<TrialReply> results;
+  results.reserve(replies.size());
+  for (const WorkerPool::Reply& reply : replies)
+    results.push_back(reply.ok ? decodeReply(reply.bytes)
+                               : TrialReply{prepared_.fitness->ofFailure(),
+                                            toText(TrialResult::Outcome::workerDied), reply.failure, "", ""});
+  return results;
+}
+
+}  // namespace btr

@@ -1,0 +1,50 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/run/prepared_experiment.h"
+#include "core/run/worker_pool.h"
+
+namespace btr {
+
+/// One trial to run, self-contained but for the experiment that the workers already know.
+struct TrialJob {
+  SimulatorSpec simulator;
+  std::vector<double> parameters;  ///< in the order of the genotype
+  std::uint64_t seed = 0;
+  bool wantTrace = false;          ///< send the packed trace back, not only its hash
+};
+
+/// What a trial was worth. A trial that failed in any way has the fitness of a failure and says why.
+struct TrialReply {
+  double fitness = 0;
+  std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
+  std::string detail;
+  std::string traceSha256;           ///< "" if a worker died
+  std::string packedTrace;           ///< if wanted
+};
+
+/// Runs one trial here and now; what a worker does.
+TrialReply runTrialJob(const PreparedExperiment& prepared, const TrialJob& job);
+
+/// Evaluates trials on worker processes.
+class Evaluator {
+ public:
+  /// `prepared` must outlive the evaluator. `workers` 0: as many as processors.
+  Evaluator(const PreparedExperiment& prepared, int workers);
+  /// Replies in the order of the jobs; nothing if `stop` was raised. `done(n)` after each finished trial.
+  std::optional<std::vector<TrialReply>> evaluate(const std::vector<TrialJob>& jobs, const std::atomic<bool>& stop,
+                                                  const std::function<void(std::size_t)>& done = {});
+  int workers() const { return pool_->workers(); }
+
+ private:
+  const PreparedExperiment& prepared_;
+  std::unique_ptr<WorkerPool> pool_;
+};
+
+}  // namespace btr

@@ -1,0 +1,120 @@
+// Between L1 and L3: who is measured in reality, in which order, and the stand-in's answers.
+#include <algorithm>
+#include <set>
+
+#include "core/run/reality_gap.h"
+#include "core/run/run_context.h"
+#include "core/run/stand_in.h"
+
+namespace btr {
+namespace {
+
+/// The best that were not measured before, each parameter vector once: of the stage's last generation, filled up from the
+/// generations before it in this simulator; or of all generations in this simulator.
+std::vector<IndividualRecord> chooseMeasured(const RunContext& context, int stage) {
+  const Database& db = context.database;
+  const Id run = context.record.id;
+  std::set<std::vector<double>> taken;
+  for (const MeasurementTask& task : db.measurementTasks(run)) taken.insert(db.individual(task.individual).parameters);
+  const auto count = static_cast<std::size_t>(context.stageSetting("measured_individuals"));
+  const int ask = static_cast<int>(count + taken.size());
+  const int last = context.measuredAfter(stage);
+  const int first = context.simulator().madeAfterGeneration + 1;
+  const bool lastOnly = context.stageSetting("chosen_from") == 0;
+
+  std::vector<IndividualRecord> chosen;
+  const auto take = [&](int from) {
+    for (const IndividualRecord& i : db.bestIndividuals(run, ask, from, last))
+      if (chosen.size() < count && taken.insert(i.parameters).second) chosen.push_back(i);
+  };
+  if (lastOnly) take(last);
+  if (chosen.size() < count) take(first);
+  return chosen;
+}
+
+}  // namespace
+
+bool beginMeasuring(RunContext& context, int stage) {
+  Database& db = context.database;
+  const Id run = context.record.id;
+  std::vector<IndividualRecord> chosen = chooseMeasured(context, stage);
+
+  // Their traces, for replay and for comparing with recordings.
+  std::vector<TrialJob> jobs;
+  const SimulatorRecord simulator = context.simulator();
+  for (const IndividualRecord& i : chosen) jobs.push_back({simulator.simulator, i.parameters, i.trialSeed, true});
+  const auto replies = context.evaluate(jobs);
+  if (!replies) return false;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    if (!(*replies)[i].packedTrace.empty())
+      db.setTrace(chosen[i].id, (*replies)[i].packedTrace, (*replies)[i].traceSha256);
+
+  // A drawn order, so that neither the operator's skill nor the battery follows the simulated rank. The drawn last ones are
+  // held out where the user wants that.
+  Random random = Random::forPurpose(context.record.seed, "measuring order", static_cast<std::uint64_t>(stage));
+  for (std::size_t i = chosen.size(); i > 1; --i) std::swap(chosen[i - 1], chosen[random.below(i)]);
+  const int heldOut = static_cast<int>(context.adaptationSetting("held_out"));
+  std::vector<MeasurementTask> tasks;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto left = static_cast<int>(chosen.size() - i);
+    tasks.push_back({run, stage, chosen[i].id, static_cast<int>(i) + 1, chosen[i].fitness,
+                     context.stageSetting("repeats"), left <= heldOut && i > 0});
+  }
+  db.addMeasurementStage(run, stage, tasks);
+  return true;
+}
+
+bool completeMeasuring(RunContext& context, int stage) {
+  Database& db = context.database;
+  const Id run = context.record.id;
+  const std::vector<MeasurementTask> tasks = db.measurementTasks(run, stage);
+  std::vector<MeasurementRecord> done = db.measurements(run);
+  const auto settled = [&] {
+    return std::count_if(tasks.begin(), tasks.end(), [&](const MeasurementTask& t) { return isSettled(t, done); });
+  };
+  context.progress.stage = "measuring";
+  context.progress.secondsLeft = -1;
+  context.progress.stageTotal = static_cast<int>(tasks.size());
+  context.progress.stageDone = static_cast<int>(settled());
+
+  if (context.record.reality == "stand_in" && context.progress.stageDone < context.progress.stageTotal) {
+    StandIn robot(StandIn::standardProgram(), db.path(), run);
+    const double each = context.stageSetting("repeats");
+    for (const MeasurementTask& task : tasks) {
+      const IndividualRecord individual = db.individual(task.individual);
+      auto have = static_cast<int>(std::count_if(
+          done.begin(), done.end(), [&](const MeasurementRecord& m) { return m.individual == task.individual; }));
+      for (; have < each; ++have) {
+        if (context.stopped()) return false;
+        const RealAnswer answer = robot.measure(individual.parameters, have);
+        MeasurementRecord measurement;
+        measurement.run = run;
+        measurement.individual = task.individual;
+        measurement.value = answer.fitness;
+        measurement.isVoid = answer.isVoid;
+        measurement.note = answer.note;
+        measurement.who = "stand-in reality";
+        measurement.source = "stand_in";
+        measurement.enteredAt = utcNow();
+        db.addMeasurement(measurement);
+        done.push_back(measurement);
+      }
+      context.progress.stageDone = static_cast<int>(settled());
+      context.publish(false);
+    }
+  }
+  const int missing = context.progress.stageTotal - static_cast<int>(settled());
+  const bool anyReal = !realFitness(tasks, done, stage).empty();
+  if (missing > 0)
+    context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
+                               std::to_string(tasks.size()) + " individuals wait for real fitness";
+  else if (!anyReal)
+    context.progress.message = "measurement stage " + std::to_string(stage) +
+                               ": all values are void; enter at least one that is not";
+  else
+    context.progress.message.clear();
+  context.publish(true);
+  return missing == 0 && anyReal;
+}
+
+}  // namespace btr

@@ -1,0 +1,24 @@
+#include "core/run/replay.h"
+
+#include "core/run/prepared_experiment.h"
+
+namespace btr {
+
+Replay replay(const Database& database, const PluginHost& host, Id run, Id individual) {
+  const PreparedExperiment prepared = prepareFromRun(database.run(run), host);
+  const IndividualRecord stored = database.individual(individual);
+  const Scene scene = prepared.scene(database.simulator(stored.simulator).simulator);
+  Replay replay;
+  replay.result = prepared.trial(scene, stored.parameters, stored.trialSeed, true);
+  replay.fitness = prepared.fitnessOf(replay.result);
+  replay.storedFitness = stored.fitness;
+  replay.sha256 = replay.result.trace.sha256();
+  replay.storedSha256 = stored.traceSha256;
+  replay.identical = replay.fitness == replay.storedFitness &&
+                     (replay.storedSha256.empty() || replay.sha256 == replay.storedSha256);
+  replay.model = std::make_shared<const RobotModel>(scene.robots.front().model);
+  replay.robotName = scene.robots.front().name;
+  return replay;
+}
+
+}  // namespace btr

@@ -1,0 +1,63 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/plugin/plugin_host.h"
+#include "core/run/back_to_reality.h"
+#include "core/run/evaluator.h"
+#include "core/run/prepared_experiment.h"
+#include "core/store/database.h"
+
+namespace btr {
+
+/// What the stages of one run share while a process works on it: the records it goes by, the workers, progress and stop.
+/// Belongs to one thread.
+class RunContext {
+ public:
+  RunContext(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
+
+  Database& database;
+  const PluginHost& host;
+  RunRecord record;              ///< as it was when this process began; counters are asked from the database
+  PreparedExperiment prepared;
+  RunProgress progress;
+
+  /// Starts the workers when they are first needed.
+  Evaluator& evaluator();
+  /// True once a stop was asked for, by the caller's flag or in the database; the latter is looked at once a second.
+  bool stopped();
+  /// Evaluates jobs with progress and stop. Nothing if stopped.
+  std::optional<std::vector<TrialReply>> evaluate(const std::vector<TrialJob>& jobs);
+  /// Publishes progress: at once if `now`, else at most once a second.
+  void publish(bool now);
+
+  int stageSetting(const std::string& name) const;         ///< of stageParameters()
+  double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()
+  std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
+  /// L1 generation after which stage k = 1, 2, … measures, at most the total.
+  int measuredAfter(int stage) const;
+  /// The newest simulator version.
+  SimulatorRecord simulator() const;
+
+ private:
+  const StopFlag& stop_;
+  std::atomic<bool> halt_{false};
+  const RunOptions& options_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::chrono::steady_clock::time_point begun_, published_, looked_;
+  long generationTrials_ = 0;
+};
+
+/// One generation of L1 after another until `lastGeneration` is stored. False if stopped.
+bool learnUntil(RunContext& context, int lastGeneration);
+/// Chooses who is measured after the stage's last generation and stores tasks and traces. False if stopped.
+bool beginMeasuring(RunContext& context, int stage);
+/// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are settled.
+bool completeMeasuring(RunContext& context, int stage);
+/// L3: a new simulator version from all measurements so far. False if stopped.
+bool adaptSimulator(RunContext& context, int stage);
+
+}  // namespace btr

@@ -1,0 +1,232 @@
+#include "core/run/worker_pool.h"
+
+#include <poll.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool writeAll(int fd, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t n = send(fd, data, size, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    data += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool readAll(int fd, char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t n = read(fd, data, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    data += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+// A message is its length (8 bytes, this machine's order) and its bytes.
+bool sendMessage(int fd, const std::string& bytes) {
+  const std::uint64_t size = bytes.size();
+  return writeAll(fd, reinterpret_cast<const char*>(&size), sizeof size) && writeAll(fd, bytes.data(), bytes.size());
+}
+
+bool receiveMessage(int fd, std::string& bytes) {
+  std::uint64_t size = 0;
+  if (!readAll(fd, reinterpret_cast<char*>(&size), sizeof size) || size > (1ull << 32)) return false;
+  bytes.resize(size);
+  return readAll(fd, bytes.data(), size);
+}
+
+/// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply says whether it is one.
+[[noreturn]] void serve(int socket, const WorkerPool::Work& work) {
+  // Ctrl-C reaches the whole group: the parent decides. No file of the parent stays open here (its locks among them).
+  signal(SIGINT, SIG_IGN);
+  signal(SIGTERM, SIG_DFL);
+  dup2(socket, 3);
+  close_range(4, ~0U, 0);
+  std::string job;
+  while (receiveMessage(3, job)) {
+    std::string reply;
+    try {
+      reply = 'R' + work(job);
+    } catch (const std::exception& error) {
+      reply = std::string("F") + error.what();
+    }
+    if (!sendMessage(3, reply)) break;
+  }
+  _exit(0);
+}
+
+std::string howItEnded(int status) {
+  if (WIFSIGNALED(status)) return "the worker died (signal " + std::to_string(WTERMSIG(status)) + ")";
+  return "the worker ended (exit code " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1) + ")";
+}
+
+struct Worker {
+  pid_t pid = -1;
+  int socket = -1;
+  long job = -1;  // index of the job it works on, −1 idle
+  Clock::time_point since;
+};
+
+}  // namespace
+
+struct WorkerPool::Impl {
+  Work work;
+  double secondsPerJob;
+  std::vector<Worker> workers;
+
+  void start(Worker& worker) {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+      throw InputError(std::string("cannot make a worker process: ") + std::strerror(errno));
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid < 0) {
+      close(pair[0]);
+      close(pair[1]);
+      throw InputError(std::string("cannot make a worker process: ") + std::strerror(errno));
+    }
+    if (pid == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(0);
+      serve(pair[1], work);
+    }
+    close(pair[1]);
+    worker = Worker{pid, pair[0], -1, Clock::now()};
+  }
+
+  /// Ends a worker and says how it ended.
+  static int finish(Worker& worker, bool force) {
+    if (force) kill(worker.pid, SIGKILL);
+    close(worker.socket);
+    int status = 0;
+    while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+
+  ~Impl() {
+    for (Worker& worker : workers)
+      if (worker.pid > 0) finish(worker, worker.job >= 0);
+  }
+};
+
+WorkerPool::WorkerPool(int workers, Work work, double secondsPerJob)
+    : impl_(new Impl{std::move(work), secondsPerJob, {}}) {
+  impl_->workers.resize(static_cast<std::size_t>(workers));
+  for (Worker& worker : impl_->workers) impl_->start(worker);
+}
+
+WorkerPool::~WorkerPool() = default;
+
+int WorkerPool::workers() const { return static_cast<int>(impl_->workers.size()); }
+
+std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
+                                               const std::function<void(std::size_t)>& done) {
+  std::vector<Reply> replies(jobs.size());
+  std::vector<int> tries(jobs.size(), 0);
+  std::vector<std::size_t> again;  // jobs whose worker died once
+  std::size_t next = 0, finished = 0;
+
+  // Gives the job back, or fails it when it has had its second try.
+  const auto lost = [&](std::size_t job, const std::string& why) {
+    if (tries[job] < 2) {
+      again.push_back(job);
+      return;
+    }
+    replies[job].failure = why;
+    ++finished;
+    if (done) done(finished);
+  };
+  const auto replace = [&](Worker& worker, bool force, const std::string& why) {
+    const auto job = static_cast<std::size_t>(worker.job);
+    const int status = Impl::finish(worker, force);
+    impl_->start(worker);
+    lost(job, why.empty() ? howItEnded(status) : why);
+  };
+
+  while (finished < jobs.size()) {
+    if (stop) {
+      for (Worker& worker : impl_->workers)
+        if (worker.job >= 0) {
+          Impl::finish(worker, true);
+          impl_->start(worker);
+        }
+      return {};
+    }
+    // Hand out work.
+    for (Worker& worker : impl_->workers) {
+      if (worker.job >= 0) continue;
+      std::size_t job;
+      if (!again.empty()) {
+        job = again.back();
+        again.pop_back();
+      } else if (next < jobs.size()) {
+        job = next++;
+      } else {
+        break;
+      }
+      ++tries[job];
+      worker.job = static_cast<long>(job);
+      worker.since = Clock::now();
+      if (!sendMessage(worker.socket, jobs[job])) replace(worker, true, "");
+    }
+    // Wait for answers.
+    std::vector<pollfd> waiting;
+    std::vector<Worker*> whose;
+    for (Worker& worker : impl_->workers)
+      if (worker.job >= 0) {
+        waiting.push_back({worker.socket, POLLIN, 0});
+        whose.push_back(&worker);
+      }
+    poll(waiting.data(), waiting.size(), 100);
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      Worker& worker = *whose[i];
+      if (waiting[i].revents != 0) {
+        std::string bytes;
+        if (!receiveMessage(worker.socket, bytes) || bytes.empty()) {
+          replace(worker, false, "");
+          continue;
+        }
+        Reply& reply = replies[static_cast<std::size_t>(worker.job)];
+        reply.ok = bytes[0] == 'R';
+        (reply.ok ? reply.bytes : reply.failure) = bytes.substr(1);
+        worker.job = -1;
+        ++finished;
+        if (done) done(finished);
+      } else if (std::chrono::duration<double>(Clock::now() - worker.since).count() > impl_->secondsPerJob) {
+        replace(worker, true, "no answer within " + std::to_string(static_cast<int>(impl_->secondsPerJob)) + " s");
+      }
+    }
+  }
+  return replies;
+}
+
+int processorCount() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+  return std::max(1, CPU_COUNT(&set));
+}
+
+}  // namespace btr

@@ -1,0 +1,103 @@
+// btr model check, list, bench.
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/model/kinematics.h"
+#include "core/model/load_model.h"
+#include "core/spec/error.h"
+
+namespace btr::cli {
+namespace {
+
+void checkModelFile(const std::string& path, const Shell& shell) {
+  const RobotModel model = loadModel(path);
+  if (!shell.json) {
+    std::cout << describeModel(model);
+    return;
+  }
+  nlohmann::json links = nlohmann::json::array(), joints = nlohmann::json::array(), warnings = nlohmann::json::array();
+  for (const Link& l : model.links) links.push_back({{"name", l.name}, {"mass_kg", l.inertial.mass_kg}, {"mass_group", l.massGroup}});
+  for (const Joint& j : model.joints)
+    joints.push_back({{"name", j.name}, {"parent", model.links[static_cast<std::size_t>(j.parentLink)].name},
+                      {"lower", j.lower}, {"upper", j.upper}});
+  for (const Warning& w : model.warnings) warnings.push_back({{"line", w.line}, {"text", w.text}});
+  const Inertial all = massProperties(model, std::vector<double>(model.joints.size(), 0.0));
+  std::cout << nlohmann::json{{"name", model.name},
+                              {"links", links},
+                              {"joints", joints},
+                              {"mass_kg", all.mass_kg},
+                              {"centre_of_mass_m", {all.centreOfMass_m.x(), all.centreOfMass_m.y(), all.centreOfMass_m.z()}},
+                              {"warnings", warnings}}
+                   .dump(1)
+            << '\n';
+}
+
+nlohmann::json describe(const std::vector<Parameter>& parameters) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Parameter& p : parameters) {
+    nlohmann::json one{{"name", p.name},       {"unit", p.unit},       {"meaning", p.meaning},
+                       {"minimum", p.minimum}, {"maximum", p.maximum}, {"default", p.byDefault}};
+    if (p.neutral) one["neutral"] = *p.neutral;
+    if (!p.choices.empty()) one["choices"] = p.choices;
+    all.push_back(one);
+  }
+  return all;
+}
+
+void listPlugins(const std::string& kind, Shell& shell) {
+  const PluginHost& host = shell.plugins();
+  std::vector<std::pair<std::string, std::vector<Parameter>>> found;
+  if (kind == "effects")
+    for (const std::string& n : host.effects()) found.emplace_back(n, host.effect(n)->parameters());
+  if (kind == "learners")
+    for (const std::string& n : host.learners()) found.emplace_back(n, host.learner(n)->settings());
+  if (kind == "controllers")
+    for (const std::string& n : host.controllers()) {
+      const auto controller = host.controller(n);
+      found.emplace_back(n, controller->settings());
+      found.emplace_back(n + " (evolved)", controller->genotype());
+    }
+  if (kind == "fitness")
+    for (const std::string& n : host.fitnesses()) found.emplace_back(n, host.fitness(n)->settings());
+  if (shell.json) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const auto& [name, parameters] : found) all.push_back({{"name", name}, {"parameters", describe(parameters)}});
+    std::cout << all.dump(1) << '\n';
+    return;
+  }
+  for (const auto& [name, parameters] : found) {
+    std::cout << name << '\n';
+    std::vector<std::vector<std::string>> rows;
+    for (const Parameter& p : parameters) {
+      std::string words;
+      for (const std::string& c : p.choices) words += (words.empty() ? "" : "|") + c;
+      const auto show = [&](double value) { return p.choices.empty() ? toText(value) : p.choices[static_cast<std::size_t>(value)]; };
+      rows.push_back({"  " + p.name, p.unit, p.choices.empty() ? brief(p.minimum) + " … " + brief(p.maximum) : words,
+                      show(p.byDefault), p.neutral ? toText(*p.neutral) : "", p.meaning});
+    }
+    if (!rows.empty()) std::cout << table({"  parameter", "unit", "allowed", "default", "neutral", "meaning"}, rows);
+  }
+}
+
+}  // namespace
+
+void addModelCommands(CLI::App& app, Shell& shell) {
+  CLI::App* model = app.add_subcommand("model", "robot files");
+  model->require_subcommand(1);
+  auto path = std::make_shared<std::string>();
+  CLI::App* check = model->add_subcommand("check", "read a .wrl or .urdf; print links, joints, masses, warnings");
+  check->add_option("FILE", *path, "robot file")->required();
+  check->callback([path, &shell] { checkModelFile(*path, shell); });
+
+  auto kind = std::make_shared<std::string>();
+  CLI::App* list = app.add_subcommand("list", "what plugins are there, with their parameters, units and bounds");
+  list->add_option("KIND", *kind, "effects, learners, controllers or fitness")
+      ->required()
+      ->check(CLI::IsMember({"effects", "learners", "controllers", "fitness"}));
+  list->callback([kind, &shell] { listPlugins(*kind, shell); });
+}
+
+}  // namespace btr::cli

@@ -1,0 +1,134 @@
+// kill -9 at any moment: the run that goes on gives the same bits as the one that nobody disturbed.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/spec/json_reader.h"
+#include "core/spec/random.h"
+#include "core/store/database.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace btr;
+
+class KilledRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("btr-kill-" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    // The short kick experiment, smaller still: 3 × 4 generations of 8, three measurement stages, small adaptations.
+    nlohmann::json spec = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    spec["scene"] = fs::absolute(fs::path(SOURCE_DIR "/resources/experiments") / spec["scene"].get<std::string>()).lexically_normal();
+    spec["learner"]["settings"]["population"] = 8;
+    spec["adaptation"]["learner"]["settings"]["population"] = 4;
+    spec["adaptation"]["settings"]["generations"] = 3;
+    spec["stages"]["first_generations"] = 4;
+    spec["stages"]["next_generations"] = 4;
+    spec["stages"]["total_generations"] = 12;
+    spec["stages"]["measured_individuals"] = 4;
+    spec["reality"] = "stand_in";
+    writeFile(spec_(), spec.dump());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string spec_() const { return (folder_ / "kick.json").string(); }
+  std::string database(const std::string& name) const { return (folder_ / (name + ".db")).string(); }
+
+  pid_t start(const std::string& db, const char* jobs) const {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      if (!freopen("/dev/null", "w", stdout)) _exit(98);
+      execl(BTR_PROGRAM, "btr", "run", spec_().c_str(), "--db", db.c_str(), "--jobs", jobs, nullptr);
+      _exit(99);
+    }
+    return pid;
+  }
+  static int wait(pid_t pid) {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  /// Everything in the database that is a result, as text; wall-clock times are not.
+  static std::string results(const std::string& path) {
+    const Database db = Database::open(path, Database::Mode::readOnly);
+    nlohmann::json all;
+    for (const GenerationRecord& g : db.generations(1)) {
+      all["generations"].push_back({g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed});
+      for (const IndividualRecord& i : db.individuals(1, g.number))
+        all["individuals"].push_back({i.id, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome,
+                                      i.sameAs, i.trialSeed, i.traceSha256});
+    }
+    for (const MeasurementTask& t : db.measurementTasks(1))
+      all["tasks"].push_back({t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut});
+    for (const MeasurementRecord& m : db.measurements(1))
+      all["measurements"].push_back({m.individual, m.value, m.isVoid, m.source});
+    for (const SimulatorRecord& s : db.simulators(1))
+      all["simulators"].push_back({s.number, s.parent, toJsonText(s.simulator), s.madeBy, s.evidence});
+    for (const GapRecord& g : db.gaps(1))
+      all["gaps"].push_back({g.stage, g.before, g.after, g.newBefore, g.newAfter, g.individuals});
+    for (int stage = 1; stage <= 3; ++stage)
+      for (const AdaptationRecord& a : db.adaptations(1, stage)) {
+        all["adaptations"].push_back({a.stage, a.number, a.bestError, a.meanError});
+        for (const AdaptationCandidate& c : a.candidates) all["candidates"].push_back({c.chromosome, c.parameters, c.error});
+      }
+    return all.dump();
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(KilledRun, GoesOnWithTheSameBitsAfterAtLeastFiftyKills) {
+  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  const std::string expected = results(database("undisturbed"));
+
+  Random random(20040711);
+  int kills = 0, runs = 0;
+  // Runs are killed after a drawn time until fifty were; then the last one is left to finish. A run that finishes before its
+  // time is compared and begun anew.
+  while (true) {
+    const std::string db = database("killed" + std::to_string(runs));
+    const pid_t pid = start(db, kills % 2 ? "2" : "1");
+    if (kills < 50) {
+      usleep(static_cast<useconds_t>(random.uniform(0, 400'000)));
+      kill(pid, SIGKILL);
+    }
+    const int end = wait(pid);
+    if (end == -SIGKILL) {
+      ++kills;
+      continue;
+    }
+    ASSERT_EQ(0, end) << "after " << kills << " kills";
+    ASSERT_EQ(expected, results(db)) << "after " << kills << " kills";
+    ++runs;
+    if (kills >= 50) break;
+  }
+  EXPECT_GE(kills, 50);
+}
+
+TEST_F(KilledRun, HasTheSameBitsWithOneAndWithFourWorkers) {
+  ASSERT_EQ(0, wait(start(database("one"), "1")));
+  ASSERT_EQ(0, wait(start(database("four"), "4")));
+  EXPECT_EQ(results(database("one")), results(database("four")));
+}
+
+TEST_F(KilledRun, StopsCleanlyOnInterruptAndGoesOn) {
+  ASSERT_EQ(0, wait(start(database("undisturbed"), "2")));
+  const pid_t pid = start(database("interrupted"), "2");
+  usleep(300'000);
+  kill(pid, SIGINT);
+  const int end = wait(pid);
+  // Either it was early enough to be stopped (3), or the run had finished (0).
+  EXPECT_TRUE(end == 3 || end == 0) << end;
+  ASSERT_EQ(0, wait(start(database("interrupted"), "2")));
+  EXPECT_EQ(results(database("undisturbed")), results(database("interrupted")));
+}
+
+}  // namespace

@@ -1,0 +1,29 @@
+# For the scripts beside it: $1 = btr, $2 = the project's root.
+set -u
+btr=$1
+root=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+# expect CODE "what" command…: runs it; output and errors go to $folder/out and $folder/err
+expect() {
+  local code=$1 what=$2 got
+  shift 2
+  "$@" > "$folder/out" 2> "$folder/err"
+  got=$?
+  [ $got = "$code" ] || { fail "$what: exit code $got instead of $code"; sed 's/^/    /' "$folder/err" | head -5; }
+}
+
+# says FILE "text": the file (out or err) holds the text
+says() { grep -qF -- "$2" "$folder/$1" || { fail "expected \"$2\" in $1:"; sed 's/^/    /' "$folder/$1" | head -5; }; }
+
+# one_line: exactly one line of error
+one_line() { [ "$(wc -l < "$folder/err")" = 1 ] || { fail "more than one line of error:"; sed 's/^/    /' "$folder/err"; }; }
+
+finish() {
+  [ $failures = 0 ] && echo "passed"
+  exit $((failures > 0))
+}

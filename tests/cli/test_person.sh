@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# A run whose reality is a person: it waits (exit code 10), takes values by hand and by file, adapts, goes on, finishes.
+. "$(dirname "$0")/common.sh"
+
+python3 - "$root" "$folder/kick.json" <<'PY'
+import json, os, sys
+root, out = sys.argv[1:]
+source = os.path.join(root, "resources/experiments/kick-short.json")
+spec = json.load(open(source))
+spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+spec["reality"] = "person"
+spec["learner"]["settings"]["population"] = 6
+spec["adaptation"]["learner"]["settings"]["population"] = 4
+spec["adaptation"]["settings"]["generations"] = 2
+spec["stages"].update(first_generations=2, next_generations=2, total_generations=4, measured_individuals=3)
+json.dump(spec, open(out, "w"))
+PY
+db=$folder/person.db
+
+expect 10 "first stage" "$btr" run "$folder/kick.json" --db "$db"
+says out "waiting"
+expect 10 "waiting is not over by asking again" "$btr" run "$folder/kick.json" --db "$db"
+expect 0 "list" "$btr" fitness list --db "$db" --run 1
+says out "hidden"
+expect 0 "list as JSON" "$btr" --json fitness list --db "$db" --run 1
+grep -q simulated_fitness "$folder/out" && fail "the simulated fitness is not hidden"
+ids=($(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))])' "$folder/out"))
+[ ${#ids[@]} = 3 ] || fail "3 individuals should wait, not ${#ids[@]}"
+
+expect 1 "an individual that nobody asked for" "$btr" fitness enter --db "$db" --run 1 --individual 9999 --value 1
+one_line
+expect 2 "a value that is none" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value fast
+expect 1 "no value at all" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}"
+one_line
+expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery"
+printf 'individual,value,note,void\n%s,0.25,,\n%s,zero,,\n' "${ids[1]}" "${ids[2]}" > "$folder/wrong.csv"
+expect 1 "a table with a word for a number" "$btr" fitness import --db "$db" --run 1 "$folder/wrong.csv"
+one_line
+says err "line 3"
+expect 0 "what was stored" "$btr" --json fitness list --db "$db" --run 1
+grep -q '0.25' "$folder/out" && fail "half a table was stored"
+printf 'individual,value,note,void\n%s,0.25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
+expect 0 "the table mended" "$btr" fitness import --db "$db" --run 1 "$folder/right.csv"
+
+expect 10 "second stage" "$btr" run "$folder/kick.json" --db "$db"
+expect 0 "gaps" "$btr" export --db "$db" --run 1 --what gaps
+says out "stage"
+[ "$(wc -l < "$folder/out")" = 2 ] || fail "one gap was expected"
+expect 0 "measurements" "$btr" export --db "$db" --run 1 --what measurements
+says out "person"
+says out "new battery"
+
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))])' "$folder/out"); do
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.4
+done
+expect 0 "the end" "$btr" run "$folder/kick.json" --db "$db"
+expect 0 "status" "$btr" --json status --db "$db"
+says out '"state": "finished"'
+says out '"generation": 4'
+for what in generations individuals gaps simulators; do
+  expect 0 "export $what" "$btr" export --db "$db" --run 1 --what $what --csv "$folder/$what.csv"
+done
+[ "$(wc -l < "$folder/generations.csv")" = 5 ] || fail "four generations and a header were expected"
+[ "$(wc -l < "$folder/individuals.csv")" = 25 ] || fail "24 individuals and a header were expected"
+[ "$(wc -l < "$folder/simulators.csv")" = 4 ] || fail "three simulators and a header were expected"
+
+for id in 1 "${ids[0]}" 24; do
+  expect 0 "replay $id" "$btr" replay --db "$db" --run 1 --individual "$id"
+  says out "identical to the stored run"
+done
+expect 1 "replay of nobody" "$btr" replay --db "$db" --run 1 --individual 12345
+one_line
+finish

@@ -14,7 +14,7 @@ enum ExitCode { done = 0, badInput = 1, badUsage = 2, stoppedEarly = 3, waitsFor
 
 /// What all commands share.
 struct Shell {
-  bool json = false;                ///< machine-readable standard output
+  bool json = false;  ///< machine-readable standard output
   int exitCode = done;
   const std::atomic<bool>* stop = nullptr;  ///< raised by Ctrl-C
 

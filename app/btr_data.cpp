@@ -62,7 +62,9 @@ void addDataCommands(CLI::App& app, Shell& shell) {
   };
   CLI::App* replayApp = app.add_subcommand("replay", "run a stored individual again; says whether it is bit-identical");
   common(replayApp);
-  replayApp->add_option("--individual", a->individual, "number of the individual")->required()->check(CLI::PositiveNumber);
+  replayApp->add_option("--individual", a->individual, "number of the individual")
+      ->required()
+      ->check(CLI::PositiveNumber);
   replayApp->callback([a, &shell] { replayCommand(*a, shell); });
 
   CLI::App* exportApp = app.add_subcommand("export", "a table of a run as CSV");

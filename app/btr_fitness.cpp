@@ -45,8 +45,12 @@ void list(const FitnessArguments& a, Shell& shell) {
     }
     if (task.stage != run.stage + 1 && have >= task.wantedRepeats) continue;
     // The simulated fitness stays hidden, so that nobody measures what he expects.
-    nlohmann::json row{{"stage", task.stage},       {"position", task.position},          {"individual", task.individual},
-                       {"unit", unit},              {"wanted_repeats", task.wantedRepeats}, {"values", values},
+    nlohmann::json row{{"stage", task.stage},
+                       {"position", task.position},
+                       {"individual", task.individual},
+                       {"unit", unit},
+                       {"wanted_repeats", task.wantedRepeats},
+                       {"values", values},
                        {"held_out", task.heldOut}};
     if (a.showSimulated) row["simulated_fitness"] = task.simulatedFitness;
     all.push_back(row);
@@ -78,7 +82,8 @@ void enter(const FitnessArguments& a) {
     all.push_back(m);
   }
   db.addMeasurements(all);
-  std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values") << " stored\n";
+  std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values")
+            << " stored\n";
 }
 
 void import(const FitnessArguments& a) {
@@ -103,20 +108,24 @@ void addFitnessCommands(CLI::App& app, Shell& shell) {
     command->add_option("--run", a.run, "number of the run")->required()->check(CLI::PositiveNumber);
   };
   auto a = std::make_shared<FitnessArguments>();
-  CLI::App* listCommand = fitness->add_subcommand("list", "individuals waiting for a real measurement, in the order to measure");
+  CLI::App* listCommand =
+      fitness->add_subcommand("list", "individuals waiting for a real measurement, in the order to measure");
   common(listCommand, *a);
   listCommand->add_flag("--show-simulated", a->showSimulated, "also print the simulated fitness (not blind any more)");
   listCommand->callback([a, &shell] { list(*a, shell); });
 
   CLI::App* enterCommand = fitness->add_subcommand("enter", "store measured values of one individual");
   common(enterCommand, *a);
-  enterCommand->add_option("--individual", a->individual, "number of the individual")->required()->check(CLI::PositiveNumber);
+  enterCommand->add_option("--individual", a->individual, "number of the individual")
+      ->required()
+      ->check(CLI::PositiveNumber);
   enterCommand->add_option("--value", a->values, "measured fitness, once a repeat")->take_all();
   enterCommand->add_option("--note", a->note, "surface, battery, what happened");
   enterCommand->add_flag("--void", a->isVoid, "does not count (the robot fell, the ball hit a wall)");
   enterCommand->callback([a] { enter(*a); });
 
-  CLI::App* importCommand = fitness->add_subcommand("import", "store a table of measured values: individual,value[,note][,void]");
+  CLI::App* importCommand =
+      fitness->add_subcommand("import", "store a table of measured values: individual,value[,note][,void]");
   common(importCommand, *a);
   importCommand->add_option("MEASURED.csv", a->file, "the table")->required();
   importCommand->callback([a] { import(*a); });

@@ -19,17 +19,21 @@ void checkModelFile(const std::string& path, const Shell& shell) {
     return;
   }
   nlohmann::json links = nlohmann::json::array(), joints = nlohmann::json::array(), warnings = nlohmann::json::array();
-  for (const Link& l : model.links) links.push_back({{"name", l.name}, {"mass_kg", l.inertial.mass_kg}, {"mass_group", l.massGroup}});
+  for (const Link& l : model.links)
+    links.push_back({{"name", l.name}, {"mass_kg", l.inertial.mass_kg}, {"mass_group", l.massGroup}});
   for (const Joint& j : model.joints)
-    joints.push_back({{"name", j.name}, {"parent", model.links[static_cast<std::size_t>(j.parentLink)].name},
-                      {"lower", j.lower}, {"upper", j.upper}});
+    joints.push_back({{"name", j.name},
+                      {"parent", model.links[static_cast<std::size_t>(j.parentLink)].name},
+                      {"lower", j.lower},
+                      {"upper", j.upper}});
   for (const Warning& w : model.warnings) warnings.push_back({{"line", w.line}, {"text", w.text}});
   const Inertial all = massProperties(model, std::vector<double>(model.joints.size(), 0.0));
   std::cout << nlohmann::json{{"name", model.name},
                               {"links", links},
                               {"joints", joints},
                               {"mass_kg", all.mass_kg},
-                              {"centre_of_mass_m", {all.centreOfMass_m.x(), all.centreOfMass_m.y(), all.centreOfMass_m.z()}},
+                              {"centre_of_mass_m",
+                               {all.centreOfMass_m.x(), all.centreOfMass_m.y(), all.centreOfMass_m.z()}},
                               {"warnings", warnings}}
                    .dump(1)
             << '\n';
@@ -74,7 +78,9 @@ void listPlugins(const std::string& kind, Shell& shell) {
     for (const Parameter& p : parameters) {
       std::string words;
       for (const std::string& c : p.choices) words += (words.empty() ? "" : "|") + c;
-      const auto show = [&](double value) { return p.choices.empty() ? toText(value) : p.choices[static_cast<std::size_t>(value)]; };
+      const auto show = [&](double value) {
+        return p.choices.empty() ? toText(value) : p.choices[static_cast<std::size_t>(value)];
+      };
       rows.push_back({"  " + p.name, p.unit, p.choices.empty() ? brief(p.minimum) + " … " + brief(p.maximum) : words,
                       show(p.byDefault), p.neutral ? toText(*p.neutral) : "", p.meaning});
     }

@@ -24,16 +24,19 @@ std::string duration(double seconds) {
 }
 
 void showProgress(const RunProgress& p) {
-  std::fprintf(stderr, "\r%-9s %d/%d  generation %d/%d  best %.4g  mean %.4g  %.0f trials/s  left %s \x1b[K", p.stage.c_str(),
-               p.stageDone, p.stageTotal, p.generation, p.totalGenerations, p.best, p.mean, p.trialsPerSecond,
-               duration(p.secondsLeft).c_str());
+  std::fprintf(stderr, "\r%-9s %d/%d  generation %d/%d  best %.4g  mean %.4g  %.0f trials/s  left %s \x1b[K",
+               p.stage.c_str(), p.stageDone, p.stageTotal, p.generation, p.totalGenerations, p.best, p.mean,
+               p.trialsPerSecond, duration(p.secondsLeft).c_str());
   std::fflush(stderr);
 }
 
 nlohmann::json describe(const Database& db, const RunRecord& run) {
   nlohmann::json gaps = nlohmann::json::array();
   for (const GapRecord& g : db.gaps(run.id))
-    gaps.push_back({{"stage", g.stage}, {"before", g.before}, {"after", g.after}, {"new_before", g.newBefore},
+    gaps.push_back({{"stage", g.stage},
+                    {"before", g.before},
+                    {"after", g.after},
+                    {"new_before", g.newBefore},
                     {"individuals", g.individuals}});
   int waiting = 0;
   const std::vector<MeasurementRecord> measured = db.measurements(run.id);
@@ -67,13 +70,15 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
   for (const auto& r : all) {
     const bool standIn = r["reality"] == "stand_in";
     std::string state = r["state"].get<std::string>() + (r["active"].get<bool>() ? " (working)" : "");
-    std::string gap = r["gaps"].empty() ? "" : brief(r["gaps"].back()["before"]) + " → " + brief(r["gaps"].back()["after"]);
+    std::string gap =
+        r["gaps"].empty() ? "" : brief(r["gaps"].back()["before"]) + " → " + brief(r["gaps"].back()["after"]);
     rows.push_back({std::to_string(r["run"].get<long>()), r["experiment"].get<std::string>(),
                     std::to_string(r["seed"].get<std::uint64_t>()), state, std::to_string(r["generation"].get<int>()),
                     std::to_string(r["stages_done"].get<int>()), std::to_string(r["simulators"].get<int>() - 1), gap,
                     standIn ? "stand-in" : "person", r["message"].get<std::string>()});
   }
-  writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "reality", "message"},
+  writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "reality",
+                      "message"},
                      rows));
 }
 
@@ -111,8 +116,10 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand("run", "start an experiment, or resume it if it is already in the database");
   command->add_option("SPEC", arguments->spec, "experiment file (.json)");
   command->add_option("--db", arguments->database, "experiment database")->required();
-  command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")->check(CLI::PositiveNumber);
-  command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors)")->check(CLI::Range(0, 1024));
+  command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors)")
+      ->check(CLI::Range(0, 1024));
   CLI::Option* seed = command->add_option("--seed", arguments->seed, "instead of the seed in the file");
   command->add_flag("--again", arguments->again, "start a new run even if the same one is stored");
   command->add_flag("--quiet", arguments->quiet, "no progress on stderr");
@@ -133,11 +140,12 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   CLI::App* stopCommand = app.add_subcommand("stop", "ask a working run to stop; what it has done is kept");
   stopCommand->add_option("--db", stop->database, "experiment database")->required();
   stopCommand->add_option("--run", stop->run, "number of the run")->required()->check(CLI::PositiveNumber);
-  stopCommand->callback([stop] { Database::open(stop->database, Database::Mode::readWrite).requestStop(stop->run, true); });
+  stopCommand->callback(
+      [stop] { Database::open(stop->database, Database::Mode::readWrite).requestStop(stop->run, true); });
 
   auto standIn = std::make_shared<RunArguments>();
-  CLI::App* standInCommand =
-      app.add_subcommand("stand-in", "play the real robot of a run: JSON requests on standard input, answers on standard output");
+  CLI::App* standInCommand = app.add_subcommand(
+      "stand-in", "play the real robot of a run: JSON requests on standard input, answers on standard output");
   standInCommand->add_option("--db", standIn->database, "experiment database")->required();
   standInCommand->add_option("--run", standIn->run, "number of the run")->required()->check(CLI::PositiveNumber);
   standInCommand->callback([standIn, &shell] {

@@ -31,7 +31,8 @@ Evidence collect(const RunContext& context, int stage) {
   evidence.norm = static_cast<GapNorm>(static_cast<int>(context.adaptationSetting("norm")));
   evidence.trialSeed = context.trialSeed();
   const Database& db = context.database;
-  for (RealFitness& r : realFitness(db.measurementTasks(context.record.id), db.measurements(context.record.id), stage)) {
+  for (RealFitness& r :
+       realFitness(db.measurementTasks(context.record.id), db.measurements(context.record.id), stage)) {
     r.parameters = db.individual(r.individual).parameters;
     if (r.stage == stage) evidence.own.push_back(r);
     (r.heldOut ? evidence.heldOut : evidence.shown).push_back(std::move(r));
@@ -88,8 +89,7 @@ bool evaluateCandidates(RunContext& context, const Evidence& evidence, const Sim
   const auto replies = context.evaluate(jobs);
   if (!replies) return false;
   for (std::size_t i = 0; i < fresh.size(); ++i)
-    known[fresh[i]->parameters] =
-        gapFrom(evidence.shown, replies->data() + i * evidence.shown.size(), evidence.norm);
+    known[fresh[i]->parameters] = gapFrom(evidence.shown, replies->data() + i * evidence.shown.size(), evidence.norm);
   return true;
 }
 
@@ -179,7 +179,8 @@ bool adaptSimulator(RunContext& context, int stage) {
     start.parameters.push_back(valueOf(simulatorParameters(), parent.simulator.values, p.name));
   if (!evaluateCandidates(context, evidence, parent.simulator, {start}, startError)) return false;
   const double parentError = startError.begin()->second;
-  const auto best = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  const auto best =
+      std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
   const bool kept = best == all.end() || best->error >= parentError;
 
   SimulatorRecord version;

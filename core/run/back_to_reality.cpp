@@ -72,7 +72,8 @@ Id startRun(Database& database, const PluginHost& host, const std::string& path,
   return startRun(database, host, loadExperiment(path), seed, again);
 }
 
-RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options) {
+RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop,
+                   const RunOptions& options) {
   const RunLock lock(database.path(), run);
   if (database.run(run).state == RunState::finished) return RunEnd::finished;
   database.requestStop(run, false);

@@ -10,14 +10,14 @@ namespace btr {
 
 /// Where a run is, for progress bars. Written to the database about once a second and after each generation.
 struct RunProgress {
-  std::string stage;            ///< "L1", "measuring", "L3", "finished"
-  int generation = 0;           ///< L1 generations done
+  std::string stage;   ///< "L1", "measuring", "L3", "finished"
+  int generation = 0;  ///< L1 generations done
   int totalGenerations = 0;
   int stageDone = 0, stageTotal = 0;  ///< within this stage: generations of L1 or L3
-  long trials = 0;              ///< simulated in this session
+  long trials = 0;                    ///< simulated in this session
   double trialsPerSecond = 0;
-  double secondsLeft = -1;      ///< estimate for the simulated part, negative: not known yet
-  double best = 0, mean = 0;    ///< of the last generation (L3: best and mean error)
+  double secondsLeft = -1;    ///< estimate for the simulated part, negative: not known yet
+  double best = 0, mean = 0;  ///< of the last generation (L3: best and mean error)
   std::string message;
 };
 std::string toJsonText(const RunProgress& progress);
@@ -33,15 +33,17 @@ struct RunOptions {
   std::function<void(const RunProgress&)> progress;
 };
 
-/// Starts a run: checks, stores experiment (if new), run and simulator version 0. Returns the run's id. If the same spec and
-/// seed is already stored, returns that run unless `again`.
-Id startRun(Database& database, const PluginHost& host, const std::string& experimentPath, std::uint64_t seed, bool again = false);
+/// Starts a run: checks, stores experiment (if new), run and simulator version 0. Returns the run's id. If the same
+/// spec and seed is already stored, returns that run unless `again`.
+Id startRun(Database& database, const PluginHost& host, const std::string& experimentPath, std::uint64_t seed,
+            bool again = false);
 /// The same from a spec in memory (the form).
-Id startRun(Database& database, const PluginHost& host, const struct ExperimentSpec& spec, std::uint64_t seed, bool again = false);
+Id startRun(Database& database, const PluginHost& host, const struct ExperimentSpec& spec, std::uint64_t seed,
+            bool again = false);
 
-/// Goes on with a run until it is finished, waits for a person, or `stop` is raised (or requested in the database): the stage
-/// machine L1 → measure → L3 → L1 …. All state is in the database: after kill -9 at any moment the next call goes on with the
-/// same bits as if nothing had happened. Throws InputError if another process works on this run.
+/// Goes on with a run until it is finished, waits for a person, or `stop` is raised (or requested in the database): the
+/// stage machine L1 → measure → L3 → L1 …. All state is in the database: after kill -9 at any moment the next call goes
+/// on with the same bits as if nothing had happened. Throws InputError if another process works on this run.
 RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
 
 /// True while some process works on this run.

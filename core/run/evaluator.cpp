@@ -1,6 +1,5 @@
 #include "core/run/evaluator.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/spec/error.h"
@@ -51,10 +50,6 @@ TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, co
   reply.outcome = toText(result.outcome);
   reply.detail = result.detail;
   reply.fitness = prepared.fitnessOf(result);
-  if (!std::isfinite(reply.fitness)) {
-    reply.fitness = prepared.fitness->ofFailure();
-    if (reply.detail.empty()) reply.detail = "the fitness was not a finite number";
-  }
   reply.traceSha256 = result.trace.sha256();
   if (job.wantTrace) reply.packedTrace = result.trace.pack();
   return reply;
@@ -95,8 +90,8 @@ std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<Tri
   results.reserve(replies.size());
   for (const WorkerPool::Reply& reply : replies)
     results.push_back(reply.ok ? decodeReply(reply.bytes)
-                               : TrialReply{prepared_.fitness->ofFailure(),
-                                            toText(TrialResult::Outcome::workerDied), reply.failure, "", ""});
+                               : TrialReply{prepared_.fitness->ofFailure(), toText(TrialResult::Outcome::workerDied),
+                                            reply.failure, "", ""});
   return results;
 }
 

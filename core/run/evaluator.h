@@ -17,7 +17,7 @@ struct TrialJob {
   SimulatorSpec simulator;
   std::vector<double> parameters;  ///< in the order of the genotype
   std::uint64_t seed = 0;
-  bool wantTrace = false;          ///< send the packed trace back, not only its hash
+  bool wantTrace = false;  ///< send the packed trace back, not only its hash
 };
 
 /// What a trial was worth. A trial that failed in any way has the fitness of a failure and says why.
@@ -25,8 +25,8 @@ struct TrialReply {
   double fitness = 0;
   std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
   std::string detail;
-  std::string traceSha256;           ///< "" if a worker died
-  std::string packedTrace;           ///< if wanted
+  std::string traceSha256;  ///< "" if a worker died
+  std::string packedTrace;  ///< if wanted
 };
 
 /// Runs one trial here and now; what a worker does.

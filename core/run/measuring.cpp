@@ -9,8 +9,8 @@
 namespace btr {
 namespace {
 
-/// The best that were not measured before, each parameter vector once: of the stage's last generation, filled up from the
-/// generations before it in this simulator; or of all generations in this simulator.
+/// The best that were not measured before, each parameter vector once: of the stage's last generation, filled up from
+/// the generations before it in this simulator; or of all generations in this simulator.
 std::vector<IndividualRecord> chooseMeasured(const RunContext& context, int stage) {
   const Database& db = context.database;
   const Id run = context.record.id;
@@ -49,8 +49,8 @@ bool beginMeasuring(RunContext& context, int stage) {
     if (!(*replies)[i].packedTrace.empty())
       db.setTrace(chosen[i].id, (*replies)[i].packedTrace, (*replies)[i].traceSha256);
 
-  // A drawn order, so that neither the operator's skill nor the battery follows the simulated rank. The drawn last ones are
-  // held out where the user wants that.
+  // A drawn order, so that neither the operator's skill nor the battery follows the simulated rank. The drawn last ones
+  // are held out where the user wants that.
   Random random = Random::forPurpose(context.record.seed, "measuring order", static_cast<std::uint64_t>(stage));
   for (std::size_t i = chosen.size(); i > 1; --i) std::swap(chosen[i - 1], chosen[random.below(i)]);
   const int heldOut = static_cast<int>(context.adaptationSetting("held_out"));
@@ -109,8 +109,8 @@ bool completeMeasuring(RunContext& context, int stage) {
     context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
                                std::to_string(tasks.size()) + " individuals wait for real fitness";
   else if (!anyReal)
-    context.progress.message = "measurement stage " + std::to_string(stage) +
-                               ": all values are void; enter at least one that is not";
+    context.progress.message =
+        "measurement stage " + std::to_string(stage) + ": all values are void; enter at least one that is not";
   else
     context.progress.message.clear();
   context.publish(true);

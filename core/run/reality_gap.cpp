@@ -57,9 +57,8 @@ std::vector<RealFitness> realFitness(const std::vector<MeasurementTask>& tasks,
 }
 
 bool isSettled(const MeasurementTask& task, const std::vector<MeasurementRecord>& measurements) {
-  const auto values = std::count_if(measurements.begin(), measurements.end(), [&](const MeasurementRecord& m) {
-    return m.individual == task.individual;
-  });
+  const auto values = std::count_if(measurements.begin(), measurements.end(),
+                                    [&](const MeasurementRecord& m) { return m.individual == task.individual; });
   return values >= task.wantedRepeats;
 }
 

@@ -28,7 +28,8 @@ double gapOf(std::span<const double> real, std::span<const double> simulated, Ga
 /// Standard error of a mean absolute gap that comes from repeats: √Σ(sᵢ²/nᵢ)/N; 0 if nothing was repeated.
 double gapStandardError(const std::vector<RealFitness>& real);
 
-/// By task order, individuals with at least one value that is not void, of stages 1 … `stage`; without their parameters.
+/// By task order, individuals with at least one value that is not void, of stages 1 … `stage`; without their
+/// parameters.
 std::vector<RealFitness> realFitness(const std::vector<MeasurementTask>& tasks,
                                      const std::vector<MeasurementRecord>& measurements, int stage);
 

@@ -14,8 +14,8 @@ Replay replay(const Database& database, const PluginHost& host, Id run, Id indiv
   replay.storedFitness = stored.fitness;
   replay.sha256 = replay.result.trace.sha256();
   replay.storedSha256 = stored.traceSha256;
-  replay.identical = replay.fitness == replay.storedFitness &&
-                     (replay.storedSha256.empty() || replay.sha256 == replay.storedSha256);
+  replay.identical =
+      replay.fitness == replay.storedFitness && (replay.storedSha256.empty() || replay.sha256 == replay.storedSha256);
   replay.model = std::make_shared<const RobotModel>(scene.robots.front().model);
   replay.robotName = scene.robots.front().name;
   return replay;

@@ -7,11 +7,11 @@ namespace btr {
 
 /// A stored individual run again in the simulator version it was made with.
 struct Replay {
-  TrialResult result;          ///< with trace
+  TrialResult result;  ///< with trace
   double fitness = 0;
   double storedFitness = 0;
-  std::string sha256;          ///< of the trace now
-  std::string storedSha256;    ///< of the stored trace, "" if none was stored
+  std::string sha256;        ///< of the trace now
+  std::string storedSha256;  ///< of the stored trace, "" if none was stored
   /// Same bits: the fitness equal to the last bit and, where a trace hash is stored, that too.
   bool identical = false;
   std::shared_ptr<const RobotModel> model;  ///< of the scene's first robot

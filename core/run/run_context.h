@@ -13,15 +13,15 @@
 
 namespace btr {
 
-/// What the stages of one run share while a process works on it: the records it goes by, the workers, progress and stop.
-/// Belongs to one thread.
+/// What the stages of one run share while a process works on it: the records it goes by, the workers, progress and
+/// stop. Belongs to one thread.
 class RunContext {
  public:
   RunContext(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
 
   Database& database;
   const PluginHost& host;
-  RunRecord record;              ///< as it was when this process began; counters are asked from the database
+  RunRecord record;  ///< as it was when this process began; counters are asked from the database
   PreparedExperiment prepared;
   RunProgress progress;
 
@@ -34,7 +34,7 @@ class RunContext {
   /// Publishes progress: at once if `now`, else at most once a second.
   void publish(bool now);
 
-  int stageSetting(const std::string& name) const;         ///< of stageParameters()
+  int stageSetting(const std::string& name) const;          ///< of stageParameters()
   double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()
   std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
   /// L1 generation after which stage k = 1, 2, … measures, at most the total.
@@ -55,7 +55,8 @@ class RunContext {
 bool learnUntil(RunContext& context, int lastGeneration);
 /// Chooses who is measured after the stage's last generation and stores tasks and traces. False if stopped.
 bool beginMeasuring(RunContext& context, int stage);
-/// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are settled.
+/// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are
+/// settled.
 bool completeMeasuring(RunContext& context, int stage);
 /// L3: a new simulator version from all measurements so far. False if stopped.
 bool adaptSimulator(RunContext& context, int stage);

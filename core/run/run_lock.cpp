@@ -15,7 +15,8 @@ std::string lockPath(const std::string& databasePath, Id run) {
   return databasePath + ".run-" + std::to_string(run) + ".lock";
 }
 
-// Locks of the open file, not of the process: they can be asked for without taking them, and they end with their holder.
+// Locks of the open file, not of the process: they can be asked for without taking them, and they end with their
+// holder.
 struct flock wholeFile() {
   struct flock lock {};
   lock.l_type = F_WRLCK;

@@ -5,8 +5,8 @@
 
 namespace btr {
 
-/// Held by the one process that works on a run: a lock on the file "DATABASE.run-N.lock". The system lets go of it when the
-/// process ends in whatever way, so a killed run can be resumed at once.
+/// Held by the one process that works on a run: a lock on the file "DATABASE.run-N.lock". The system lets go of it when
+/// the process ends in whatever way, so a killed run can be resumed at once.
 class RunLock {
  public:
   /// Throws InputError if another process holds it or the file cannot be made.

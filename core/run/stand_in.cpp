@@ -24,8 +24,7 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
   switch (place) {
     case Effect::Place::joint:
       for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
-        if (robot.drives[j].kind != Drive::Kind::none)
-          places.push_back(robot.name + "." + robot.model.joints[j].name);
+        if (robot.drives[j].kind != Drive::Kind::none) places.push_back(robot.name + "." + robot.model.joints[j].name);
       break;
     case Effect::Place::link:
       for (const Link& link : robot.model.links) places.push_back(robot.name + "." + link.name);
@@ -43,7 +42,8 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
   return places;
 }
 
-/// A noticeable, not absurd size of an effect: each parameter a tenth to three tenths of the way from neutral to a bound.
+/// A noticeable, not absurd size of an effect: each parameter a tenth to three tenths of the way from neutral to a
+/// bound.
 Values drawSize(const std::vector<Parameter>& parameters, Random& random) {
   Values values;
   for (const Parameter& p : parameters) {
@@ -94,9 +94,7 @@ void writeRecording(const Trace& trace, const std::string& path, Random& random)
 }  // namespace
 
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host) {
-  const auto setting = [&](const char* name) {
-    return valueOf(standInParameters(), prepared.spec.standIn, name);
-  };
+  const auto setting = [&](const char* name) { return valueOf(standInParameters(), prepared.spec.standIn, name); };
   const auto seed = static_cast<std::uint64_t>(setting("seed"));
   Random random = Random::forPurpose(seed, "stand-in");
   const Scene plain = prepared.scene(prepared.spec.simulator);

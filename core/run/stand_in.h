@@ -10,36 +10,39 @@
 
 namespace btr {
 
-// Stand-in reality: a process of its own that plays the real robot where none is there, for demonstrations and tests. It is a
-// simulator with concealed parameter values and concealed effects, drawn from a seed, plus measurement noise. Whatever it
-// answers is marked "stand_in" in the database, on screen and in exports. Nobody but this process ever sees what it conceals.
+// Stand-in reality: a process of its own that plays the real robot where none is there, for demonstrations and tests.
+// It is a simulator with concealed parameter values and concealed effects, drawn from a seed, plus measurement noise.
+// Whatever it answers is marked "stand_in" in the database, on screen and in exports. Nobody but this process ever sees
+// what it conceals.
 
 /// What a stand-in conceals.
 struct Concealed {
   SimulatorSpec simulator;
-  double noise = 0;          ///< standard deviation of a measured fitness, in the fitness' unit
+  double noise = 0;  ///< standard deviation of a measured fitness, in the fitness' unit
   std::uint64_t seed = 0;
 };
 
-/// Draws it: each of the 12 parameters deviates by a normal factor of the stand-in's `parameter_error` (of its range where the
-/// starting value is 0), within its bounds; `hidden_effects` effects at places of the scene's first robot, floor or ball.
-/// A function of the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
+/// Draws it: each of the 12 parameters deviates by a normal factor of the stand-in's `parameter_error` (of its range
+/// where the starting value is 0), within its bounds; `hidden_effects` effects at places of the scene's first robot,
+/// floor or ball. A function of the experiment's stand-in settings alone. Redraws while the arranged scene cannot be
+/// built.
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host);
 
 /// One answer of the robot.
 struct RealAnswer {
   double fitness = 0;
-  bool isVoid = false;       ///< the trial failed: the robot fell apart, so to speak
+  bool isVoid = false;  ///< the trial failed: the robot fell apart, so to speak
   std::string note;
 };
 
-/// Measures one individual for the n-th time (0, 1, …): the concealed trial plus noise. The same arguments give the same bits.
-/// With `recordTo` not empty, also writes a recording of that name as a robot's log would have it: time, commands, joint
-/// positions quantised to `1 mrad`, ball position to 1 mm.
+/// Measures one individual for the n-th time (0, 1, …): the concealed trial plus noise. The same arguments give the
+/// same bits. With `recordTo` not empty, also writes a recording of that name as a robot's log would have it: time,
+/// commands, joint positions quantised to `1 mrad`, ball position to 1 mm.
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
                           std::span<const double> parameters, int repeat, const std::string& recordTo = {});
 
-/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE"} on `in`, one answer a line
+/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE"} on `in`, one answer a
+/// line
 /// {"fitness": 0.5, "void": false, "note": ""} on `out`, until `in` ends.
 void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out);
 

@@ -56,7 +56,8 @@ bool receiveMessage(int fd, std::string& bytes) {
   return readAll(fd, bytes.data(), size);
 }
 
-/// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply says whether it is one.
+/// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply says whether it is
+/// one.
 [[noreturn]] void serve(int socket, const WorkerPool::Work& work) {
   // Ctrl-C reaches the whole group: the parent decides. No file of the parent stays open here (its locks among them).
   signal(SIGINT, SIG_IGN);

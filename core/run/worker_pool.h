@@ -7,10 +7,10 @@
 
 namespace btr {
 
-/// Worker processes that turn job texts into reply texts. They are forked when the pool is made, so they see everything that
-/// the caller had in memory by then; a job carries the rest. A worker that dies or does not answer in time is replaced; its
-/// job is tried once more and then gets a failure. Replies come back in the order of the jobs, whatever worker ran them, so
-/// results do not depend on the number of workers. Workers never outlive their parent.
+/// Worker processes that turn job texts into reply texts. They are forked when the pool is made, so they see everything
+/// that the caller had in memory by then; a job carries the rest. A worker that dies or does not answer in time is
+/// replaced; its job is tried once more and then gets a failure. Replies come back in the order of the jobs, whatever
+/// worker ran them, so results do not depend on the number of workers. Workers never outlive their parent.
 class WorkerPool {
  public:
   /// Runs in the worker. An exception becomes a failure of that job.

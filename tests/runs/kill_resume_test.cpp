@@ -24,7 +24,8 @@ class KilledRun : public testing::Test {
     fs::create_directories(folder_);
     // The short kick experiment, smaller still: 3 × 4 generations of 8, three measurement stages, small adaptations.
     nlohmann::json spec = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
-    spec["scene"] = fs::absolute(fs::path(SOURCE_DIR "/resources/experiments") / spec["scene"].get<std::string>()).lexically_normal();
+    spec["scene"] = fs::absolute(fs::path(SOURCE_DIR "/resources/experiments") / spec["scene"].get<std::string>())
+                        .lexically_normal();
     spec["learner"]["settings"]["population"] = 8;
     spec["adaptation"]["learner"]["settings"]["population"] = 4;
     spec["adaptation"]["settings"]["generations"] = 3;
@@ -62,8 +63,8 @@ class KilledRun : public testing::Test {
     for (const GenerationRecord& g : db.generations(1)) {
       all["generations"].push_back({g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed});
       for (const IndividualRecord& i : db.individuals(1, g.number))
-        all["individuals"].push_back({i.id, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome,
-                                      i.sameAs, i.trialSeed, i.traceSha256});
+        all["individuals"].push_back({i.id, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness,
+                                      i.outcome, i.sameAs, i.trialSeed, i.traceSha256});
     }
     for (const MeasurementTask& t : db.measurementTasks(1))
       all["tasks"].push_back({t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut});
@@ -76,7 +77,8 @@ class KilledRun : public testing::Test {
     for (int stage = 1; stage <= 3; ++stage)
       for (const AdaptationRecord& a : db.adaptations(1, stage)) {
         all["adaptations"].push_back({a.stage, a.number, a.bestError, a.meanError});
-        for (const AdaptationCandidate& c : a.candidates) all["candidates"].push_back({c.chromosome, c.parameters, c.error});
+        for (const AdaptationCandidate& c : a.candidates)
+          all["candidates"].push_back({c.chromosome, c.parameters, c.error});
       }
     return all.dump();
   }
@@ -91,8 +93,8 @@ TEST_F(KilledRun, GoesOnWithTheSameBitsAfterAtLeastFiftyKills) {
 
   Random random(20040711);
   int kills = 0, runs = 0;
-  // Runs are killed after a drawn time until fifty were; then the last one is left to finish. A run that finishes before its
-  // time is compared and begun anew.
+  // Runs are killed after a drawn time until fifty were; then the last one is left to finish. A run that finishes
+  // before its time is compared and begun anew.
   while (true) {
     const std::string db = database("killed" + std::to_string(runs));
     const pid_t pid = start(db, kills % 2 ? "2" : "1");

@@ -11,7 +11,9 @@ using namespace btr;
 const std::vector<double> real{1.0, 2.0, 4.0}, simulated{1.5, 1.0, 4.0};
 
 TEST(RealityGap, IsTheMeanAbsoluteDifference) { EXPECT_DOUBLE_EQ(0.5, gapOf(real, simulated, GapNorm::meanAbsolute)); }
-TEST(RealityGap, HasARootMeanSquare) { EXPECT_DOUBLE_EQ(std::sqrt(1.25 / 3), gapOf(real, simulated, GapNorm::rootMeanSquare)); }
+TEST(RealityGap, HasARootMeanSquare) {
+  EXPECT_DOUBLE_EQ(std::sqrt(1.25 / 3), gapOf(real, simulated, GapNorm::rootMeanSquare));
+}
 TEST(RealityGap, HasAMaximum) { EXPECT_DOUBLE_EQ(1.0, gapOf(real, simulated, GapNorm::maximum)); }
 TEST(RealityGap, OfNobodyIsZero) { EXPECT_EQ(0, gapOf({}, {}, GapNorm::meanAbsolute)); }
 

@@ -1,0 +1,136 @@
+#include "core/run/prepared_experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/model/load_model.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
+
+namespace btr {
+namespace {
+
+/// A plugin's settings as numbers, checked; `choice` keeps no words.
+void settle(PluginChoice& choice, const std::vector<Parameter>& declared) {
+  const std::string place = "settings of " + choice.name;
+  choice.settings = settingsOf(choice, declared, place);
+  choice.words.clear();
+  resolve(declared, choice.settings, place);
+}
+
+RobotModel parseModel(const StoredFile& file) {
+  const std::string ending = std::filesystem::path(file.name).extension().string();
+  if (ending == ".wrl") return parseVrml(file.content, file.name);
+  if (ending == ".urdf") return parseUrdf(file.content, file.name);
+  throw InputError("robot model", file.name, "a file that ends in .wrl or .urdf");
+}
+
+/// Everything but reading files: plugins, settings, models and a first scene.
+PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std::vector<StoredFile> files,
+                           const PluginHost& host) {
+  PreparedExperiment prepared;
+  prepared.spec = spec;
+  prepared.sceneSpec = std::move(sceneSpec);
+  prepared.files = std::move(files);
+  prepared.controller = host.controller(spec.controller.name);
+  prepared.fitness = host.fitness(spec.fitness.name);
+  prepared.effects = host.effectFactory();
+  prepared.genotype = prepared.controller->genotype();
+
+  const auto learner = host.learner(spec.learner.name);
+  const auto adaptation = host.learner(spec.adaptation.name);
+  settle(prepared.spec.controller, prepared.controller->settings());
+  settle(prepared.spec.fitness, prepared.fitness->settings());
+  settle(prepared.spec.learner, learner->settings());
+  settle(prepared.spec.adaptation, adaptation->settings());
+  prepared.specInWords = prepared.spec;
+  const auto inWords = [](PluginChoice& choice, const std::vector<Parameter>& declared) {
+    choice = choiceOf(choice.name, choice.settings, declared);
+  };
+  inWords(prepared.specInWords.controller, prepared.controller->settings());
+  inWords(prepared.specInWords.fitness, prepared.fitness->settings());
+  inWords(prepared.specInWords.learner, learner->settings());
+  inWords(prepared.specInWords.adaptation, adaptation->settings());
+
+  for (const Parameter& p : simulatorParameters()) {
+    const bool named = std::find(spec.adapted.begin(), spec.adapted.end(), p.name) != spec.adapted.end();
+    if (spec.adapted.empty() || named) prepared.adapted.push_back(p);
+    if (const auto value = spec.simulator.values.find(p.name); value != spec.simulator.values.end())
+      check(p, value->second, "simulator " + p.name);
+  }
+  // The learners' own checks: what they cannot search is refused now, not after hours.
+  Random unused(0);
+  learner->start(prepared.genotype, prepared.spec.learner.settings, unused);
+  adaptation->start(prepared.adapted, prepared.spec.adaptation.settings, unused);
+
+  for (const StoredFile& file : prepared.files)
+    prepared.models[file.name] = std::make_shared<const RobotModel>(parseModel(file));
+  if (prepared.sceneSpec.robots.empty()) throw InputError(spec.scene, "no robot", "a scene with at least one robot");
+  prepared.scene(spec.simulator);
+  return prepared;
+}
+
+}  // namespace
+
+Scene PreparedExperiment::scene(const SimulatorSpec& simulator) const {
+  Scene scene = makeScene(sceneSpec, models, simulator, effects);
+  controller->arrange(scene, spec.controller.settings);
+  return scene;
+}
+
+TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
+                                      bool recordTrace) const {
+  TrialOptions options;
+  options.maximum_s = valueOf(stageParameters(), spec.stages, "trial_maximum_s");
+  options.recordTrace = recordTrace;
+  return runTrial(arranged, *controller, spec.controller.settings, parameters, seed, options);
+}
+
+double PreparedExperiment::fitnessOf(const TrialResult& result) const {
+  if (result.outcome != TrialResult::Outcome::finished) return fitness->ofFailure();
+  // A fitness sees the whole task: settings that the user left out have their defaults.
+  Values task;
+  for (const Parameter& p : controller->settings())
+    task[p.name] = valueOf(controller->settings(), spec.controller.settings, p.name);
+  const double value = fitness->evaluate(result, spec.fitness.settings, task);
+  return std::isfinite(value) ? value : fitness->ofFailure();
+}
+
+PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host) {
+  namespace fs = std::filesystem;
+  const fs::path scenePath = fs::path(spec.directory) / spec.scene;
+  SceneSpec scene = loadScene(scenePath.string());
+  std::vector<StoredFile> files;
+  for (const RobotSpec& robot : scene.robots) {
+    bool known = false;
+    for (const StoredFile& file : files) known = known || file.name == robot.model;
+    if (known) continue;
+    std::string content = readFile((fs::path(scene.directory) / robot.model).string());
+    std::string hash = sha256(content);
+    files.push_back({robot.model, std::move(hash), std::move(content)});
+  }
+  return prepare(spec, std::move(scene), std::move(files), host);
+}
+
+PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) {
+  const std::string place = "run " + std::to_string(run.id);
+  return prepare(experimentFromJson(run.specJson, place, ""), sceneFromJson(run.sceneJson, place, ""), run.files, host);
+}
+
+RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::uint64_t seed) {
+  RunRecord record;
+  record.experiment = experiment;
+  record.seed = seed;
+  record.specJson = toJsonText(prepared.specInWords);
+  record.sceneJson = toJsonText(prepared.sceneSpec);
+  record.files = prepared.files;
+  std::string all = record.specJson + record.sceneJson;
+  for (const StoredFile& file : prepared.files) all += file.name + file.sha256;
+  record.specSha256 = sha256(all);
+  record.reality = prepared.spec.reality;
+  return record;
+}
+
+}  // namespace btr

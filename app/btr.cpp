@@ -6,6 +6,7 @@
 
 #include "app/btr_commands.h"
 #include "core/spec/error.h"
+#include "core/store/database.h"
 
 namespace {
 
@@ -30,7 +31,7 @@ int main(int argc, char** argv) {
 
   CLI::App app{"Back to Reality without a window: run, measure, adapt, replay, compare with recordings", "btr"};
   app.require_subcommand(1);
-  app.set_version_flag("--version", "btr " UCHILSIM_VERSION);
+  app.set_version_flag("--version", "btr " + btr::programVersion());
   app.fallthrough();
   btr::cli::Shell shell;
   shell.stop = &stopRequested;

@@ -141,6 +141,12 @@ std::string upright(double y, const std::string& content) {
   return text(18, y, content, "text-anchor=\"middle\" transform=\"rotate(-90 18 " + number(y) + ")\"");
 }
 
+/// "leg.knee.velocity_rad_s" → "velocity": the unit stands behind it in brackets.
+std::string plainQuantity(const std::string& channel) {
+  const std::string quantity = channel.substr(channel.rfind('.') + 1);
+  return unitOfChannel(channel).empty() ? quantity : quantity.substr(0, quantity.find('_'));
+}
+
 constexpr const char* style = R"(<style>
 text { font: 12px "DejaVu Sans", Verdana, Helvetica, sans-serif; fill: #333 }
 .title { font-size: 16px; font-weight: bold; fill: #111 }
@@ -172,7 +178,7 @@ std::string overlaySvg(const ChannelError& error) {
   const Axis z = errors.axis(errorBottom, errorTop, 0.08);
   const std::string unit = unitOfChannel(error.channel);
   const std::string ofUnit = unit.empty() ? "" : " [" + unit + "]";
-  const std::string quantity = error.channel.substr(error.channel.rfind('.') + 1);
+  const std::string quantity = plainQuantity(error.channel);
   const std::string behind = unit.empty() ? "" : " " + unit;
 
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width, "%.0f") + " " +
@@ -181,7 +187,7 @@ std::string overlaySvg(const ChannelError& error) {
                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   svg += text(left, 30, error.channel, "class=\"title\"");
   svg += text(left, 50,
-              std::filesystem::path(error.recording).filename().string() + "   mean |error| " +
+              std::filesystem::path(error.recording).filename().string() + " · mean |error| " +
                   number(error.meanAbsolute, "%.4g") + behind + ", RMS " + number(error.rootMeanSquare, "%.4g") +
                   behind + ", maximum " + number(error.maximum, "%.4g") + behind);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/gap/doctor.h"
 #include "core/gap/noise_floor.h"
 #include "core/gap/replay.h"
 #include "core/spec/error.h"
@@ -48,6 +49,8 @@ void addRecording(const Scene& scene, const Recording& recording, ResidualReport
   const std::string name = std::filesystem::path(recording.source).filename().string();
   const auto note = [&](const std::string& text) { report.notes.push_back(name + ": " + text); };
   for (const std::string& text : recording.notes) note(text);
+  const RecordingHealth health = examine(recording);
+  if (!health.gaps.empty()) note(health.findings.front());
   const Binding binding = bind(scene, recording);
   for (const std::string& text : binding.notes) note(text);
   if (binding.measured.empty())

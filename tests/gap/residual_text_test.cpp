@@ -47,7 +47,7 @@ TEST(OverlaySvg, IsWellFormedWhateverTheNamesAre) {
   EXPECT_EQ(paths(svg, "simulated").size(), 2u);
   EXPECT_EQ(paths(svg, "error").size(), 1u);
   EXPECT_THAT(svg, HasSubstr("first &amp; &lt;best&gt; &quot;run&quot;.csv"));
-  EXPECT_THAT(svg, HasSubstr("position_rad [rad]"));
+  EXPECT_THAT(svg, HasSubstr(">position [rad]</text>"));
   EXPECT_THAT(svg, HasSubstr("time [s]"));
   EXPECT_THAT(svg, HasSubstr("mean |error| 0.25 rad"));
   EXPECT_THAT(svg, Not(HasSubstr("href")));  // nothing is fetched from elsewhere

@@ -252,11 +252,25 @@ void Articulation::shift(const Vector3d& way) {
 void Articulation::updateRings() {
   for (auto& body : bodies) {
     if (body.ringJoint < 0) continue;
-    // The first axis of the pair is the second joint's sister, stored just before it.
     const Vector3d axis = body.pose.linear().transpose() * joints[body.ringJoint].axis;
     if ((axis - body.ringAxis).squaredNorm() < 1e-6) continue;
     body.ringAxis = axis;
     setMass(body.id, body.mass_kg, body.inertia_kg_m2 + body.ringInertia_kg_m2 * axis * axis.transpose());
+  }
+}
+
+void Articulation::addRingTorques() {
+  for (const auto& body : bodies) {
+    if (body.ringJoint < 0) continue;
+    const RobotJoint& joint = joints[static_cast<std::size_t>(body.ringJoint)];
+    const Vector3d& axis = joint.axis;
+    const Vector3d turning = (joint.parent >= 0 ? bodies[joint.parent].spin_rad_s : Vector3d(0, 0, 0)).cross(axis);
+    const double inertia = body.ringInertia_kg_m2, spin = axis.dot(body.spin_rad_s);
+    const Vector3d onChild = inertia * (spin * body.spin_rad_s.cross(axis) - turning.dot(body.spin_rad_s) * axis);
+    dBodyAddTorque(body.id, onChild.x(), onChild.y(), onChild.z());
+    if (joint.parent < 0) continue;
+    const Vector3d onParent = -inertia * spin * turning;
+    dBodyAddTorque(bodies[joint.parent].id, onParent.x(), onParent.y(), onParent.z());
   }
 }
 

@@ -31,7 +31,7 @@ struct RobotBody {
 
   /// Inertia of a hip's turning part about its first axis, which only this body carries; see Articulation.
   double ringInertia_kg_m2 = 0;
-  int ringJoint = -1;                                   ///< index of the second joint of the hip
+  int ringJoint = -1;                                   ///< index of the hip's first joint
   Eigen::Vector3d ringAxis = Eigen::Vector3d::UnitX();  ///< first axis in this body's frame now
 };
 
@@ -47,7 +47,7 @@ struct RobotJoint {
   bool axisFollowsChild = false;  ///< second axis of a universal joint
   Eigen::Vector3d anchorInParent = Eigen::Vector3d::Zero(), anchorInChild = Eigen::Vector3d::Zero();
   Eigen::Vector3d u, w, x;  ///< u, w in the parent's frame and x in the child's; axisFollowsChild: the reverse
-  double lowStop = -1e9, highStop = 1e9, stopInertia = 0;
+  double lowStop = -1e9, highStop = 1e9, heldInertia = 0;
   double position = 0, rate = 0;
   double solvedRate = 0;  ///< rate about the axis at the beginning of the last step: the one that ODE's rows made
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< in the world, now
@@ -78,6 +78,10 @@ class Articulation {
   void shift(const Eigen::Vector3d& way);
   /// Turns the ring inertias with their joints.
   void updateRings();
+  /// Moments that come with them, since such a part spins with the child but its axis turns with the parent (s =
+  /// axis·spin of the child, I its inertia about the axis): −I·s·(Ω×axis) on the parent of spin Ω; on the child what
+  /// undoes ODE's own gyroscopic moment of the part, and −I·((Ω×axis)·spin)·axis.
+  void addRingTorques();
   /// Makes the joint's extra rows: axis 0 dry friction, axis 1 passive terms.
   void makeExtraRows(RobotJoint& joint);
 
@@ -107,7 +111,7 @@ class Articulation {
   void makeSingle(int modelJoint, const std::vector<LinkState>& zero);
   void finishJoint(RobotJoint& joint, const std::vector<LinkState>& zero);
   void aimJoints(const Eigen::Isometry3d& base);
-  double heldInertia(const RobotJoint& joint, const std::vector<LinkState>& zero) const;
+  double inertiaHeldBy(const RobotJoint& joint, const std::vector<LinkState>& zero) const;
   Eigen::Matrix3d rotationOf(int body) const { return poseOf(body).linear(); }
 
   dWorldID world_;

@@ -185,7 +185,7 @@ void Articulation::finishJoint(RobotJoint& joint, const std::vector<LinkState>& 
   const double beyond = joint.slides ? 0 : stopBeyond_rad;
   joint.lowStop = model.lower - beyond;
   joint.highStop = model.upper + beyond;
-  joint.stopInertia = heldInertia(joint, zero);
+  joint.heldInertia = inertiaHeldBy(joint, zero);
   joint.axis = rotationOf(joint.parent) * joint.axisInParent;
   jointOfModel[joint.modelJoint] = static_cast<int>(joints.size());
   joints.push_back(joint);
@@ -236,7 +236,7 @@ void Articulation::makeExtraRows(RobotJoint& joint) {
   }
 }
 
-double Articulation::heldInertia(const RobotJoint& joint, const std::vector<LinkState>& zero) const {
+double Articulation::inertiaHeldBy(const RobotJoint& joint, const std::vector<LinkState>& zero) const {
   const auto& model = robot_.model;
   std::vector<char> held(model.links.size(), 0);
   held[joint.modelJoint + 1] = 1;

@@ -10,41 +10,66 @@ double DriveRow::torqueAt(double rate) const {
   return limited() ? std::clamp(torque, -limit, limit) : torque;
 }
 
+void StepOf::add(DriveRow& row, double k, double c, double rate) const {
+  if (k > 0) {
+    const double phi = 1 / (1 + h * h * k / inertia);
+    const double share = h * k / (2 * (1 + phi));
+    row.d += share;
+    row.p += phi * share * rate;
+  }
+  if (c > 0) {
+    const double y = h * c / inertia;
+    const double late = y < 1e-3 ? 0.5 + y / 12 : 1 / (1 - std::exp(-y)) - 1 / y;
+    row.d += late * c;
+    row.p -= (1 - late) * c * rate;
+  }
+}
+
 namespace {
 
-DriveRow servoRow(const Drive& drive, const JointState& state, double integral, double h) {
+DriveRow servoRow(const Drive& drive, const JointState& state, double integral, const StepOf& step) {
   DriveRow row;
   row.p = drive.p * (state.command - state.position) + drive.i * integral;
-  row.d = drive.d + h / 2 * drive.p;
+  const double withoutDamping = row.p;
+  step.add(row, drive.p, drive.d, state.rate);
   const double now = row.p - row.d * state.rate;
-  if (std::max(std::abs(row.p), std::abs(now)) > drive.maxTorque) row.limit = drive.maxTorque;
+  if (std::max(std::abs(withoutDamping), std::abs(now)) > drive.maxTorque) row.limit = drive.maxTorque;
   return row;
 }
 
-DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInput& input, double h) {
+struct MotorVolts {
+  double given, slope;  ///< voltage on the winding and its fall with position [V, V/rad]
+};
+
+MotorVolts motorVolts(const Drive& drive, const JointState& state, const JointInput& input) {
   const double supply = input.supply_v >= 0 ? input.supply_v : drive.supply_v;
-  const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
-  const bool given = std::isfinite(input.duty);
+  if (std::isfinite(input.duty)) return {supply * input.duty, 0};
   // The firmware knows the supply that it was made for: a sagging one weakens its gain.
-  const double gain = !given && drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0;
-  const double wanted = given ? input.duty : gain * (state.command - state.position);
-  const bool limited = !given && std::abs(wanted) > drive.maxDuty;
+  const double gain = drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0;
+  const double duty = gain * (state.command - state.position);
+  if (std::abs(duty) > drive.maxDuty) return {supply * std::copysign(drive.maxDuty, duty), 0};
+  return {supply * duty, supply * gain};
+}
+
+DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInput& input, const StepOf& step) {
+  const MotorVolts volts = motorVolts(drive, state, input);
+  const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
   DriveRow row;
-  row.p = perVolt * supply * (limited ? std::copysign(drive.maxDuty, wanted) : wanted);
-  row.d = perVolt * drive.torqueConstant_nm_a;
-  if (!limited) row.d += h / 2 * perVolt * supply * gain;
+  row.p = perVolt * volts.given;
+  step.add(row, perVolt * volts.slope, perVolt * drive.torqueConstant_nm_a, state.rate);
   return row;
 }
 
 }  // namespace
 
-DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input, double h) {
+DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
+                  const StepOf& step) {
   if (!input.enabled) return {};
   switch (drive.kind) {
     case Drive::Kind::servo:
-      return servoRow(drive, state, integral, h);
+      return servoRow(drive, state, integral, step);
     case Drive::Kind::dcMotor:
-      return dcMotorRow(drive, state, input, h);
+      return dcMotorRow(drive, state, input, step);
     case Drive::Kind::torque:
       return {std::clamp(state.command, -drive.maxTorque, drive.maxTorque), 0};
     case Drive::Kind::none:
@@ -54,7 +79,20 @@ DriveRow driveRow(const Drive& drive, const JointState& state, double integral, 
 }
 
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input) {
-  return driveRow(drive, state, integral, input, 0).torqueAt(state.rate);
+  if (!input.enabled) return 0;
+  const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
+  switch (drive.kind) {
+    case Drive::Kind::servo:
+      return std::clamp(drive.p * (state.command - state.position) + drive.i * integral - drive.d * state.rate,
+                        -drive.maxTorque, drive.maxTorque);
+    case Drive::Kind::dcMotor:
+      return perVolt * (motorVolts(drive, state, input).given - drive.torqueConstant_nm_a * state.rate);
+    case Drive::Kind::torque:
+      return std::clamp(state.command, -drive.maxTorque, drive.maxTorque);
+    case Drive::Kind::none:
+      break;
+  }
+  return 0;
 }
 
 void JointEffects::add(const SceneEffect& effect) {
@@ -84,41 +122,34 @@ double JointEffects::throughEffects(double torque, const JointState& state, doub
 }
 
 DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const JointState& state, double integral,
-                             const JointInput& input, double h) {
-  // Torque after the effects as a function of position and rate, the state held.
-  const auto probe = [&](double position, double rate) {
-    JointState moved = state;
-    moved.position = position;
-    moved.rate = rate;
-    return throughEffects(driveTorque(drive, moved, integral, input), moved, h, false);
+                             const JointInput& input, const StepOf& step) {
+  // Torque of law and effects as a function of position and rate, the effects' states held; and of the law alone.
+  const auto at = [&](double position, double rate) {
+    return JointState{state.time, state.position + position, state.rate + rate, state.command, state.drive};
   };
+  const auto lawAt = [&](const JointState& moved) { return driveTorque(drive, moved, integral, input); };
+  const auto allAt = [&](const JointState& moved) { return throughEffects(lawAt(moved), moved, step.h, false); };
   constexpr double small = 1e-6;  // rad, rad/s, m or m/s
-  const double byRate =
-      (probe(state.position, state.rate + small) - probe(state.position, state.rate - small)) / (2 * small);
-  const double byPosition =
-      (probe(state.position + small, state.rate) - probe(state.position - small, state.rate)) / (2 * small);
+  const double byRate = (allAt(at(0, small)) - allAt(at(0, -small))) / (2 * small);
+  const double byPosition = (allAt(at(small, 0)) - allAt(at(-small, 0))) / (2 * small);
+  const double lawByRate = (lawAt(at(0, small)) - lawAt(at(0, -small))) / (2 * small);
+  const double lawByPosition = (lawAt(at(small, 0)) - lawAt(at(-small, 0))) / (2 * small);
 
-  const double before = driveTorque(drive, state, integral, input);
-  const double after = throughEffects(before, state, h, true);
-  const double lawByRate =
-      (driveTorque(drive, {state.time, state.position, state.rate + small, state.command, state.drive}, integral,
-                   input) -
-       driveTorque(drive, {state.time, state.position, state.rate - small, state.command, state.drive}, integral,
-                   input)) /
-      (2 * small);
+  const double before = lawAt(state);
+  const double after = throughEffects(before, state, step.h, true);
   // Effects that leave the torque alone leave the exact law alone.
-  if (after == before && byRate == lawByRate) return law;
-  DriveRow row;
+  if (after == before && byRate == lawByRate && byPosition == lawByPosition) return law;
   const double damping = std::max(0.0, -byRate);
+  DriveRow row;
   row.p = after + damping * state.rate;
-  row.d = damping + h / 2 * std::max(0.0, -byPosition);
+  step.add(row, std::max(0.0, -byPosition), damping, state.rate);
   return row;
 }
 
-void JointEffects::addPassive(DriveRow& row, const JointState& state, double h) const {
+void JointEffects::addPassive(DriveRow& row, const JointState& state, const StepOf& step) const {
   constexpr double small = 1e-6;
   for (const auto& placed : placed_) {
-    row.d += std::max(0.0, placed.effect->damping(state, *placed.values));
+    step.add(row, 0, std::max(0.0, placed.effect->damping(state, *placed.values)), state.rate);
     const double torque = placed.effect->torque(state, *placed.values);
     if (placed.effect->dissipative() && torque * state.rate < 0) {
       row.d += -torque / state.rate;
@@ -130,7 +161,7 @@ void JointEffects::addPassive(DriveRow& row, const JointState& state, double h) 
     const double stiffness =
         (placed.effect->torque(behind, *placed.values) - placed.effect->torque(ahead, *placed.values)) / (2 * small);
     row.p += torque;
-    row.d += h / 2 * std::max(0.0, stiffness);
+    step.add(row, std::max(0.0, stiffness), 0, state.rate);
   }
 }
 

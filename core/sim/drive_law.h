@@ -21,15 +21,29 @@ struct DriveRow {
   bool limited() const { return limit < std::numeric_limits<double>::infinity(); }
 };
 
-/// The law of a drive over one step of `h` seconds. Position terms are taken at the middle of the step (d gains h/2
-/// times the stiffness), which is stable at every step and becomes the contract's law as h → 0. A servo far from its
-/// torque limit gets no limit in its row (such rows are cheaper to solve). `state.position`, `.rate`, `.command` are
-/// those of now.
+/// One step as the laws need it. ODE kicks velocities by the forces of the step's beginning, then moves by the new
+/// velocity: positions belong to the steps' ends and velocities to their middles (leapfrog).
+struct StepOf {
+  double h = 0;        ///< length [s]
+  double inertia = 1;  ///< that the joint turns or pushes, roughly [kg·m² or kg]
+
+  /// Adds a spring of stiffness k ≥ 0 and a damper c ≥ 0 whose torque at this position and rate is already part of the
+  /// row as p (spring, anything else) and NOT yet in it (damper). Second order in h where h resolves them, stable for
+  /// any k and c:
+  ///   spring  −k·θ·h·(rate' − φ·rate), x = h²k/I, φ = 1/(1+x), θ = 1/(2(1+φ)): the trapezoid rule, damped when x is
+  ///   large damper  −c·(ϑ·rate' + (1−ϑ)·rate), y = h·c/I, ϑ = 1/(1−exp(−y)) − 1/y: the exponential decay of I under c
+  void add(DriveRow& row, double k, double c, double rate) const;
+};
+
+/// The law of a drive over one step. A servo far from its torque limit gets no limit in its row (such rows are cheaper
+/// to solve). `state.position`, `.rate`, `.command` are those of now.
 ///   servo     clamp(p·(command − q) + i·∫ − d·rate, ±max)
-///   DC motor  kt·u/R − kt²·rate/R,  u = supply·clamp(gain·(command − q)/nominal supply, ±maxDuty) or supply·duty as
-///   given torque    clamp(command, ±max)
+///   DC motor  kt·u/R − kt²·rate/R,  u = supply·(duty as given, or clamp(gain·(command − q)/nominal
+///             supply, ±maxDuty))
+///   torque    clamp(command, ±max)
 /// A drive that is switched off gives nothing (a DC motor: open circuit, no braking by its own voltage).
-DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input, double h);
+DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
+                  const StepOf& step);
 
 /// The same law at this instant, as a number.
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input);
@@ -46,10 +60,10 @@ class JointEffects {
   /// The drive's row after the effects on drive torque. An effect that changes the torque is linearised about this
   /// instant.
   DriveRow drive(const DriveRow& law, const Drive& drive, const JointState& state, double integral,
-                 const JointInput& input, double h);
+                 const JointInput& input, const StepOf& step);
   /// Adds torque() and damping() to a row. A torque that opposes motion of a dissipative effect fades with the rate at
   /// the end of the step (secant), so that it cannot reverse it; other torques are linearised in position.
-  void addPassive(DriveRow& row, const JointState& state, double h) const;
+  void addPassive(DriveRow& row, const JointState& state, const StepOf& step) const;
   double frictionLimit(const JointState& state) const;
   double measured(double position, const JointState& state, double dt);
 

@@ -22,7 +22,10 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
         robot.accelerometerLink = sensor.link;
         robot.accelerometer = sensor.pose;
       }
-    for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].command = robot.body->joints[j].position;
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+      robot.drives[j].command = robot.body->joints[j].position;
+      robot.drives[j].rate = robot.body->joints[j].rate;
+    }
     robots.push_back(std::move(robot));
   }
   for (const auto& spec : scene.balls) {
@@ -87,6 +90,19 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
 }
 
 void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, double now, double h) {
+  for (auto& robot : robots) {
+    // Leapfrog: positions belong to the steps' ends, velocities to their middles. A rig that was put somewhere at an
+    // instant gets half of the first step's forces. (Free robots are corrected in flight instead, and contacts know no
+    // halves.)
+    robot.kick = robot.first && robot.body->fixedBase() ? 0.5 : 1;
+    robot.first = false;
+    robot.body->addRingTorques();
+    if (robot.kick < 1)
+      for (const auto& body : robot.body->bodies) {
+        const Eigen::Vector3d force = (robot.kick - 1) * body.mass_kg * scene.gravity_m_s2;
+        dBodyAddForce(body.id, force.x(), force.y(), force.z());
+      }
+  }
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
@@ -102,12 +118,21 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
   contacts.clear();
 
   for (auto& robot : robots) {
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].rateBefore = robot.body->joints[j].rate;
     robot.body->refresh();
     // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
     robot.body->updateRings();
-    for (std::size_t j = 0; j < robot.drives.size(); ++j)
-      robot.drives[j].torque = robot.drives[j].row.torqueAt(robot.body->joints[j].solvedRate);
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+      const RobotJoint& joint = robot.body->joints[j];
+      JointDrive& drive = robot.drives[j];
+      drive.torque = drive.row.torqueAt(joint.solvedRate);
+      drive.rate = joint.rate;
+      if (!robot.body->fixedBase()) continue;
+      // From the step's middle to its end, unless that would turn the motion round.
+      const double end = joint.rate + (joint.solvedRate - drive.rateBefore) / 2 / robot.kick;
+      if (end * joint.rate > 0) drive.rate = end;
+    }
   }
   for (auto& ball : balls) {
     const Eigen::Vector3d before = ball.state.velocity_m_s;
@@ -134,7 +159,10 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
     drive.integral = drive.torque = 0;
     drive.dryRow = drive.passiveRow = robot.body->joints[j].extra != nullptr;
     drive.command = robot.body->joints[j].position;
+    drive.rate = robot.body->joints[j].rate;
+    drive.fresh = true;
   }
+  robot.first = true;
   impl_->sense(robot, 0);
   impl_->checkFault();
 }

@@ -10,12 +10,15 @@ namespace btr {
 /// One joint's drive while the world runs.
 struct JointDrive {
   JointEffects effects;
-  double command = 0;   ///< that was given
-  double integral = 0;  ///< ∫(command − q)dt of the servo
-  DriveRow row;         ///< the drive's part of the last step
-  double torque = 0;    ///< of the drive in the last step
-  double measured = 0;  ///< position through the sensor's effects
-  bool dryRow = false;  ///< the extra row for dry friction is on
+  double command = 0;     ///< that was given
+  bool fresh = true;      ///< no command has been given yet
+  double integral = 0;    ///< ∫(command − q)dt of the servo
+  double rate = 0;        ///< at the end of the last step
+  double rateBefore = 0;  ///< of the joint before the last step
+  DriveRow row;           ///< the drive's part of the last step
+  double torque = 0;      ///< of the drive in the last step
+  double measured = 0;    ///< position through the sensor's effects
+  bool dryRow = false;    ///< the extra row for dry friction is on
   bool passiveRow = false;
 };
 
@@ -24,6 +27,8 @@ struct WorldRobot {
   std::unique_ptr<Articulation> body;
   std::vector<JointDrive> drives;  ///< by moving joint
   std::vector<char> contact;       ///< by link
+  double kick = 1;                 ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
+  bool first = true;               ///< no step since its state was set
   bool touches = false;            ///< anything, in the last step
   int accelerometerLink = -1;
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame

@@ -48,47 +48,55 @@ void World::Impl::addStop(DriveRow& passive, const RobotJoint& joint, double h) 
                         : joint.position > joint.highStop ? joint.position - joint.highStop
                                                           : 0;
   if (beyond == 0) return;
-  const double stiffness = joint.stopInertia * stopFrequency_rad_s * stopFrequency_rad_s;
+  const double stiffness = joint.heldInertia * stopFrequency_rad_s * stopFrequency_rad_s;
   passive.p -= stiffness * beyond;
   passive.d += h * stiffness;
-  if (beyond * joint.rate > 0) passive.d += 2 * joint.stopInertia * stopFrequency_rad_s;
+  if (beyond * joint.rate > 0) passive.d += 2 * joint.heldInertia * stopFrequency_rad_s;
 }
 
 void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointInput& input, double now, double h) {
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
   const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+  const StepOf step{h, joint.heldInertia + spec.rotorInertia_kg_m2};
 
-  // Command, servo law, drive torque.
+  // Command, servo law, drive torque. A kick acts for half a step before and after its instant: where the command
+  // changes just then it follows the mean of old and new.
+  const double mean = drive.fresh ? input.command : (drive.command + input.command) / 2;
   drive.command = input.command;
+  drive.fresh = false;
   JointState state = stateOf(robot, index, now);
-  if (!drive.effects.empty()) state.command = drive.effects.command(input.command, state, h);
+  state.command = drive.effects.empty() ? mean : drive.effects.command(mean, state, h);
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
-  DriveRow row = driveRow(spec, state, drive.integral, input, h);
+  DriveRow row = driveRow(spec, state, drive.integral, input, step);
   if (!drive.effects.empty() && input.enabled && spec.kind != Drive::Kind::none)
-    row = drive.effects.drive(row, spec, state, drive.integral, input, h);
+    row = drive.effects.drive(row, spec, state, drive.integral, input, step);
   drive.row = row;
 
-  // What acts at the joint itself: viscous friction, effects, the rotor behind its gear (kinetic energy ½·J·rate², the
-  // limit of a large gear ratio: the rotor's own share in the body's spin is left out), stops.
+  // What acts at the joint itself: viscous friction, effects, stops. Dry friction is a row of its own: it holds, or
+  // opposes motion, with at most its limit.
   DriveRow passive;
-  passive.d = spec.viscousFriction;
-  if (!drive.effects.empty()) drive.effects.addPassive(passive, state, h);
+  step.add(passive, 0, spec.viscousFriction, joint.rate);
+  if (!drive.effects.empty()) drive.effects.addPassive(passive, state, step);
+  addStop(passive, joint, h);
+  double dry = spec.coulombFriction;
+  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(state);
+
+  // The very first kick from a given state covers half a step only.
+  for (double* force : {&row.p, &row.d, &row.limit, &passive.p, &passive.d, &dry}) *force *= robot.kick;
+
+  // The rotor behind its gear: kinetic energy ½·J·rate², the limit of a large gear ratio (the rotor's own share in the
+  // spin of its body is left out).
   if (spec.rotorInertia_kg_m2 > 0) {
     passive.d += spec.rotorInertia_kg_m2 / h;
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }
-  addStop(passive, joint, h);
 
-  // Dry friction is a row of its own: it holds, or opposes motion, with at most its limit.
-  double dry = spec.coulombFriction;
-  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(state);
+  // A limited servo and passive terms do not fit into one row.
   const bool apart = row.limited() && passive.d > noDamping;
   if (!joint.extra && (dry > 0 || apart)) robot.body->makeExtraRows(joint);
   if (dry > 0 || drive.dryRow) setExtraRow(joint, 0, 0, 0, dry);
   drive.dryRow = dry > 0;
-
-  // A limited servo and passive terms do not fit into one row.
   if (apart) setExtraRow(joint, 1, passive.p / passive.d, 1 / passive.d, dInfinity);
   if (!apart && drive.passiveRow) setExtraRow(joint, 1, 0, 0, 0);
   drive.passiveRow = apart;

@@ -92,7 +92,7 @@ RobotReadings World::robot(std::size_t index) const {
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     const auto model = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
     readings.position[model] = robot.drives[j].measured;
-    readings.rate[model] = robot.body->joints[j].rate;
+    readings.rate[model] = robot.drives[j].rate;
     readings.torque[model] = robot.drives[j].torque;
   }
   readings.contact = robot.contact;
@@ -164,7 +164,7 @@ void World::sample(std::vector<double>& row) const {
     push(row, Eigen::Quaterniond(base.linear()));
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       const JointDrive& drive = robot.drives[j];
-      row.insert(row.end(), {drive.command, drive.measured, robot.body->joints[j].rate, drive.torque});
+      row.insert(row.end(), {drive.command, drive.measured, drive.rate, drive.torque});
     }
     for (std::size_t link = 0; link < model.links.size(); ++link)
       if (isPaw(model, link)) row.push_back(robot.contact[link]);

@@ -39,7 +39,9 @@ void setExtraRow(const RobotJoint& joint, int row, double velocity, double softn
 JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, double now) const {
   const RobotJoint& moving = robot.body->joints[joint];
   const JointDrive& drive = robot.drives[joint];
-  return {now, moving.position, moving.rate, drive.command, drive.torque};
+  const Drive::Kind kind = robot.scene->drives[static_cast<std::size_t>(moving.modelJoint)].kind;
+  const bool followsPosition = kind == Drive::Kind::servo || kind == Drive::Kind::dcMotor;
+  return {now, moving.position, moving.rate, drive.command, drive.torque, followsPosition};
 }
 
 // A stop is a spring that has yielded by the end of the step, with a damper against being pushed in further.

@@ -147,12 +147,15 @@ class TestFitnessAndGapCharts : public QObject {
     const double best[3] = {1, 2, 3};
     for (int i = 0; i < 3; ++i) {
       runs[static_cast<std::size_t>(i)].name = "Kick";
+      runs[static_cast<std::size_t>(i)].experiment = "Learning to kick";
+      runs[static_cast<std::size_t>(i)].run = i + 1;
       runs[static_cast<std::size_t>(i)].group = "same";
       runs[static_cast<std::size_t>(i)].generations = {generation(1, 1, best[i], 0, 0)};
     }
     runs[0].generations.push_back(generation(2, 1, 8, 0, 0));
     const PlotData joined = comparisonPlot(runs, "m", true);
     QCOMPARE(joined.series.size(), std::size_t(1));
+    QVERIFY(joined.series[0].name.startsWith("Learning to kick, runs 1, 2, 3: "));
     QCOMPARE(joined.series[0].points, (Points{{1, 2}, {2, 8}}));
     // t(0.975, 2) = 4.302653, s = 1; only one run came to generation 2, so the band ends before it.
     QCOMPARE(joined.bands.size(), std::size_t(1));

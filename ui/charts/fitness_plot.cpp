@@ -75,6 +75,14 @@ std::vector<PlotMarker> updates(const std::vector<SimulatorRecord>& simulators) 
   return markers;
 }
 
+/// "Learning to kick, runs 1, 2, 5"
+QString groupName(const std::vector<const FitnessRun*>& runs) {
+  QStringList ids;
+  for (const FitnessRun* run : runs) ids << QString::number(run->run);
+  if (ids.size() > 8) ids = ids.mid(0, 3) + QStringList{"…"} + ids.mid(ids.size() - 2);
+  return tr("%1, runs %2").arg(runs.front()->experiment, ids.join(", "));
+}
+
 /// Mean and interval over runs of the same group, generation by generation.
 void addJoined(PlotData& plot, const QString& name, const std::vector<const FitnessRun*>& runs, int colour) {
   std::map<int, std::vector<double>> values;
@@ -139,7 +147,8 @@ PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit
   int colour = 0;
   for (const auto& group : groups) {
     const FitnessRun& first = *group.front();
-    const QString name = first.standIn ? tr("%1 (stand-in)").arg(first.name) : first.name;
+    const QString plain = group.size() > 1 ? groupName(group) : first.name;
+    const QString name = first.standIn ? tr("%1 (stand-in)").arg(plain) : plain;
     if (group.size() > 1) {
       addJoined(plot, name, group, colour++);
       continue;

@@ -11,6 +11,7 @@ namespace btr::ui {
 struct FitnessRun {
   Id run = 0;
   QString name;
+  QString experiment;    ///< names a group of runs in a comparison
   QString group;         ///< runs that differ in nothing but their seed share it; "" stands alone
   bool standIn = false;  ///< real fitness came from the stand-in reality
   std::vector<GenerationRecord> generations;

@@ -48,16 +48,14 @@ IndividualsTable::IndividualsTable(QWidget* parent)
   splitter->addWidget(details_);
   splitter->setStretchFactor(0, 3);
   splitter->setStretchFactor(1, 2);
+  splitter->setSizes({780, 400});
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->addWidget(makeFilterBar());
   layout->addWidget(splitter, 1);
   setFocusProxy(view_);
 
-  for (int column = 0; column < IndividualsModel::columns; ++column) {
-    const QString header = model_.headerData(column, Qt::Horizontal).toString();
-    view_->setColumnWidth(column, std::max(64, fontMetrics().horizontalAdvance(header) + 30));
-  }
+  fitColumns();
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &IndividualsTable::showSelected);
   connect(view_, &QTableView::doubleClicked, this,
           [this](const QModelIndex& index) { emit replayRequested(filter_.recordAt(index).id); });
@@ -68,6 +66,16 @@ IndividualsTable::IndividualsTable(QWidget* parent)
   connect(&filter_, &QAbstractItemModel::modelReset, this, &IndividualsTable::showCount);
   connect(&reading_, &QTimer::timeout, this, &IndividualsTable::readPage);
   showCount();
+}
+
+void IndividualsTable::fitColumns() {
+  // Title, sort arrow and margins; numbers of four digits always fit.
+  for (int column = 0; column < IndividualsModel::columns; ++column) {
+    const QString header = model_.headerData(column, Qt::Horizontal).toString();
+    const QString widest = column == IndividualsModel::measuredDeviation ? QString("0.001234") : header;
+    const int text = std::max(fontMetrics().horizontalAdvance(header), fontMetrics().horizontalAdvance(widest));
+    view_->setColumnWidth(column, std::max(52, text + 32));
+  }
 }
 
 QWidget* IndividualsTable::makeFilterBar() {
@@ -106,7 +114,8 @@ QWidget* IndividualsTable::makeFilterBar() {
   words_ = new QLineEdit(bar);
   words_->setPlaceholderText(tr("Outcome or chromosome…"));
   words_->setClearButtonEnabled(true);
-  words_->setMaximumWidth(220);
+  words_->setMinimumWidth(190);
+  words_->setMaximumWidth(240);
   connect(words_, &QLineEdit::textChanged, this, [this](const QString& text) {
     filter_.setWords(text);
     showCount();
@@ -132,9 +141,13 @@ QWidget* IndividualsTable::makeFilterBar() {
 void IndividualsTable::setUnit(const QString& unit) {
   model_.setUnit(unit);
   details_->setUnit(unit);
+  fitColumns();
 }
 
-void IndividualsTable::setStandIn(bool standIn) { model_.setStandIn(standIn); }
+void IndividualsTable::setStandIn(bool standIn) {
+  model_.setStandIn(standIn);
+  fitColumns();
+}
 void IndividualsTable::setGenotype(const std::vector<Parameter>& genotype) { details_->setGenotype(genotype); }
 void IndividualsTable::setSimulators(const std::vector<SimulatorRecord>& simulators) {
   model_.setSimulators(simulators);

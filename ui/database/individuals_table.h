@@ -59,6 +59,7 @@ class IndividualsTable : public QWidget {
 
  private:
   QWidget* makeFilterBar();
+  void fitColumns();
   void readPage();
   void showCount();
   void showSelected();

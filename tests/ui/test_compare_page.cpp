@@ -1,0 +1,158 @@
+// Comparing runs: what differs between their specs, and their fitness in one chart.
+#include <QCheckBox>
+#include <QLabel>
+#include <QTableWidget>
+#include <QTest>
+#include <QTreeWidget>
+#include <algorithm>
+
+#include "core/spec/error.h"
+#include "ui/charts/compare_page.h"
+#include "ui/charts/plot_widget.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+RunRecord run(Id id, std::uint64_t seed, int population, const char* reality = "person") {
+  RunRecord record;
+  record.id = id;
+  record.experiment = 1;
+  record.seed = seed;
+  record.reality = reality;
+  record.programVersion = "0.1.0";
+  record.specJson = QString(R"({"name": "kick", "seed": %1, "learner": {"name": "ga", "settings": {"population": %2}},
+    "adapted": ["friction", "slip1"]})")
+                        .arg(seed)
+                        .arg(population)
+                        .toStdString();
+  record.sceneJson = R"({"robots": [{"name": "dog", "servos": {"knee": {"p": 4.5}}}], "gravity_m_s2": [0, 0, -9.81]})";
+  return record;
+}
+
+const SpecRow* find(const std::vector<SpecRow>& rows, const char* key) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](auto& row) { return row.key == key; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+ComparePage::History history(double best) {
+  GenerationRecord generation;
+  generation.number = 1;
+  generation.best = best;
+  return {{generation}, {}};
+}
+
+}  // namespace
+
+class TestComparePage : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void onlyWhatDiffersIsMarked() {
+    RunRecord second = run(2, 7, 60, "stand_in");
+    second.sceneJson = R"({"gravity_m_s2": [0, 0, -9.5], "robots": [{"name": "dog", "servos": {"knee": {"p": 4.5}}}]})";
+    const auto rows = compareSpecs({run(1, 7, 30), second});
+    QStringList different;
+    for (const SpecRow& row : rows)
+      if (row.differs) different << row.key;
+    QCOMPARE(different, (QStringList{"learner.settings.population", "reality", "scene file.gravity_m_s2"}));
+    QCOMPARE(find(rows, "learner.settings.population")->values, (QStringList{"30", "60"}));
+    QCOMPARE(find(rows, "reality")->values, (QStringList{"person", "stand-in reality"}));
+    QCOMPARE(find(rows, "scene file.gravity_m_s2")->values, (QStringList{"[0, 0, -9.81]", "[0, 0, -9.5]"}));
+    QCOMPARE(find(rows, "scene file.robots.dog.servos.knee.p")->values, (QStringList{"4.5", "4.5"}));
+    QCOMPARE(find(rows, "adapted")->values[0], QString("[friction, slip1]"));
+  }
+
+  void aSettingThatOneRunLacksDiffers() {
+    RunRecord second = run(2, 7, 30);
+    second.specJson = R"({"name": "kick", "seed": 7, "learner": {"name": "ga"}, "adapted": ["friction", "slip1"]})";
+    const auto rows = compareSpecs({run(1, 7, 30), second});
+    QCOMPARE(find(rows, "learner.settings.population")->values, (QStringList{"30", "–"}));
+    QVERIFY(find(rows, "learner.settings.population")->differs);
+  }
+
+  void modelFilesAreComparedByContent() {
+    RunRecord a = run(1, 7, 30), b = run(2, 7, 30);
+    a.files = {{"dog.wrl", "aaaabbbbccccdddd", ""}};
+    b.files = {{"dog.wrl", "eeeebbbbccccdddd", ""}};
+    QVERIFY(find(compareSpecs({a, b}), "file dog.wrl")->differs);
+    QVERIFY(withoutSeed(a) != withoutSeed(b));
+  }
+
+  void runsThatDifferOnlyInTheirSeedBelongTogether() {
+    QCOMPARE(withoutSeed(run(1, 7, 30)), withoutSeed(run(2, 8, 30)));
+    QVERIFY(withoutSeed(run(1, 7, 30)) != withoutSeed(run(2, 7, 60)));
+    QVERIFY(withoutSeed(run(1, 7, 30)) != withoutSeed(run(2, 7, 30, "stand_in")));
+  }
+
+  void damagedSpecsAreComparedAsTheyStand() {
+    RunRecord broken = run(1, 7, 30);
+    broken.specJson = "{nonsense";
+    QCOMPARE(find(compareSpecs({broken, run(2, 7, 30)}), "spec")->values, (QStringList{"{nonsense", "–"}));
+  }
+
+  void tickedRunsAreDrawnAndTheirDifferencesListed() {
+    ComparePage page;
+    QList<Id> read;
+    page.setReader([&](Id id) {
+      read << id;
+      return history(static_cast<double>(id));
+    });
+    page.setUnit("m");
+    page.setRuns({run(1, 7, 30), run(2, 8, 30), run(3, 7, 60)}, {{1, "Kick"}});
+    QVERIFY(read.isEmpty());
+
+    page.setChosen({1, 2, 3});
+    QCOMPARE(read, (QList<Id>{1, 2, 3}));
+    // 1 and 2 become mean and interval, 3 stays alone: maximum and average.
+    QCOMPARE(page.plot().data().series.size(), std::size_t(3));
+    QCOMPARE(page.plot().data().bands.size(), std::size_t(1));
+    QCOMPARE(page.plot().data().series[0].points, (std::vector<QPointF>{{1, 1.5}}));
+    QTableWidget& table = page.differences();
+    QCOMPARE(table.columnCount(), 4);
+    QCOMPARE(table.rowCount(), 2);
+    QCOMPARE(table.item(0, 0)->text(), QString("learner.settings.population"));
+    QCOMPARE(table.item(1, 0)->text(), QString("seed"));
+    QCOMPARE(table.item(1, 2)->text(), QString("8"));
+
+    for (auto* box : page.findChildren<QCheckBox*>())
+      if (box->text() == "Join seeds") box->click();
+    QCOMPARE(page.plot().data().series.size(), std::size_t(6));
+    for (auto* box : page.findChildren<QCheckBox*>())
+      if (box->text() == "Only what differs") box->click();
+    QVERIFY(table.rowCount() > 6);
+    QCOMPARE(read.size(), 3);
+    page.refresh();
+    QCOMPARE(read.size(), 6);
+  }
+
+  void ticksStayWhenTheListIsReadAgain() {
+    ComparePage page;
+    page.setRuns({run(1, 7, 30), run(2, 8, 30)}, {{1, "Kick"}});
+    page.setChosen({2});
+    page.setRuns({run(1, 7, 30), run(2, 8, 30), run(3, 9, 30)}, {{1, "Kick"}});
+    QCOMPARE(page.chosen(), std::vector<Id>{2});
+  }
+
+  void aTickBesideTheExperimentTakesAllItsRuns() {
+    ComparePage page;
+    page.setRuns({run(1, 7, 30), run(2, 8, 30)}, {{1, "Kick"}});
+    page.findChild<QTreeWidget*>()->topLevelItem(0)->setCheckState(0, Qt::Checked);
+    QCOMPARE(page.chosen(), (std::vector<Id>{1, 2}));
+    QCOMPARE(page.differences().columnCount(), 3);
+  }
+
+  void aRunThatCannotBeReadSaysWhy() {
+    ComparePage page;
+    page.setReader([](Id) -> ComparePage::History { throw InputError("kick.db: the file is damaged"); });
+    page.setRuns({run(1, 7, 30)}, {});
+    page.setChosen({1});
+    bool said = false;
+    for (auto* label : page.findChildren<QLabel*>()) said |= label->text() == "kick.db: the file is damaged";
+    QVERIFY(said);
+  }
+};
+
+QTEST_MAIN(TestComparePage)
+#include "test_compare_page.moc"

@@ -1,0 +1,210 @@
+#include "ui/charts/compare_page.h"
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QTreeWidget>
+#include <algorithm>
+
+#include "core/spec/error.h"
+#include "ui/charts/plot_widget.h"
+#include "ui/common/theme.h"
+
+namespace btr::ui {
+namespace {
+constexpr int runRole = Qt::UserRole;
+}
+
+ComparePage::ComparePage(QWidget* parent)
+    : QWidget(parent), tree_(new QTreeWidget(this)), plot_(new PlotWidget(this)), differences_(new QTableWidget(this)) {
+  tree_->setHeaderLabels({tr("run"), tr("seed"), tr("generations")});
+  tree_->setAccessibleName(tr("Runs to compare"));
+  tree_->setToolTip(tr("Tick the runs to compare; a tick beside an experiment takes all of its runs"));
+  tree_->header()->setStretchLastSection(false);
+  tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  connect(tree_, &QTreeWidget::itemChanged, this, [this] { draw(); });
+
+  differences_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  differences_->setAlternatingRowColors(true);
+  differences_->verticalHeader()->hide();
+  differences_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 7);
+  differences_->setAccessibleName(tr("Settings of the chosen runs"));
+  summary_ = new QLabel(this);
+
+  auto* below = new QWidget(this);
+  auto* belowLayout = new QVBoxLayout(below);
+  belowLayout->setContentsMargins(0, 0, 0, 0);
+  belowLayout->addWidget(makeOptions());
+  belowLayout->addWidget(differences_, 1);
+  auto* right = new QSplitter(Qt::Vertical, this);
+  right->addWidget(plot_);
+  right->addWidget(below);
+  right->setStretchFactor(0, 3);
+  right->setStretchFactor(1, 2);
+  auto* all = new QSplitter(this);
+  all->addWidget(tree_);
+  all->addWidget(right);
+  all->setStretchFactor(0, 1);
+  all->setStretchFactor(1, 3);
+  all->setSizes({300, 900});
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(8, 8, 8, 8);
+  layout->addWidget(all);
+  draw();
+}
+
+QWidget* ComparePage::makeOptions() {
+  auto* bar = new QWidget(this);
+  auto* layout = new QHBoxLayout(bar);
+  layout->setContentsMargins(0, 0, 0, 0);
+  joinSeeds_ = new QCheckBox(tr("Join seeds"), bar);
+  joinSeeds_->setChecked(true);
+  joinSeeds_->setToolTip(tr("Runs that differ only in their seed as one curve: mean and 95 % interval of the maximum"));
+  onlyDifferent_ = new QCheckBox(tr("Only what differs"), bar);
+  onlyDifferent_->setChecked(true);
+  for (QCheckBox* box : {joinSeeds_, onlyDifferent_}) connect(box, &QCheckBox::toggled, this, &ComparePage::draw);
+  layout->addWidget(joinSeeds_);
+  layout->addWidget(onlyDifferent_);
+  layout->addStretch(1);
+  layout->addWidget(summary_);
+  return bar;
+}
+
+void ComparePage::setUnit(const QString& unit) {
+  unit_ = unit;
+  draw();
+}
+
+void ComparePage::setReader(Reader reader) {
+  reader_ = std::move(reader);
+  refresh();
+}
+
+void ComparePage::setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments) {
+  const std::vector<Id> before = chosen();
+  runs_ = runs;
+  experiments_ = experiments;
+  {
+    const QSignalBlocker quiet(tree_);
+    tree_->clear();
+    std::map<Id, QTreeWidgetItem*> parents;
+    for (const RunRecord& run : runs_) {
+      QTreeWidgetItem*& parent = parents[run.experiment];
+      if (!parent) {
+        parent = new QTreeWidgetItem(tree_, {experimentOf(run)});
+        parent->setFlags(parent->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsAutoTristate);
+        parent->setExpanded(true);
+      }
+      QString text = tr("Run %1").arg(run.id);
+      if (run.reality == "stand_in") text += tr(" (stand-in)");
+      auto* item = new QTreeWidgetItem(parent, {text, QString::number(run.seed), QString::number(run.generation)});
+      item->setData(0, runRole, static_cast<qlonglong>(run.id));
+      item->setCheckState(0, Qt::Unchecked);
+      item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
+      item->setTextAlignment(2, Qt::AlignRight | Qt::AlignVCenter);
+      item->setToolTip(0, QString::fromStdString(run.note));
+    }
+    tree_->resizeColumnToContents(1);
+    tree_->resizeColumnToContents(2);
+  }
+  setChosen(before);
+}
+
+void ComparePage::setChosen(const std::vector<Id>& runs) {
+  {
+    const QSignalBlocker quiet(tree_);
+    for (QTreeWidgetItemIterator item(tree_, QTreeWidgetItemIterator::NoChildren); *item; ++item) {
+      const bool chosen = std::count(runs.begin(), runs.end(), (*item)->data(0, runRole).toLongLong()) > 0;
+      (*item)->setCheckState(0, chosen ? Qt::Checked : Qt::Unchecked);
+    }
+  }
+  draw();
+}
+
+std::vector<Id> ComparePage::chosen() const {
+  std::vector<Id> ids;
+  for (QTreeWidgetItemIterator item(tree_, QTreeWidgetItemIterator::NoChildren); *item; ++item)
+    if ((*item)->checkState(0) == Qt::Checked) ids.push_back((*item)->data(0, runRole).toLongLong());
+  return ids;
+}
+
+void ComparePage::refresh() {
+  read_.clear();
+  draw();
+}
+
+QString ComparePage::experimentOf(const RunRecord& run) const {
+  const auto name = experiments_.find(run.experiment);
+  return name == experiments_.end() ? tr("Experiment %1").arg(run.experiment) : name->second;
+}
+
+QString ComparePage::nameOf(const RunRecord& run) const { return tr("%1, run %2").arg(experimentOf(run)).arg(run.id); }
+
+void ComparePage::draw() {
+  std::vector<RunRecord> records;
+  std::vector<FitnessRun> curves;
+  QString trouble;
+  for (const Id id : chosen()) {
+    const auto record = std::find_if(runs_.begin(), runs_.end(), [&](auto& run) { return run.id == id; });
+    if (record == runs_.end()) continue;
+    // Each run is read once, until refresh().
+    if (reader_ && !read_.contains(id)) {
+      try {
+        read_[id] = reader_(id);
+      } catch (const InputError& error) {
+        trouble = QString::fromUtf8(error.what());
+      }
+    }
+    FitnessRun curve;
+    curve.run = id;
+    curve.name = nameOf(*record);
+    curve.experiment = experimentOf(*record);
+    curve.group = withoutSeed(*record);
+    curve.standIn = record->reality == "stand_in";
+    curve.generations = read_[id].generations;
+    curve.simulators = read_[id].simulators;
+    records.push_back(*record);
+    curves.push_back(std::move(curve));
+  }
+  plot_->setData(comparisonPlot(curves, unit_, joinSeeds_->isChecked()));
+  fillDifferences(records);
+  if (!trouble.isEmpty()) summary_->setText(trouble);
+}
+
+void ComparePage::fillDifferences(const std::vector<RunRecord>& runs) {
+  const std::vector<SpecRow> all = compareSpecs(runs);
+  std::vector<const SpecRow*> shown;
+  for (const SpecRow& row : all)
+    if (row.differs || !onlyDifferent_->isChecked()) shown.push_back(&row);
+
+  QStringList header{tr("setting")};
+  for (const RunRecord& run : runs) header << nameOf(run);
+  differences_->setColumnCount(static_cast<int>(header.size()));
+  differences_->setHorizontalHeaderLabels(header);
+  differences_->setRowCount(static_cast<int>(shown.size()));
+  for (int row = 0; row < static_cast<int>(shown.size()); ++row) {
+    const SpecRow& spec = *shown[static_cast<std::size_t>(row)];
+    auto* key = new QTableWidgetItem(spec.key);
+    QFont bold = key->font();
+    bold.setBold(spec.differs);
+    key->setFont(bold);
+    differences_->setItem(row, 0, key);
+    for (int i = 0; i < spec.values.size(); ++i) {
+      auto* item = new QTableWidgetItem(spec.values[i]);
+      item->setToolTip(spec.values[i]);
+      if (spec.values[i] != spec.values[0]) item->setForeground(tonesOf(palette()).accent);
+      differences_->setItem(row, i + 1, item);
+    }
+  }
+  differences_->resizeColumnsToContents();
+
+  const auto different = std::count_if(all.begin(), all.end(), [](auto& row) { return row.differs; });
+  summary_->setText(runs.empty()       ? QString()
+                    : runs.size() == 1 ? tr("%1 settings").arg(all.size())
+                                       : tr("%1 of %2 settings differ").arg(different).arg(all.size()));
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,65 @@
+#pragma once
+#include <QWidget>
+#include <functional>
+#include <map>
+
+#include "ui/charts/fitness_plot.h"
+#include "ui/charts/spec_difference.h"
+
+class QCheckBox;
+class QLabel;
+class QTableWidget;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace btr::ui {
+
+class PlotWidget;
+
+/// Several runs side by side: their fitness in one chart, runs that differ only in their seed as mean and 95 %
+/// interval, and a table of the settings that differ.
+class ComparePage : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Generations of a run (without individuals) and its simulator versions; may throw InputError, which is shown.
+  struct History {
+    std::vector<GenerationRecord> generations;
+    std::vector<SimulatorRecord> simulators;
+  };
+  using Reader = std::function<History(Id run)>;
+
+  explicit ComparePage(QWidget* parent = nullptr);
+
+  void setUnit(const QString& unit);
+  void setReader(Reader reader);
+  /// All runs to choose from, with their specs; the names of their experiments by id. Ticks stay.
+  void setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments);
+  void setChosen(const std::vector<Id>& runs);
+  std::vector<Id> chosen() const;
+  /// Reads the chosen runs again, for those that are still learning.
+  void refresh();
+
+  PlotWidget& plot() { return *plot_; }
+  QTableWidget& differences() { return *differences_; }
+
+ private:
+  QWidget* makeOptions();
+  QString experimentOf(const RunRecord& run) const;
+  QString nameOf(const RunRecord& run) const;
+  void draw();
+  void fillDifferences(const std::vector<RunRecord>& runs);
+
+  QTreeWidget* tree_;
+  PlotWidget* plot_;
+  QTableWidget* differences_;
+  QLabel* summary_;
+  QCheckBox *joinSeeds_, *onlyDifferent_;
+  QString unit_;
+  Reader reader_;
+  std::vector<RunRecord> runs_;
+  std::map<Id, QString> experiments_;
+  std::map<Id, History> read_;
+};
+
+}  // namespace btr::ui

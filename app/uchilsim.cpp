@@ -1,10 +1,71 @@
 // The workbench: a window on the runs of one database.
+#include <CLI/CLI.hpp>
 #include <QApplication>
-#include <QMainWindow>
+#include <QFileInfo>
+#include <QIcon>
+#include <QTimer>
+#include <cstdio>
+
+#include "core/plugin/plugin_host.h"
+#include "core/spec/error.h"
+#include "ui/main_window.h"
+
+namespace {
+
+struct Arguments {
+  std::string database, screenshot, look;
+  btr::Id run = 0;
+  int width = 1600, height = 1000, delay_ms = 3000;
+};
+
+// The database that was named, else the one of last time, else experiments.db.
+QString chooseDatabase(const Arguments& arguments, const btr::ui::Settings& settings) {
+  if (!arguments.database.empty()) return QString::fromStdString(arguments.database);
+  const QStringList recent = settings.recentDatabases();
+  return recent.isEmpty() ? QStringLiteral("experiments.db") : recent.first();
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App commandLine{"UCHILSIM, a workbench for Back to Reality", "uchilsim"};
+  commandLine.add_option("DATABASE", arguments.database,
+                         "experiment database (default: the last one, else experiments.db)");
+  commandLine.add_option("--select-run", arguments.run, "number of the run to show")->check(CLI::PositiveNumber);
+  commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
+  commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");
+  commandLine.add_option("--width", arguments.width, "of the window in the picture")->check(CLI::Range(640, 8000));
+  commandLine.add_option("--height", arguments.height, "of the window in the picture")->check(CLI::Range(480, 8000));
+  commandLine.add_option("--delay-ms", arguments.delay_ms, "time to load before the picture is taken")
+      ->check(CLI::Range(0, 600000));
+  commandLine.set_version_flag("--version", "uchilsim " + btr::programVersion());
+  CLI11_PARSE(commandLine, argc, argv);
+
   QApplication application(argc, argv);
-  QMainWindow window;
-  window.show();
-  return QApplication::exec();
+  QApplication::setApplicationName("UCHILSIM");
+  QApplication::setApplicationVersion(QString::fromStdString(btr::programVersion()));
+  QApplication::setDesktopFileName("uchilsim");
+  try {
+    btr::ui::Theme theme(application);
+    const auto host = std::make_shared<const btr::PluginHost>(btr::PluginHost::standardDirectory());
+    btr::ui::MainWindow window(host, theme);
+    if (!arguments.look.empty()) theme.apply(btr::ui::lookFromText(QString::fromStdString(arguments.look)));
+    if (!arguments.screenshot.empty()) window.resize(arguments.width, arguments.height);
+    window.show();
+    window.openDatabase(chooseDatabase(arguments, window.settings()));
+    if (arguments.run) window.selectRun(arguments.run);
+
+    int result = 0;
+    if (!arguments.screenshot.empty())
+      QTimer::singleShot(arguments.delay_ms, &window, [&] {
+        result = window.grab().save(QString::fromStdString(arguments.screenshot)) ? 0 : 1;
+        if (result) std::fprintf(stderr, "%s: cannot be written\n", arguments.screenshot.c_str());
+        QApplication::exit(result);
+      });
+    return QApplication::exec();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

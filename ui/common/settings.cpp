@@ -54,6 +54,13 @@ void Settings::addRecentDatabase(const QString& path) {
 qint64 Settings::selectedRun(const QString& database) const { return store_.value(runKey(database)).toLongLong(); }
 void Settings::setSelectedRun(const QString& database, qint64 run) { store_.setValue(runKey(database), run); }
 
+QString Settings::draft() const { return store_.value("draft/json").toString(); }
+QString Settings::draftFolder() const { return store_.value("draft/folder").toString(); }
+void Settings::setDraft(const QString& json, const QString& folder) {
+  store_.setValue("draft/json", json);
+  store_.setValue("draft/folder", folder);
+}
+
 int Settings::jobs() const { return store_.value("jobs", 0).toInt(); }
 void Settings::setJobs(int jobs) { store_.setValue("jobs", jobs); }
 

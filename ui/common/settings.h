@@ -29,6 +29,11 @@ class Settings {
   qint64 selectedRun(const QString& database) const;
   void setSelectedRun(const QString& database, qint64 run);
 
+  /// The experiment in the form that was not started yet, and the folder that its paths start from.
+  QString draft() const;
+  QString draftFolder() const;
+  void setDraft(const QString& json, const QString& folder);
+
   int jobs() const;  ///< worker processes of a run, 0: as many as processors
   void setJobs(int jobs);
 

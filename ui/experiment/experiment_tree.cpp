@@ -1,0 +1,220 @@
+#include "ui/experiment/experiment_tree.h"
+
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QStandardItemModel>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include "ui/common/theme.h"
+#include "ui/experiment/badge_delegate.h"
+#include "ui/experiment/run_text.h"
+
+namespace btr::ui {
+namespace {
+
+constexpr int KindRole = Qt::UserRole + 1;
+constexpr int IdRole = Qt::UserRole + 2;
+
+int kindOf(const QModelIndex& index) { return index.siblingAtColumn(0).data(KindRole).toInt(); }
+Id idOf(const QModelIndex& index) { return index.siblingAtColumn(0).data(IdRole).toLongLong(); }
+QString text(const std::string& plain) { return QString::fromStdString(plain); }
+
+}  // namespace
+
+ExperimentTree::ExperimentTree(QWidget* parent)
+    : QWidget(parent), view_(new QTreeView(this)), model_(new QStandardItemModel(0, 3, this)) {
+  model_->setHorizontalHeaderLabels({tr("Experiment"), tr("Generation"), tr("State")});
+  view_->setModel(model_);
+  view_->setObjectName("experimentTree");
+  view_->setAccessibleName(tr("Experiments and runs"));
+  view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  view_->setContextMenuPolicy(Qt::CustomContextMenu);
+  view_->setUniformRowHeights(true);
+  view_->setFrameShape(QFrame::NoFrame);
+  view_->setItemDelegateForColumn(0, new BadgeDelegate(view_));
+  view_->header()->setStretchLastSection(false);
+  view_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  view_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  view_->header()->setSectionResizeMode(2, QHeaderView::ResizeToContents);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(view_);
+
+  connect(view_, &QWidget::customContextMenuRequested, this, &ExperimentTree::openMenu);
+  connect(view_, &QTreeView::activated, this, &ExperimentTree::activate);
+  connect(view_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+          [this](const QModelIndex& index) { current(index); });
+  // F2 edits the note, the menu key opens the menu where the selection is.
+  auto* note = new QAction(tr("Edit note…"), view_);
+  note->setShortcut(Qt::Key_F2);
+  note->setShortcutContext(Qt::WidgetShortcut);
+  view_->addAction(note);
+  connect(note, &QAction::triggered, this, [this] {
+    const QModelIndex index = view_->currentIndex();
+    if (kindOf(index) == experimentKind)
+      emit experimentNoteRequested(idOf(index));
+    else if (const Id run = selectedRun())
+      emit runNoteRequested(run);
+  });
+}
+
+void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs) {
+  QStandardItem& root = *model_->invisibleRootItem();
+  std::set<Id> experimentIds, runIds;
+  for (const auto& experiment : experiments) experimentIds.insert(experiment.id);
+  keepOnly(root, experimentKind, experimentIds);
+  for (const auto& experiment : experiments) {
+    const bool isNew = model_->match(model_->index(0, 0), IdRole, qint64(experiment.id), 1, Qt::MatchExactly).isEmpty();
+    QStandardItem* item = child(root, experimentKind, experiment.id);
+    item->setText(text(experiment.name));
+    item->setIcon(themeIcon("folder-open"));
+    item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
+                     (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
+    if (isNew) view_->expand(item->index());
+  }
+  runs_.clear();
+  for (const auto& run : runs) {
+    runs_[run.id] = run;
+    runIds.insert(run.id);
+  }
+  runItems_.clear();
+  for (int row = 0; row < root.rowCount(); ++row) keepOnly(*root.child(row), runKind, runIds);
+  for (const auto& run : runs) {
+    QStandardItem* item = child(*child(root, experimentKind, run.experiment), runKind, run.id);
+    runItems_[run.id] = item;
+    showRun(*item, run);
+  }
+}
+
+void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& simulators) {
+  const auto found = runItems_.find(run);
+  if (found == runItems_.end()) return;
+  std::set<Id> ids;
+  for (const auto& simulator : simulators) ids.insert(simulator.id);
+  keepOnly(*found->second, simulatorKind, ids);
+  for (const auto& simulator : simulators) {
+    QStandardItem* item = child(*found->second, simulatorKind, simulator.id);
+    item->setText(tr("Simulator %1").arg(simulator.number));
+    item->setIcon(themeIcon("cpu"));
+    QStandardItem* after = found->second->child(item->row(), 1);
+    after->setText(QString::number(simulator.madeAfterGeneration));
+    found->second->child(item->row(), 2)->setText(text(simulator.madeBy));
+    item->setToolTip(tr("Simulator version %1, made by %2 after generation %3")
+                         .arg(simulator.number)
+                         .arg(text(simulator.madeBy))
+                         .arg(simulator.madeAfterGeneration));
+  }
+}
+
+void ExperimentTree::setActive(const std::set<Id>& active) {
+  active_ = active;
+  for (const auto& [id, item] : runItems_) showRun(*item, runs_.at(id));
+}
+
+void ExperimentTree::selectRun(Id run) {
+  const auto found = runItems_.find(run);
+  if (found == runItems_.end() || selectedRun() == run) return;
+  quiet_ = true;
+  view_->setCurrentIndex(found->second->index());
+  view_->scrollTo(found->second->index());
+  quiet_ = false;
+}
+
+Id ExperimentTree::selectedRun() const {
+  const QModelIndex index = view_->currentIndex();
+  if (kindOf(index) == runKind) return idOf(index);
+  if (kindOf(index) == simulatorKind) return idOf(index.parent());
+  return 0;
+}
+
+// Finds the row by its id or appends it; the three columns exist from the start.
+QStandardItem* ExperimentTree::child(QStandardItem& parent, Kind kind, Id id) {
+  for (int row = 0; row < parent.rowCount(); ++row)
+    if (parent.child(row)->data(IdRole).toLongLong() == id) return parent.child(row);
+  auto* item = new QStandardItem;
+  item->setData(int(kind), KindRole);
+  item->setData(qint64(id), IdRole);
+  auto* generation = new QStandardItem;
+  generation->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  parent.appendRow({item, generation, new QStandardItem});
+  return item;
+}
+
+void ExperimentTree::keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids) {
+  for (int row = parent.rowCount() - 1; row >= 0; --row)
+    if (parent.child(row)->data(KindRole).toInt() == kind && !ids.count(parent.child(row)->data(IdRole).toLongLong()))
+      parent.removeRow(row);
+}
+
+void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
+  const RunProgress progress = progressFromJson(run.progressJson);
+  const RunFace face = faceOf(run, active_.count(run.id) > 0);
+  const auto set = [](QStandardItem* cell, const QString& value) {
+    if (cell->text() != value) cell->setText(value);
+  };
+  set(&item, runName(run) + (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));
+  item.setIcon(themeIcon(iconName(face)));
+  item.setData(isStandIn(run) ? tr("stand-in") : QString(), BadgeDelegate::BadgeRole);
+  item.setToolTip(tr("%1\n%2\nStarted %3, version %4")
+                      .arg(runName(run), stageText(face, progress), text(run.startedAt), text(run.programVersion)) +
+                  (isStandIn(run) ? tr("\nStand-in reality: no real robot was measured") : QString()) +
+                  (run.note.empty() ? QString() : "\n" + text(run.note)));
+  QStandardItem& parent = *item.parent();
+  set(parent.child(item.row(), 1), progress.totalGenerations > 0
+                                       ? QStringLiteral("%1 / %2").arg(run.generation).arg(progress.totalGenerations)
+                                       : QString::number(run.generation));
+  const QString full = stageText(face, progress);
+  QString brief = face == RunFace::learning   ? tr("learning")
+                  : face == RunFace::adapting ? tr("adapting")
+                  : face == RunFace::waiting  ? tr("waiting")
+                                              : full.toLower();
+  if (face == RunFace::ready) brief = tr("ready");
+  set(parent.child(item.row(), 2), brief);
+}
+
+void ExperimentTree::fillRunMenu(QMenu& menu, Id run) {
+  const auto found = runs_.find(run);
+  if (found == runs_.end()) return;
+  const RunFace face = faceOf(found->second, active_.count(run) > 0);
+  const bool works = active_.count(run) > 0;
+  auto* go = menu.addAction(themeIcon("media-playback-start"), face == RunFace::ready ? tr("Start") : tr("Continue"),
+                            this, [this, run] { emit continueRequested(run); });
+  go->setEnabled(!works && face != RunFace::finished);
+  menu.addAction(themeIcon("media-playback-stop"), tr("Stop"), this, [this, run] { emit stopRequested(run); })
+      ->setEnabled(works && face != RunFace::stopping);
+  menu.addSeparator();
+  menu.addAction(themeIcon("document-properties"), tr("Show settings"), this, [this, run] { emit specRequested(run); });
+  menu.addAction(themeIcon("edit-copy"), tr("Duplicate with another seed…"), this,
+                 [this, run] { emit duplicateRequested(run); });
+  menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this, [this, run] { emit runNoteRequested(run); });
+  QMenu* exports = menu.addMenu(themeIcon("document-export"), tr("Export as CSV"));
+  for (const auto& [what, label] :
+       {std::pair{"generations", tr("Generations…")}, std::pair{"individuals", tr("Individuals…")},
+        std::pair{"gaps", tr("Reality gaps…")}, std::pair{"simulators", tr("Simulator versions…")}})
+    exports->addAction(label, this, [this, run, name = QString(what)] { emit exportRequested(run, name); });
+}
+
+void ExperimentTree::openMenu(const QPoint& position) {
+  const QModelIndex index = view_->indexAt(position);
+  QMenu menu(this);
+  if (kindOf(index) == experimentKind)
+    menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this,
+                   [this, id = idOf(index)] { emit experimentNoteRequested(id); });
+  else if (const Id run = selectedRun())
+    fillRunMenu(menu, run);
+  if (!menu.isEmpty()) menu.exec(view_->viewport()->mapToGlobal(position));
+}
+
+void ExperimentTree::current(const QModelIndex& index) {
+  if (quiet_) return;
+  if (const Id run = selectedRun()) emit runSelected(run);
+  if (kindOf(index) == simulatorKind) emit simulatorSelected(idOf(index.parent()), idOf(index));
+}
+
+void ExperimentTree::activate(const QModelIndex& index) {
+  if (kindOf(index) == runKind) emit specRequested(idOf(index));
+}
+
+}  // namespace btr::ui

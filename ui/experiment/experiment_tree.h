@@ -1,0 +1,62 @@
+#pragma once
+#include <QWidget>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "core/store/records.h"
+
+class QMenu;
+class QModelIndex;
+class QStandardItem;
+class QStandardItemModel;
+class QTreeView;
+
+namespace btr::ui {
+
+/// Experiments, their runs, and the runs' simulator versions. Keeps selection and folding when the content changes;
+/// asks for what the user wants by signals and does nothing itself.
+class ExperimentTree : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ExperimentTree(QWidget* parent = nullptr);
+
+  void setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs);
+  void setSimulators(Id run, const std::vector<SimulatorRecord>& simulators);
+  void setActive(const std::set<Id>& active);
+  /// Selects the run without telling runSelected() again if it already is.
+  void selectRun(Id run);
+  Id selectedRun() const;  ///< of the selected run or simulator version, else 0
+  /// What can be done with a run, as a menu with the entries that make sense now.
+  void fillRunMenu(QMenu& menu, Id run);
+  QTreeView* view() const { return view_; }
+
+ signals:
+  void runSelected(btr::Id run);
+  void simulatorSelected(btr::Id run, btr::Id simulator);
+  void continueRequested(btr::Id run);
+  void stopRequested(btr::Id run);
+  void duplicateRequested(btr::Id run);
+  void specRequested(btr::Id run);
+  void runNoteRequested(btr::Id run);
+  void experimentNoteRequested(btr::Id experiment);
+  void exportRequested(btr::Id run, const QString& what);
+
+ private:
+  enum Kind { experimentKind = 1, runKind, simulatorKind };
+  QStandardItem* child(QStandardItem& parent, Kind kind, Id id);
+  void showRun(QStandardItem& item, const RunRecord& run);
+  void keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids);
+  void openMenu(const QPoint& position);
+  void current(const QModelIndex& index);
+  void activate(const QModelIndex& index);
+
+  QTreeView* view_;
+  QStandardItemModel* model_;
+  std::map<Id, RunRecord> runs_;
+  std::map<Id, QStandardItem*> runItems_;
+  std::set<Id> active_;
+  bool quiet_ = false;  ///< while the program itself changes the selection
+};
+
+}  // namespace btr::ui

@@ -1,0 +1,126 @@
+#include "ui/experiment/run_launcher.h"
+
+#include <signal.h>
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFile>
+#include <QProcess>
+#include <QStandardPaths>
+
+#include "core/run/back_to_reality.h"
+#include "core/run/prepared_experiment.h"
+#include "core/store/database.h"
+
+namespace btr::ui {
+
+RunLauncher::RunLauncher(std::shared_ptr<const PluginHost> host, const QString& program, QObject* parent)
+    : QObject(parent),
+      host_(std::move(host)),
+      program_(program.isEmpty() ? QCoreApplication::applicationDirPath() + "/btr" : program) {}
+
+RunLauncher::~RunLauncher() {
+  if (thread_) thread_->wait();
+}
+
+void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {
+  inThread([path = database.toStdString(), spec, seed, again, host = host_] {
+    Database db = Database::open(path, Database::Mode::readWrite);
+    return startRun(db, *host, spec, seed, again);
+  });
+}
+
+void RunLauncher::duplicate(const QString& database, Id run, quint64 seed) {
+  inThread([path = database.toStdString(), run, seed, host = host_] {
+    Database db = Database::open(path, Database::Mode::readWrite);
+    const RunRecord old = db.run(run);
+    const PreparedExperiment prepared = prepareFromRun(old, *host);
+    SimulatorRecord first;
+    first.simulator = prepared.spec.simulator;
+    first.madeBy = "start";
+    return db.addRun(makeRunRecord(prepared, old.experiment, seed), first);
+  });
+}
+
+// One task at a time: the window disables what would start a second.
+void RunLauncher::inThread(std::function<Id()> task) {
+  if (thread_) return emit failed(tr("Another run is just being prepared."));
+  thread_.reset(QThread::create([this, task = std::move(task)] {
+    Id run = 0;
+    QString error;
+    try {
+      run = task();
+    } catch (const std::exception& problem) {
+      error = QString::fromUtf8(problem.what());
+    }
+    QMetaObject::invokeMethod(this, [this, run, error] {
+      thread_->wait();
+      thread_.reset();
+      if (error.isEmpty())
+        emit stored(run);
+      else
+        emit failed(error);
+    });
+  }));
+  thread_->start();
+}
+
+bool RunLauncher::work(const QString& database, Id run, int jobs) {
+  const QString folder = QStandardPaths::writableLocation(QStandardPaths::TempLocation);
+  Process process;
+  process.log =
+      QStringLiteral("%1/uchilsim-%2-run-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(run);
+  QProcess starter;
+  starter.setProgram(program_);
+  QStringList arguments{"run", "--db", database, "--run", QString::number(run), "--quiet"};
+  if (jobs > 0) arguments << "--jobs" << QString::number(jobs);
+  starter.setArguments(arguments);
+  starter.setStandardInputFile(QProcess::nullDevice());
+  starter.setStandardOutputFile(QProcess::nullDevice());
+  starter.setStandardErrorFile(process.log);
+  if (!starter.startDetached(&process.pid)) {
+    emit failed(tr("%1 cannot be started: %2").arg(program_, starter.errorString()));
+    return false;
+  }
+  processes_[run] = process;
+  return true;
+}
+
+QString RunLauncher::lastWords(Id run) const {
+  const auto found = processes_.find(run);
+  if (found == processes_.end()) return {};
+  QFile log(found->second.log);
+  if (!log.open(QIODevice::ReadOnly)) return {};
+  if (log.size() > 4096) log.seek(log.size() - 4096);
+  const QStringList lines = QString::fromUtf8(log.readAll()).split('\n', Qt::SkipEmptyParts);
+  return lines.isEmpty() ? QString() : lines.last().trimmed();
+}
+
+// A process that has ended may stay as a zombie until the system collects it: state Z after the name in parentheses.
+bool RunLauncher::isAlive(Id run) const {
+  const auto found = processes_.find(run);
+  if (found == processes_.end() || ::kill(static_cast<pid_t>(found->second.pid), 0) != 0) return false;
+  QFile stat(QStringLiteral("/proc/%1/stat").arg(found->second.pid));
+  if (!stat.open(QIODevice::ReadOnly)) return true;
+  const QByteArray text = stat.readAll();
+  return !text.mid(text.lastIndexOf(')') + 1).trimmed().startsWith('Z');
+}
+
+void RunLauncher::exportCsv(const QString& database, Id run, const QString& what, const QString& file) {
+  auto* process = new QProcess(this);
+  connect(process, &QProcess::finished, this, [this, process, file](int code, QProcess::ExitStatus status) {
+    if (status == QProcess::NormalExit && code == 0)
+      emit exported(file);
+    else
+      emit failed(QString::fromUtf8(process->readAllStandardError()).trimmed());
+    process->deleteLater();
+  });
+  connect(process, &QProcess::errorOccurred, this, [this, process](QProcess::ProcessError error) {
+    if (error != QProcess::FailedToStart) return;
+    emit failed(tr("%1 cannot be started: %2").arg(program_, process->errorString()));
+    process->deleteLater();
+  });
+  process->start(program_, {"export", "--db", database, "--run", QString::number(run), "--what", what, "--csv", file});
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,55 @@
+#pragma once
+#include <QObject>
+#include <QThread>
+#include <map>
+#include <memory>
+
+#include "core/plugin/plugin_host.h"
+#include "core/spec/experiment_spec.h"
+#include "core/store/records.h"
+
+namespace btr::ui {
+
+/// Starts the programs that work on runs. Learning never runs in the window: "btr run" is started detached and outlives
+/// it. Preparing and storing a new run takes a moment (robot models are read) and happens in a thread.
+class RunLauncher : public QObject {
+  Q_OBJECT
+ public:
+  /// `program`: empty means btr beside this executable.
+  explicit RunLauncher(std::shared_ptr<const PluginHost> host, const QString& program = {}, QObject* parent = nullptr);
+  ~RunLauncher() override;
+  QString program() const { return program_; }
+
+  /// Checks and stores a run of this experiment, then tells stored() or failed().
+  void store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again);
+  /// The same stored experiment, scene and models once more, with another seed.
+  void duplicate(const QString& database, Id run, quint64 seed);
+  /// Starts a process that goes on with the run. False, and failed(), if it cannot be started.
+  bool work(const QString& database, Id run, int jobs);
+  /// Last line that the run's process said, empty if none.
+  QString lastWords(Id run) const;
+  /// True while the process started by work() lives.
+  bool isAlive(Id run) const;
+  /// Writes a table of the run; tells exported() or failed().
+  void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
+  bool isBusy() const { return thread_ != nullptr; }
+
+ signals:
+  void stored(btr::Id run);
+  void exported(const QString& file);
+  void failed(const QString& message);
+
+ private:
+  void inThread(std::function<Id()> task);
+
+  struct Process {
+    qint64 pid = 0;
+    QString log;
+  };
+  std::shared_ptr<const PluginHost> host_;
+  QString program_;
+  std::map<Id, Process> processes_;
+  std::unique_ptr<QThread> thread_;
+};
+
+}  // namespace btr::ui

@@ -1,0 +1,222 @@
+#include "ui/experiment/run_panel.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLocale>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "ui/common/format.h"
+#include "ui/common/theme.h"
+
+namespace btr::ui {
+
+RunPanel::RunPanel(QWidget* parent)
+    : QWidget(parent),
+      icon_(new QLabel(this)),
+      stage_(new QLabel(this)),
+      name_(new QLabel(this)),
+      standIn_(new QLabel(tr("STAND-IN REALITY"), this)),
+      next_(new QLabel(this)),
+      message_(new QLabel(this)),
+      overall_(new QProgressBar(this)),
+      within_(new QProgressBar(this)),
+      go_(new QPushButton(themeIcon("media-playback-start"), tr("Start"), this)),
+      stop_(new QPushButton(themeIcon("media-playback-stop"), tr("Stop"), this)),
+      jobs_(new QSpinBox(this)) {
+  stage_->setObjectName("stage");
+  next_->setObjectName("next");
+  message_->setObjectName("message");
+  standIn_->setObjectName("standIn");
+  overall_->setObjectName("overall");
+  within_->setObjectName("within");
+  go_->setObjectName("go");
+  stop_->setObjectName("stop");
+  jobs_->setObjectName("jobs");
+  QFont large = stage_->font();
+  large.setPointSizeF(large.pointSizeF() * 1.3);
+  large.setBold(true);
+  stage_->setFont(large);
+  next_->setWordWrap(true);
+  message_->setWordWrap(true);
+  message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  standIn_->setToolTip(
+      tr("The measurements are answered by a simulated robot with concealed parameters, for demonstration. "
+         "No real robot was measured."));
+  jobs_->setRange(0, 1024);
+  jobs_->setSpecialValueText(tr("all cores"));
+  jobs_->setToolTip(tr("Worker processes for the next start; the result does not depend on it"));
+  jobs_->setAccessibleName(tr("Worker processes"));
+
+  auto* head = new QHBoxLayout;
+  head->setSpacing(8);
+  head->addWidget(icon_);
+  head->addWidget(stage_);
+  head->addWidget(name_);
+  head->addWidget(standIn_);
+  head->addStretch();
+  auto* jobsLabel = new QLabel(tr("Workers"), this);
+  jobsLabel->setBuddy(jobs_);
+  head->addWidget(jobsLabel);
+  head->addWidget(jobs_);
+  head->addWidget(go_);
+  head->addWidget(stop_);
+
+  auto* bars = new QHBoxLayout;
+  bars->setSpacing(12);
+  overall_->setAccessibleName(tr("Progress of the run"));
+  within_->setAccessibleName(tr("Progress of the stage"));
+  bars->addWidget(overall_, 3);
+  bars->addWidget(within_, 2);
+
+  auto* figures = new QHBoxLayout;
+  figures->setSpacing(28);
+  best_ = addFigure(*figures, "best", tr("Best"), tr("Best fitness of the last generation"));
+  mean_ = addFigure(*figures, "mean", tr("Mean"), tr("Mean fitness of the last generation"));
+  speed_ = addFigure(*figures, "speed", tr("Speed"), tr("Simulated trials per second, all workers together"));
+  trials_ = addFigure(*figures, "trials", tr("Trials"), tr("Trials simulated since this start"));
+  left_ = addFigure(*figures, "left", tr("Time left"), tr("Estimate for the simulated part"));
+  figures->addStretch();
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 8);
+  column->setSpacing(6);
+  column->addLayout(head);
+  column->addWidget(next_);
+  column->addLayout(bars);
+  column->addLayout(figures);
+  column->addWidget(message_);
+  column->addStretch();
+  connect(go_, &QPushButton::clicked, this, [this] { emit continueRequested(run_.id); });
+  connect(stop_, &QPushButton::clicked, this, [this] { emit stopRequested(run_.id); });
+  connect(jobs_, &QSpinBox::valueChanged, this, &RunPanel::jobsChanged);
+  refresh();
+}
+
+RunPanel::Figure RunPanel::addFigure(QHBoxLayout& row, const QString& name, const QString& caption,
+                                     const QString& toolTip) {
+  auto* column = new QVBoxLayout;
+  column->setSpacing(0);
+  Figure figure{new QLabel(caption, this), new QLabel(this)};
+  QFont small = figure.caption->font();
+  small.setPointSizeF(small.pointSizeF() * 0.88);
+  figure.caption->setFont(small);
+  figure.caption->setForegroundRole(QPalette::PlaceholderText);
+  QFont bold = figure.value->font();
+  bold.setBold(true);
+  figure.value->setFont(bold);
+  figure.value->setObjectName(name);
+  figure.value->setToolTip(toolTip);
+  figure.caption->setToolTip(toolTip);
+  column->addWidget(figure.caption);
+  column->addWidget(figure.value);
+  row.addLayout(column);
+  return figure;
+}
+
+void RunPanel::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
+  if (run.id != run_.id) measuring_ = {};
+  run_ = run;
+  progress_ = progress;
+  active_ = active;
+  empty_ = false;
+  refresh();
+}
+
+void RunPanel::setMeasuring(const MeasuringCount& measuring) {
+  measuring_ = measuring;
+  refresh();
+}
+
+void RunPanel::clear() {
+  empty_ = true;
+  run_ = {};
+  refresh();
+}
+
+void RunPanel::setUnit(const QString& unit) {
+  unit_ = unit;
+  refresh();
+}
+
+void RunPanel::setJobs(int jobs) { jobs_->setValue(jobs); }
+int RunPanel::jobs() const { return jobs_->value(); }
+
+void RunPanel::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) refresh();
+  QWidget::changeEvent(event);
+}
+
+// Everything that is seen follows from run, progress and activity.
+void RunPanel::refresh() {
+  const Tones tones = tonesOf(palette());
+  if (empty_) {
+    stage_->setText(tr("No run is selected"));
+    next_->setText(tr("Choose a run in the tree, or describe a new experiment and start it."));
+    icon_->clear();
+    name_->clear();
+    message_->clear();
+    for (QWidget* widget : std::initializer_list<QWidget*>{standIn_, message_, overall_, within_, go_, stop_})
+      widget->setVisible(false);
+    for (const Figure& figure : {best_, mean_, speed_, trials_, left_}) figure.value->setText(QStringLiteral("–"));
+    return;
+  }
+  face_ = faceOf(run_, active_);
+  icon_->setPixmap(themeIcon(iconName(face_)).pixmap(22, 22));
+  stage_->setText(stageText(face_, progress_));
+  name_->setText(runName(run_));
+  standIn_->setVisible(isStandIn(run_));
+  standIn_->setStyleSheet(QStringLiteral("color: %1; border: 1px solid %1; border-radius: 8px; padding: 1px 8px; "
+                                         "font-weight: 600;")
+                              .arg(tones.standIn.name()));
+  next_->setText(nextAction(face_, run_, progress_, measuring_));
+
+  const int total = std::max(progress_.totalGenerations, run_.generation);
+  overall_->setVisible(true);
+  overall_->setRange(0, std::max(total, 1));
+  overall_->setValue(run_.generation);
+  overall_->setFormat(
+      tr("generation %1 of %2").arg(run_.generation).arg(total > 0 ? QString::number(total) : QStringLiteral("?")));
+  const bool counts = face_ == RunFace::waiting ? measuring_.wanted > 0 : active_ && progress_.stageTotal > 0;
+  within_->setVisible(counts);
+  if (counts && face_ == RunFace::waiting) {
+    within_->setRange(0, measuring_.wanted);
+    within_->setValue(measuring_.settled);
+    within_->setFormat(tr("measured %1 of %2").arg(measuring_.settled).arg(measuring_.wanted));
+  } else if (counts) {
+    within_->setRange(0, progress_.stageTotal);
+    within_->setValue(progress_.stageDone);
+    within_->setFormat(tr("this stage %1 of %2").arg(progress_.stageDone).arg(progress_.stageTotal));
+  }
+
+  const bool adapting = face_ == RunFace::adapting || (active_ && progress_.stage == "L3");
+  best_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
+  mean_.caption->setText(adapting ? tr("Mean error") : tr("Mean"));
+  const bool known = run_.generation > 0 || progress_.stageDone > 0;
+  best_.value->setText(known ? withUnit(progress_.best, unit_) : QStringLiteral("–"));
+  mean_.value->setText(known ? withUnit(progress_.mean, unit_) : QStringLiteral("–"));
+  speed_.value->setText(active_ && progress_.trialsPerSecond > 0
+                            ? tr("%1 trials/s").arg(shortNumber(progress_.trialsPerSecond))
+                            : QStringLiteral("–"));
+  trials_.value->setText(progress_.trials > 0 ? QLocale::c().toString(qlonglong(progress_.trials))
+                                              : QStringLiteral("–"));
+  left_.value->setText(active_ ? duration(progress_.secondsLeft) : QStringLiteral("–"));
+
+  QString message = QString::fromStdString(run_.message);
+  if (message == next_->text()) message.clear();
+  message_->setText(message);
+  message_->setVisible(!message.isEmpty());
+  message_->setStyleSheet(face_ == RunFace::failed ? QStringLiteral("color: %1").arg(tones.bad.name())
+                                                   : QStringLiteral("color: %1").arg(tones.muted.name()));
+  go_->setVisible(true);
+  stop_->setVisible(true);
+  go_->setText(face_ == RunFace::ready ? tr("Start") : tr("Continue"));
+  go_->setEnabled(!active_ && face_ != RunFace::finished);
+  stop_->setEnabled(active_ && face_ != RunFace::stopping);
+}
+
+}  // namespace btr::ui

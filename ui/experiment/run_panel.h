@@ -1,0 +1,55 @@
+#pragma once
+#include <QWidget>
+
+#include "ui/experiment/run_text.h"
+
+class QHBoxLayout;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QSpinBox;
+
+namespace btr::ui {
+
+/// One run at a glance: where it is, what comes next, how fast, and the buttons to start, continue and stop it.
+class RunPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit RunPanel(QWidget* parent = nullptr);
+  void showRun(const RunRecord& run, const RunProgress& progress, bool active);
+  void setMeasuring(const MeasuringCount& measuring);
+  void clear();
+  void setUnit(const QString& unit);  ///< of the fitness
+  void setJobs(int jobs);             ///< worker processes, 0: as many as processors
+  int jobs() const;
+  RunFace face() const { return face_; }
+
+ signals:
+  void continueRequested(btr::Id run);
+  void stopRequested(btr::Id run);
+  void jobsChanged(int jobs);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  struct Figure {
+    QLabel *caption, *value;
+  };
+  Figure addFigure(QHBoxLayout& row, const QString& name, const QString& caption, const QString& toolTip);
+  void refresh();
+
+  RunRecord run_;
+  RunProgress progress_;
+  MeasuringCount measuring_;
+  bool active_ = false, empty_ = true;
+  RunFace face_ = RunFace::ready;
+  QString unit_;
+  QLabel *icon_, *stage_, *name_, *standIn_, *next_, *message_;
+  QProgressBar *overall_, *within_;
+  QPushButton *go_, *stop_;
+  QSpinBox* jobs_;
+  Figure best_, mean_, speed_, trials_, left_;
+};
+
+}  // namespace btr::ui

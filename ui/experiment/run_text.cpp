@@ -1,0 +1,132 @@
+#include "ui/experiment/run_text.h"
+
+#include <QCoreApplication>
+
+namespace btr::ui {
+namespace {
+
+QString tr(const char* text) { return QCoreApplication::translate("run", text); }
+
+}  // namespace
+
+RunFace faceOf(const RunRecord& run, bool active) {
+  if (active && run.stopRequested) return RunFace::stopping;
+  switch (run.state) {
+    case RunState::ready:
+      return active ? RunFace::learning : RunFace::ready;
+    case RunState::learning:
+      return active ? RunFace::learning : RunFace::interrupted;
+    case RunState::adapting:
+      return active ? RunFace::adapting : RunFace::interrupted;
+    case RunState::waiting:
+      return RunFace::waiting;
+    case RunState::stopped:
+      return active ? RunFace::learning : RunFace::stopped;
+    case RunState::finished:
+      return RunFace::finished;
+    case RunState::failed:
+      return RunFace::failed;
+  }
+  return RunFace::failed;
+}
+
+QString stageText(RunFace face, const RunProgress& progress) {
+  switch (face) {
+    case RunFace::ready:
+      return tr("Ready to start");
+    case RunFace::learning:
+      return progress.stage == "L3" ? tr("L3 · adapting the simulator") : tr("L1 · learning in simulation");
+    case RunFace::adapting:
+      return tr("L3 · adapting the simulator");
+    case RunFace::waiting:
+      return tr("Waiting for real fitness");
+    case RunFace::stopping:
+      return tr("Stopping …");
+    case RunFace::interrupted:
+      return tr("Interrupted");
+    case RunFace::stopped:
+      return tr("Stopped");
+    case RunFace::finished:
+      return tr("Finished");
+    case RunFace::failed:
+      return tr("Failed");
+  }
+  return {};
+}
+
+QString iconName(RunFace face) {
+  switch (face) {
+    case RunFace::ready:
+      return "media-playback-start";
+    case RunFace::learning:
+      return "view-refresh";
+    case RunFace::adapting:
+      return "configure";
+    case RunFace::waiting:
+      return "appointment-soon";
+    case RunFace::stopping:
+      return "media-playback-stop";
+    case RunFace::interrupted:
+      return "media-playback-pause";
+    case RunFace::stopped:
+      return "media-playback-stop";
+    case RunFace::finished:
+      return "emblem-checked";
+    case RunFace::failed:
+      return "emblem-error";
+  }
+  return {};
+}
+
+MeasuringCount countMeasured(const RunRecord& run, const std::vector<MeasurementTask>& tasks,
+                             const std::vector<MeasurementRecord>& measurements) {
+  MeasuringCount count;
+  for (const MeasurementTask& task : tasks) {
+    if (task.stage != run.stage + 1) continue;
+    ++count.wanted;
+    int values = 0;  // a void value settles too: the individual was tried
+    for (const MeasurementRecord& measurement : measurements) values += measurement.individual == task.individual;
+    if (values >= task.wantedRepeats) ++count.settled;
+  }
+  return count;
+}
+
+QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring) {
+  switch (face) {
+    case RunFace::ready:
+      return tr("Press Start: the learner begins with its first generation.");
+    case RunFace::learning:
+    case RunFace::adapting:
+      if (face == RunFace::adapting || progress.stage == "L3")
+        return tr("Then the new simulator version is stored and learning goes on in it.");
+      if (progress.stageTotal > progress.stageDone && progress.generation < progress.totalGenerations)
+        return isStandIn(run) ? tr("In %1 generations the best are measured by the stand-in reality.")
+                                    .arg(progress.stageTotal - progress.stageDone)
+                              : tr("In %1 generations the best wait for real fitness.")
+                                    .arg(progress.stageTotal - progress.stageDone);
+      return tr("Learning goes on in simulation.");
+    case RunFace::waiting:
+      if (isStandIn(run))
+        return tr("The stand-in reality answers the measurements; press Continue if nothing happens.");
+      if (measuring.wanted > 0 && measuring.settled >= measuring.wanted)
+        return tr("All %1 are measured: press Continue to adapt the simulator.").arg(measuring.wanted);
+      return tr("Measure on the real robot and enter the values in the measurement sheet (%1 of %2 done).")
+          .arg(measuring.settled)
+          .arg(measuring.wanted);
+    case RunFace::stopping:
+      return tr("The running trials end, then everything is stored.");
+    case RunFace::interrupted:
+      return tr("No process works on it. Press Continue: it goes on with the same bits.");
+    case RunFace::stopped:
+      return tr("Press Continue: it goes on exactly where it stopped.");
+    case RunFace::finished:
+      return tr("Nothing is left to do. Replay the best individuals or export the tables.");
+    case RunFace::failed:
+      return tr("Read the message; Continue tries again from the last stored generation.");
+  }
+  return {};
+}
+
+QString runName(const RunRecord& run) { return tr("Run %1 · seed %2").arg(run.id).arg(run.seed); }
+
+}  // namespace btr::ui

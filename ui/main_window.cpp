@@ -1,0 +1,185 @@
+#include "ui/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+#include <QScreen>
+#include <QStatusBar>
+#include <QToolBar>
+
+#include "core/spec/error.h"
+#include "ui/charts/fitness_chart.h"
+#include "ui/charts/gap_chart.h"
+#include "ui/common/message_banner.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/experiment/experiment_tree.h"
+#include "ui/experiment/run_panel.h"
+#include "ui/experiment/simulators_page.h"
+
+namespace btr::ui {
+
+MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, const WindowOptions& options)
+    : host_(std::move(host)),
+      theme_(theme),
+      options_(options),
+      settings_(options.settingsFile),
+      launcher_(host_, options.program),
+      // A process of ours counts from its start on: until it holds the run's lock nobody else can tell.
+      watcher_([this](const std::string& database, Id run) {
+        return launcher_.isAlive(run) || options_.isActive(database, run);
+      }) {
+  setObjectName("mainWindow");
+  theme_.apply(settings_.look());
+  makeDocks();
+  makeMenus();
+  connectRuns();
+  connectShow();
+  arrangeDocks();
+  restoreWindow();
+  restoreDraft();
+  for (const std::string& problem : host_->problems())
+    report(tr("A plugin was left out: %1").arg(QString::fromStdString(problem)));
+  showTitle();
+}
+
+MainWindow::~MainWindow() = default;
+
+bool MainWindow::openDatabase(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  const bool opened = guard([&] {
+    // Made or brought up to date first: the watcher only reads. A file that may only be read is opened so.
+    std::optional<Database> writer;
+    if (!QFileInfo::exists(absolute) || QFileInfo(absolute).isWritable())
+      writer = Database::open(absolute.toStdString(), Database::Mode::create);
+    watcher_.open(absolute);
+    writer_ = std::move(writer);
+  });
+  if (!opened) return false;
+  banner_->clear();
+  launched_.clear();
+  settings_.addRecentDatabase(absolute);
+  fillRecent();
+  showTitle();
+
+  // The run that was looked at last, else the newest.
+  const auto runs = watcher_.database().runs();
+  Id wanted = settings_.selectedRun(absolute);
+  const bool known = std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.id == wanted; });
+  selectRun(known ? wanted : runs.empty() ? 0 : runs.back().id);
+  return true;
+}
+
+void MainWindow::makeDocks() {
+  setDockNestingEnabled(true);
+  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+  const ExperimentOffers offers = offersOf(*host_);
+  tree_ = new ExperimentTree(this);
+  panel_ = new RunPanel(this);
+  fitness_ = new FitnessChart(this);
+  gap_ = new GapChart(this);
+  versions_ = new SimulatorsPage(this);
+  draft_ = new ExperimentForm(offers, this);
+  spec_ = new ExperimentForm(offers, this);
+  spec_->setReadOnly(tr("A stored run never changes."));
+  treeDock_ = addDock("tree", tr("Experiments"), "view-list-tree", tree_);
+  panelDock_ = addDock("run", tr("Run"), "media-playback-start", panel_);
+  fitnessDock_ = addDock("fitness", tr("Fitness"), "office-chart-line", fitness_);
+  gapDock_ = addDock("gap", tr("Reality gap"), "office-chart-scatter", gap_);
+  versionsDock_ = addDock("simulators", tr("Simulators"), "cpu", versions_);
+  draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
+  specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
+
+  // Messages stand above everything, in a tool bar of their own that is there only while there is one.
+  banner_ = new MessageBanner(this);
+  auto* messages = new QToolBar(tr("Messages"), this);
+  messages->setObjectName("toolbar.messages");
+  messages->setMovable(false);
+  messages->toggleViewAction()->setVisible(false);
+  messages->addWidget(banner_);
+  banner_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  addToolBar(Qt::TopToolBarArea, messages);
+  messages->hide();
+  connect(banner_, &MessageBanner::shown, messages, &QWidget::show);
+  connect(banner_, &MessageBanner::cleared, messages, &QWidget::hide);
+
+  databaseLabel_ = new QLabel(this);
+  activeLabel_ = new QLabel(this);
+  databaseLabel_->setContentsMargins(6, 0, 6, 0);
+  activeLabel_->setContentsMargins(6, 0, 6, 0);
+  statusBar()->addPermanentWidget(activeLabel_);
+  statusBar()->addPermanentWidget(databaseLabel_);
+}
+
+QDockWidget* MainWindow::addDock(const QString& name, const QString& title, const QString& icon, QWidget* widget) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName("dock." + name);
+  dock->setWidget(widget);
+  dock->setWindowIcon(themeIcon(icon));
+  dock->toggleViewAction()->setIcon(themeIcon(icon));
+  return dock;
+}
+
+// Left what there is, in the middle how it goes, right what is asked for.
+void MainWindow::arrangeDocks() {
+  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    removeDockWidget(dock);
+    dock->setFloating(false);
+  }
+  addDockWidget(Qt::LeftDockWidgetArea, treeDock_);
+  splitDockWidget(treeDock_, panelDock_, Qt::Horizontal);
+  splitDockWidget(panelDock_, draftDock_, Qt::Horizontal);
+  splitDockWidget(panelDock_, fitnessDock_, Qt::Vertical);
+  splitDockWidget(fitnessDock_, versionsDock_, Qt::Vertical);
+  splitDockWidget(fitnessDock_, gapDock_, Qt::Horizontal);
+  tabifyDockWidget(draftDock_, specDock_);
+  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
+  specDock_->raise();
+  resizeDocks({treeDock_, panelDock_, draftDock_}, {300, 840, 440}, Qt::Horizontal);
+  resizeDocks({panelDock_, fitnessDock_, versionsDock_}, {150, 430, 330}, Qt::Vertical);
+}
+
+void MainWindow::raiseDock(QDockWidget* dock) {
+  dock->show();
+  dock->raise();
+}
+
+void MainWindow::restoreWindow() {
+  resize(1600, 1000);
+  if (const QByteArray geometry = settings_.geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
+  if (const QByteArray layout = settings_.layout(); !layout.isEmpty()) restoreState(layout, Settings::layoutVersion);
+}
+
+void MainWindow::report(const QString& error) { banner_->showMessage(MessageBanner::Kind::error, error); }
+void MainWindow::inform(const QString& text) { statusBar()->showMessage(text, 8000); }
+
+bool MainWindow::guard(const std::function<void()>& action) {
+  try {
+    action();
+    return true;
+  } catch (const std::exception& error) {
+    report(QString::fromUtf8(error.what()));
+    return false;
+  }
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  watcher_.poll();
+  if (const auto active = watcher_.activeRuns(); !active.empty()) {
+    const CloseAnswer answer = askWhileActive(active);
+    if (answer == CloseAnswer::cancel) return event->ignore();
+    if (answer == CloseAnswer::stop)
+      for (const Id run : active) stopRun(run);
+  }
+  keepDraft();
+  settings_.setWindow(saveGeometry(), saveState(Settings::layoutVersion));
+  event->accept();
+}
+
+Database& MainWindow::writer() {
+  if (!writer_) writer_ = Database::open(watcher_.path().toStdString(), Database::Mode::readWrite);
+  return *writer_;
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,142 @@
+#pragma once
+#include <QMainWindow>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "core/plugin/plugin_host.h"
+#include "core/spec/experiment_spec.h"
+#include "core/store/database.h"
+#include "ui/common/database_watcher.h"
+#include "ui/common/settings.h"
+#include "ui/experiment/run_launcher.h"
+
+class QDockWidget;
+class QLabel;
+class QMenu;
+
+namespace btr::ui {
+class Alarm;
+class ExperimentForm;
+class ExperimentTree;
+class FitnessChart;
+class GapChart;
+class MeasurementSheet;
+class MessageBanner;
+class IndividualsTable;
+class ReplayJob;
+class ReplayPanel;
+class RunPanel;
+class SimulatorsPage;
+
+struct WindowOptions {
+  QString settingsFile = {};  ///< empty: the user's own
+  QString program = {};       ///< that works on runs; empty: btr beside this executable
+  DatabaseWatcher::ActiveTest isActive = isRunActive;
+};
+
+/// The workbench. Puts the parts together and does nothing itself: the watcher reads, the launcher starts processes,
+/// the docks show. What it writes to the database are the user's own words: measurements, notes, the wish to stop.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, const WindowOptions& options = {});
+  ~MainWindow() override;
+
+  /// Opens (or makes) a database and selects the run that was selected last. False, with a message, keeps the old one.
+  bool openDatabase(const QString& path);
+  QString databasePath() const { return watcher_.path(); }
+  void selectRun(Id run);
+  /// Puts an experiment file into the form. False, with a message, keeps what was there.
+  bool openExperiment(const QString& file);
+  void startDraft();
+  void continueRun(Id run);
+  void stopRun(Id run);
+  void replayIndividual(Id individual);
+
+  DatabaseWatcher& watcher() { return watcher_; }
+  ExperimentForm& draft() { return *draft_; }
+  const Settings& settings() const { return settings_; }
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  // main_window.cpp
+  void makeDocks();
+  QDockWidget* addDock(const QString& name, const QString& title, const QString& icon, QWidget* widget);
+  void arrangeDocks();
+  void raiseDock(QDockWidget* dock);
+  void restoreWindow();
+  void report(const QString& error);
+  void inform(const QString& text);
+  /// Runs an action that may throw; false, with a message, if it did.
+  bool guard(const std::function<void()>& action);
+
+  // main_window_menus.cpp
+  void makeMenus();
+  void fillRecent();
+  void fillRunMenu();
+  void fillExamples(QMenu& menu);
+  void about();
+
+  // main_window_experiment.cpp
+  void newExperiment();
+  void openExperimentWithDialog();
+  void saveExperiment();
+  void copyToDraft();
+  void keepDraft();
+  void restoreDraft();
+
+  // main_window_runs.cpp
+  void connectRuns();
+  void launch(Id run);
+  void checkLaunched();
+  void duplicateRun(Id run);
+  void editRunNote(Id run);
+  void editExperimentNote(Id experiment);
+  void exportRun(Id run, const QString& what);
+  void submit(const std::vector<MeasurementRecord>& measurements);
+  enum class CloseAnswer { stop, leave, cancel };
+  CloseAnswer askWhileActive(const std::set<Id>& active);
+
+  // main_window_show.cpp
+  void connectShow();
+  void showRun(const RunRecord& run, const RunProgress& progress, bool active);
+  void showSpec(const RunRecord& run);
+  void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
+  void showTitle();
+
+  /// The connection for the user's own words, opened when it is first needed.
+  Database& writer();
+
+  std::shared_ptr<const PluginHost> host_;
+  Theme& theme_;
+  WindowOptions options_;
+  Settings settings_;
+  RunLauncher launcher_;
+  DatabaseWatcher watcher_;
+  std::optional<Database> writer_;
+  std::set<Id> launched_;  ///< processes of ours whose end was not seen yet
+  Id pendingStart_ = 0;
+  RunRecord run_;  ///< the followed run as last seen
+  QString unit_;
+  std::vector<SimulatorRecord> simulators_;
+  std::vector<GapRecord> gaps_;
+  std::vector<MeasurementTask> tasks_;
+  std::vector<MeasurementRecord> measurements_;
+
+  MessageBanner* banner_ = nullptr;
+  ExperimentTree* tree_ = nullptr;
+  ExperimentForm *draft_ = nullptr, *spec_ = nullptr;
+  RunPanel* panel_ = nullptr;
+  FitnessChart* fitness_ = nullptr;
+  GapChart* gap_ = nullptr;
+  SimulatorsPage* versions_ = nullptr;
+  QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
+              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr;
+  QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
+  QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
+};
+
+}  // namespace btr::ui

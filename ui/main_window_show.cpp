@@ -1,0 +1,126 @@
+// From the watcher to the docks: every value goes one way.
+#include <QApplication>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+
+#include "ui/charts/fitness_chart.h"
+#include "ui/charts/gap_chart.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/experiment/experiment_tree.h"
+#include "ui/experiment/run_panel.h"
+#include "ui/experiment/simulators_page.h"
+#include "ui/main_window.h"
+
+namespace btr::ui {
+
+void MainWindow::connectShow() {
+  connect(tree_, &ExperimentTree::runSelected, this, &MainWindow::selectRun);
+  connect(tree_, &ExperimentTree::specRequested, this, [this](Id run) {
+    selectRun(run);
+    raiseDock(specDock_);
+  });
+  connect(tree_, &ExperimentTree::simulatorSelected, this, [this](Id, Id simulator) {
+    versions_->select(simulator);
+    raiseDock(versionsDock_);
+  });
+
+  connect(&watcher_, &DatabaseWatcher::failed, this, &MainWindow::report);
+  connect(&watcher_, &DatabaseWatcher::runsChanged, tree_, &ExperimentTree::setContent);
+  connect(&watcher_, &DatabaseWatcher::versionsChanged, tree_, &ExperimentTree::setSimulators);
+  connect(&watcher_, &DatabaseWatcher::simulatorsChanged, tree_, &ExperimentTree::setSimulators);
+  connect(&watcher_, &DatabaseWatcher::activeChanged, this, [this](const std::set<Id>& active) {
+    tree_->setActive(active);
+    activeLabel_->setText(active.empty() ? QString() : tr("%n run(s) working", nullptr, int(active.size())));
+    checkLaunched();
+  });
+  connect(&watcher_, &DatabaseWatcher::runChanged, this, &MainWindow::showRun);
+  connect(&watcher_, &DatabaseWatcher::generationsReset, this,
+          [this](Id, const std::vector<GenerationRecord>& all) { fitness_->setGenerations(all); });
+  connect(&watcher_, &DatabaseWatcher::generationsAdded, this, [this](Id, const std::vector<GenerationRecord>& added) {
+    for (const GenerationRecord& generation : added) fitness_->append(generation);
+  });
+  connect(&watcher_, &DatabaseWatcher::simulatorsChanged, this,
+          [this](Id, const std::vector<SimulatorRecord>& simulators) {
+            simulators_ = simulators;
+            fitness_->setSimulators(simulators_);
+            gap_->setGaps(gaps_, simulators_);
+            versions_->setSimulators(simulators_);
+          });
+  connect(&watcher_, &DatabaseWatcher::gapsChanged, this, [this](Id, const std::vector<GapRecord>& gaps) {
+    gaps_ = gaps;
+    gap_->setGaps(gaps_, simulators_);
+    versions_->setGaps(gaps_);
+  });
+  connect(&watcher_, &DatabaseWatcher::tasksChanged, this,
+          [this](Id, const auto& tasks, const auto& measurements) { showTasks(tasks, measurements); });
+}
+
+void MainWindow::selectRun(Id run) {
+  if (!watcher_.isOpen() || (run != 0 && run == run_.id && watcher_.followed() == run)) return;
+  run_ = {};
+  gaps_.clear();
+  simulators_.clear();
+  if (run == 0) {
+    panel_->clear();
+    fitness_->setRun({});
+    gap_->setGaps({}, {});
+    versions_->clear();
+  } else {
+    guard([&] { showSpec(watcher_.database().run(run)); });
+    settings_.setSelectedRun(databasePath(), run);
+  }
+  watcher_.follow(run);
+  tree_->selectRun(run);
+}
+
+// What is fixed for a run: its settings, the unit of its fitness, its label.
+void MainWindow::showSpec(const RunRecord& run) {
+  run_ = run;
+  unit_.clear();
+  FitnessRun shown;
+  shown.run = run.id;
+  shown.name = runName(run);
+  shown.standIn = isStandIn(run);
+  fitness_->setRun(shown);
+  gap_->setStandIn(shown.standIn);
+  const ExperimentSpec spec = experimentFromJson(run.specJson, "run " + std::to_string(run.id), "");
+  spec_->setSpec(spec);
+  unit_ = QString::fromStdString(host_->fitness(spec.fitness.name)->unit());
+  panel_->setUnit(unit_);
+  fitness_->setUnit(unit_);
+  gap_->setUnit(unit_);
+  versions_->setUnit(unit_);
+}
+
+void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
+  const bool begins = run.state == RunState::waiting && run_.state != RunState::waiting && run.id == run_.id;
+  run_ = run;
+  panel_->showRun(run, progress, active);
+  if (begins && !isStandIn(run)) QApplication::alert(this);
+}
+
+void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
+                           const std::vector<MeasurementRecord>& measurements) {
+  tasks_ = tasks;
+  measurements_ = measurements;
+  panel_->setMeasuring(countMeasured(run_, tasks, measurements));
+  guard([&] {
+    std::vector<IndividualRecord> individuals;
+    std::set<Id> seen;
+    for (const MeasurementRecord& measurement : measurements)
+      if (seen.insert(measurement.individual).second)
+        individuals.push_back(watcher_.database().individual(measurement.individual));
+    fitness_->setMeasurements(individuals, measurements);
+  });
+}
+
+void MainWindow::showTitle() {
+  const QString path = watcher_.isOpen() ? databasePath() : QString();
+  setWindowTitle(path.isEmpty() ? QStringLiteral("UCHILSIM")
+                                : QFileInfo(path).fileName() + QStringLiteral(" — UCHILSIM"));
+  setWindowFilePath(QString());
+  databaseLabel_->setText(path.isEmpty() ? tr("No database") : path);
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,123 @@
+// The tree of experiments, runs and simulator versions, from a stored database.
+#include <QAbstractItemModelTester>
+#include <QMenu>
+#include <QSignalSpy>
+#include <QTest>
+#include <QTreeView>
+
+#include "tests/ui/stored_run.h"
+#include "ui/experiment/badge_delegate.h"
+#include "ui/experiment/experiment_tree.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+void fill(ExperimentTree& tree, StoredRun& stored) {
+  tree.setContent(stored.database.experiments(), stored.database.runs());
+  for (const auto& run : stored.database.runs()) tree.setSimulators(run.id, stored.database.simulators(run.id));
+}
+
+QAction* entry(QMenu& menu, const QString& text) {
+  for (QAction* action : menu.actions())
+    if (action->text().startsWith(text)) return action;
+  return nullptr;
+}
+
+}  // namespace
+
+class TestExperimentTree : public QObject {
+  Q_OBJECT
+ private slots:
+  void showsExperimentsRunsAndVersionsFromTheDatabase() {
+    StoredRun stored;
+    const Id experiment = stored.addExperiment("Kick");
+    const Id run = stored.addRun(experiment, 7, "stand_in");
+    stored.addGenerations(run, 3);
+    stored.addTasks(run);
+    stored.finishStage(run, {{"friction", 0.5}});
+    ExperimentTree tree;
+    fill(tree, stored);
+
+    QAbstractItemModel& model = *tree.view()->model();
+    QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    QCOMPARE(model.rowCount(), 1);
+    const QModelIndex kick = model.index(0, 0);
+    QCOMPARE(kick.data().toString(), QString("Kick"));
+    const QModelIndex first = model.index(0, 0, kick);
+    QCOMPARE(first.data().toString(), QString("Run %1 · seed 7").arg(run));
+    QCOMPARE(first.data(BadgeDelegate::BadgeRole).toString(), QString("stand-in"));
+    QCOMPARE(first.siblingAtColumn(1).data().toString(), QString("3"));
+    QCOMPARE(model.rowCount(first), 2);
+    QCOMPARE(model.index(1, 0, first).data().toString(), QString("Simulator 1"));
+    QCOMPARE(model.index(1, 2, first).data().toString(), QString("L3"));
+  }
+
+  void keepsTheSelectionWhenRunsAreAdded() {
+    StoredRun stored;
+    const Id experiment = stored.addExperiment();
+    const Id run = stored.addRun(experiment, 1);
+    ExperimentTree tree;
+    fill(tree, stored);
+    tree.selectRun(run);
+    QSignalSpy selected(&tree, &ExperimentTree::runSelected);
+    stored.addRun(experiment, 2);
+    stored.addExperiment("Other");
+    fill(tree, stored);
+    QCOMPARE(tree.selectedRun(), run);
+    QCOMPARE(selected.count(), 0);
+    QCOMPARE(tree.view()->model()->rowCount(), 2);
+  }
+
+  void tellsTheRunThatIsChosenByKeyboard() {
+    StoredRun stored;
+    const Id experiment = stored.addExperiment();
+    const Id run = stored.addRun(experiment);
+    ExperimentTree tree;
+    fill(tree, stored);
+    QSignalSpy selected(&tree, &ExperimentTree::runSelected), note(&tree, &ExperimentTree::runNoteRequested);
+    tree.view()->setCurrentIndex(tree.view()->model()->index(0, 0));
+    QTest::keyClick(tree.view(), Qt::Key_Down);
+    QCOMPARE(selected.count(), 1);
+    QCOMPARE(selected.first().first().value<Id>(), run);
+    emit tree.view()->actions().first()->triggered();  // F2
+    QCOMPARE(note.count(), 1);
+  }
+
+  void offersWhatFitsTheState() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    ExperimentTree tree;
+    fill(tree, stored);
+    {
+      QMenu menu;
+      tree.fillRunMenu(menu, run);
+      QVERIFY(entry(menu, "Start")->isEnabled());
+      QVERIFY(!entry(menu, "Stop")->isEnabled());
+    }
+    tree.setActive({run});
+    {
+      QMenu menu;
+      tree.fillRunMenu(menu, run);
+      QVERIFY(!entry(menu, "Continue")->isEnabled());
+      QVERIFY(entry(menu, "Stop")->isEnabled());
+      QSignalSpy stop(&tree, &ExperimentTree::stopRequested);
+      entry(menu, "Stop")->trigger();
+      QCOMPARE(stop.first().first().value<Id>(), run);
+    }
+    tree.setActive({});
+    stored.database.setRunState(run, RunState::finished, "");
+    fill(tree, stored);
+    QMenu menu;
+    tree.fillRunMenu(menu, run);
+    QVERIFY(!entry(menu, "Continue")->isEnabled());
+    QVERIFY(entry(menu, "Duplicate with another seed")->isEnabled());
+    QSignalSpy table(&tree, &ExperimentTree::exportRequested);
+    entry(menu, "Export as CSV")->menu()->actions().first()->trigger();
+    QCOMPARE(table.first().last().toString(), QString("generations"));
+  }
+};
+
+QTEST_MAIN(TestExperimentTree)
+#include "test_experiment_tree.moc"

@@ -1,0 +1,167 @@
+// The run panel says where a run is and offers what fits.
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTest>
+
+#include "ui/experiment/run_panel.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+RunRecord aRun(RunState state) {
+  RunRecord run;
+  run.id = 3;
+  run.seed = 7;
+  run.state = state;
+  run.generation = 37;
+  run.reality = "person";
+  return run;
+}
+
+RunProgress progressIn(const std::string& stage) {
+  RunProgress progress;
+  progress.stage = stage;
+  progress.generation = 37;
+  progress.totalGenerations = 150;
+  progress.stageDone = 37;
+  progress.stageTotal = 50;
+  progress.trials = 1110;
+  progress.trialsPerSecond = 61.5;
+  progress.secondsLeft = 125;
+  progress.best = 0.8125;
+  progress.mean = 0.25;
+  return progress;
+}
+
+struct Shown {
+  QString stage, next, best, speed, left;
+  bool go, stop, standIn;
+};
+
+Shown show(RunPanel& panel, const RunRecord& run, const RunProgress& progress, bool active) {
+  panel.setUnit("m");
+  panel.show();
+  panel.showRun(run, progress, active);
+  const auto text = [&](const char* name) {
+    return panel.findChild<QLabel*>(name)->text().replace(QChar(0x202f), ' ');
+  };
+  return {text("stage"),
+          text("next"),
+          text("best"),
+          text("speed"),
+          text("left"),
+          panel.findChild<QPushButton*>("go")->isEnabled(),
+          panel.findChild<QPushButton*>("stop")->isEnabled(),
+          panel.findChild<QLabel*>("standIn")->isVisible()};
+}
+
+}  // namespace
+
+class TestRunPanel : public QObject {
+  Q_OBJECT
+ private slots:
+  void showsALearningRunWithItsNumbers() {
+    RunPanel panel;
+    const Shown shown = show(panel, aRun(RunState::learning), progressIn("L1"), true);
+    QCOMPARE(shown.stage, QString("L1 · learning in simulation"));
+    QCOMPARE(shown.next, QString("In 13 generations the best wait for real fitness."));
+    QCOMPARE(shown.best, QString("0.8125 m"));
+    QCOMPARE(shown.speed, QString("61.5 trials/s"));
+    QCOMPARE(shown.left, QString("2 min 05 s"));
+    QVERIFY(!shown.go);
+    QVERIFY(shown.stop);
+    QVERIFY(!shown.standIn);
+    QCOMPARE(panel.findChild<QProgressBar*>("overall")->value(), 37);
+    QCOMPARE(panel.findChild<QProgressBar*>("overall")->maximum(), 150);
+    QCOMPARE(panel.findChild<QProgressBar*>("within")->maximum(), 50);
+  }
+
+  void aRunThatNobodyWorksOnIsInterruptedAndCanBeContinued() {
+    RunPanel panel;
+    const Shown shown = show(panel, aRun(RunState::learning), progressIn("L1"), false);
+    QCOMPARE(shown.stage, QString("Interrupted"));
+    QVERIFY(shown.next.contains("same bits"));
+    QVERIFY(shown.go);
+    QVERIFY(!shown.stop);
+    QCOMPARE(shown.speed, QString("–"));
+  }
+
+  void saysHowManyAreMeasuredWhileWaiting() {
+    RunPanel panel;
+    show(panel, aRun(RunState::waiting), progressIn("measuring"), false);
+    panel.setMeasuring({7, 10});
+    QCOMPARE(panel.findChild<QLabel*>("stage")->text(), QString("Waiting for real fitness"));
+    QVERIFY(panel.findChild<QLabel*>("next")->text().contains("7 of 10"));
+    QCOMPARE(panel.findChild<QProgressBar*>("within")->value(), 7);
+    panel.setMeasuring({10, 10});
+    QVERIFY(panel.findChild<QLabel*>("next")->text().contains("press Continue to adapt the simulator"));
+  }
+
+  void showsTheErrorWhileTheSimulatorIsAdapted() {
+    RunPanel panel;
+    QCOMPARE(show(panel, aRun(RunState::adapting), progressIn("L3"), true).stage,
+             QString("L3 · adapting the simulator"));
+  }
+
+  void aFinishedRunOffersNoStart() {
+    RunPanel panel;
+    const Shown shown = show(panel, aRun(RunState::finished), progressIn("finished"), false);
+    QVERIFY(!shown.go);
+    QVERIFY(!shown.stop);
+  }
+
+  void aFailedRunShowsItsMessage() {
+    RunPanel panel;
+    RunRecord run = aRun(RunState::failed);
+    run.message = "disk full";
+    const Shown shown = show(panel, run, progressIn("L1"), false);
+    QVERIFY(shown.go);
+    QCOMPARE(panel.findChild<QLabel*>("message")->text(), QString("disk full"));
+  }
+
+  void aRequestedStopIsSeenUntilTheProcessEnds() {
+    RunPanel panel;
+    RunRecord run = aRun(RunState::learning);
+    run.stopRequested = true;
+    const Shown shown = show(panel, run, progressIn("L1"), true);
+    QCOMPARE(shown.stage, QString("Stopping …"));
+    QVERIFY(!shown.stop);
+    QVERIFY(!shown.go);
+  }
+
+  void labelsAStandInReality() {
+    RunPanel panel;
+    RunRecord run = aRun(RunState::learning);
+    run.reality = "stand_in";
+    QVERIFY(show(panel, run, progressIn("L1"), true).standIn);
+  }
+
+  void asksForTheRunThatItShows() {
+    RunPanel panel;
+    QSignalSpy go(&panel, &RunPanel::continueRequested), jobs(&panel, &RunPanel::jobsChanged);
+    show(panel, aRun(RunState::ready), {}, false);
+    QCOMPARE(panel.findChild<QPushButton*>("go")->text(), QString("Start"));
+    QTest::mouseClick(panel.findChild<QPushButton*>("go"), Qt::LeftButton);
+    QCOMPARE(go.count(), 1);
+    QCOMPARE(go.first().first().value<Id>(), Id(3));
+    panel.findChild<QSpinBox*>("jobs")->setValue(2);
+    QCOMPARE(jobs.last().first().toInt(), 2);
+  }
+
+  void withoutARunItSaysWhatToDo() {
+    RunPanel panel;
+    panel.show();
+    show(panel, aRun(RunState::learning), progressIn("L1"), true);
+    panel.clear();
+    QCOMPARE(panel.findChild<QLabel*>("stage")->text(), QString("No run is selected"));
+    QVERIFY(!panel.findChild<QPushButton*>("go")->isVisible());
+  }
+};
+
+QTEST_MAIN(TestRunPanel)
+#include "test_run_panel.moc"

@@ -17,6 +17,8 @@
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
+#include "ui/scene3d/replay_job.h"
+#include "ui/scene3d/replay_panel.h"
 
 namespace btr::ui {
 
@@ -80,6 +82,9 @@ void MainWindow::makeDocks() {
   fitness_ = new FitnessChart(this);
   gap_ = new GapChart(this);
   versions_ = new SimulatorsPage(this);
+  replay_ = new ReplayPanel(this);
+  replayJob_ = new ReplayJob(this);
+  replay_->attach(*replayJob_);
   draft_ = new ExperimentForm(offers, this);
   spec_ = new ExperimentForm(offers, this);
   spec_->setReadOnly(tr("A stored run never changes."));
@@ -88,6 +93,7 @@ void MainWindow::makeDocks() {
   fitnessDock_ = addDock("fitness", tr("Fitness"), "office-chart-line", fitness_);
   gapDock_ = addDock("gap", tr("Reality gap"), "office-chart-scatter", gap_);
   versionsDock_ = addDock("simulators", tr("Simulators"), "cpu", versions_);
+  replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
 
@@ -134,10 +140,12 @@ void MainWindow::arrangeDocks() {
   splitDockWidget(fitnessDock_, versionsDock_, Qt::Vertical);
   splitDockWidget(fitnessDock_, gapDock_, Qt::Horizontal);
   tabifyDockWidget(draftDock_, specDock_);
+  splitDockWidget(draftDock_, replayDock_, Qt::Vertical);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
   specDock_->raise();
   resizeDocks({treeDock_, panelDock_, draftDock_}, {300, 840, 440}, Qt::Horizontal);
   resizeDocks({panelDock_, fitnessDock_, versionsDock_}, {150, 430, 330}, Qt::Vertical);
+  resizeDocks({draftDock_, replayDock_}, {490, 420}, Qt::Vertical);
 }
 
 void MainWindow::raiseDock(QDockWidget* dock) {

@@ -53,6 +53,7 @@ class MainWindow : public QMainWindow {
   void continueRun(Id run);
   void stopRun(Id run);
   void replayIndividual(Id individual);
+  void replayBest();  ///< of the last generation
 
   DatabaseWatcher& watcher() { return watcher_; }
   ExperimentForm& draft() { return *draft_; }
@@ -133,8 +134,10 @@ class MainWindow : public QMainWindow {
   FitnessChart* fitness_ = nullptr;
   GapChart* gap_ = nullptr;
   SimulatorsPage* versions_ = nullptr;
+  ReplayPanel* replay_ = nullptr;
+  ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
-              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr;
+              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

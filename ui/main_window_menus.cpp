@@ -134,6 +134,9 @@ void MainWindow::fillRunMenu() {
   QAction* copy = runMenu_->addAction(themeIcon("edit-copy"), tr("&Duplicate with another seed…"), this,
                                       [this] { duplicateRun(run_.id); });
   copy->setEnabled(run_.id != 0);
+  QAction* best = runMenu_->addAction(themeIcon("media-playback-playing"),
+                                      tr("&Replay the best of the last generation"), this, [this] { replayBest(); });
+  best->setShortcut(Qt::Key_F7);
   QAction* byItself = runMenu_->addAction(tr("Go on by itself when all is &measured"));
   byItself->setCheckable(true);
   byItself->setChecked(settings_.flag("continueWhenMeasured", true));

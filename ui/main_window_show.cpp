@@ -4,6 +4,8 @@
 #include <QFileInfo>
 #include <QLabel>
 
+#include "core/run/replay.h"
+#include "core/spec/scene_spec.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/experiment/experiment_form.h"
@@ -11,6 +13,8 @@
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
 #include "ui/main_window.h"
+#include "ui/scene3d/replay_job.h"
+#include "ui/scene3d/replay_panel.h"
 
 namespace btr::ui {
 
@@ -112,6 +116,35 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
       if (seen.insert(measurement.individual).second)
         individuals.push_back(watcher_.database().individual(measurement.individual));
     fitness_->setMeasurements(individuals, measurements);
+  });
+}
+
+// Made again in a thread of its own, from a connection of its own.
+void MainWindow::replayIndividual(Id individual) {
+  if (!watcher_.isOpen() || run_.id == 0) return;
+  raiseDock(replayDock_);
+  const auto name = QFileInfo(databasePath()).completeBaseName();
+  replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_, name] {
+    const Database database = Database::open(path, Database::Mode::readOnly);
+    const RunRecord record = database.run(run);
+    const IndividualRecord stored = database.individual(individual);
+    std::vector<ReplayBall> balls;
+    for (const BallSpec& ball : sceneFromJson(record.sceneJson, "scene", "").balls)
+      balls.push_back({ball.name, ball.radius_m});
+    ReplayData shown = toReplayData(
+        replay(database, *host, run, individual), balls,
+        tr("%1, run %2, generation %3, individual %4").arg(name).arg(run).arg(stored.generation).arg(individual), unit);
+    shown.simulator = tr("simulator %1").arg(database.simulator(stored.simulator).number);
+    shown.standIn = isStandIn(record);
+    return shown;
+  });
+}
+
+void MainWindow::replayBest() {
+  if (!watcher_.isOpen() || run_.generation == 0) return;
+  guard([this] {
+    const auto best = watcher_.database().bestIndividuals(run_.id, 1, run_.generation, run_.generation);
+    if (!best.empty()) replayIndividual(best.front().id);
   });
 }
 

@@ -16,7 +16,7 @@ struct Colours {
 
 constexpr Colours lightColours{"#eef0f3", "#ffffff", "#f5f7f9", "#1f2429", "#f7f8fa", "#9aa2ab", "#2f6fdb", "#ffffff",
                                "#1f5fc4", "#ffffff", "#e3e6ea", "#c5cad1", "#a5acb5", "#767d86", "#ffffff"};
-constexpr Colours darkColours{"#23272c", "#1a1d21", "#20242a", "#dfe3e8", "#2d3239", "#737c87", "#3b76d6", "#ffffff",
+constexpr Colours darkColours{"#23272c", "#1a1d21", "#20242a", "#dfe3e8", "#2d3239", "#737c87", "#2f66c4", "#ffffff",
                               "#7fb0ff", "#3c434c", "#343a42", "#30353c", "#15181b", "#0c0e10", "#2d3239"};
 
 QPalette paletteFrom(const Colours& c) {

@@ -1,5 +1,7 @@
 // The plot behind all charts: what it draws, zooms, hides and exports.
 #include <QClipboard>
+#include <QGraphicsScene>
+#include <QGraphicsView>
 #include <QMimeData>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -11,6 +13,7 @@
 #include "ui/charts/decimate.h"
 #include "ui/charts/nice_numbers.h"
 #include "ui/charts/plot_export.h"
+#include "ui/charts/plot_legend.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/charts/statistics.h"
 
@@ -147,6 +150,35 @@ class TestPlotWidget : public QObject {
     plot.setData(data);
     QVERIFY(plot.isSeriesShown("worst"));
     QVERIFY(!plot.isSeriesShown("maximum"));
+  }
+
+  void aClickOnANameHidesAndShowsIt() {
+    PlotWidget plot;
+    plot.resize(700, 400);
+    plot.setData(example());
+    plot.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&plot));
+    auto* view = plot.findChild<QGraphicsView*>();
+    PlotLegend* legend = nullptr;
+    for (QGraphicsItem* item : view->scene()->items())
+      if (auto* found = dynamic_cast<PlotLegend*>(item)) legend = found;
+    QVERIFY(legend);
+    const QPoint name = view->mapFromScene(legend->mapToScene(legend->placeOf("measured").center()));
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
+    QVERIFY(!plot.isSeriesShown("measured"));
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
+    QVERIFY(plot.isSeriesShown("measured"));
+  }
+
+  void whatIsHiddenStaysOutOfExportedPictures() {
+    QTemporaryDir folder;
+    PlotWidget plot;
+    plot.resize(700, 400);
+    plot.setData(example());
+    plot.setSeriesShown("measured", false);
+    plot.exportTo(folder.filePath("chart.svg"));
+    QVERIFY(!read(folder.filePath("chart.svg")).contains("measured"));
+    QVERIFY(plot.legendNames().contains("measured"));
   }
 
   void zoomStaysWhileNewDataArrive() {

@@ -32,6 +32,8 @@ class ChartScene : public QObject {
 
   void setColours(const PlotColours& colours);
   const PlotColours& colours() const { return colours_; }
+  /// Leaves out what only a screen needs: read-out and hidden names.
+  void setForPrint(bool print);
   void setFont(const QFont& font);
 
   /// Visible values (top is the lowest y).

@@ -17,6 +17,12 @@ void ChartScene::setColours(const PlotColours& colours) {
   updateTitle();
 }
 
+void ChartScene::setForPrint(bool print) {
+  overlay_->setReadOut({});
+  legend_->setHiddenListed(!print);
+  arrangeLegend();
+}
+
 void ChartScene::setFont(const QFont& font) {
   font_ = font;
   overlay_->setFont(font);

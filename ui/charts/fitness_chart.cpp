@@ -32,10 +32,15 @@ void FitnessChart::append(const GenerationRecord& generation) {
   auto& all = run_.generations;
   const auto place = std::lower_bound(all.begin(), all.end(), generation.number,
                                       [](const GenerationRecord& g, int number) { return g.number < number; });
+  // The curves need neither individuals nor learner states.
+  GenerationRecord kept = generation;
+  kept.individuals.clear();
+  kept.randomState.clear();
+  kept.learnerState.clear();
   if (place != all.end() && place->number == generation.number)
-    *place = generation;
+    *place = std::move(kept);
   else
-    all.insert(place, generation);
+    all.insert(place, std::move(kept));
   redraw();
 }
 

@@ -35,7 +35,13 @@ std::vector<PlotLegend::Entry> PlotLegend::entries() const {
     else if (!band.name.isEmpty())
       all.push_back({band.name, nullptr, &band, {}});
   }
+  if (!hiddenListed_) std::erase_if(all, [this](const Entry& entry) { return hidden_.contains(entry.name); });
   return all;
+}
+
+QRectF PlotLegend::placeOf(const QString& name) const {
+  const auto found = std::find_if(arranged_.begin(), arranged_.end(), [&](const Entry& e) { return e.name == name; });
+  return found == arranged_.end() ? QRectF() : found->place;
 }
 
 QStringList PlotLegend::names() const {

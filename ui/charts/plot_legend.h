@@ -23,6 +23,10 @@ class PlotLegend final : public QGraphicsObject {
   /// Arranges the entries; returns the height they need.
   double arrange(double width);
   QStringList names() const;
+  /// On paper nothing can be clicked: hidden names are left out there. Takes effect with the next arrange().
+  void setHiddenListed(bool listed) { hiddenListed_ = listed; }
+  /// Of the entry's symbol and name, in this item's coordinates; empty if there is none.
+  QRectF placeOf(const QString& name) const;
 
   QRectF boundingRect() const override { return {0, 0, width_, height_}; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem* option, QWidget* widget) override;
@@ -47,6 +51,7 @@ class PlotLegend final : public QGraphicsObject {
   const std::set<QString>& hidden_;
   PlotColours colours_;
   QFont font_;
+  bool hiddenListed_ = true;
   double width_ = 0, height_ = 0;
   std::vector<Entry> arranged_;
 };

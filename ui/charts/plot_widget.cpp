@@ -104,10 +104,12 @@ struct PlotWidget::Impl {
     chart->layout()->activate();
     const auto paint = [this, chart](QPainter& painter, const QRectF& target) {
       const PlotColours shown = scene.colours();
-      scene.setReadOut({});
+      scene.setForPrint(true);
       scene.setColours(PlotColours::forPrint());
+      chart->layout()->activate();
       view->scene()->render(&painter, target, chart->mapRectToScene(chart->rect()));
       scene.setColours(shown);
+      scene.setForPrint(false);
     };
     return {chart->size(), scene.data().title, scene.data().note, paint};
   }

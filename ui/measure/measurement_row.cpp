@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/run/reality_gap.h"
 #include "ui/measure/number_entry.h"
 
 namespace btr::ui {
@@ -13,8 +14,7 @@ bool MeasurementEdit::isEmpty() const {
 
 MeasurementRow::State MeasurementRow::state() const {
   const auto valid = std::count_if(saved.begin(), saved.end(), [](auto& record) { return !record.isVoid; });
-  if (static_cast<int>(saved.size()) >= std::max(1, task.wantedRepeats))
-    return valid > 0 ? State::measured : State::isVoid;
+  if (!saved.empty() && isSettled(task, saved)) return valid > 0 ? State::measured : State::isVoid;
   return saved.empty() && edit.isEmpty() ? State::open : State::begun;
 }
 

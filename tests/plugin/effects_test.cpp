@@ -262,13 +262,5 @@ TEST_P(Effects, AddNoEnergyIfTheySaySo) {
 INSTANTIATE_TEST_SUITE_P(All, Effects, testing::ValuesIn(host().effects()),
                          [](const auto& name) { return name.param; });
 
-TEST(PluginHost, LoadsAllModulesThatWereBuilt) {
-  EXPECT_EQ(std::vector<std::string>{}, host().problems());
-  for (const char* name :
-       {"coulomb_friction", "viscous_friction", "command_delay", "backlash", "payload", "ground_slope", "gravity_tilt",
-        "rolling_resistance", "position_offset", "joint_spring", "force_offset"})
-    EXPECT_NO_THROW(host().effect(name)) << name;
-}
-
 }  // namespace
 }  // namespace btr

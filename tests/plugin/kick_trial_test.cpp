@@ -1,0 +1,124 @@
+// Kicks in the simulated world, made in the same way as in a run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/plugin/plugin_host.h"
+#include "core/run/prepared_experiment.h"
+
+namespace btr {
+namespace {
+
+const PluginHost& host() {
+  static PluginHost plugins(PLUGIN_DIR);
+  return plugins;
+}
+
+PreparedExperiment kickExperiment(double bearing = 0, const SimulatorSpec& simulator = {}) {
+  ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick.json");
+  spec.controller.settings["bearing_rad"] = bearing;
+  spec.simulator = simulator;
+  return prepareFromFiles(spec, host());
+}
+
+TrialResult trial(const PreparedExperiment& experiment, const std::vector<double>& parameters, bool trace = false) {
+  return experiment.trial(experiment.scene(experiment.spec.simulator), parameters, 1, trace);
+}
+
+/// Standing on the left front leg and turning about it, the right paw sweeps forward. LF, RF, LR, RR: J1, J2, J3 each.
+const std::vector<double> sweep{1.5, -0.16, 0.3, -0.8, -0.16, 0.7,  0.3, 0,   0.75, 0.5,  -0.16, 1.7,  // accumulation
+                                0,   0.15,  0.9, 1.4,  -0.16, -0.4, 0.7, 0.6, 0.2,  -0.8, 0.4,   0.1,  // release
+                                6};
+
+/// Left and right exchanged.
+std::vector<double> mirrored(const std::vector<double>& kick) {
+  std::vector<double> other = kick;
+  for (const std::size_t phase : {0u, 12u})
+    for (const std::size_t pair : {0u, 6u})
+      for (std::size_t j = 0; j < 3; ++j) std::swap(other[phase + pair + j], other[phase + pair + 3 + j]);
+  return other;
+}
+
+TEST(KickTrial, AHandMadeSweepSendsTheBallFarAhead) {
+  const auto experiment = kickExperiment();
+  const TrialResult result = trial(experiment, sweep);
+  EXPECT_EQ(TrialResult::Outcome::finished, result.outcome) << result.detail;
+  EXPECT_GT(experiment.fitnessOf(result), 0.5);
+}
+
+TEST(KickTrial, StandingStillMovesNothing) {
+  const auto experiment = kickExperiment();
+  std::vector<double> still;
+  for (const Parameter& parameter : experiment.genotype) still.push_back(parameter.byDefault);
+  const TrialResult result = trial(experiment, still);
+  EXPECT_EQ(TrialResult::Outcome::finished, result.outcome) << result.detail;
+  EXPECT_FALSE(result.fell);
+  EXPECT_LT((result.balls[0].rest_m - result.balls[0].start_m).norm(), 1e-3);
+  EXPECT_LT((result.baseEnd_m - result.baseStart_m).norm(), 0.02);
+}
+
+TEST(KickTrial, SomeRandomKicksMoveTheBall) {
+  const auto experiment = kickExperiment();
+  Random random(1);
+  int moved = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<double> parameters;
+    for (const Parameter& p : experiment.genotype) {
+      const double value = random.uniform(p.minimum, p.maximum);
+      parameters.push_back(p.integer ? std::round(value) : value);
+    }
+    const TrialResult result = trial(experiment, parameters);
+    EXPECT_EQ(TrialResult::Outcome::finished, result.outcome) << result.detail;
+    moved += (result.balls[0].rest_m - result.balls[0].start_m).norm() > 0.05;
+  }
+  EXPECT_GE(moved, 3);
+}
+
+TEST(KickTrial, AMirroredKickAtAMirroredBallGoesTheMirroredWay) {
+  for (const double bearing : {0.0, 0.25, -0.25}) {
+    const auto here = kickExperiment(bearing), there = kickExperiment(-bearing);
+    const Eigen::Vector3d one = trial(here, sweep).balls[0].rest_m;
+    const Eigen::Vector3d other = trial(there, mirrored(sweep)).balls[0].rest_m;
+    EXPECT_GT(one.norm(), 0.5);
+    EXPECT_NEAR(one.x(), other.x(), 0.01);
+    EXPECT_NEAR(one.y(), -other.y(), 0.01);
+  }
+}
+
+TEST(KickTrial, EffectsAtTheirNeutralValuesLeaveTheTraceBitForBit) {
+  const std::string plain = trial(kickExperiment(), sweep, true).trace.sha256();
+  for (const std::string& name : host().effects()) {
+    const auto effect = host().effect(name);
+    PlacedEffect placed{name, "", {}};
+    switch (effect->place()) {
+      case Effect::Place::joint:
+        placed.at = "ers7.RF_J1";
+        break;
+      case Effect::Place::link:
+        placed.at = "ers7.HEAD";
+        break;
+      case Effect::Place::ball:
+        placed.at = "ball";
+        break;
+      case Effect::Place::floor:
+        placed.at = "floor";
+        break;
+      case Effect::Place::world:
+        placed.at = "world";
+        break;
+    }
+    for (const Parameter& p : effect->parameters()) placed.parameters[p.name] = p.neutral.value_or(p.byDefault);
+    SimulatorSpec simulator;
+    simulator.effects.push_back(placed);
+    EXPECT_EQ(plain, trial(kickExperiment(0, simulator), sweep, true).trace.sha256()) << name;
+    // And with its usual size it is noticed.
+    for (const Parameter& p : effect->parameters())
+      placed.parameters[p.name] =
+          p.byDefault == p.neutral ? p.byDefault + 0.1 * (p.maximum - p.byDefault) : p.byDefault;
+    simulator.effects = {placed};
+    EXPECT_NE(plain, trial(kickExperiment(0, simulator), sweep, true).trace.sha256()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace btr

@@ -43,11 +43,12 @@ float grain(vec2 p) {
              mix(hash(cell + vec2(0.0, 1.0)), hash(cell + vec2(1.0, 1.0)), f.x), f.y);
 }
 void main() {
-  vec3 albedo = pow(gl_Color.rgb, vec3(2.2));
   if (unlit > 0.5) {
     gl_FragColor = gl_Color;
     return;
   }
+  // Squares and square roots stand for the exponent 2.2: cheaper where software draws.
+  vec3 albedo = gl_Color.rgb * gl_Color.rgb;
   if (weave > 0.0) {
     float pixel = max(length(dFdx(ground)), length(dFdy(ground)));
     float near = clamp(0.004 / pixel - 0.6, 0.0, 1.0);
@@ -61,16 +62,22 @@ void main() {
   float sun = dot(normal, toSun);
   float lit = sun > 0.0 ? DynamicShadow() * smoothstep(0.0, 0.12, sun) : 0.0;
   vec3 sky = mix(vec3(0.24, 0.24, 0.23), vec3(0.44, 0.46, 0.49), 0.5 + 0.5 * dot(normal, up));
-  float fill = 0.12 * max(0.0, dot(normal, toEye));
-  vec3 light = sky + fill + lit * max(sun, 0.0) * vec3(0.74, 0.71, 0.66);
-  vec3 halfway = normalize(toSun + toEye);
-  float highlight = gloss * lit * pow(max(0.0, dot(normal, halfway)), 42.0);
-  float rim = gloss * 0.22 * pow(1.0 - max(0.0, dot(normal, toEye)), 4.0);
+  float facing = max(0.0, dot(normal, toEye));
+  vec3 linear = albedo * (sky + 0.12 * facing + lit * max(sun, 0.0) * vec3(0.74, 0.71, 0.66));
+  if (gloss > 0.0) {
+    float shine = max(0.0, dot(normal, normalize(toSun + toEye)));
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    float rim = (1.0 - facing) * (1.0 - facing);
+    linear += gloss * (lit * shine + 0.22 * rim * rim * sky);
+  }
   // A soft shoulder keeps form in white plastic under full sun.
-  vec3 linear = albedo * light + highlight + rim * sky;
   vec3 over = max(linear - 0.65, 0.0);
-  linear = min(linear, 0.65) + 0.35 * (1.0 - exp(-over / 0.35));
-  vec3 colour = pow(clamp(linear, 0.0, 1.0), vec3(1.0 / 2.2));
+  linear = min(linear, 0.65) + 0.45 * over / (over + 0.45);
+  vec3 colour = sqrt(linear);
   if (fade > 0.0) {
     float height = gl_FragCoord.y / viewport.y;
     vec3 background = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));

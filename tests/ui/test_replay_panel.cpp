@@ -399,7 +399,7 @@ void TestReplayPanel::playingMovesTheBallInThePicture() {
     const QImage image = panel.view().picture({320, 240});
     const auto pixel = panel.view().camera().project(point, image.size());
     const QColor colour = image.pixelColor(pixel->toPoint());
-    return colour.red() > 140 && colour.red() > 1.6 * colour.green();
+    return colour.red() > 140 && colour.hsvHue() >= 8 && colour.hsvHue() <= 40 && colour.hsvSaturation() > 110;
   };
   QVERIFY(orangeAt({0.3, 0, 0.0425}));
   panel.setPlaying(true);

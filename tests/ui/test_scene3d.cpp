@@ -43,7 +43,9 @@ QColor pixelAt(const QImage& image, const ViewCamera& camera, const Vector3d& po
   return pixel ? image.pixelColor(pixel->toPoint()) : QColor();
 }
 
-bool isOrange(const QColor& c) { return c.red() > 140 && c.red() > 1.6 * c.green() && c.green() > c.blue(); }
+bool isOrange(const QColor& c) {
+  return c.red() > 140 && c.hsvHue() >= 8 && c.hsvHue() <= 40 && c.hsvSaturation() > 110;
+}
 bool isGreen(const QColor& c) { return c.green() > 1.4 * c.red() && c.green() > 1.3 * c.blue(); }
 bool isWhite(const QColor& c) { return c.red() > 190 && c.green() > 190 && c.blue() > 190; }
 bool isRed(const QColor& c) { return c.red() > 2 * c.green() && c.red() > 2 * c.blue(); }

@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
   shell.stop = &stopRequested;
   app.add_flag("--json", shell.json, "machine-readable standard output");
   btr::cli::addRunCommands(app, shell);
+  btr::cli::addFitnessCommands(app, shell);
+  btr::cli::addDataCommands(app, shell);
   btr::cli::addModelCommands(app, shell);
   btr::cli::addGapCommands(app, shell);
 

@@ -25,9 +25,11 @@ struct Shell {
   std::unique_ptr<PluginHost> plugins_;
 };
 
-void addRunCommands(CLI::App& app, Shell& shell);    ///< run, status, stop, stand-in
-void addModelCommands(CLI::App& app, Shell& shell);  ///< model check, list, bench
-void addGapCommands(CLI::App& app, Shell& shell);    ///< gap residual
+void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, stand-in
+void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import
+void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export
+void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list, bench
+void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);

@@ -24,10 +24,12 @@ one_line
 printf '{"format": "uchilsim-experiment-1",\n "name": "x",,}' > "$folder/bad.json"
 expect 1 "JSON with a typing error" "$btr" run "$folder/bad.json" --db "$folder/a.db"
 one_line
-says err "line 2"
+says err "bad.json:2:14"
 
-sed 's/"population": *[0-9]*/"population": 1/' "$root/resources/experiments/kick-short.json" > "$folder/one.json"
-expect 1 "population 1" "$btr" run "$folder/one.json" --db "$folder/a.db"
+mkdir "$folder/experiments"
+cp -r "$root/resources/scenes" "$root/resources/robots" "$folder"
+sed 's/"population": *[0-9]*/"population": 1/' "$root/resources/experiments/kick-short.json" > "$folder/experiments/one.json"
+expect 1 "population 1" "$btr" run "$folder/experiments/one.json" --db "$folder/a.db"
 one_line
 says err "population"
 

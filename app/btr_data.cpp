@@ -1,0 +1,78 @@
+// btr replay, export.
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/run/export.h"
+#include "core/run/prepared_experiment.h"
+#include "core/run/replay.h"
+#include "core/spec/error.h"
+#include "core/store/database.h"
+
+namespace btr::cli {
+namespace {
+
+struct DataArguments {
+  std::string database, csv, what;
+  Id run = 0, individual = 0;
+};
+
+void replayCommand(const DataArguments& a, Shell& shell) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  const Replay r = replay(db, shell.plugins(), a.run, a.individual);
+  const IndividualRecord individual = db.individual(a.individual);
+  if (!a.csv.empty()) writeOut(a.csv, r.result.trace.toCsv());
+  if (shell.json) {
+    std::cout << nlohmann::json{{"individual", a.individual},
+                                {"generation", individual.generation},
+                                {"fitness", r.fitness},
+                                {"stored_fitness", r.storedFitness},
+                                {"trace_sha256", r.sha256},
+                                {"stored_trace_sha256", r.storedSha256},
+                                {"outcome", toText(r.result.outcome)},
+                                {"simulated_s", r.result.simulated_s},
+                                {"identical", r.identical}}
+                     .dump(1)
+              << '\n';
+    return;
+  }
+  std::printf("individual %lld (generation %d, slot %d): fitness %.17g, stored %.17g, %s after %.3f s\n",
+              static_cast<long long>(a.individual), individual.generation, individual.slot, r.fitness, r.storedFitness,
+              toText(r.result.outcome), r.result.simulated_s);
+  std::printf("%s\n", r.identical ? "identical to the stored run" : "DIFFERS from the stored run");
+}
+
+void exportCommand(const DataArguments& a, Shell& shell) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  const PreparedExperiment prepared = prepareFromRun(db.run(a.run), shell.plugins());
+  std::vector<std::string> names;
+  for (const Parameter& p : prepared.genotype) names.push_back(p.name);
+  writeOut(a.csv, exportCsv(db, a.run, a.what, names, prepared.fitness->unit()));
+}
+
+}  // namespace
+
+void addDataCommands(CLI::App& app, Shell& shell) {
+  auto a = std::make_shared<DataArguments>();
+  const auto common = [&](CLI::App* command) {
+    command->add_option("--db", a->database, "experiment database")->required();
+    command->add_option("--run", a->run, "number of the run")->required()->check(CLI::PositiveNumber);
+    command->add_option("--csv", a->csv, "write to this file");
+  };
+  CLI::App* replayApp = app.add_subcommand("replay", "run a stored individual again; says whether it is bit-identical");
+  common(replayApp);
+  replayApp->add_option("--individual", a->individual, "number of the individual")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  replayApp->callback([a, &shell] { replayCommand(*a, shell); });
+
+  CLI::App* exportApp = app.add_subcommand("export", "a table of a run as CSV");
+  common(exportApp);
+  exportApp->add_option("--what", a->what, "which table")
+      ->required()
+      ->check(CLI::IsMember({"generations", "individuals", "gaps", "simulators", "measurements"}));
+  exportApp->callback([a, &shell] { exportCommand(*a, shell); });
+}
+
+}  // namespace btr::cli

@@ -1,0 +1,135 @@
+// btr fitness list, enter, import: real fitness, measured by a person.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/run/measured_import.h"
+#include "core/run/prepared_experiment.h"
+#include "core/spec/error.h"
+#include "core/store/database.h"
+
+namespace btr::cli {
+namespace {
+
+struct FitnessArguments {
+  std::string database, note, file;
+  Id run = 0, individual = 0;
+  std::vector<double> values;
+  bool isVoid = false, showSimulated = false;
+};
+
+std::string operatorName() {
+  const char* name = std::getenv("USER");
+  return name ? name : "";
+}
+
+void list(const FitnessArguments& a, Shell& shell) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  const RunRecord run = db.run(a.run);
+  const std::string unit = prepareFromRun(run, shell.plugins()).fitness->unit();
+  const std::vector<MeasurementRecord> measured = db.measurements(a.run);
+  nlohmann::json all = nlohmann::json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const MeasurementTask& task : db.measurementTasks(a.run)) {
+    nlohmann::json values = nlohmann::json::array();
+    std::string text;
+    int have = 0;
+    for (const MeasurementRecord& m : measured) {
+      if (m.individual != task.individual) continue;
+      ++have;
+      values.push_back({{"value", m.value}, {"void", m.isVoid}, {"note", m.note}, {"source", m.source}});
+      text += (text.empty() ? "" : " ") + brief(m.value) + (m.isVoid ? " (void)" : "");
+    }
+    if (task.stage != run.stage + 1 && have >= task.wantedRepeats) continue;
+    // The simulated fitness stays hidden, so that nobody measures what he expects.
+    nlohmann::json row{{"stage", task.stage},
+                       {"position", task.position},
+                       {"individual", task.individual},
+                       {"unit", unit},
+                       {"wanted_repeats", task.wantedRepeats},
+                       {"values", values},
+                       {"held_out", task.heldOut}};
+    if (a.showSimulated) row["simulated_fitness"] = task.simulatedFitness;
+    all.push_back(row);
+    rows.push_back({std::to_string(task.stage), std::to_string(task.position), std::to_string(task.individual),
+                    std::to_string(have) + "/" + std::to_string(task.wantedRepeats), text,
+                    a.showSimulated ? brief(task.simulatedFitness) : "hidden"});
+  }
+  if (shell.json)
+    std::cout << all.dump(1) << '\n';
+  else if (rows.empty())
+    std::cout << "run " << a.run << ": nothing waits for real fitness\n";
+  else
+    writeOut("", table({"stage", "order", "individual", "measured", "values [" + unit + "]", "simulated"}, rows));
+}
+
+void enter(const FitnessArguments& a) {
+  if (a.values.empty() && !a.isVoid) throw InputError("btr fitness enter: give --value (once a repeat), or --void");
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  MeasurementRecord m;
+  m.run = a.run;
+  m.individual = a.individual;
+  m.note = a.note;
+  m.who = operatorName();
+  m.isVoid = a.isVoid;
+  m.enteredAt = utcNow();
+  std::vector<MeasurementRecord> all;
+  for (double value : a.values.empty() ? std::vector<double>{0} : a.values) {
+    m.value = value;
+    all.push_back(m);
+  }
+  db.addMeasurements(all);
+  std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values")
+            << " stored\n";
+}
+
+void import(const FitnessArguments& a) {
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  const std::vector<MeasurementTask> tasks = db.measurementTasks(a.run);
+  std::vector<MeasurementRecord> all = readMeasuredCsv(a.file, &tasks);
+  for (MeasurementRecord& m : all) {
+    m.run = a.run;
+    m.who = operatorName();
+    m.enteredAt = utcNow();
+  }
+  db.addMeasurements(all);
+  std::cout << a.file << ": " << all.size() << (all.size() == 1 ? " value" : " values") << " stored\n";
+}
+
+}  // namespace
+
+void addFitnessCommands(CLI::App& app, Shell& shell) {
+  CLI::App* fitness = app.add_subcommand("fitness", "real fitness: what waits for it, enter it, import it");
+  fitness->require_subcommand(1);
+  const auto common = [](CLI::App* command, FitnessArguments& a) {
+    command->add_option("--db", a.database, "experiment database")->required();
+    command->add_option("--run", a.run, "number of the run")->required()->check(CLI::PositiveNumber);
+  };
+  auto a = std::make_shared<FitnessArguments>();
+  CLI::App* listCommand =
+      fitness->add_subcommand("list", "individuals waiting for a real measurement, in the order to measure");
+  common(listCommand, *a);
+  listCommand->add_flag("--show-simulated", a->showSimulated, "also print the simulated fitness (not blind any more)");
+  listCommand->callback([a, &shell] { list(*a, shell); });
+
+  CLI::App* enterCommand = fitness->add_subcommand("enter", "store measured values of one individual");
+  common(enterCommand, *a);
+  enterCommand->add_option("--individual", a->individual, "number of the individual")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  enterCommand->add_option("--value", a->values, "measured fitness, once a repeat")->take_all();
+  enterCommand->add_option("--note", a->note, "surface, battery, what happened");
+  enterCommand->add_flag("--void", a->isVoid, "does not count (the robot fell, the ball hit a wall)");
+  enterCommand->callback([a] { enter(*a); });
+
+  CLI::App* importCommand =
+      fitness->add_subcommand("import", "store a table of measured values: individual,value[,note][,void]");
+  common(importCommand, *a);
+  importCommand->add_option("MEASURED.csv", a->file, "the table")->required();
+  importCommand->callback([a] { import(*a); });
+}
+
+}  // namespace btr::cli

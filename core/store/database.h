@@ -14,9 +14,9 @@ class Connection;
 
 /// The experiment database: one SQLite file (WAL, foreign keys, STRICT tables, numbered migrations, synchronous =
 /// FULL). All SQL of the program stands behind this class. One Database belongs to one thread; open another for another
-/// thread or process. Every writing call is one transaction: all of it is stored or nothing. Errors: InputError (what
-/// the user can mend: foreign, newer, damaged, read-only file, disk full, database locked for more than 5 s, unknown
-/// id).
+/// thread or process, a forked one too. Every writing call is one transaction: all of it is stored or nothing. Errors:
+/// InputError (what the user can mend: foreign, newer, damaged, read-only file, disk full, database locked for more
+/// than 5 s, unknown id).
 class Database {
  public:
   enum class Mode { readOnly, readWrite, create };

@@ -183,7 +183,10 @@ void checkSound(const std::string& path, SQLite::Database& database) {
 
 Database Database::open(const std::string& path, Mode mode, int patience_ms) {
   if (path.empty()) throw InputError("database: no file is named");
-  const std::string absolute = fs::absolute(path).string();
+  // Without links: SQLite keeps log and shared memory beside the file itself.
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
+  const std::string absolute = (error ? fs::absolute(path) : real).string();
   checkPlace(absolute, mode == Mode::create);
   if (mode == Mode::create && !fs::exists(absolute)) createFile(absolute, patience_ms);
 
@@ -212,8 +215,8 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
       if (journal != "wal")
         throw InputError(path + ": this file system does not allow a write-ahead log; use a local disk");
     }
-  } catch (const SQLite::Exception& error) {
-    throw InputError(explain(path, database.get(), error.getExtendedErrorCode(), error.what()));
+  } catch (const SQLite::Exception& problem) {
+    throw InputError(explain(path, database.get(), problem.getExtendedErrorCode(), problem.what()));
   }
   sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
   return Database(std::make_unique<Connection>(path, std::move(database)));

@@ -92,6 +92,16 @@ TEST_F(Opening, NamesThatMeanSomethingToSqliteAreOrdinaryFiles) {
   }
 }
 
+TEST_F(Opening, ALinkLeadsToTheFileAndItsLog) {
+  fill(1);
+  std::filesystem::create_directory(pathOf("elsewhere"));
+  std::filesystem::create_symlink(file(), pathOf("elsewhere/link.db"));
+  Database through = Database::open(pathOf("elsewhere/link.db"), Mode::readWrite);
+  through.setRunNote(1, "through the link");
+  EXPECT_EQ("through the link", Database::open(file(), Mode::readOnly).run(1).note);
+  EXPECT_EQ(1, std::distance(std::filesystem::directory_iterator(pathOf("elsewhere")), {}));
+}
+
 TEST_F(Opening, ForeignFilesAreRefused) {
   write("empty.db", "");
   EXPECT_THAT(refusedUnchanged(pathOf("empty.db")), StartsWith("is empty"));

@@ -68,7 +68,17 @@ void ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
     if (sliding.squaredNorm() > 1e-6) wanted = sliding;
   }
   copy(across(point.normal, wanted), contact.fdir1);
-  dJointAttach(dJointCreateContact(session_.world(), session_.contacts(), &contact), first, second);
+  const dJointID id = dJointCreateContact(session_.world(), session_.contacts(), &contact);
+  dJointAttach(id, first, second);
+  if (measure_) dJointSetFeedback(id, &feedback_.emplace_back(dJointFeedback{}, second == nullptr).first);
+}
+
+void ContactBuilder::clear() {
+  dJointGroupEmpty(session_.contacts());
+  floorForce_.setZero();
+  for (const auto& [forces, floor] : feedback_)
+    if (floor) floorForce_ += Vector3d(forces.f1[0], forces.f1[1], forces.f1[2]);
+  feedback_.clear();
 }
 
 }  // namespace btr

@@ -2,6 +2,8 @@
 #include <ode/ode.h>
 
 #include <Eigen/Core>
+#include <deque>
+#include <utility>
 
 #include "core/sim/collision.h"
 #include "core/sim/ode_session.h"
@@ -34,11 +36,18 @@ class ContactBuilder {
   ///             surface creeps by slip·force; without slip the first one is the direction of sliding (isotropic).
   void add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
   /// Removes the step's contacts.
-  void clear() { dJointGroupEmpty(session_.contacts()); }
+  void clear();
+  /// Keeps the forces of the contacts with what never moves; costs a little.
+  void measureForces(bool on) { measure_ = on; }
+  /// Sum of them in the last step [N].
+  const Eigen::Vector3d& floorForce_n() const { return floorForce_; }
 
  private:
   const OdeSession& session_;
   double step_ = 0;
+  bool measure_ = false;
+  std::deque<std::pair<dJointFeedback, bool>> feedback_;  ///< of each contact, and whether it is with what never moves
+  Eigen::Vector3d floorForce_ = Eigen::Vector3d::Zero();
   double bounceAbove_ = 0;  ///< slower hits are resting contact [m/s]
 };
 

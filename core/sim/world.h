@@ -65,6 +65,11 @@ class World {
   /// Kinetic plus gravitational energy of everything [J]; gravitational zero at the world's origin.
   double energy() const;
 
+  /// From now on the forces of floor contacts are kept (the steps cost a little more).
+  void measureForces();
+  /// Sum of all forces of the floor on robots and balls in the last step [N]; zero unless they are measured.
+  Eigen::Vector3d floorForce_n() const;
+
   /// Empty while the state is finite, slower than 50 m/s and 500 rad/s, and within 100 m; else what went wrong.
   std::string fault() const;
 

@@ -107,6 +107,9 @@ bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index)
 double World::time() const { return impl_->time(); }
 std::string World::fault() const { return impl_->fault; }
 
+void World::measureForces() { impl_->contacts.measureForces(true); }
+Eigen::Vector3d World::floorForce_n() const { return impl_->contacts.floorForce_n(); }
+
 double World::energy() const {
   double sum = 0;
   const Vector3d& gravity = impl_->scene.gravity_m_s2;

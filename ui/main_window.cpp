@@ -7,16 +7,22 @@
 #include <QLabel>
 #include <QScreen>
 #include <QStatusBar>
+#include <QTimer>
 #include <QToolBar>
+#include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/spec/error.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/common/message_banner.h"
+#include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
+#include "ui/measure/alarm.h"
+#include "ui/measure/measurement_sheet.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
 
@@ -38,6 +44,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   makeMenus();
   connectRuns();
   connectShow();
+  connectMeasure();
   arrangeDocks();
   restoreWindow();
   restoreDraft();
@@ -82,6 +89,8 @@ void MainWindow::makeDocks() {
   fitness_ = new FitnessChart(this);
   gap_ = new GapChart(this);
   versions_ = new SimulatorsPage(this);
+  individuals_ = new IndividualsTable(this);
+  sheet_ = new MeasurementSheet(this);
   replay_ = new ReplayPanel(this);
   replayJob_ = new ReplayJob(this);
   replay_->attach(*replayJob_);
@@ -93,6 +102,8 @@ void MainWindow::makeDocks() {
   fitnessDock_ = addDock("fitness", tr("Fitness"), "office-chart-line", fitness_);
   gapDock_ = addDock("gap", tr("Reality gap"), "office-chart-scatter", gap_);
   versionsDock_ = addDock("simulators", tr("Simulators"), "cpu", versions_);
+  individualsDock_ = addDock("individuals", tr("Individuals"), "view-list-details", individuals_);
+  sheetDock_ = addDock("sheet", tr("Measurement sheet"), "document-edit", sheet_);
   replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
@@ -103,12 +114,22 @@ void MainWindow::makeDocks() {
   messages->setObjectName("toolbar.messages");
   messages->setMovable(false);
   messages->toggleViewAction()->setVisible(false);
-  messages->addWidget(banner_);
-  banner_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  alarm_ = new Alarm(this, options_.settingsFile);
+  auto* stack = new QWidget(messages);
+  auto* column = new QVBoxLayout(stack);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(alarm_);
+  column->addWidget(banner_);
+  stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  messages->addWidget(stack);
   addToolBar(Qt::TopToolBarArea, messages);
-  messages->hide();
-  connect(banner_, &MessageBanner::shown, messages, &QWidget::show);
-  connect(banner_, &MessageBanner::cleared, messages, &QWidget::hide);
+  const auto showIfAny = [this, messages] {
+    messages->setVisible(!banner_->text().isEmpty() || alarm_->state() != Alarm::State::quiet);
+  };
+  showIfAny();
+  connect(banner_, &MessageBanner::shown, messages, showIfAny);
+  connect(banner_, &MessageBanner::cleared, messages, showIfAny);
+  connect(alarm_, &Alarm::stateChanged, messages, showIfAny);
 
   databaseLabel_ = new QLabel(this);
   activeLabel_ = new QLabel(this);
@@ -135,17 +156,36 @@ void MainWindow::arrangeDocks() {
   }
   addDockWidget(Qt::LeftDockWidgetArea, treeDock_);
   splitDockWidget(treeDock_, panelDock_, Qt::Horizontal);
-  splitDockWidget(panelDock_, draftDock_, Qt::Horizontal);
+  splitDockWidget(panelDock_, specDock_, Qt::Horizontal);
   splitDockWidget(panelDock_, fitnessDock_, Qt::Vertical);
-  splitDockWidget(fitnessDock_, versionsDock_, Qt::Vertical);
+  splitDockWidget(fitnessDock_, individualsDock_, Qt::Vertical);
   splitDockWidget(fitnessDock_, gapDock_, Qt::Horizontal);
-  tabifyDockWidget(draftDock_, specDock_);
-  splitDockWidget(draftDock_, replayDock_, Qt::Vertical);
+  splitDockWidget(specDock_, replayDock_, Qt::Vertical);
+  // Tabs come last: a dock that is split from a tab becomes one of the tabs.
+  tabifyDockWidget(specDock_, draftDock_);
+  tabifyDockWidget(individualsDock_, sheetDock_);
+  tabifyDockWidget(sheetDock_, versionsDock_);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
   specDock_->raise();
-  resizeDocks({treeDock_, panelDock_, draftDock_}, {300, 840, 440}, Qt::Horizontal);
-  resizeDocks({panelDock_, fitnessDock_, versionsDock_}, {150, 430, 330}, Qt::Vertical);
-  resizeDocks({draftDock_, replayDock_}, {490, 420}, Qt::Vertical);
+  individualsDock_->raise();
+  sized_ = false;
+  if (isVisible()) sizeDocks();
+}
+
+// Sizes hold only in a window that has its own size already.
+void MainWindow::sizeDocks() {
+  sized_ = true;
+  const int left = width() * 19 / 100, right = width() * 29 / 100;
+  resizeDocks({treeDock_, panelDock_, specDock_}, {left, width() - left - right, right}, Qt::Horizontal);
+  const int top = panel_->sizeHint().height() + 40, rest = height() - top - 90;
+  resizeDocks({panelDock_, fitnessDock_, individualsDock_}, {top, rest * 54 / 100, rest * 46 / 100}, Qt::Vertical);
+  resizeDocks({specDock_, replayDock_}, {(top + rest) * 50 / 100, (top + rest) * 50 / 100}, Qt::Vertical);
+  resizeDocks({fitnessDock_, gapDock_}, {100, 85}, Qt::Horizontal);
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  if (!sized_) QTimer::singleShot(0, this, &MainWindow::sizeDocks);
 }
 
 void MainWindow::raiseDock(QDockWidget* dock) {
@@ -156,7 +196,8 @@ void MainWindow::raiseDock(QDockWidget* dock) {
 void MainWindow::restoreWindow() {
   resize(1600, 1000);
   if (const QByteArray geometry = settings_.geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
-  if (const QByteArray layout = settings_.layout(); !layout.isEmpty()) restoreState(layout, Settings::layoutVersion);
+  if (const QByteArray layout = settings_.layout(); !layout.isEmpty())
+    sized_ = restoreState(layout, Settings::layoutVersion);
 }
 
 void MainWindow::report(const QString& error) { banner_->showMessage(MessageBanner::Kind::error, error); }

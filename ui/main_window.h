@@ -61,12 +61,14 @@ class MainWindow : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   // main_window.cpp
   void makeDocks();
   QDockWidget* addDock(const QString& name, const QString& title, const QString& icon, QWidget* widget);
   void arrangeDocks();
+  void sizeDocks();
   void raiseDock(QDockWidget* dock);
   void restoreWindow();
   void report(const QString& error);
@@ -97,15 +99,21 @@ class MainWindow : public QMainWindow {
   void editRunNote(Id run);
   void editExperimentNote(Id experiment);
   void exportRun(Id run, const QString& what);
-  void submit(const std::vector<MeasurementRecord>& measurements);
   enum class CloseAnswer { stop, leave, cancel };
   CloseAnswer askWhileActive(const std::set<Id>& active);
+
+  // main_window_measure.cpp
+  void connectMeasure();
+  void submit(const std::vector<MeasurementRecord>& measurements);
+  void voidMeasurement(Id measurement, bool isVoid, const QString& note);
+  void importMeasurements();
+  void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
+  void showWaiting();
 
   // main_window_show.cpp
   void connectShow();
   void showRun(const RunRecord& run, const RunProgress& progress, bool active);
   void showSpec(const RunRecord& run);
-  void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
   void showTitle();
 
   /// The connection for the user's own words, opened when it is first needed.
@@ -119,8 +127,8 @@ class MainWindow : public QMainWindow {
   DatabaseWatcher watcher_;
   std::optional<Database> writer_;
   std::set<Id> launched_;  ///< processes of ours whose end was not seen yet
-  Id pendingStart_ = 0;
-  RunRecord run_;  ///< the followed run as last seen
+  bool sized_ = false;     ///< the docks have got their sizes
+  RunRecord run_;          ///< the followed run as last seen
   QString unit_;
   std::vector<SimulatorRecord> simulators_;
   std::vector<GapRecord> gaps_;
@@ -134,10 +142,14 @@ class MainWindow : public QMainWindow {
   FitnessChart* fitness_ = nullptr;
   GapChart* gap_ = nullptr;
   SimulatorsPage* versions_ = nullptr;
+  IndividualsTable* individuals_ = nullptr;
+  MeasurementSheet* sheet_ = nullptr;
+  Alarm* alarm_ = nullptr;
   ReplayPanel* replay_ = nullptr;
   ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
-              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr;
+              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
+              *individualsDock_ = nullptr, *sheetDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

@@ -37,6 +37,10 @@ void MainWindow::connectRuns() {
   connect(&launcher_, &RunLauncher::failed, this, &MainWindow::report);
   connect(&launcher_, &RunLauncher::exported, this,
           [this](const QString& file) { inform(tr("Written: %1").arg(file)); });
+  connect(&launcher_, &RunLauncher::imported, this, [this](const QString& file) {
+    watcher_.poll();
+    inform(tr("Imported: %1").arg(file));
+  });
   connect(&launcher_, &RunLauncher::stored, this, [this](Id run) {
     watcher_.poll();
     selectRun(run);

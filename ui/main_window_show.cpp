@@ -1,5 +1,4 @@
 // From the watcher to the docks: every value goes one way.
-#include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
@@ -8,11 +7,14 @@
 #include "core/spec/scene_spec.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
+#include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
 #include "ui/main_window.h"
+#include "ui/measure/alarm.h"
+#include "ui/measure/measurement_sheet.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
 
@@ -35,29 +37,43 @@ void MainWindow::connectShow() {
   connect(&watcher_, &DatabaseWatcher::simulatorsChanged, tree_, &ExperimentTree::setSimulators);
   connect(&watcher_, &DatabaseWatcher::activeChanged, this, [this](const std::set<Id>& active) {
     tree_->setActive(active);
-    activeLabel_->setText(active.empty() ? QString() : tr("%n run(s) working", nullptr, int(active.size())));
+    activeLabel_->setText(active.empty()       ? QString()
+                          : active.size() == 1 ? tr("1 run is working")
+                                               : tr("%1 runs are working").arg(active.size()));
     checkLaunched();
   });
   connect(&watcher_, &DatabaseWatcher::runChanged, this, &MainWindow::showRun);
   connect(&watcher_, &DatabaseWatcher::generationsReset, this,
-          [this](Id, const std::vector<GenerationRecord>& all) { fitness_->setGenerations(all); });
-  connect(&watcher_, &DatabaseWatcher::generationsAdded, this, [this](Id, const std::vector<GenerationRecord>& added) {
-    for (const GenerationRecord& generation : added) fitness_->append(generation);
-  });
+          [this](Id run, const std::vector<GenerationRecord>& all) {
+            fitness_->setGenerations(all);
+            individuals_->load(all.empty() ? 0 : all.back().number,
+                               [this, run](int number) { return watcher_.database().individuals(run, number); });
+          });
+  connect(&watcher_, &DatabaseWatcher::generationsAdded, this,
+          [this](Id run, const std::vector<GenerationRecord>& added) {
+            for (const GenerationRecord& generation : added) {
+              fitness_->append(generation);
+              guard([&] {
+                GenerationRecord whole = generation;
+                whole.individuals = watcher_.database().individuals(run, generation.number);
+                individuals_->append(whole);
+              });
+            }
+          });
   connect(&watcher_, &DatabaseWatcher::simulatorsChanged, this,
           [this](Id, const std::vector<SimulatorRecord>& simulators) {
             simulators_ = simulators;
             fitness_->setSimulators(simulators_);
             gap_->setGaps(gaps_, simulators_);
             versions_->setSimulators(simulators_);
+            individuals_->setSimulators(simulators_);
           });
   connect(&watcher_, &DatabaseWatcher::gapsChanged, this, [this](Id, const std::vector<GapRecord>& gaps) {
     gaps_ = gaps;
     gap_->setGaps(gaps_, simulators_);
     versions_->setGaps(gaps_);
   });
-  connect(&watcher_, &DatabaseWatcher::tasksChanged, this,
-          [this](Id, const auto& tasks, const auto& measurements) { showTasks(tasks, measurements); });
+  connect(individuals_, &IndividualsTable::replayRequested, this, &MainWindow::replayIndividual);
 }
 
 void MainWindow::selectRun(Id run) {
@@ -70,6 +86,9 @@ void MainWindow::selectRun(Id run) {
     fitness_->setRun({});
     gap_->setGaps({}, {});
     versions_->clear();
+    individuals_->clear();
+    sheet_->setTasks({});
+    alarm_->clear();
   } else {
     guard([&] { showSpec(watcher_.database().run(run)); });
     settings_.setSelectedRun(databasePath(), run);
@@ -95,28 +114,18 @@ void MainWindow::showSpec(const RunRecord& run) {
   fitness_->setUnit(unit_);
   gap_->setUnit(unit_);
   versions_->setUnit(unit_);
+  individuals_->setUnit(unit_);
+  individuals_->setStandIn(shown.standIn);
+  individuals_->setGenotype(host_->controller(spec.controller.name)->genotype());
+  sheet_->setUnit(unit_);
+  sheet_->setStandIn(shown.standIn);
+  sheet_->model().setSimulatedShown(valueOf(stageParameters(), spec.stages, "hide_simulated") == 0);
 }
 
 void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
-  const bool begins = run.state == RunState::waiting && run_.state != RunState::waiting && run.id == run_.id;
   run_ = run;
   panel_->showRun(run, progress, active);
-  if (begins && !isStandIn(run)) QApplication::alert(this);
-}
-
-void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
-                           const std::vector<MeasurementRecord>& measurements) {
-  tasks_ = tasks;
-  measurements_ = measurements;
-  panel_->setMeasuring(countMeasured(run_, tasks, measurements));
-  guard([&] {
-    std::vector<IndividualRecord> individuals;
-    std::set<Id> seen;
-    for (const MeasurementRecord& measurement : measurements)
-      if (seen.insert(measurement.individual).second)
-        individuals.push_back(watcher_.database().individual(measurement.individual));
-    fitness_->setMeasurements(individuals, measurements);
-  });
+  showWaiting();
 }
 
 // Made again in a thread of its own, from a connection of its own.

@@ -42,6 +42,7 @@ class TestParameterForm : public QObject {
     QCOMPARE(labelOf({"gravity_m_s2", "m/s²", ""}), QString("Gravity"));
     QCOMPARE(labelOf({"slip1_m_s_n", "m/(s·N)", ""}), QString("Slip1"));
     QCOMPARE(labelOf({"servo_d_nm_s_rad", "N·m·s/rad", ""}), QString("Servo d"));
+    QCOMPARE(labelOf({"k_rad2", "1/rad²", ""}), QString("K"));
     QCOMPARE(labelOf({"first_generations", "", ""}), QString("First generations"));
   }
 

@@ -27,7 +27,7 @@ void checkSettings(const PluginChoice& choice, const std::vector<PluginForm::Off
     if (offer.name.toStdString() == choice.name) settingsOf(choice, offer.settings, place);
 }
 
-QString changes(int count) { return count == 0 ? QString() : QObject::tr("%n changed", nullptr, count); }
+QString changes(int count) { return count == 0 ? QString() : QObject::tr("%1 changed").arg(count); }
 
 }  // namespace
 

@@ -22,7 +22,8 @@ QString plainUnit(const QString& unit) {
     else if (c.isLetterOrNumber())
       plain += c.toLower();
   }
-  return plain;
+  // "1/rad²" is spelled "rad2".
+  return plain.size() > 1 && plain.startsWith('1') ? plain.mid(1) : plain;
 }
 
 QString number(double value) { return QString::fromStdString(toText(value)); }

@@ -107,10 +107,21 @@ bool RunLauncher::isAlive(Id run) const {
 }
 
 void RunLauncher::exportCsv(const QString& database, Id run, const QString& what, const QString& file) {
+  runToEnd({"export", "--db", database, "--run", QString::number(run), "--what", what, "--csv", file},
+           [this, file] { emit exported(file); });
+}
+
+void RunLauncher::importFitness(const QString& database, Id run, const QString& file) {
+  runToEnd({"fitness", "import", "--db", database, "--run", QString::number(run), file},
+           [this, file] { emit imported(file); });
+}
+
+// Short commands run beside the window; one line on their standard error says what is wrong.
+void RunLauncher::runToEnd(const QStringList& arguments, const std::function<void()>& done) {
   auto* process = new QProcess(this);
-  connect(process, &QProcess::finished, this, [this, process, file](int code, QProcess::ExitStatus status) {
+  connect(process, &QProcess::finished, this, [this, process, done](int code, QProcess::ExitStatus status) {
     if (status == QProcess::NormalExit && code == 0)
-      emit exported(file);
+      done();
     else
       emit failed(QString::fromUtf8(process->readAllStandardError()).trimmed());
     process->deleteLater();
@@ -120,7 +131,7 @@ void RunLauncher::exportCsv(const QString& database, Id run, const QString& what
     emit failed(tr("%1 cannot be started: %2").arg(program_, process->errorString()));
     process->deleteLater();
   });
-  process->start(program_, {"export", "--db", database, "--run", QString::number(run), "--what", what, "--csv", file});
+  process->start(program_, arguments);
 }
 
 }  // namespace btr::ui

@@ -1,6 +1,7 @@
 #pragma once
 #include <QObject>
 #include <QThread>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -32,14 +33,18 @@ class RunLauncher : public QObject {
   bool isAlive(Id run) const;
   /// Writes a table of the run; tells exported() or failed().
   void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
+  /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
+  void importFitness(const QString& database, Id run, const QString& file);
   bool isBusy() const { return thread_ != nullptr; }
 
  signals:
   void stored(btr::Id run);
   void exported(const QString& file);
+  void imported(const QString& file);
   void failed(const QString& message);
 
  private:
+  void runToEnd(const QStringList& arguments, const std::function<void()>& done);
   void inThread(std::function<Id()> task);
 
   struct Process {

@@ -203,10 +203,10 @@ void SimulatorsPage::showDifference() {
       change = tr("new");
     put(*difference_, row, 3, change);
   }
-  title_->setText(parent ? tr("Simulator %1 against its parent %2: %n changed", nullptr, changed)
-                               .arg(simulator->number)
-                               .arg(parent->number)
-                         : tr("Simulator %1, with which the run began").arg(simulator->number));
+  title_->setText(
+      parent
+          ? tr("Simulator %1 against its parent %2: %3 changed").arg(simulator->number).arg(parent->number).arg(changed)
+          : tr("Simulator %1, with which the run began").arg(simulator->number));
   if (simulator->simulator.effects.empty()) return;
   QStringList effects;
   for (const auto& effect : simulator->simulator.effects) {

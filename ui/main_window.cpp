@@ -96,6 +96,8 @@ void MainWindow::makeDocks() {
   replay_->attach(*replayJob_);
   draft_ = new ExperimentForm(offers, this);
   spec_ = new ExperimentForm(offers, this);
+  draft_->setObjectName("draft");
+  spec_->setObjectName("spec");
   spec_->setReadOnly(tr("A stored run never changes."));
   treeDock_ = addDock("tree", tr("Experiments"), "view-list-tree", tree_);
   panelDock_ = addDock("run", tr("Run"), "media-playback-start", panel_);

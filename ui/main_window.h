@@ -55,6 +55,7 @@ class MainWindow : public QMainWindow {
   void replayIndividual(Id individual);
   void replayBest();  ///< of the last generation
 
+  MessageBanner& banner() { return *banner_; }
   DatabaseWatcher& watcher() { return watcher_; }
   ExperimentForm& draft() { return *draft_; }
   const Settings& settings() const { return settings_; }

@@ -3,8 +3,10 @@
 #include <QApplication>
 #include <QPainter>
 #include <QPixmap>
+#include <QProxyStyle>
 #include <QStyle>
 #include <QStyleFactory>
+#include <QStyleOption>
 
 namespace btr::ui {
 namespace {
@@ -65,6 +67,40 @@ QProgressBar { border: 1px solid palette(mid); border-radius: 4px; text-align: c
 QProgressBar::chunk { background: palette(highlight); border-radius: 3px; }
 )";
 
+// Fusion draws outlines as a darker window colour, which vanishes on a dark window: here they get a lighter one.
+class OutlinedFusion final : public QProxyStyle {
+ public:
+  explicit OutlinedFusion(bool dark) : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))), dark_(dark) {}
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget) const override {
+    const bool outlined = element == PE_IndicatorCheckBox || element == PE_IndicatorRadioButton ||
+                          element == PE_FrameLineEdit || element == PE_PanelLineEdit || element == PE_Frame;
+    const auto draw = [&](const auto& shown) { QProxyStyle::drawPrimitive(element, &shown, painter, widget); };
+    if (!dark_ || !outlined) return QProxyStyle::drawPrimitive(element, option, painter, widget);
+    if (const auto* button = qstyleoption_cast<const QStyleOptionButton*>(option)) return draw(lit(*button));
+    if (const auto* frame = qstyleoption_cast<const QStyleOptionFrame*>(option)) return draw(lit(*frame));
+    QProxyStyle::drawPrimitive(element, option, painter, widget);
+  }
+
+  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
+                          const QWidget* widget) const override {
+    const auto draw = [&](const auto& shown) { QProxyStyle::drawComplexControl(control, &shown, painter, widget); };
+    if (!dark_) return QProxyStyle::drawComplexControl(control, option, painter, widget);
+    if (const auto* spin = qstyleoption_cast<const QStyleOptionSpinBox*>(option)) return draw(lit(*spin));
+    if (const auto* combo = qstyleoption_cast<const QStyleOptionComboBox*>(option)) return draw(lit(*combo));
+    QProxyStyle::drawComplexControl(control, option, painter, widget);
+  }
+
+ private:
+  template <class Option>
+  static Option lit(Option option) {
+    option.palette.setColor(QPalette::Window, QColor("#77808b"));
+    return option;
+  }
+  bool dark_;
+};
+
 }  // namespace
 
 QString nameOf(Look look) {
@@ -87,7 +123,7 @@ Theme::Theme(QApplication& application, QObject* parent)
 void Theme::apply(Look look) {
   look_ = look;
   dark_ = look == Look::dark || (look == Look::system && systemIsDark_);
-  application_.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  application_.setStyle(new OutlinedFusion(dark_));
   application_.setPalette(paletteFrom(dark_ ? darkColours : lightColours));
   application_.setStyleSheet(QString::fromLatin1(styleSheet));
   QIcon::setThemeName(dark_ ? QStringLiteral("breeze-dark") : QStringLiteral("breeze"));

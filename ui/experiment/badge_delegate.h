@@ -3,10 +3,11 @@
 
 namespace btr::ui {
 
-/// Paints a rounded badge after the text of items that have one in BadgeRole.
+/// Paints an item with a rounded badge after its text (BadgeRole) and a second, paler line below it (DetailRole).
 class BadgeDelegate : public QStyledItemDelegate {
  public:
   static constexpr int BadgeRole = Qt::UserRole + 40;
+  static constexpr int DetailRole = Qt::UserRole + 41;
   using QStyledItemDelegate::QStyledItemDelegate;
   void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override;
   QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override;

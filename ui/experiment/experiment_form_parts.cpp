@@ -148,14 +148,14 @@ void ExperimentForm::makeBars(QVBoxLayout& column) {
 
   why_ = new QLabel(this);
   why_->setWordWrap(true);
-  why_->setContentsMargins(10, 6, 10, 6);
+  why_->setMargin(8);
   column.insertWidget(1, why_);
 
   // Below: what is wrong, and what can be done with the whole.
   problem_ = new QLabel(this);
   problem_->setObjectName("problem");
   problem_->setWordWrap(true);
-  problem_->setContentsMargins(10, 4, 10, 0);
+  problem_->setMargin(6);
   column.addWidget(problem_);
   auto* buttons = new QHBoxLayout;
   buttons->setContentsMargins(8, 6, 8, 6);

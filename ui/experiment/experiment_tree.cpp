@@ -31,13 +31,15 @@ ExperimentTree::ExperimentTree(QWidget* parent)
   view_->setAccessibleName(tr("Experiments and runs"));
   view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   view_->setContextMenuPolicy(Qt::CustomContextMenu);
-  view_->setUniformRowHeights(true);
   view_->setFrameShape(QFrame::NoFrame);
   view_->setItemDelegateForColumn(0, new BadgeDelegate(view_));
-  view_->header()->setStretchLastSection(false);
-  view_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  view_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-  view_->header()->setSectionResizeMode(2, QHeaderView::ResizeToContents);
+  // The other columns stand in the second line of each item; as columns they serve readers and tests.
+  view_->setColumnHidden(1, true);
+  view_->setColumnHidden(2, true);
+  view_->setHeaderHidden(true);
+  view_->setIndentation(16);
+  view_->setIconSize({18, 18});
+  setMinimumWidth(200);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(view_);
@@ -69,6 +71,7 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     const bool isNew = model_->match(model_->index(0, 0), IdRole, qint64(experiment.id), 1, Qt::MatchExactly).isEmpty();
     QStandardItem* item = child(root, experimentKind, experiment.id);
     item->setText(text(experiment.name));
+    if (!experiment.note.empty()) item->setData(text(experiment.note), BadgeDelegate::DetailRole);
     item->setIcon(themeIcon("folder-open"));
     item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
                      (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
@@ -101,6 +104,10 @@ void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& s
     QStandardItem* after = found->second->child(item->row(), 1);
     after->setText(QString::number(simulator.madeAfterGeneration));
     found->second->child(item->row(), 2)->setText(text(simulator.madeBy));
+    item->setData(simulator.madeAfterGeneration > 0
+                      ? tr("%1, after generation %2").arg(text(simulator.madeBy)).arg(simulator.madeAfterGeneration)
+                      : text(simulator.madeBy),
+                  BadgeDelegate::DetailRole);
     item->setToolTip(tr("Simulator version %1, made by %2 after generation %3")
                          .arg(simulator.number)
                          .arg(text(simulator.madeBy))
@@ -172,6 +179,8 @@ void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
                                               : full.toLower();
   if (face == RunFace::ready) brief = tr("ready");
   set(parent.child(item.row(), 2), brief);
+  const QString detail = brief + QStringLiteral(" · ") + tr("generation %1").arg(parent.child(item.row(), 1)->text());
+  if (item.data(BadgeDelegate::DetailRole).toString() != detail) item.setData(detail, BadgeDelegate::DetailRole);
 }
 
 void ExperimentTree::fillRunMenu(QMenu& menu, Id run) {

@@ -1,0 +1,364 @@
+// The whole window on a stored run: opens it, shows its numbers, starts and stops a process, asks before it closes.
+#include <sys/stat.h>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QFile>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTest>
+#include <QTimer>
+#include <QTreeView>
+
+#include "tests/ui/stored_run.h"
+#include "ui/charts/fitness_chart.h"
+#include "ui/charts/gap_chart.h"
+#include "ui/charts/plot_widget.h"
+#include "ui/common/message_banner.h"
+#include "ui/database/individuals_table.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/experiment/experiment_tree.h"
+#include "ui/experiment/run_panel.h"
+#include "ui/main_window.h"
+#include "ui/measure/alarm.h"
+#include "ui/measure/measurement_sheet.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+// Stands in for btr: says what it was called with, then works until somebody writes into its pipe.
+class FakeProgram {
+ public:
+  explicit FakeProgram(const QDir& folder, const QByteArray& ending = "") {
+    program = folder.filePath("btr");
+    arguments = folder.filePath("arguments");
+    pipe = folder.filePath("pipe");
+    ::mkfifo(qPrintable(pipe), 0600);
+    QFile script(program);
+    if (!script.open(QIODevice::WriteOnly)) return;
+    script.write("#!/bin/sh\necho \"$@\" > " + arguments.toUtf8() + ".part\nmv " + arguments.toUtf8() + ".part " +
+                 arguments.toUtf8() + "\ncat " + pipe.toUtf8() + " > /dev/null\n" + ending);
+    script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+  }
+  QString said() const {
+    QFile file(arguments);
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()).trimmed() : QString();
+  }
+  void end() const {
+    QFile file(pipe);
+    if (file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) file.write("end\n");
+  }
+  QString program, arguments, pipe;
+};
+
+struct Desk {
+  explicit Desk(const QString& program = "/bin/true") : theme(*qApp) {
+    options.settingsFile = folder.filePath("settings.ini");
+    options.program = program;
+    options.isActive = [this](const std::string&, Id run) { return active.count(run) > 0; };
+  }
+  std::unique_ptr<MainWindow> open(const QString& database) {
+    auto window = std::make_unique<MainWindow>(host, theme, options);
+    window->show();
+    window->openDatabase(database);
+    return window;
+  }
+  QTemporaryDir folder;
+  std::shared_ptr<const PluginHost> host = std::make_shared<const PluginHost>(PLUGIN_DIR);
+  Theme theme;
+  std::set<Id> active;
+  WindowOptions options;
+};
+
+QString message(MainWindow& window) { return window.banner().text(); }
+
+// A stored run with two stages: measured, adapted, learned on.
+Id fullRun(StoredRun& stored, const std::string& reality = "person") {
+  const Id run = stored.addRun(stored.addExperiment(), 5, reality);
+  stored.addGenerations(run, 3);
+  for (const auto& task : stored.addTasks(run)) stored.measure(run, task.individual, 0.25);
+  stored.finishStage(run, {{"friction", 0.5}});
+  stored.addGenerations(run, 3);
+  return run;
+}
+
+void answerClosing(const char* button) {
+  QTimer::singleShot(0, qApp, [button] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    QVERIFY(box);
+    QTest::mouseClick(box->findChild<QPushButton*>(button), Qt::LeftButton);
+  });
+}
+
+}  // namespace
+
+class TestMainWindow : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { qputenv("UCHILSIM_RESOURCES", SOURCE_DIR "/resources"); }
+
+  void showsTheNumbersOfTheStoredRecords() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QCOMPARE(message(*window), QString());
+    QVERIFY(window->windowTitle().startsWith("test.db"));
+    QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), run);
+
+    const auto records = stored.database.generations(run);
+    const FitnessRun& shown = window->findChild<FitnessChart*>()->run();
+    QCOMPARE(shown.generations.size(), records.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      QCOMPARE(shown.generations[i].best, records[i].best);
+      QCOMPARE(shown.generations[i].mean, records[i].mean);
+    }
+    QCOMPARE(shown.simulators.size(), 2u);
+    QCOMPARE(shown.measurements.size(), 2u);
+
+    auto* table = window->findChild<IndividualsTable*>();
+    QTRY_COMPARE(table->model().rowCount(), 12);
+    const auto individuals = stored.database.individuals(run, 4);
+    QVERIFY(table->select(individuals.front().id));
+    QCOMPARE(table->selected(), individuals.front().id);
+    QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().name, std::string("Kick"));
+  }
+
+  void followsGenerationsThatAnotherProcessStores() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    auto* table = window->findChild<IndividualsTable*>();
+    QTRY_COMPARE(table->model().rowCount(), 12);
+    stored.addGenerations(run, 1);
+    QTRY_COMPARE(window->findChild<FitnessChart*>()->run().generations.size(), 7u);
+    QTRY_COMPARE(table->model().rowCount(), 14);
+  }
+
+  void aBadDatabaseShowsTheErrorAndKeepsTheOldOne() {
+    StoredRun stored;
+    fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const QString bad = desk.folder.filePath("bad.db");
+    QFile file(bad);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(
+        "this is no database, and it is longer than a header of one hundred bytes, so that nobody can mistake it");
+    file.close();
+    QVERIFY(!window->openDatabase(bad));
+    QVERIFY2(message(*window).contains("bad.db"), qPrintable(message(*window)));
+    QVERIFY(window->banner().isVisible());
+    QCOMPARE(window->databasePath(), stored.qpath());
+    QCOMPARE(window->findChild<FitnessChart*>()->run().generations.size(), 6u);
+  }
+
+  void startsAProcessForTheRunAndAsksItToStop() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    Desk desk;
+    const FakeProgram program(QDir(desk.folder.path()));
+    desk.options.program = program.program;
+    const auto window = desk.open(stored.qpath());
+    auto* panel = window->findChild<RunPanel*>();
+    panel->setJobs(2);
+    QTest::mouseClick(panel->findChild<QPushButton*>("go"), Qt::LeftButton);
+    QTRY_COMPARE(program.said(), QString("run --db %1 --run %2 --quiet --jobs 2").arg(stored.qpath()).arg(run));
+    QCOMPARE(window->watcher().activeRuns(), std::set<Id>{run});
+    QVERIFY(!panel->findChild<QPushButton*>("go")->isEnabled());
+
+    QTest::mouseClick(panel->findChild<QPushButton*>("stop"), Qt::LeftButton);
+    QVERIFY(stored.database.run(run).stopRequested);
+    QCOMPARE(panel->findChild<QLabel*>("stage")->text(), QString("Stopping …"));
+    stored.database.setRunState(run, RunState::stopped, "");
+    program.end();
+    QTRY_VERIFY(window->watcher().activeRuns().empty());
+    QTRY_VERIFY(panel->findChild<QPushButton*>("go")->isEnabled());
+    QCOMPARE(message(*window), QString());
+  }
+
+  void saysTheLastWordsOfAProcessThatEndedTooEarly() {
+    StoredRun stored;
+    stored.addRun(stored.addExperiment());
+    Desk desk;
+    const FakeProgram program(QDir(desk.folder.path()),
+                              "echo 'kick.json /seed: x is not allowed; a number' >&2\nexit 1\n");
+    desk.options.program = program.program;
+    const auto window = desk.open(stored.qpath());
+    QTest::mouseClick(window->findChild<RunPanel*>()->findChild<QPushButton*>("go"), Qt::LeftButton);
+    program.end();
+    QTRY_VERIFY2(message(*window).contains("kick.json /seed: x is not allowed"), qPrintable(message(*window)));
+  }
+
+  void aProgramThatCannotBeStartedIsAMessage() {
+    StoredRun stored;
+    stored.addRun(stored.addExperiment());
+    Desk desk("/no/such/btr");
+    const auto window = desk.open(stored.qpath());
+    QTest::mouseClick(window->findChild<RunPanel*>()->findChild<QPushButton*>("go"), Qt::LeftButton);
+    QVERIFY(message(*window).contains("/no/such/btr cannot be started"));
+  }
+
+  void closesWithoutAQuestionWhenNothingWorks() {
+    StoredRun stored;
+    fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(window->close());
+  }
+
+  void closingCanStopTheRun() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    desk.active = {run};
+    const auto window = desk.open(stored.qpath());
+    answerClosing("stop");
+    QVERIFY(window->close());
+    QVERIFY(stored.database.run(run).stopRequested);
+  }
+
+  void closingCanLeaveTheRunWorking() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    desk.active = {run};
+    const auto window = desk.open(stored.qpath());
+    answerClosing("leave");
+    QVERIFY(window->close());
+    QVERIFY(!stored.database.run(run).stopRequested);
+  }
+
+  void closingCanBeCancelled() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    desk.active = {run};
+    const auto window = desk.open(stored.qpath());
+    answerClosing("cancel");
+    QVERIFY(!window->close());
+    QVERIFY(window->isVisible());
+    QVERIFY(!stored.database.run(run).stopRequested);
+  }
+
+  void reopeningFindsDatabaseRunLayoutAndDraft() {
+    StoredRun stored;
+    const Id first = fullRun(stored);
+    stored.addRun(stored.database.experiments().front().id, 6);
+    Desk desk;
+    {
+      const auto window = desk.open(stored.qpath());
+      window->selectRun(first);
+      window->findChild<QDockWidget*>("dock.gap")->hide();
+      ExperimentSpec spec = StoredRun::spec();
+      spec.name = "My draft";
+      window->draft().setSpec(spec);
+      QVERIFY(window->close());
+    }
+    const auto window = desk.open(stored.qpath());
+    QCOMPARE(window->settings().recentDatabases().first(), stored.qpath());
+    QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), first);
+    QVERIFY(window->findChild<QDockWidget*>("dock.gap")->isHidden());
+    QVERIFY(!window->findChild<QDockWidget*>("dock.fitness")->isHidden());
+    QCOMPARE(window->draft().spec().name, std::string("My draft"));
+  }
+
+  void storesWhatIsEnteredAndGoesOnWhenAllIsMeasured() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    const auto tasks = stored.addTasks(run);
+    Desk desk;
+    const FakeProgram program(QDir(desk.folder.path()));
+    desk.options.program = program.program;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(window->findChild<Alarm*>()->state() != Alarm::State::quiet);
+
+    auto* sheet = window->findChild<MeasurementSheet*>();
+    const auto value = [&](Id individual) {
+      MeasurementRecord record;
+      record.run = run;
+      record.individual = individual;
+      record.value = 0.5;
+      return record;
+    };
+    emit sheet->submitted({value(tasks[0].individual)});
+    QCOMPARE(stored.database.measurements(run).size(), 1u);
+    QVERIFY(program.said().isEmpty());
+    emit sheet->submitted({value(tasks[1].individual)});
+    QCOMPARE(stored.database.measurements(run).size(), 2u);
+    QCOMPARE(window->findChild<Alarm*>()->state(), Alarm::State::quiet);
+    QTRY_VERIFY(program.said().startsWith("run --db"));
+    stored.database.setRunState(run, RunState::stopped, "");
+    program.end();
+    QTRY_VERIFY(window->watcher().activeRuns().empty());
+  }
+
+  void aStandInRunRingsNoAlarm() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment(), 1, "stand_in");
+    stored.addGenerations(run, 3);
+    stored.addTasks(run);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QCOMPARE(window->findChild<Alarm*>()->state(), Alarm::State::quiet);
+    QVERIFY(window->findChild<RunPanel*>()->findChild<QLabel*>("standIn")->isVisible());
+  }
+
+  void anExperimentFileThatIsWrongLeavesTheDraft() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->draft().setSpec(StoredRun::spec());
+    const QString file = desk.folder.filePath("wrong.json");
+    QFile json(file);
+    QVERIFY(json.open(QIODevice::WriteOnly));
+    json.write("{\"format\": \"uchilsim-experiment-1\", \"name\": 3}");
+    json.close();
+    QVERIFY(!window->openExperiment(file));
+    QVERIFY2(message(*window).contains("wrong.json"), qPrintable(message(*window)));
+    QCOMPARE(window->draft().spec().name, std::string("Kick"));
+  }
+
+  void everyDockIsNamedAndCanBeShownFromTheMenu() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const auto docks = window->findChildren<QDockWidget*>();
+    QVERIFY(docks.size() >= 9);
+    for (QDockWidget* dock : docks) {
+      QVERIFY(dock->objectName().startsWith("dock."));
+      dock->hide();
+      dock->toggleViewAction()->trigger();
+      QVERIFY(!dock->isHidden());
+    }
+  }
+
+  // The real program, on the short experiment of the newcomer.
+  void aStartedDraftIsStoredAndLearns() {
+    QTemporaryDir folder;
+    const QString database = folder.filePath("new.db");
+    Desk desk(BTR_PROGRAM);
+    desk.options.isActive = isRunActive;
+    const auto window = desk.open(database);
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+    spec.learner.settings["population"] = 4;
+    spec.stages["first_generations"] = 2;
+    spec.stages["total_generations"] = 2;
+    window->draft().setSpec(spec);
+    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
+    QTest::mouseClick(window->draft().findChild<QPushButton*>("start"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(window->findChild<FitnessChart*>()->run().generations.size() >= 1, 120000);
+    const Id run = window->findChild<ExperimentTree*>()->selectedRun();
+    window->stopRun(run);
+    QTRY_VERIFY_WITH_TIMEOUT(window->watcher().activeRuns().empty(), 120000);
+    QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
+  }
+};
+
+QTEST_MAIN(TestMainWindow)
+#include "test_main_window.moc"

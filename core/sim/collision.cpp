@@ -47,12 +47,13 @@ Vector3d closestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-void add(std::vector<ContactPoint>& contacts, const Vector3d& point) {
-  if (point.z() < 0) contacts.push_back({point, Vector3d::UnitZ(), -point.z()});
+void add(std::vector<ContactPoint>& contacts, double margin, const Vector3d& point) {
+  if (point.z() < margin) contacts.push_back({point, Vector3d::UnitZ(), -point.z()});
 }
 
 // On its side a cylinder touches along a line (the lowest point of each rim), upright on four points of its lower rim.
-void cylinderOnFloor(const Isometry3d& pose, double radius, double half, std::vector<ContactPoint>& contacts) {
+void cylinderOnFloor(const Isometry3d& pose, double radius, double half, double margin,
+                     std::vector<ContactPoint>& contacts) {
   const Vector3d axis = pose.linear().col(1);
   Vector3d down = Vector3d(0, 0, -1) + axis.z() * axis;
   const bool upright = down.norm() < 1e-3;
@@ -61,11 +62,11 @@ void cylinderOnFloor(const Isometry3d& pose, double radius, double half, std::ve
   const Vector3d side = axis.cross(down);
   for (const double end : {-half, half}) {
     const Vector3d cap = pose.translation() + end * axis;
-    add(contacts, cap + down);
+    add(contacts, margin, cap + down);
     if (end * axis.z() > 0) continue;
-    add(contacts, cap + side);
-    add(contacts, cap - side);
-    if (upright) add(contacts, cap - down);
+    add(contacts, margin, cap + side);
+    add(contacts, margin, cap - side);
+    if (upright) add(contacts, margin, cap - down);
   }
 }
 
@@ -196,25 +197,27 @@ Collider makeCollider(const Shape& shape, const Isometry3d& linkInBody, int link
   return collider;
 }
 
-void floorContacts(const Collider& collider, const Isometry3d& body, std::vector<ContactPoint>& contacts) {
+void floorContacts(const Collider& collider, const Isometry3d& body, double margin,
+                   std::vector<ContactPoint>& contacts) {
   contacts.clear();
   const Vector3d centre = body * collider.pose.translation();
-  if (centre.z() >= collider.bound_m) return;
-  if (collider.kind == Shape::Kind::sphere) return add(contacts, centre - Vector3d(0, 0, collider.size_m.x()));
+  if (centre.z() >= collider.bound_m + margin) return;
+  if (collider.kind == Shape::Kind::sphere) return add(contacts, margin, centre - Vector3d(0, 0, collider.size_m.x()));
   const Isometry3d pose = body * collider.pose;
   switch (collider.kind) {
     case Shape::Kind::box: {
       const Vector3d half = collider.size_m / 2;
       for (int corner = 0; corner < 8; ++corner)
-        add(contacts, pose * Vector3d(corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
-                                      corner & 4 ? half.z() : -half.z()));
+        add(contacts, margin,
+            pose * Vector3d(corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
+                            corner & 4 ? half.z() : -half.z()));
       break;
     }
     case Shape::Kind::cylinder:
-      cylinderOnFloor(pose, collider.size_m.x(), collider.size_m.y() / 2, contacts);
+      cylinderOnFloor(pose, collider.size_m.x(), collider.size_m.y() / 2, margin, contacts);
       break;
     default: {
-      for (const auto& point : collider.hull->points) add(contacts, pose * point);
+      for (const auto& point : collider.hull->points) add(contacts, margin, pose * point);
       // The deepest few carry the load; more would only make the solver slower.
       constexpr std::size_t most = 6;
       if (contacts.size() > most) {
@@ -227,10 +230,10 @@ void floorContacts(const Collider& collider, const Isometry3d& body, std::vector
 }
 
 bool sphereContact(const Collider& collider, const Isometry3d& body, const Vector3d& centre, double radius,
-                   ContactPoint& contact) {
+                   double margin, ContactPoint& contact) {
   const Vector3d middle = body * collider.pose.translation();
   const double reach = collider.bound_m + radius;
-  if ((centre - middle).squaredNorm() >= reach * reach) return false;
+  if ((centre - middle).squaredNorm() >= (reach + margin) * (reach + margin)) return false;
   if (collider.kind == Shape::Kind::sphere) {
     const double distance = (centre - middle).norm();
     contact.normal = distance > 1e-12 ? Vector3d((centre - middle) / distance) : Vector3d::UnitZ();
@@ -244,7 +247,7 @@ bool sphereContact(const Collider& collider, const Isometry3d& body, const Vecto
                           : collider.kind == Shape::Kind::cylinder
                               ? nearestOnCylinder(collider.size_m.x(), collider.size_m.y() / 2, local)
                               : nearestOnHull(*collider.hull, local);
-  if (nearest.distance >= radius) return false;
+  if (nearest.distance >= radius + margin) return false;
   contact.normal = pose.linear() * nearest.normal;
   contact.depth_m = radius - nearest.distance;
   contact.position_m = centre - contact.normal * radius;

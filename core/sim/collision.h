@@ -33,13 +33,14 @@ struct ContactPoint {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal =
       Eigen::Vector3d::UnitZ();  ///< towards the first body (floor: the collider's; sphere: the sphere)
-  double depth_m = 0;
+  double depth_m = 0;            ///< negative: still apart by that much
 };
 
-/// Points of the collider below z = 0, the same set for mirrored poses. Clears `contacts` first.
-void floorContacts(const Collider& collider, const Eigen::Isometry3d& body, std::vector<ContactPoint>& contacts);
-/// Contact of a sphere with the collider; the normal points to the sphere. False if they are apart.
+/// Points of the collider below z = margin, the same set for mirrored poses. Clears `contacts` first.
+void floorContacts(const Collider& collider, const Eigen::Isometry3d& body, double margin,
+                   std::vector<ContactPoint>& contacts);
+/// Contact of a sphere with the collider; the normal points to the sphere. False if they are further apart than margin.
 bool sphereContact(const Collider& collider, const Eigen::Isometry3d& body, const Eigen::Vector3d& centre,
-                   double radius, ContactPoint& contact);
+                   double radius, double margin, ContactPoint& contact);
 
 }  // namespace btr

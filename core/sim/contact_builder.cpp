@@ -1,5 +1,6 @@
 #include "core/sim/contact_builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace btr {
@@ -35,18 +36,22 @@ void ContactBuilder::begin(double step, double gravity_m_s2) {
   bounceAbove_ = 0.01 + 1.5 * gravity_m_s2 * step;
 }
 
-void ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface) {
+bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface) {
   dContact contact{};
   copy(point.position_m, contact.geom.pos);
   copy(point.normal, contact.geom.normal);
-  contact.geom.depth = point.depth_m;
+  contact.geom.depth = std::max(0.0, point.depth_m);
   const Vector3d velocity = pointVelocity(first, point.position_m) - pointVelocity(second, point.position_m);
   const double approach = -velocity.dot(point.normal);
+  const double gap = std::max(0.0, -point.depth_m);
+  const bool hit = surface.restitution > 0 && approach > bounceAbove_;
+  // Bodies may speed up within the step; a hit that bounces waits until the surfaces touch.
+  if (gap > 0 && (hit || gap > 1.5 * step_ * approach + 1e-4)) return false;
 
   auto& s = contact.surface;
   s.mode = dContactApprox1 | dContactFDir1 | dContactSoftERP | dContactSoftCFM;
   s.mu = surface.friction;
-  if (surface.restitution > 0 && approach > bounceAbove_) {
+  if (hit) {
     // A hit: Newton's law of impact, without softness.
     s.mode |= dContactBounce;
     s.bounce = surface.restitution;
@@ -57,6 +62,10 @@ void ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
     const double denominator = step_ * surface.stiffness_n_m + surface.damping_n_s_m;
     s.soft_erp = step_ * surface.stiffness_n_m / denominator;
     s.soft_cfm = 1 / denominator;
+  }
+  if (gap > 0) {
+    s.mode |= dContactMotionN;
+    s.motionN = -gap / step_;
   }
   Vector3d wanted = Vector3d::UnitX();
   if (surface.slip1_m_s_n > 0 || surface.slip2_m_s_n > 0) {
@@ -71,6 +80,7 @@ void ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
   const dJointID id = dJointCreateContact(session_.world(), session_.contacts(), &contact);
   dJointAttach(id, first, second);
   if (measure_) dJointSetFeedback(id, &feedback_.emplace_back(dJointFeedback{}, second == nullptr).first);
+  return gap <= step_ * std::max(0.0, approach);
 }
 
 void ContactBuilder::clear() {

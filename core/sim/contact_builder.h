@@ -34,7 +34,11 @@ class ContactBuilder {
   ///   exactly friction  at most μ times the normal force along each of two directions. With slip both are the world's
   ///   x and y and the
   ///             surface creeps by slip·force; without slip the first one is the direction of sliding (isotropic).
-  void add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
+  /// A point that is still apart but will touch within the step takes part: it may approach until it touches, not
+  /// further, so that fast parts do not dive in by a step's way. Returns true if the point touches or will.
+  bool add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
+  /// How far apart surfaces matter whose points are this fast.
+  static double margin(double speed, double step) { return 1.5 * step * speed + 1e-4; }
   /// Removes the step's contacts.
   void clear();
   /// Keeps the forces of the contacts with what never moves; costs a little.

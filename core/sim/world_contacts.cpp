@@ -15,29 +15,57 @@ ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
 
 }  // namespace
 
-void World::Impl::touchFloor(WorldRobot& robot, RobotBody& body) {
-  if (body.pose.translation().z() >= body.reach_m) return;
+void World::Impl::touchFloor(WorldRobot& robot, RobotBody& body, double h) {
+  const double margin = contacts.margin(body.velocity_m_s.norm() + body.spin_rad_s.norm() * body.reach_m, h);
+  if (body.pose.translation().z() >= body.reach_m + margin) return;
   for (const auto& collider : body.colliders) {
-    floorContacts(collider, body.pose, points);
+    floorContacts(collider, body.pose, margin, points);
     for (const auto& point : points) {
-      contacts.add(point, body.id, nullptr, floorSurface(*scene.floor, scene.floor->restitution));
+      if (!contacts.add(point, body.id, nullptr, floorSurface(*scene.floor, scene.floor->restitution))) continue;
       robot.contact[static_cast<std::size_t>(collider.link)] = 1;
       robot.touches = true;
     }
   }
 }
 
-void World::Impl::touchBalls(WorldRobot& robot, const std::vector<Collider>& colliders, const Isometry3d& pose,
-                             dBodyID id) {
+void World::Impl::touchBalls(WorldRobot& robot, const RobotBody* body, double h) {
+  const auto& colliders = body ? body->colliders : robot.body->baseColliders;
+  const Isometry3d& pose = body ? body->pose : robot.body->poseOf(-1);
   for (auto& ball : balls) {
+    double speed = ball.state.velocity_m_s.norm();
+    if (body) speed += body->velocity_m_s.norm() + body->spin_rad_s.norm() * body->reach_m;
+    const double margin = contacts.margin(speed, h);
+    const double reach = ball.spec->radius_m + margin + (body ? body->reach_m : 0);
+    if (body && (ball.state.position_m - pose.translation()).squaredNorm() >= reach * reach) continue;
     for (const auto& collider : colliders) {
       ContactPoint point;
-      if (!sphereContact(collider, pose, ball.state.position_m, ball.spec->radius_m, point)) continue;
-      contacts.add(point, ball.id, id, {shellFriction, ball.spec->restitution});
+      if (!sphereContact(collider, pose, ball.state.position_m, ball.spec->radius_m, margin, point)) continue;
+      if (!contacts.add(point, ball.id, body ? body->id : nullptr, {shellFriction, ball.spec->restitution})) continue;
       robot.contact[static_cast<std::size_t>(collider.link)] = 1;
       robot.touches = true;
       ball.touched = true;
     }
+  }
+}
+
+void World::Impl::touchOthers(std::size_t index, double h) {
+  WorldBall& ball = balls[index];
+  const double speed = ball.state.velocity_m_s.norm();
+  if (scene.floor && ball.state.position_m.z() < ball.spec->radius_m + contacts.margin(speed, h)) {
+    const Vector3d lowest = ball.state.position_m - Vector3d(0, 0, ball.spec->radius_m);
+    ball.state.onFloor =
+        contacts.add({lowest, Vector3d::UnitZ(), -lowest.z()}, ball.id, nullptr,
+                     floorSurface(*scene.floor, std::max(scene.floor->restitution, ball.spec->restitution)));
+  }
+  for (std::size_t j = 0; j < index; ++j) {
+    WorldBall& other = balls[j];
+    const Vector3d between = ball.state.position_m - other.state.position_m;
+    const double distance = between.norm(), reach = ball.spec->radius_m + other.spec->radius_m;
+    if (distance < 1e-12 || distance >= reach + contacts.margin(speed + other.state.velocity_m_s.norm(), h)) continue;
+    const Vector3d normal = between / distance;
+    if (contacts.add({ball.state.position_m - normal * ball.spec->radius_m, normal, reach - distance}, ball.id,
+                     other.id, {shellFriction, std::max(ball.spec->restitution, other.spec->restitution)}))
+      ball.touched = other.touched = true;
   }
 }
 
@@ -51,34 +79,12 @@ void World::Impl::makeContacts(double h) {
     std::fill(robot.contact.begin(), robot.contact.end(), 0);
     robot.touches = false;
     for (auto& body : robot.body->bodies) {
-      if (scene.floor) touchFloor(robot, body);
-      bool reaches = false;
-      for (const auto& ball : balls)
-        reaches =
-            reaches || (ball.state.position_m - body.pose.translation()).norm() < body.reach_m + ball.spec->radius_m;
-      if (reaches) touchBalls(robot, body.colliders, body.pose, body.id);
+      if (scene.floor) touchFloor(robot, body, h);
+      touchBalls(robot, &body, h);
     }
-    touchBalls(robot, robot.body->baseColliders, robot.body->poseOf(-1), nullptr);
+    touchBalls(robot, nullptr, h);
   }
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    WorldBall& ball = balls[i];
-    if (scene.floor && ball.state.position_m.z() < ball.spec->radius_m) {
-      const Vector3d lowest = ball.state.position_m - Vector3d(0, 0, ball.spec->radius_m);
-      contacts.add({lowest, Vector3d::UnitZ(), -lowest.z()}, ball.id, nullptr,
-                   floorSurface(*scene.floor, std::max(scene.floor->restitution, ball.spec->restitution)));
-      ball.state.onFloor = true;
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      WorldBall& other = balls[j];
-      const Vector3d between = ball.state.position_m - other.state.position_m;
-      const double distance = between.norm(), reach = ball.spec->radius_m + other.spec->radius_m;
-      if (distance >= reach || distance < 1e-12) continue;
-      const Vector3d normal = between / distance;
-      contacts.add({ball.state.position_m - normal * ball.spec->radius_m, normal, reach - distance}, ball.id, other.id,
-                   {shellFriction, std::max(ball.spec->restitution, other.spec->restitution)});
-      ball.touched = other.touched = true;
-    }
-  }
+  for (std::size_t i = 0; i < balls.size(); ++i) touchOthers(i, h);
 }
 
 void World::Impl::driveBall(WorldBall& ball, double now, double h) {

@@ -71,8 +71,9 @@ struct World::Impl {
   void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
   // world_contacts.cpp
   void makeContacts(double h);
-  void touchFloor(WorldRobot& robot, RobotBody& body);
-  void touchBalls(WorldRobot& robot, const std::vector<Collider>& colliders, const Eigen::Isometry3d& pose, dBodyID id);
+  void touchFloor(WorldRobot& robot, RobotBody& body, double h);
+  void touchBalls(WorldRobot& robot, const RobotBody* body, double h);
+  void touchOthers(std::size_t ball, double h);
   void driveBall(WorldBall& ball, double now, double h);
   void readBall(WorldBall& ball, double now);
   void placeBall(WorldBall& ball, const BallState& state);

@@ -31,9 +31,9 @@ struct ExperimentSpec {
   PluginChoice adaptation;           ///< L3's learner, e.g. "ga"
   Values adaptationSettings;         ///< how L3 compares: adaptationParameters()
   std::vector<std::string> adapted;  ///< names of simulatorParameters() that L3 may change; empty means all
-  SimulatorSpec simulator;           ///< the simulator the run starts with; absent parameters have their defaults
-  std::string reality = "person";    ///< who answers the measurements: "person" or "stand_in"
-  Values standIn;                    ///< standInParameters(), used when reality is "stand_in"
+  SimulatorSpec simulator;  ///< the simulator the run starts with; what is absent has the scene's and robot's numbers
+  std::string reality = "person";  ///< who answers the measurements: "person" or "stand_in"
+  Values standIn;                  ///< standInParameters(), used when reality is "stand_in"
   std::uint64_t seed = 1;
   std::string directory;  ///< of the experiment's file; not part of the JSON
   bool operator==(const ExperimentSpec&) const = default;

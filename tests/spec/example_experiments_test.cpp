@@ -35,6 +35,14 @@ TEST(ExampleExperiments, TheShortKickMeasuresThreeTimesByTheStandIn) {
   EXPECT_EQ("stand_in", kick.reality);
 }
 
+TEST(ExampleExperiments, BeginWithTheStartingValuesOfAllTwelveParameters) {
+  for (const char* name : {"kick.json", "kick-short.json"}) {
+    const Values given = example(name).simulator.values;
+    for (const Parameter& parameter : simulatorParameters())
+      EXPECT_EQ(parameter.byDefault, given.at(parameter.name)) << name << " " << parameter.name;
+  }
+}
+
 TEST(ExampleExperiments, TheirScenesCanBeRead) {
   for (const char* name : {"kick.json", "kick-short.json"}) {
     const ExperimentSpec spec = example(name);

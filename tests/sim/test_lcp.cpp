@@ -1,0 +1,172 @@
+// The reduced complementarity problem against ODE's own solver.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/sim/lcp_hook.h"
+#include "core/sim/lcp_solver.h"
+#include "core/sim/trial.h"
+#include "core/sim/trot.h"
+#include "core/spec/random.h"
+#include "tests/sim/small_worlds.h"
+
+namespace btr::test {
+namespace {
+
+/// Restores the hook whatever a test did to it.
+struct HookGuard {
+  LcpHook& hook = LcpHook::ofThisThread();
+  HookGuard() { hook = LcpHook{}; }
+  ~HookGuard() { hook = LcpHook{}; }
+};
+
+// A random tree of up to 14 links with all kinds of joints, drives and friction, dropped on the floor among balls.
+Scene randomScene(std::uint64_t seed) {
+  Random random(seed);
+  RobotModel model;
+  model.name = "tree";
+  const auto small = [&](double size) {
+    return Eigen::Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+  };
+  const int count = 3 + static_cast<int>(random.below(12));
+  std::vector<Drive> drives;
+  for (int i = 0; i < count; ++i) {
+    Shape shape = random.chance(0.5) ? sphere(0.03) : box({0.05, 0.04, 0.06});
+    if (random.chance(0.2)) {
+      shape.kind = Shape::Kind::cylinder;
+      shape.size_m << 0.02, 0.08, 0;
+    }
+    model.links.push_back(
+        link("link" + std::to_string(i), random.uniform(0.05, 0.5), small(0.01), {2e-4, 3e-4, 4e-4}, {shape}));
+    if (i == 0) continue;
+    const auto type = random.chance(0.15)  ? Joint::Type::slide
+                      : random.chance(0.1) ? Joint::Type::fixed
+                                           : Joint::Type::rotate;
+    Joint made = joint("joint" + std::to_string(i), static_cast<int>(random.below(static_cast<std::uint64_t>(i))),
+                       (small(1) + Eigen::Vector3d(0, 0, 1e-3)).normalized(), small(0.1), type);
+    made.lower = -0.8;
+    made.upper = 0.8;
+    model.joints.push_back(made);
+    Drive drive{.p = random.uniform(0, 10), .d = random.uniform(0.001, 0.1), .maxTorque = random.uniform(0.05, 2)};
+    if (random.chance(0.2)) drive.kind = Drive::Kind::none;
+    if (random.chance(0.3)) drive.coulombFriction = 0.05;
+    if (random.chance(0.3)) drive.viscousFriction = 0.01;
+    drives.push_back(drive);
+  }
+  Scene scene = sceneOf(robot(std::move(model), random.chance(0.8)), random.chance(0.5) ? 0.004 : 0.001);
+  scene.robots[0].drives = drives;
+  scene.robots[0].start.translation().z() = 0.25;
+  scene.floor = FloorSpec{.friction = random.uniform(0.1, 1.5)};
+  if (random.chance(0.3)) scene.floor->slip1_m_s_n = scene.floor->slip2_m_s_n = 0.01;
+  for (int i = 0; i < 2; ++i) {
+    BallSpec ball;
+    ball.name = "ball" + std::to_string(i);
+    ball.position_m = {random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0.2};
+    ball.rollingDeceleration_m_s2 = 0.4;
+    scene.balls.push_back(ball);
+  }
+  return scene;
+}
+
+TEST(LcpReducer, AgreesWithOdeOnThousandsOfRandomProblems) {
+  HookGuard guard;
+  guard.hook.compare = true;
+  long steps = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const Scene scene = randomScene(seed);
+    World world(scene, seed);
+    Random random(seed + 1000);
+    for (int period = 0; period < 20 && world.fault().empty(); ++period, ++steps) {
+      auto inputs = commands(scene, 0);
+      for (auto& input : inputs[0]) input.command = random.uniform(-1, 1);
+      world.advance(inputs, 0.008);
+    }
+  }
+  EXPECT_GT(guard.hook.reduced, 5000) << steps;
+  EXPECT_LT(guard.hook.worst, 1e-6);
+  std::printf("reduced %ld whole %ld worst %.3g\n", guard.hook.reduced, guard.hook.whole, guard.hook.worst);
+}
+
+Scene walkScene() {
+  SceneSpec spec = loadScene(SOURCE_DIR "/resources/scenes/walk.json");
+  spec.step_s = 0.004;
+  Scene scene = makeScene(spec, loadModels(spec), {}, {});
+  Trot{}.arrange(scene, {});
+  return scene;
+}
+
+TEST(LcpReducer, TakesPartInEveryStepOfAWalkAndAgreesWithOde) {
+  HookGuard guard;
+  guard.hook.compare = true;
+  runTrial(walkScene(), Trot{}, {{"duration_s", 2}}, {}, 1);
+  EXPECT_GE(guard.hook.reduced, 500);
+  EXPECT_LT(guard.hook.worst, 1e-9);
+}
+
+TEST(LcpReducer, ASmoothTrialEndsAtTheSamePlaceWithAndWithoutIt) {
+  HookGuard guard;
+  Eigen::Vector3d ends[2];
+  for (const bool reduce : {false, true}) {
+    guard.hook = LcpHook{.reduce = reduce};
+    ends[reduce] = runTrial(walkScene(), Trot{}, {{"duration_s", 1}}, {}, 1).baseEnd_m;
+    EXPECT_EQ(reduce, guard.hook.reduced > 0);
+  }
+  EXPECT_LT((ends[0] - ends[1]).norm(), 1e-5);
+}
+
+// A problem in ODE's layout with every row unbounded.
+struct Problem {
+  unsigned n;
+  std::vector<double> a, bx, loHi;
+  std::vector<int> findex;
+  explicit Problem(unsigned size) : n(size), a(size * size, 0), bx(2 * size, 1), loHi(2 * size), findex(size, -1) {
+    for (unsigned i = 0; i < n; ++i) {
+      a[i * n + i] = 2;
+      loHi[2 * i] = -std::numeric_limits<double>::infinity();
+      loHi[2 * i + 1] = std::numeric_limits<double>::infinity();
+    }
+  }
+  LcpProblem view() { return {n, n, a.data(), bx.data(), loHi.data(), findex.data()}; }
+};
+
+TEST(LcpReducer, SolvesAProblemWithoutBoundsByItself) {
+  Problem problem(24);
+  Random random(3);
+  // A = G·Gᵀ + 1, banded, known x.
+  std::vector<double> wanted(24);
+  for (unsigned i = 0; i < 24; ++i) {
+    wanted[i] = random.normal();
+    for (unsigned j = i < 7 ? 0 : i - 7; j < i; ++j) problem.a[i * 24 + j] = 0.1 * random.normal();
+  }
+  for (unsigned i = 0; i < 24; ++i) {
+    double sum = 0;
+    for (unsigned j = 0; j < 24; ++j) sum += problem.a[std::max(i, j) * 24 + std::min(i, j)] * wanted[j];
+    problem.bx[2 * i] = sum;
+  }
+  LcpReducer reducer;
+  ASSERT_TRUE(reducer.reduce(problem.view()));
+  EXPECT_EQ(0u, reducer.small().n);
+  reducer.expand(problem.view());
+  for (unsigned i = 0; i < 24; ++i) EXPECT_NEAR(wanted[i], problem.bx[2 * i + 1], 1e-12);
+}
+
+TEST(LcpReducer, LeavesUnusualProblemsAlone) {
+  LcpReducer reducer;
+  Problem few(12);
+  EXPECT_FALSE(reducer.reduce(few.view())) << "too small to be worth it";
+  Problem indefinite(24);
+  indefinite.a[5 * 24 + 5] = -1;
+  EXPECT_FALSE(reducer.reduce(indefinite.view()));
+  Problem notANumber(24);
+  notANumber.a[5 * 24 + 5] = NAN;
+  EXPECT_FALSE(reducer.reduce(notANumber.view()));
+  Problem hanging(24);
+  hanging.findex[20] = 3;
+  EXPECT_FALSE(reducer.reduce(hanging.view())) << "a bound that hangs on an unbounded row";
+  Problem huge(6 * 33);
+  EXPECT_FALSE(reducer.reduce(huge.view()));
+}
+
+}  // namespace
+}  // namespace btr::test

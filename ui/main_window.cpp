@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QScreen>
 #include <QStatusBar>
+#include <QTableView>
 #include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -27,6 +28,20 @@
 #include "ui/scene3d/replay_panel.h"
 
 namespace btr::ui {
+namespace {
+
+// As high as its messages need at the window's width: a tool bar would take the height that a narrow text would need.
+class MessageArea final : public QWidget {
+ public:
+  using QWidget::QWidget;
+  QSize sizeHint() const override {
+    const int wide = window()->width();
+    return {QWidget::sizeHint().width(),
+            layout()->hasHeightForWidth() ? layout()->heightForWidth(wide) : layout()->sizeHint().height()};
+  }
+};
+
+}  // namespace
 
 MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, const WindowOptions& options)
     : host_(std::move(host)),
@@ -90,6 +105,7 @@ void MainWindow::makeDocks() {
   gap_ = new GapChart(this);
   versions_ = new SimulatorsPage(this);
   individuals_ = new IndividualsTable(this);
+  individuals_->view().sortByColumn(IndividualsModel::fitness, Qt::DescendingOrder);
   sheet_ = new MeasurementSheet(this);
   replay_ = new ReplayPanel(this);
   replayJob_ = new ReplayJob(this);
@@ -117,12 +133,13 @@ void MainWindow::makeDocks() {
   messages->setMovable(false);
   messages->toggleViewAction()->setVisible(false);
   alarm_ = new Alarm(this, options_.settingsFile);
-  auto* stack = new QWidget(messages);
+  auto* stack = new MessageArea(messages);
   auto* column = new QVBoxLayout(stack);
   column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
   column->addWidget(alarm_);
   column->addWidget(banner_);
-  stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
   messages->addWidget(stack);
   addToolBar(Qt::TopToolBarArea, messages);
   const auto showIfAny = [this, messages] {

@@ -53,13 +53,15 @@ void MainWindow::showWaiting() {
   const bool waits = run_.state == RunState::waiting && !isStandIn(run_);
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
   sheet_->setWaiting(run_.state == RunState::waiting);
-  if (waits && count.settled < count.wanted)
+  if (waits && count.settled < count.wanted) {
+    if (alarm_->state() == Alarm::State::quiet) raiseDock(sheetDock_);
     alarm_->raiseAlarm(tr("%1, stage %2: %3 individuals wait for their real fitness.")
                            .arg(runName(run_))
                            .arg(run_.stage + 1)
                            .arg(count.wanted));
-  else
+  } else {
     alarm_->clear();
+  }
 }
 
 void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {

@@ -132,17 +132,17 @@ void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool
 void MainWindow::replayIndividual(Id individual) {
   if (!watcher_.isOpen() || run_.id == 0) return;
   raiseDock(replayDock_);
-  const auto name = QFileInfo(databasePath()).completeBaseName();
-  replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_, name] {
+  individuals_->select(individual);
+  replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_] {
     const Database database = Database::open(path, Database::Mode::readOnly);
     const RunRecord record = database.run(run);
     const IndividualRecord stored = database.individual(individual);
     std::vector<ReplayBall> balls;
     for (const BallSpec& ball : sceneFromJson(record.sceneJson, "scene", "").balls)
       balls.push_back({ball.name, ball.radius_m});
-    ReplayData shown = toReplayData(
-        replay(database, *host, run, individual), balls,
-        tr("%1, run %2, generation %3, individual %4").arg(name).arg(run).arg(stored.generation).arg(individual), unit);
+    ReplayData shown =
+        toReplayData(replay(database, *host, run, individual), balls,
+                     tr("run %1, generation %2, individual %3").arg(run).arg(stored.generation).arg(individual), unit);
     shown.simulator = tr("simulator %1").arg(database.simulator(stored.simulator).number);
     shown.standIn = isStandIn(record);
     return shown;

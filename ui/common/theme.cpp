@@ -64,7 +64,6 @@ QHeaderView::section { background: palette(window); border: none; border-right: 
 QToolTip { border: 1px solid palette(mid); padding: 4px; background: palette(tool-tip-base); color: palette(tool-tip-text); }
 QProgressBar { border: 1px solid palette(mid); border-radius: 4px; text-align: center; background: palette(base);
   min-height: 16px; }
-QProgressBar::chunk { background: palette(highlight); border-radius: 3px; }
 )";
 
 // Fusion draws outlines as a darker window colour, which vanishes on a dark window: here they get a lighter one.
@@ -125,7 +124,10 @@ void Theme::apply(Look look) {
   dark_ = look == Look::dark || (look == Look::system && systemIsDark_);
   application_.setStyle(new OutlinedFusion(dark_));
   application_.setPalette(paletteFrom(dark_ ? darkColours : lightColours));
-  application_.setStyleSheet(QString::fromLatin1(styleSheet));
+  // The text of a progress bar has one colour: its filled part must suit it.
+  application_.setStyleSheet(
+      QString::fromLatin1(styleSheet) +
+      QStringLiteral("QProgressBar::chunk { background: %1; border-radius: 3px; }").arg(dark_ ? "#2f66c4" : "#a8c8fa"));
   QIcon::setThemeName(dark_ ? QStringLiteral("breeze-dark") : QStringLiteral("breeze"));
   emit changed();
 }

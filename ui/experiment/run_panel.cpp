@@ -207,7 +207,8 @@ void RunPanel::refresh() {
   left_.value->setText(active_ ? duration(progress_.secondsLeft) : QStringLiteral("–"));
 
   QString message = QString::fromStdString(run_.message);
-  if (message == next_->text()) message.clear();
+  // While it waits or is stopped, the next action already says it.
+  if (face_ == RunFace::waiting || face_ == RunFace::stopped || face_ == RunFace::stopping) message.clear();
   message_->setText(message);
   message_->setVisible(!message.isEmpty());
   message_->setStyleSheet(face_ == RunFace::failed ? QStringLiteral("color: %1").arg(tones.bad.name())

@@ -63,7 +63,7 @@ QString iconName(RunFace face) {
     case RunFace::adapting:
       return "configure";
     case RunFace::waiting:
-      return "appointment-soon";
+      return "clock";
     case RunFace::stopping:
       return "media-playback-stop";
     case RunFace::interrupted:

@@ -62,6 +62,8 @@ ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
   result_ = new QLabel(this);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->setFocusPolicy(Qt::NoFocus);
+  // A long line is cut, with the whole in the tooltip: it must not widen the window.
+  result_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
 
   auto* head = new QHBoxLayout;
   head->addWidget(result_, 1);
@@ -158,6 +160,7 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
   if (!replay.simulator.isEmpty()) result << replay.simulator;
   if (!replay.note.isEmpty()) result << replay.note;
   result_->setText(result.join("  ·  "));
+  result_->setToolTip(result_->text());
   QList<Badge> badges{checkBadge(replay)};
   if (replay.standIn) badges << Badge{tr("stand-in reality, not a robot"), Badge::Tone::standIn};
   view_->setBadges(badges);

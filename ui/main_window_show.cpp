@@ -46,11 +46,13 @@ void MainWindow::connectShow() {
   connect(&watcher_, &DatabaseWatcher::generationsReset, this,
           [this](Id run, const std::vector<GenerationRecord>& all) {
             fitness_->setGenerations(all);
+            if (!all.empty()) panel_->setGeneration(all.back());
             individuals_->load(all.empty() ? 0 : all.back().number,
                                [this, run](int number) { return watcher_.database().individuals(run, number); });
           });
   connect(&watcher_, &DatabaseWatcher::generationsAdded, this,
           [this](Id run, const std::vector<GenerationRecord>& added) {
+            panel_->setGeneration(added.back());
             for (const GenerationRecord& generation : added) {
               fitness_->append(generation);
               guard([&] {

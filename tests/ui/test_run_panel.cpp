@@ -33,8 +33,8 @@ RunProgress progressIn(const std::string& stage) {
   progress.trials = 1110;
   progress.trialsPerSecond = 61.5;
   progress.secondsLeft = 125;
-  progress.best = 0.8125;
-  progress.mean = 0.25;
+  progress.best = 0.5;
+  progress.mean = 0.75;
   return progress;
 }
 
@@ -44,6 +44,12 @@ struct Shown {
 };
 
 Shown show(RunPanel& panel, const RunRecord& run, const RunProgress& progress, bool active) {
+  GenerationRecord last;
+  last.run = run.id;
+  last.number = run.generation;
+  last.best = 0.8125;
+  last.mean = 0.25;
+  panel.setGeneration(last);
   panel.setUnit("m");
   panel.show();
   panel.showRun(run, progress, active);

@@ -120,10 +120,17 @@ RunPanel::Figure RunPanel::addFigure(QHBoxLayout& row, const QString& name, cons
 
 void RunPanel::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
   if (run.id != run_.id) measuring_ = {};
+  if (run.id != generation_.run) generation_ = {};
   run_ = run;
   progress_ = progress;
   active_ = active;
   empty_ = false;
+  refresh();
+}
+
+void RunPanel::setGeneration(const GenerationRecord& generation) {
+  generation_ = generation;
+  generation_.individuals.clear();
   refresh();
 }
 
@@ -196,9 +203,9 @@ void RunPanel::refresh() {
   const bool adapting = face_ == RunFace::adapting || (active_ && progress_.stage == "L3");
   best_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
   mean_.caption->setText(adapting ? tr("Mean error") : tr("Mean"));
-  const bool known = run_.generation > 0 || progress_.stageDone > 0;
-  best_.value->setText(known ? withUnit(progress_.best, unit_) : QStringLiteral("–"));
-  mean_.value->setText(known ? withUnit(progress_.mean, unit_) : QStringLiteral("–"));
+  const bool known = adapting ? progress_.stageDone > 0 : generation_.number > 0;
+  best_.value->setText(known ? withUnit(adapting ? progress_.best : generation_.best, unit_) : QStringLiteral("–"));
+  mean_.value->setText(known ? withUnit(adapting ? progress_.mean : generation_.mean, unit_) : QStringLiteral("–"));
   speed_.value->setText(active_ && progress_.trialsPerSecond > 0
                             ? tr("%1 trials/s").arg(shortNumber(progress_.trialsPerSecond))
                             : QStringLiteral("–"));

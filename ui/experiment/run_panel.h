@@ -17,6 +17,8 @@ class RunPanel : public QWidget {
  public:
   explicit RunPanel(QWidget* parent = nullptr);
   void showRun(const RunRecord& run, const RunProgress& progress, bool active);
+  /// The last generation of L1; while L3 works, its errors stand in these places.
+  void setGeneration(const GenerationRecord& generation);
   void setMeasuring(const MeasuringCount& measuring);
   void clear();
   void setUnit(const QString& unit);  ///< of the fitness
@@ -42,6 +44,7 @@ class RunPanel : public QWidget {
   RunRecord run_;
   RunProgress progress_;
   MeasuringCount measuring_;
+  GenerationRecord generation_;
   bool active_ = false, empty_ = true;
   RunFace face_ = RunFace::ready;
   QString unit_;

@@ -29,6 +29,7 @@ QTableWidget* makeTable(const QString& name, const QStringList& headers, QWidget
   table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   table->horizontalHeader()->setHighlightSections(false);
+  table->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   return table;
 }
 
@@ -81,11 +82,12 @@ SimulatorsPage::SimulatorsPage(QWidget* parent)
   column->addWidget(title_);
   column->addWidget(difference_, 1);
   column->addWidget(effects_);
-  auto* splitter = new QSplitter(Qt::Vertical, this);
+  auto* splitter = new QSplitter(Qt::Horizontal, this);
   splitter->addWidget(versions_);
   splitter->addWidget(lower);
-  splitter->setStretchFactor(0, 1);
-  splitter->setStretchFactor(1, 2);
+  splitter->setStretchFactor(0, 4);
+  splitter->setStretchFactor(1, 5);
+  splitter->setChildrenCollapsible(false);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(splitter);

@@ -164,7 +164,8 @@ void MainWindow::showTitle() {
   setWindowTitle(path.isEmpty() ? QStringLiteral("UCHILSIM")
                                 : QFileInfo(path).fileName() + QStringLiteral(" — UCHILSIM"));
   setWindowFilePath(QString());
-  databaseLabel_->setText(path.isEmpty() ? tr("No database") : path);
+  databaseLabel_->setText(path.isEmpty() ? tr("No database") : QFileInfo(path).fileName());
+  databaseLabel_->setToolTip(path);
 }
 
 }  // namespace btr::ui

@@ -1,6 +1,7 @@
 // The form made from declared parameters: values in, values out, marks, bold, undo.
 #include <QApplication>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
@@ -9,6 +10,7 @@
 #include <QUndoStack>
 
 #include "ui/common/number_edit.h"
+#include "ui/common/theme.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/experiment/parameter_text.h"
@@ -85,6 +87,20 @@ class TestParameterForm : public QObject {
     QVERIFY(form.findChild<QToolButton*>("leg_mass_kg.reset")->isVisible());
     QVERIFY(!form.findChild<QToolButton*>("population.reset")->isVisible());
     QCOMPARE(form.changedCount(), 1);
+  }
+
+  void boldStaysWhenTheFormIsShownLaterInAStyledWindow() {
+    Theme theme(*qApp);
+    theme.apply(Look::light);
+    QUndoStack undo;
+    QDockWidget dock;
+    auto* form = new ParameterForm(someParameters(), undo, &dock);
+    form->setValues({{"leg_mass_kg", 0.25}});
+    dock.setWidget(form);
+    dock.show();
+    for (auto* label : form->findChildren<QLabel*>())
+      if (label->text() == "Leg mass" || label->text() == "Population")
+        QCOMPARE(label->font().bold(), label->text() == "Leg mass");
   }
 
   void marksInvalidInputWhereItStandsAndSaysWhatIsAllowed() {

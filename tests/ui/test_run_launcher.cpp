@@ -1,0 +1,88 @@
+// Storing, duplicating, exporting and importing through the real program, beside the window.
+#include <QFile>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "core/store/database.h"
+#include "ui/experiment/run_launcher.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+constexpr int longest_ms = 60000;
+
+struct Bench {
+  Bench() : database(Database::open(path.toStdString(), Database::Mode::create)) {}
+  Id stored(quint64 seed) {
+    QSignalSpy spy(&launcher, &RunLauncher::stored);
+    launcher.store(path, loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json"), seed, false);
+    return spy.wait(longest_ms) ? spy.first().first().value<Id>() : 0;
+  }
+  QTemporaryDir folder;
+  QString path = folder.filePath("runs.db");
+  Database database;
+  RunLauncher launcher{std::make_shared<const PluginHost>(PLUGIN_DIR), BTR_PROGRAM};
+};
+
+}  // namespace
+
+class TestRunLauncher : public QObject {
+  Q_OBJECT
+ private slots:
+  void storesARunOnceForTheSameExperimentAndSeed() {
+    Bench bench;
+    const Id run = bench.stored(3);
+    QVERIFY(run > 0);
+    QCOMPARE(bench.database.run(run).seed, std::uint64_t(3));
+    QCOMPARE(bench.stored(3), run);
+    QVERIFY(bench.stored(4) != run);
+  }
+
+  void duplicatesARunWithAnotherSeedFromTheDatabaseAlone() {
+    Bench bench;
+    const Id run = bench.stored(3);
+    QSignalSpy spy(&bench.launcher, &RunLauncher::stored);
+    bench.launcher.duplicate(bench.path, run, 9);
+    QVERIFY(spy.wait(longest_ms));
+    const RunRecord copy = bench.database.run(spy.first().first().value<Id>()), old = bench.database.run(run);
+    QCOMPARE(copy.seed, std::uint64_t(9));
+    QCOMPARE(copy.experiment, old.experiment);
+    QCOMPARE(copy.sceneJson, old.sceneJson);
+    QCOMPARE(copy.specSha256, old.specSha256);
+    QCOMPARE(copy.files.size(), old.files.size());
+    QVERIFY(bench.database.simulators(copy.id).front().simulator == bench.database.simulators(run).front().simulator);
+  }
+
+  void aSceneThatIsNotThereIsAMessageAndStoresNothing() {
+    Bench bench;
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+    spec.scene = "absent.json";
+    QSignalSpy failed(&bench.launcher, &RunLauncher::failed);
+    bench.launcher.store(bench.path, spec, 1, false);
+    QVERIFY(failed.wait(longest_ms));
+    QVERIFY(failed.first().first().toString().contains("absent.json"));
+    QVERIFY(bench.database.runs().empty());
+  }
+
+  void exportsATableAndSaysWhatIsWrongWithAnImport() {
+    Bench bench;
+    const Id run = bench.stored(1);
+    const QString table = bench.folder.filePath("simulators.csv");
+    QSignalSpy exported(&bench.launcher, &RunLauncher::exported), failed(&bench.launcher, &RunLauncher::failed);
+    bench.launcher.exportCsv(bench.path, run, "simulators", table);
+    QVERIFY(exported.wait(longest_ms));
+    QFile file(table);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QCOMPARE(file.readAll().count('\n'), 2);  // names and version 0
+
+    bench.launcher.importFitness(bench.path, run, bench.folder.filePath("absent.csv"));
+    QVERIFY(failed.wait(longest_ms));
+    QVERIFY2(failed.first().first().toString().contains("absent.csv"), qPrintable(failed.first().first().toString()));
+  }
+};
+
+QTEST_MAIN(TestRunLauncher)
+#include "test_run_launcher.moc"

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   btr::cli::addDataCommands(app, shell);
   btr::cli::addModelCommands(app, shell);
   btr::cli::addGapCommands(app, shell);
+  btr::cli::addBenchCommand(app, shell);
 
   try {
     app.parse(argc, argv);

@@ -28,8 +28,9 @@ struct Shell {
 void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, stand-in
 void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import
 void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export
-void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list, bench
+void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
+void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);

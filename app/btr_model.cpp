@@ -1,4 +1,4 @@
-// btr model check, list, bench.
+// btr model check, list.
 #include <cstdio>
 #include <functional>
 #include <iostream>

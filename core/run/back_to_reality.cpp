@@ -89,6 +89,10 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     context.progress.generation = now.generation;
     if (now.state == RunState::finished) {
       context.progress.stage = "finished";
+      if (const auto last = database.lastGeneration(run)) {
+        context.progress.best = last->best;
+        context.progress.mean = last->mean;
+      }
       context.progress.secondsLeft = 0;
       context.publish(true);
       return RunEnd::finished;

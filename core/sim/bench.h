@@ -13,8 +13,8 @@ struct BenchTask {
   std::string name;  ///< "kick", "walk"
   Scene scene;       ///< arranged; step and substeps are replaced
   const Controller* controller = nullptr;
-  Values settings;
-  std::vector<std::vector<double>> parameters;  ///< of each motion
+  Values settings = {};
+  std::vector<std::vector<double>> parameters = {};  ///< of each motion
 };
 
 /// What was measured at one step.

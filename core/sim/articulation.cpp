@@ -253,7 +253,7 @@ void Articulation::updateRings() {
   for (auto& body : bodies) {
     if (body.ringJoint < 0) continue;
     const Vector3d axis = body.pose.linear().transpose() * joints[body.ringJoint].axis;
-    if ((axis - body.ringAxis).squaredNorm() < 1e-6) continue;
+    if ((axis - body.ringAxis).squaredNorm() < 1e-4) continue;  // 0.01 rad
     body.ringAxis = axis;
     setMass(body.id, body.mass_kg, body.inertia_kg_m2 + body.ringInertia_kg_m2 * axis * axis.transpose());
   }
@@ -300,6 +300,15 @@ std::vector<Isometry3d> Articulation::linkPoses() const {
     }
   }
   return poses;
+}
+
+Isometry3d Articulation::linkPose(int link) const {
+  const int group = groupOfLink_[link];
+  const bool swallowed = group > 0 && universal_[group - 1] >= 0;
+  if (swallowed) return linkPoses()[static_cast<std::size_t>(link)];
+  if (bodyOfLink_[link] < 0) return basePose_ * linkInGroup_[link];
+  const RobotBody& body = bodies[bodyOfLink_[link]];
+  return body.pose * Eigen::Translation3d(-body.centre_m) * linkInGroup_[link];
 }
 
 Vector3d Articulation::pointVelocity(int link, const Vector3d& world) const {

@@ -87,6 +87,7 @@ class Articulation {
 
   Eigen::Isometry3d base() const;
   std::vector<Eigen::Isometry3d> linkPoses() const;
+  Eigen::Isometry3d linkPose(int link) const;
   Eigen::Vector3d pointVelocity(int link, const Eigen::Vector3d& world) const;
   const Eigen::Isometry3d& poseOf(int body) const { return body < 0 ? basePose_ : bodies[body].pose; }
   dBodyID idOf(int body) const { return body < 0 ? nullptr : bodies[body].id; }

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "core/sim/lcp_box.h"
 #include "core/sim/lcp_solver.h"
 
 struct dxWorldProcessMemArena;
@@ -24,25 +24,36 @@ LcpFunction* solverOfOde() {
   return found;
 }
 
-LcpReducer& reducer() {
-  thread_local LcpReducer one;
-  return one;
+struct Memory {
+  LcpReducer reducer;
+  BoxSolver box;
+};
+
+/// False if the problem is to be left to ODE; nothing was changed then except x.
+bool solveHere(const LcpProblem& problem, LcpHook& hook) {
+  thread_local Memory memory;
+  const bool coulomb = hook.coulomb && !hook.compare;
+  if (memory.reducer.reduce(problem)) {
+    const LcpProblem& small = memory.reducer.small();
+    if (small.n > 0 && !memory.box.solve(small, coulomb)) return false;
+    memory.reducer.expand(problem);
+    ++hook.reduced;
+    return true;
+  }
+  if (!memory.box.solve(problem, coulomb)) return false;
+  ++hook.small;
+  return true;
 }
 
 void solve(dxWorldProcessMemArena* arena, unsigned n, double* a, double* bx, double* w, unsigned unbounded,
            double* loHi, int* findex) {
   LcpHook& hook = LcpHook::ofThisThread();
   const LcpProblem problem{n, n > 1 ? (n + 3) / 4 * 4 : n, a, bx, loHi, findex};
-  if (!hook.reduce || w || !reducer().reduce(problem)) {
+  if (!hook.reduce || w || !solveHere(problem, hook)) {
     ++hook.whole;
-    return solverOfOde()(arena, n, a, bx, w, unbounded, loHi, findex);
+    solverOfOde()(arena, n, a, bx, w, unbounded, loHi, findex);
+    return;
   }
-  ++hook.reduced;
-  const LcpProblem& small = reducer().small();
-  if (small.n > 0)
-    solverOfOde()(arena, small.n, reducer().smallA(), small.bx, nullptr, 0, reducer().smallLoHi(),
-                  reducer().smallFindex());
-  reducer().expand(problem);
   if (!hook.compare) return;
   std::vector<double> mine(n);
   double largest = 1e-12, apart = 0;

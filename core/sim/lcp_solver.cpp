@@ -71,6 +71,24 @@ BTR_WIDE void subtractProduct(double* c, const double* a, const double* transpos
   }
 }
 
+bool anyNotZero(const double* row, unsigned width) {
+  if (width == N)  // no branches: whether a sum of magnitudes is zero
+    return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]) + std::abs(row[3]) + std::abs(row[4]) +
+               std::abs(row[5]) !=
+           0;
+  bool any = false;
+  for (unsigned i = 0; i < width; ++i) any = any || row[i] != 0;
+  return any;
+}
+
+// right − row · x, the row in chunks of four that are `stride` apart
+BTR_WIDE double subtractDot(double right, const double* row, std::size_t stride, const double* x, unsigned chunks) {
+  Four sum{};
+  for (unsigned chunk = 0; chunk < chunks; ++chunk)
+    sum += *reinterpret_cast<const Four*>(row + chunk * stride) * *reinterpret_cast<const Four*>(x + chunk * lanes);
+  return right - ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+}
+
 // x := L⁻¹ · x for six rows of four columns. False if they are all zero (then nothing is done).
 BTR_WIDE bool forwardBlock(const double* l, double* x) {
   Four* rows = reinterpret_cast<Four*>(x);
@@ -143,11 +161,11 @@ void LcpReducer::findBlocks(const LcpProblem& p) {
   }
   for (unsigned i = 1; i < blocks_.size(); ++i)
     for (unsigned j = 0; j < i; ++j) {
+      // Whether they are coupled; a block's columns lie within six numbers.
+      const unsigned first = blocks_[j].rows[0], width = blocks_[j].rows[blocks_[j].count - 1] - first + 1;
       bool coupled = false;
-      for (unsigned r = 0; r < blocks_[i].count && !coupled; ++r) {
-        const double* row = p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip;
-        for (unsigned c = 0; c < blocks_[j].count; ++c) coupled = coupled || row[blocks_[j].rows[c]] != 0;
-      }
+      for (unsigned r = 0; r < blocks_[i].count && !coupled; ++r)
+        coupled = anyNotZero(p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip + first, width);
       if (!coupled) continue;
       blocks_[i].neighbours |= 1u << j;
       blocks_[j].neighbours |= 1u << i;
@@ -304,7 +322,8 @@ bool LcpReducer::reduce(const LcpProblem& problem) {
 
 void LcpReducer::expand(const LcpProblem& problem) {
   const auto count = static_cast<unsigned>(bounded_.size());
-  for (unsigned i = 0; i < count; ++i) problem.bx[2 * bounded_[i] + 1] = smallBx_[2 * i + 1];
+  smallX_.assign(chunks_ * lanes, 0);
+  for (unsigned i = 0; i < count; ++i) problem.bx[2 * bounded_[i] + 1] = smallX_[i] = smallBx_[2 * i + 1];
   // L⁻ᵀ of what is left of b, last block first.
   double x[mostBlocks][N];
   const std::size_t stride = N * lanes;
@@ -312,9 +331,7 @@ void LcpReducer::expand(const LcpProblem& problem) {
     const unsigned k = *at;
     for (unsigned r = 0; r < N; ++r) {
       const double* row = chunkAt(k, 0) + r * lanes;
-      double sum = row[(count / lanes) * stride + count % lanes];
-      for (unsigned i = 0; i < count; ++i) sum -= row[(i / lanes) * stride + i % lanes] * smallBx_[2 * i + 1];
-      x[k][r] = sum;
+      x[k][r] = subtractDot(row[(count / lanes) * stride + count % lanes], row, stride, smallX_.data(), chunks_);
     }
     for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));

@@ -33,9 +33,6 @@ class LcpReducer {
   bool reduce(const LcpProblem& problem);
   /// The small problem, with its own memory. n may be 0.
   const LcpProblem& small() const { return small_; }
-  double* smallA() { return smallA_.data(); }
-  double* smallLoHi() { return smallLoHi_.data(); }
-  int* smallFindex() { return smallFindex_.data(); }
   /// From the small problem's x to all of it: writes x of the problem that was reduced.
   void expand(const LcpProblem& problem);
 
@@ -67,7 +64,7 @@ class LcpReducer {
   std::vector<double> right_;         ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
   unsigned chunks_ = 0;
   LcpProblem small_;
-  std::vector<double> smallA_, smallBx_, smallLoHi_;
+  std::vector<double> smallA_, smallBx_, smallLoHi_, smallX_;
   std::vector<int> smallFindex_;
 };
 

@@ -78,7 +78,7 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
   if (!whole) count = static_cast<long>(std::ceil(duration / scene.step_s));
   const double stepSize = whole ? scene.step_s : duration / static_cast<double>(count);
   for (long i = 0; i < count && fault.empty(); ++i) {
-    const int parts = scene.nearSubsteps > 1 && nearBall(stepSize) ? scene.nearSubsteps : 1;
+    const int parts = scene.nearSubsteps > 1 && nearBall(inputs, stepSize) ? scene.nearSubsteps : 1;
     const double h = stepSize / parts, begin = time() + (whole ? 0 : static_cast<double>(i) * stepSize);
     for (int part = 0; part < parts && fault.empty(); ++part) step(inputs, begin + part * h, h);
     if (whole) ++steps;

@@ -137,20 +137,37 @@ void World::Impl::readBall(WorldBall& ball, double now) {
   ball.pose = Eigen::Translation3d(ball.state.position_m) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
-bool World::Impl::nearBall(double h) const {
-  for (const auto& ball : balls)
-    for (const auto& robot : robots)
-      for (const auto& body : robot.body->bodies) {
-        // What both can travel in the step, and a centimetre.
-        const double travel =
-            0.01 + h * ((ball.state.velocity_m_s - body.velocity_m_s).norm() + body.reach_m * body.spin_rad_s.norm());
-        const double reach = ball.spec->radius_m + travel;
-        const double apart = (ball.state.position_m - body.pose.translation()).norm();
-        if (apart > reach + body.reach_m) continue;
+bool World::Impl::strains(std::size_t index, const std::vector<JointInput>& inputs) const {
+  const WorldRobot& robot = robots[index];
+  for (const auto& joint : robot.body->joints) {
+    const auto model = static_cast<std::size_t>(joint.modelJoint);
+    const Drive& drive = robot.scene->drives[model];
+    if (drive.kind == Drive::Kind::servo && inputs[model].enabled &&
+        drive.p * std::abs(inputs[model].command - joint.position) > drive.maxTorque)
+      return true;
+  }
+  return false;
+}
+
+bool World::Impl::nearBall(const std::vector<std::vector<JointInput>>& inputs, double h) const {
+  // A limb that strains near a ball is about to hit it: then all of its swing is taken in small steps, not its end
+  // alone. Else what counts is the way that both can go in the next 50 ms.
+
+  constexpr double reach_m = 0.05, ahead_s = 0.05;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const bool straining = strains(i, inputs[i]);
+    for (const auto& ball : balls)
+      for (const auto& body : robots[i].body->bodies) {
+        const double speed =
+            (ball.state.velocity_m_s - body.velocity_m_s).norm() + body.reach_m * body.spin_rad_s.norm();
+        const double way = straining ? reach_m : std::max(std::min(ahead_s * speed, reach_m), h * speed);
+        const double gap = 0.005 + way + ball.spec->radius_m;
+        if ((ball.state.position_m - body.pose.translation()).norm() > gap + body.reach_m) continue;
         for (const auto& collider : body.colliders)
-          if ((body.pose * collider.pose.translation() - ball.state.position_m).norm() < reach + collider.bound_m)
+          if ((body.pose * collider.pose.translation() - ball.state.position_m).norm() < gap + collider.bound_m)
             return true;
       }
+  }
   return false;
 }
 

@@ -64,7 +64,8 @@ struct World::Impl {
 
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
   void step(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
-  bool nearBall(double h) const;
+  bool nearBall(const std::vector<std::vector<JointInput>>& inputs, double h) const;
+  bool strains(std::size_t robot, const std::vector<JointInput>& inputs) const;
 
   // world_joints.cpp
   void driveJoint(WorldRobot& robot, std::size_t joint, const JointInput& input, double now, double h);

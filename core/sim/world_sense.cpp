@@ -69,8 +69,7 @@ void World::Impl::sense(WorldRobot& robot, double dt) {
   }
   // Specific force: the mean acceleration since the last sample minus gravity, in the sensor's axes.
   if (robot.accelerometerLink < 0) return;
-  const auto poses = robot.body->linkPoses();
-  const Isometry3d sensor = poses[static_cast<std::size_t>(robot.accelerometerLink)] * robot.accelerometer;
+  const Isometry3d sensor = robot.body->linkPose(robot.accelerometerLink) * robot.accelerometer;
   const Vector3d velocity = robot.body->pointVelocity(robot.accelerometerLink, sensor.translation());
   const Vector3d acceleration = dt > 0 ? Vector3d((velocity - robot.accelerometerVelocity_m_s) / dt) : Vector3d::Zero();
   robot.accelerometerVelocity_m_s = velocity;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sim/lcp_box.h"
 #include "core/sim/lcp_hook.h"
 #include "core/sim/lcp_solver.h"
 #include "core/sim/trial.h"
@@ -85,7 +86,8 @@ TEST(LcpReducer, AgreesWithOdeOnThousandsOfRandomProblems) {
   }
   EXPECT_GT(guard.hook.reduced, 5000) << steps;
   EXPECT_LT(guard.hook.worst, 1e-6);
-  std::printf("reduced %ld whole %ld worst %.3g\n", guard.hook.reduced, guard.hook.whole, guard.hook.worst);
+  EXPECT_GT(guard.hook.small, 1000);
+  EXPECT_EQ(0, guard.hook.whole);
 }
 
 Scene walkScene() {
@@ -108,7 +110,9 @@ TEST(LcpReducer, ASmoothTrialEndsAtTheSamePlaceWithAndWithoutIt) {
   HookGuard guard;
   Eigen::Vector3d ends[2];
   for (const bool reduce : {false, true}) {
-    guard.hook = LcpHook{.reduce = reduce};
+    guard.hook = LcpHook{};
+    guard.hook.reduce = reduce;
+    guard.hook.coulomb = false;
     ends[reduce] = runTrial(walkScene(), Trot{}, {{"duration_s", 1}}, {}, 1).baseEnd_m;
     EXPECT_EQ(reduce, guard.hook.reduced > 0);
   }
@@ -149,6 +153,65 @@ TEST(LcpReducer, SolvesAProblemWithoutBoundsByItself) {
   EXPECT_EQ(0u, reducer.small().n);
   reducer.expand(problem.view());
   for (unsigned i = 0; i < 24; ++i) EXPECT_NEAR(wanted[i], problem.bx[2 * i + 1], 1e-12);
+}
+
+// A normal force (row 0) and a friction (row 1) that are coupled.
+Problem slidingFoot() {
+  Problem problem(2);
+  problem.a = {2, 1, 1, 2};
+  problem.bx = {1, 0, 3, 0};
+  problem.loHi = {0, std::numeric_limits<double>::infinity(), -0.5, 0.5};
+  problem.findex = {-1, 0};
+  return problem;
+}
+
+TEST(BoxSolver, FrictionFollowsTheNormalForceThatThereIs) {
+  Problem foot = slidingFoot();
+  BoxSolver solver;
+  ASSERT_TRUE(solver.solve(foot.view(), true));
+  // 2N + F = 1 and F = N/2.
+  EXPECT_NEAR(0.4, foot.bx[1], 1e-4);
+  EXPECT_NEAR(0.2, foot.bx[3], 1e-4);
+}
+
+TEST(BoxSolver, OdesBoundsComeFromTheNormalForceWithoutFriction) {
+  Problem foot = slidingFoot();
+  BoxSolver solver;
+  ASSERT_TRUE(solver.solve(foot.view(), false));
+  // 2N = 1 gives F = 1/4, and then 2N + 1/4 = 1.
+  EXPECT_NEAR(0.375, foot.bx[1], 1e-12);
+  EXPECT_NEAR(0.25, foot.bx[3], 1e-12);
+}
+
+TEST(BoxSolver, SatisfiesEveryConditionOfRandomBoxes) {
+  Random random(11);
+  BoxSolver solver;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const unsigned n = 1 + static_cast<unsigned>(random.below(24));
+    Problem problem(n);
+    std::vector<double> g(n * n);
+    for (double& value : g) value = random.normal();
+    for (unsigned i = 0; i < n; ++i) {
+      problem.bx[2 * i] = 3 * random.normal();
+      problem.loHi[2 * i] = random.chance(0.2) ? -std::numeric_limits<double>::infinity() : -random.uniform();
+      problem.loHi[2 * i + 1] = random.chance(0.2) ? std::numeric_limits<double>::infinity() : random.uniform();
+      for (unsigned j = 0; j < n; ++j) {
+        double sum = i == j ? 0.01 : 0;
+        for (unsigned k = 0; k < n; ++k) sum += g[i * n + k] * g[j * n + k];
+        problem.a[i * n + j] = sum;
+      }
+    }
+    ASSERT_TRUE(solver.solve(problem.view(), true));
+    for (unsigned i = 0; i < n; ++i) {
+      double w = -problem.bx[2 * i];
+      for (unsigned j = 0; j < n; ++j) w += problem.a[i * n + j] * problem.bx[2 * j + 1];
+      const double x = problem.bx[2 * i + 1], low = problem.loHi[2 * i], high = problem.loHi[2 * i + 1];
+      EXPECT_GE(x, low - 1e-9);
+      EXPECT_LE(x, high + 1e-9);
+      EXPECT_TRUE(x <= low + 1e-9 || w <= 1e-6) << w;
+      EXPECT_TRUE(x >= high - 1e-9 || w >= -1e-6) << w;
+    }
+  }
 }
 
 TEST(LcpReducer, LeavesUnusualProblemsAlone) {

@@ -162,10 +162,10 @@ void LcpReducer::findBlocks(const LcpProblem& p) {
   for (unsigned i = 1; i < blocks_.size(); ++i)
     for (unsigned j = 0; j < i; ++j) {
       // Whether they are coupled; a block's columns lie within six numbers.
-      const unsigned first = blocks_[j].rows[0], width = blocks_[j].rows[blocks_[j].count - 1] - first + 1;
+      const unsigned first = blocks_[j].rows[0], span = blocks_[j].rows[blocks_[j].count - 1] - first + 1;
       bool coupled = false;
       for (unsigned r = 0; r < blocks_[i].count && !coupled; ++r)
-        coupled = anyNotZero(p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip + first, width);
+        coupled = anyNotZero(p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip + first, span);
       if (!coupled) continue;
       blocks_[i].neighbours |= 1u << j;
       blocks_[j].neighbours |= 1u << i;

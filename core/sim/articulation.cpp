@@ -253,7 +253,7 @@ void Articulation::updateRings() {
   for (auto& body : bodies) {
     if (body.ringJoint < 0) continue;
     const Vector3d axis = body.pose.linear().transpose() * joints[body.ringJoint].axis;
-    if ((axis - body.ringAxis).squaredNorm() < 1e-4) continue;  // 0.01 rad
+    if ((axis - body.ringAxis).squaredNorm() < 1e-6) continue;
     body.ringAxis = axis;
     setMass(body.id, body.mass_kg, body.inertia_kg_m2 + body.ringInertia_kg_m2 * axis * axis.transpose());
   }

@@ -1,0 +1,190 @@
+#include "tests/bench/mujoco_engine.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace btr::bench {
+namespace {
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+std::string text(const Vector3d& v) { return toText(v.x()) + " " + toText(v.y()) + " " + toText(v.z()); }
+std::string pose(const Isometry3d& p) {
+  const Eigen::Quaterniond q(p.linear());
+  return "pos=\"" + text(p.translation()) + "\" quat=\"" + toText(q.w()) + " " + toText(q.x()) + " " + toText(q.y()) +
+         " " + toText(q.z()) + "\"";
+}
+
+void writeLink(std::ostream& out, const SceneRobot& robot, int index, const Isometry3d& place) {
+  const Link& link = robot.model.links[static_cast<std::size_t>(index)];
+  out << "<body name=\"" << link.name << "\" " << pose(place) << ">";
+  if (index == 0) {
+    out << "<freejoint name=\"base\"/>";
+  } else if (const Joint& joint = robot.model.joints[static_cast<std::size_t>(index - 1)];
+             joint.type != Joint::Type::fixed) {
+    out << "<joint name=\"" << joint.name << "\" type=\"" << (joint.type == Joint::Type::slide ? "slide" : "hinge")
+        << "\" axis=\"" << text(joint.axis) << "\" limited=\"true\" range=\"" << toText(joint.lower - 0.0873) << " "
+        << toText(joint.upper + 0.0873) << "\"/>";
+  }
+  const auto& inertia = link.inertial.inertia_kg_m2;
+  out << "<inertial pos=\"" << text(link.inertial.centreOfMass_m) << "\" mass=\"" << toText(link.inertial.mass_kg)
+      << "\" fullinertia=\"" << toText(inertia(0, 0)) << " " << toText(inertia(1, 1)) << " " << toText(inertia(2, 2))
+      << " " << toText(inertia(0, 1)) << " " << toText(inertia(0, 2)) << " " << toText(inertia(1, 2)) << "\"/>";
+  for (const auto& shape : link.shapes) {
+    if (!shape.collides || shape.kind == Shape::Kind::mesh) continue;
+    Isometry3d at = shape.pose;
+    out << "<geom contype=\"1\" conaffinity=\"0\" ";
+    if (shape.kind == Shape::Kind::sphere) out << "type=\"sphere\" size=\"" << toText(shape.size_m.x()) << "\" ";
+    if (shape.kind == Shape::Kind::box) out << "type=\"box\" size=\"" << text(shape.size_m / 2) << "\" ";
+    if (shape.kind == Shape::Kind::cylinder) {
+      at.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));  // theirs lie along z, ours along y
+      out << "type=\"cylinder\" size=\"" << toText(shape.size_m.x()) << " " << toText(shape.size_m.y() / 2) << "\" ";
+    }
+    out << pose(at) << "/>";
+  }
+  for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
+    if (robot.model.joints[j].parentLink == index)
+      writeLink(out, robot, static_cast<int>(j) + 1, robot.model.joints[j].origin);
+  out << "</body>";
+}
+
+}  // namespace
+
+std::string mjcf(const Scene& scene) {
+  const SceneRobot& robot = scene.robots.front();
+  const FloorSpec floor = scene.floor.value_or(FloorSpec{});
+  std::ostringstream out;
+  out << "<mujoco><compiler angle=\"radian\" balanceinertia=\"false\"/><option gravity=\"" << text(scene.gravity_m_s2)
+      << "\"/><default><geom solref=\"0.005 1\" friction=\"" << toText(floor.friction)
+      << " 0 0\"/></default><worldbody><geom type=\"plane\" size=\"50 50 1\" contype=\"0\" conaffinity=\"3\"/>";
+  writeLink(out, robot, 0, robot.start);
+  for (const auto& ball : scene.balls) {
+    const double inertia = ball.inertiaFactor * ball.mass_kg * ball.radius_m * ball.radius_m;
+    const double rolling =
+        ball.rollingDeceleration_m_s2 * (1 + ball.inertiaFactor) * ball.radius_m / scene.gravity_m_s2.norm();
+    out << "<body name=\"ball\" pos=\"" << toText(ball.position_m[0]) << " " << toText(ball.position_m[1]) << " "
+        << toText(ball.position_m[2]) << "\"><freejoint/><inertial pos=\"0 0 0\" mass=\"" << toText(ball.mass_kg)
+        << "\" diaginertia=\"" << text(Vector3d::Constant(inertia)) << "\"/><geom name=\"ball\" type=\"sphere\" size=\""
+        << toText(ball.radius_m) << "\" contype=\"2\" conaffinity=\"1\" condim=\"6\" friction=\""
+        << toText(floor.friction) << " 0 " << toText(rolling) << "\"/></body>";
+  }
+  out << "</worldbody></mujoco>";
+  return out.str();
+}
+
+struct MujocoEngine::Impl {
+  const BenchTask& task;
+  mjModel* model = nullptr;
+  mjData* data = nullptr;
+  std::vector<int> position, velocity;  ///< by joint of the model: addresses, −1 fixed
+  int ballBody = -1, ballGeom = -1;
+
+  explicit Impl(const BenchTask& given) : task(given) {
+    const std::string xml = mjcf(task.scene);
+    mjVFS files;
+    mj_defaultVFS(&files);
+    mj_makeEmptyFileVFS(&files, "dog.xml", static_cast<int>(xml.size()));
+    std::memcpy(files.filedata[files.nfile - 1], xml.data(), xml.size());
+    char error[1000] = "";
+    model = mj_loadXML("dog.xml", &files, error, sizeof error);
+    mj_deleteVFS(&files);
+    if (!model) throw std::runtime_error(std::string("MuJoCo: ") + error);
+    data = mj_makeData(model);
+    for (const auto& joint : task.scene.robots[0].model.joints) {
+      const int id = joint.type == Joint::Type::fixed ? -1 : mj_name2id(model, mjOBJ_JOINT, joint.name.c_str());
+      position.push_back(id < 0 ? -1 : model->jnt_qposadr[id]);
+      velocity.push_back(id < 0 ? -1 : model->jnt_dofadr[id]);
+    }
+    ballBody = mj_name2id(model, mjOBJ_BODY, "ball");
+    ballGeom = mj_name2id(model, mjOBJ_GEOM, "ball");
+  }
+  ~Impl() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+
+  /// As our own loop decides it: within 5 cm while a servo strains, else within 1 cm.
+  bool near(const std::vector<JointInput>& inputs) const {
+    if (ballGeom < 0) return false;
+    bool strains = false;
+    const auto& drives = task.scene.robots[0].drives;
+    for (std::size_t j = 0; j < inputs.size(); ++j)
+      strains = strains || (position[j] >= 0 &&
+                            drives[j].p * std::abs(inputs[j].command - data->qpos[position[j]]) > drives[j].maxTorque);
+    const mjtNum* ball = data->geom_xpos + 3 * ballGeom;
+    for (int geom = 1; geom < model->ngeom; ++geom) {
+      if (geom == ballGeom) continue;
+      const mjtNum* at = data->geom_xpos + 3 * geom;
+      const double reach = model->geom_rbound[geom] + model->geom_rbound[ballGeom] + (strains ? 0.05 : 0.01);
+      const double x = at[0] - ball[0], y = at[1] - ball[1], z = at[2] - ball[2];
+      if (x * x + y * y + z * z < reach * reach) return true;
+    }
+    return false;
+  }
+
+  void step(const std::vector<JointInput>& inputs, const MujocoWay& way, double h) {
+    const auto& drives = task.scene.robots[0].drives;
+    model->opt.timestep = h;
+    for (std::size_t j = 0; j < inputs.size(); ++j) {
+      if (position[j] < 0) continue;
+      const Drive& d = drives[j];
+      const double pull = d.p * (inputs[j].command - data->qpos[position[j]]);
+      const double torque = pull - d.d * data->qvel[velocity[j]];
+      const bool within = std::abs(torque) <= d.maxTorque;
+      const bool implicit = way.implicitServo && within;
+      model->dof_damping[velocity[j]] = implicit ? d.d + h * d.p / 2 : 0;
+      data->qfrc_applied[velocity[j]] = implicit ? pull : std::clamp(torque, -d.maxTorque, d.maxTorque);
+    }
+    mj_step(model, data);
+  }
+};
+
+MujocoEngine::MujocoEngine(const BenchTask& task) : impl_(std::make_unique<Impl>(task)) {}
+MujocoEngine::~MujocoEngine() = default;
+
+MujocoOutcome MujocoEngine::run(std::span<const double> parameters, const MujocoWay& way) {
+  Impl& e = *impl_;
+  const Scene& scene = e.task.scene;
+  mj_resetData(e.model, e.data);
+  std::fill(e.model->dof_damping, e.model->dof_damping + e.model->nv, 0.0);
+  for (std::size_t j = 0; j < e.position.size(); ++j)
+    if (e.position[j] >= 0) e.data->qpos[e.position[j]] = scene.robots[0].jointStart[j];
+  mj_forward(e.model, e.data);
+  const auto motion = e.task.controller->begin(scene, e.task.settings, parameters);
+  std::vector<JointInput> inputs(e.position.size());
+  const double startX = e.data->qpos[0], startY = e.data->qpos[1];
+  double ball[2] = {0, 0};
+  if (e.ballBody >= 0) std::copy_n(e.data->xpos + 3 * e.ballBody, 2, ball);
+
+  const long periods = std::lround(motion->duration() / scene.controlPeriod_s);
+  for (long period = 0; period < periods; ++period) {
+    motion->command(static_cast<double>(period) * scene.controlPeriod_s, {}, inputs);
+    const long steps = std::lround(scene.controlPeriod_s / way.step_s);
+    for (long i = 0; i < steps; ++i) {
+      const long parts = way.nearStep_s > 0 && e.near(inputs) ? std::lround(way.step_s / way.nearStep_s) : 1;
+      for (long part = 0; part < parts; ++part) e.step(inputs, way, way.step_s / static_cast<double>(parts));
+    }
+  }
+  MujocoOutcome outcome;
+  outcome.simulated_s = static_cast<double>(periods) * scene.controlPeriod_s;
+  if (e.data->warning[mjWARN_BADQACC].number + e.data->warning[mjWARN_BADQPOS].number > 0) {
+    outcome.way_m = NAN;
+  } else if (e.ballBody < 0) {
+    outcome.way_m = std::hypot(e.data->qpos[0] - startX, e.data->qpos[1] - startY);
+  } else {
+    // Position now and the closed form of the roll.
+    const mjtNum* p = e.data->xpos + 3 * e.ballBody;
+    const mjtNum* v = e.data->qvel + e.model->body_dofadr[e.ballBody];
+    const double roll = std::hypot(v[0], v[1]) / (2 * scene.balls[0].rollingDeceleration_m_s2);
+    outcome.way_m = std::hypot(p[0] + v[0] * roll - ball[0], p[1] + v[1] * roll - ball[1]);
+  }
+  return outcome;
+}
+
+}  // namespace btr::bench

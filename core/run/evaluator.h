@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/run/prepared_experiment.h"
-#include "core/run/worker_pool.h"
+#include "core/sim/worker_pool.h"
 
 namespace btr {
 

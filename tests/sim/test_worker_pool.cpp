@@ -1,4 +1,4 @@
-#include "core/run/worker_pool.h"
+#include "core/sim/worker_pool.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

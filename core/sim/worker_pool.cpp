@@ -1,4 +1,4 @@
-#include "core/run/worker_pool.h"
+#include "core/sim/worker_pool.h"
 
 #include <poll.h>
 #include <sched.h>

@@ -1,0 +1,138 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spec/simulator_spec.h"
+
+namespace btr {
+
+/// What a gap analysis says ("format": "uchilsim-gap-report-1"). A value; errors are in the unit of their channel
+/// unless a comment says otherwise. "Error in noise floors" is a root mean square of (simulated − recorded)/noise
+/// floor.
+struct GapReport {
+  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, unexplained, notExcited };
+
+  struct Interval {
+    double low = 0, high = 0;
+  };
+  /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it.
+  struct Number {
+    std::string name, unit;
+    double before = 0, value = 0;  ///< before: as given in the scene; an effect's neutral value
+    Interval ci95;
+    bool atBound = false, excited = true;
+  };
+  struct Rival {
+    std::string effect, at;
+    double heldoutErrorRatio = 1;  ///< its held-out error over that of the effect it competes with
+  };
+  /// A candidate that was looked at, accepted or not. Accepted ones are "effects" of the report, all are "tried".
+  struct Effect {
+    std::string effect, at;
+    std::vector<Number> parameters;
+    bool accepted = false;
+    double heldoutErrorReduction = 0;  ///< 1 − error with it / error without, held out
+    double pValue = 1;                 ///< paired test on held-out error
+    int screenRank = 0;                ///< 1 the best of the screening; 0 was not ranked
+    double screenShare = 0;            ///< of the excess error that its sensitivity explains beyond the calibration
+    std::string reason;                ///< why it was accepted or rejected, one clause for people
+    std::vector<Rival> rivals;         ///< "indistinguishable_from"
+  };
+  /// Where the error lies that calibration leaves.
+  struct Regime {
+    std::string name;  ///< "velocity_reversal", "low_speed", "high_load", …
+    double shareOfExcess = 0, shareOfTime = 0;
+    double pValue = 1;  ///< of the share being larger than the time's
+  };
+  struct Window {
+    std::size_t recording = 0;  ///< index into trials
+    Interval time_s;
+  };
+  struct Located {
+    std::string channel;
+    double shareOfExcess = 0;
+    std::string when;  ///< the regime that stands out most, "" if none does
+    std::vector<Regime> regimes;
+    std::vector<Window> windows;         ///< where most of it lies, largest first
+    std::vector<std::string> dependsOn;  ///< channels on which the error depends, strongest first
+  };
+  struct Channel {
+    std::string name, unit;
+    double noiseFloor = 0;
+    double asGiven = 0, calibrated = 0, withEffects = 0;                       ///< RMSE on held-out blocks
+    double maeAsGiven = 0, maeCalibrated = 0, maeWithEffects = 0;              ///< mean absolute error, the same
+    double heldoutAsGiven = 0, heldoutCalibrated = 0, heldoutWithEffects = 0;  ///< RMSE, --held-out recordings
+    double heldoutMaeAsGiven = 0, heldoutMaeCalibrated = 0, heldoutMaeWithEffects = 0;  ///< MAE, the same
+    double stepError = 0;  ///< RMS error of the integration itself in the final simulator
+  };
+  /// A rung of the ladder down to the noise floor.
+  struct Step {
+    std::string what;          ///< "as given", "calibrated", "+ backlash at leg.knee", "− coulomb_friction at …"
+    double error = 0;          ///< held-out error in noise floors
+    double standardError = 0;  ///< of it, over blocks
+  };
+  struct Series {
+    std::string channel, unit;
+    double noiseFloor = 0;
+    std::vector<double> recorded, asGiven, calibrated, withEffects;  ///< by the trial's time; NaN where unknown
+  };
+  struct Trial {
+    std::string name, sha256;
+    bool heldOut = false;  ///< never used in any fit
+    std::vector<double> time_s;
+    std::vector<Series> series;
+    std::vector<Interval> heldOutBlocks_s;  ///< blocks of a fitted trial that scored it
+  };
+  /// A force that nobody has named: generalised force at `at` over a variable.
+  struct Remainder {
+    double explainedShare = 0;  ///< of the excess of the calibrated simulator, by the accepted effects
+    std::string at, on;  ///< joint, and "position", "velocity", "load", "time"; empty: nothing significant is left
+    std::string unitX, unitY;
+    std::vector<double> x, y, standardError;
+    double shareOfRest = 0;  ///< of the remaining held-out excess that the curve takes away
+    double pValue = 1;
+  };
+  struct NextRecording {
+    std::string why;                    ///< "separates backlash from gear_elasticity at leg.knee"
+    double separation = 0;              ///< expected difference of the rivals [noise floors, RMS]; 0: none was designed
+    std::vector<std::string> channels;  ///< time_s and the commands
+    std::vector<std::vector<double>> columns;  ///< by channel
+  };
+
+  Verdict verdict = Verdict::notExcited;
+  std::string sentence;                         ///< the whole finding in a few sentences
+  std::vector<Located> located;                 ///< largest share first
+  std::vector<Effect> tried;                    ///< accepted first, then by held-out gain
+  std::vector<Number> calibrated;               ///< names are the scene's paths
+  std::vector<std::string> strongCorrelations;  ///< "P ~ Q: 0.99", pairs that the recordings hardly separate
+  std::vector<Channel> channels;
+  std::vector<Step> ladder;
+  std::vector<Trial> trials;
+  Remainder remainder;
+  NextRecording next;
+  std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
+  SimulatorSpec before, after;     ///< as given; calibrated with the accepted effects
+  std::uint64_t seed = 1;
+  double seconds = 0;       ///< wall time; not part of what must be reproducible
+  std::size_t replays = 0;  ///< of one whole set of recordings
+  std::string version;
+};
+
+const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters_suffice", …
+
+/// The contract's report.json (this program's additions: resources/formats.md). Without the series, which are in
+/// overlay/*.csv.
+std::string toJsonText(const GapReport& report);
+/// A self-contained page for people: the same content with vector plots; prints well.
+std::string toHtml(const GapReport& report);
+
+/// Writes report.json, report.html, simulator.json, overlay/TRIAL.csv (time_s, then CHANNEL:recorded, :as_given,
+/// :calibrated, :with_effects), next_command.csv where there is one, remainder.csv. Each file is replaced at once,
+/// report.json last. Throws InputError if the folder cannot be made or written.
+void writeReport(const GapReport& report, const std::string& folder);
+/// Reads such a folder back, whole. Throws InputError.
+GapReport loadReport(const std::string& folder);
+
+}  // namespace btr

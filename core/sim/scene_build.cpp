@@ -83,38 +83,33 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
 
 }  // namespace
 
-void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
-                    const std::string& place) {
+double* driveNumber(Drive& drive, const Joint& joint, const std::string& number) {
   const bool slides = joint.type == Joint::Type::slide;
   const auto is = [&](const char* rotary, const char* sliding) { return number == (slides ? sliding : rotary); };
-  if (number == "p")
-    drive.p = value;
-  else if (number == "i")
-    drive.i = value;
-  else if (number == "d")
-    drive.d = value;
-  else if (is("max_torque_nm", "max_force_n"))
-    drive.maxTorque = value;
-  else if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m"))
-    drive.firmwareGain_v_rad = value;
-  else if (number == "voltage_v")
-    drive.supply_v = value;
-  else if (is("torque_constant_nm_per_a", "force_constant_n_per_a"))
-    drive.torqueConstant_nm_a = value;
-  else if (number == "resistance_ohm")
-    drive.resistance_ohm = value;
-  else if (number == "max_duty")
-    drive.maxDuty = value;
-  else if (is("rotor_inertia_kg_m2", "rotor_inertia_kg"))
-    drive.rotorInertia_kg_m2 = value;
-  else if (is("coulomb_friction_nm", "coulomb_friction_n"))
-    drive.coulombFriction = value;
-  else if (is("viscous_friction_nm_s_rad", "viscous_friction_n_s_m"))
-    drive.viscousFriction = value;
-  else
+  if (number == "p") return &drive.p;
+  if (number == "i") return &drive.i;
+  if (number == "d") return &drive.d;
+  if (is("max_torque_nm", "max_force_n")) return &drive.maxTorque;
+  if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m")) return &drive.firmwareGain_v_rad;
+  if (number == "voltage_v") return &drive.supply_v;
+  if (is("torque_constant_nm_per_a", "force_constant_n_per_a")) return &drive.torqueConstant_nm_a;
+  if (number == "resistance_ohm") return &drive.resistance_ohm;
+  if (number == "max_duty") return &drive.maxDuty;
+  if (is("rotor_inertia_kg_m2", "rotor_inertia_kg")) return &drive.rotorInertia_kg_m2;
+  if (is("coulomb_friction_nm", "coulomb_friction_n")) return &drive.coulombFriction;
+  if (is("viscous_friction_nm_s_rad", "viscous_friction_n_s_m")) return &drive.viscousFriction;
+  return nullptr;
+}
+
+void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
+                    const std::string& place) {
+  double* target = driveNumber(drive, joint, number);
+  if (!target)
     throw InputError(place, number,
-                     slides ? "a number of a slide joint's drive (p, i, d, max_force_n, …)"
-                            : "a number of a rotary joint's drive (p, i, d, max_torque_nm, …)");
+                     joint.type == Joint::Type::slide
+                         ? "a number of a slide joint's drive (p, i, d, max_force_n, …)"
+                         : "a number of a rotary joint's drive (p, i, d, max_torque_nm, …)");
+  *target = value;
 }
 
 void scaleMass(Link& link, double factor) {

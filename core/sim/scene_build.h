@@ -12,6 +12,8 @@ Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models);
 /// "robots.leg.joints.knee.coulomb_friction_nm", "floor.friction", "balls.ball.mass_kg", "gravity_m_s2.z". Throws
 /// InputError for a path that the scene does not have or a number out of its bounds.
 void setByPath(Scene& scene, const std::string& path, double value);
+/// The number at such a path. Throws InputError for a path that the scene does not have.
+double numberByPath(Scene scene, const std::string& path);
 
 /// Sets one of simulatorParameters().
 void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::string& name, double value);
@@ -19,6 +21,9 @@ void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::strin
 /// Sets one of servoNumbers() or jointNumbers(). Throws InputError for a number that this kind of joint does not have.
 void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
                     const std::string& place);
+
+/// The number itself, or nullptr if this kind of joint does not have it.
+double* driveNumber(Drive& drive, const Joint& joint, const std::string& number);
 
 /// Mass and inertia together.
 void scaleMass(Link& link, double factor);

@@ -19,18 +19,23 @@ std::string next(std::string& rest) {
   return word;
 }
 
-void inBounds(const std::vector<Parameter>& declared, const std::string& number, double value,
-              const std::string& path) {
+/// A number that a path names, and what it may be. A link's mass takes its inertia along.
+struct Target {
+  double* number = nullptr;
+  Parameter bounds;
+  Link* scaled = nullptr;
+};
+
+const Parameter& declaredIn(const std::vector<Parameter>& declared, const std::string& number,
+                            const std::string& path) {
   const Parameter* parameter = find(declared, number);
-  if (!parameter) {
-    std::string names;
-    for (const auto& each : declared) names += (names.empty() ? "" : ", ") + each.name;
-    noSuch(path, "one of " + names);
-  }
-  check(*parameter, value, path);
+  if (parameter) return *parameter;
+  std::string names;
+  for (const auto& each : declared) names += (names.empty() ? "" : ", ") + each.name;
+  noSuch(path, "one of " + names);
 }
 
-void setRobotNumber(Scene& scene, const std::string& path, std::string rest, double value) {
+Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), kind = next(rest), item = next(rest), number = next(rest);
   const auto robot =
       std::find_if(scene.robots.begin(), scene.robots.end(), [&](const auto& r) { return r.name == name; });
@@ -38,57 +43,68 @@ void setRobotNumber(Scene& scene, const std::string& path, std::string rest, dou
   if (kind == "links") {
     const int link = robot->model.findLink(item);
     if (link < 0) noSuch(path, "a link of " + robot->model.name);
-    inBounds(linkNumbers(), number, value, path);
     Link& changed = robot->model.links[static_cast<std::size_t>(link)];
-    scaleMass(changed, value / changed.inertial.mass_kg);
-    return;
+    return {&changed.inertial.mass_kg, declaredIn(linkNumbers(), number, path), &changed};
   }
   if (kind != "servos" && kind != "joints") noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
   const int joint = robot->model.findJoint(item);
   if (joint < 0) noSuch(path, "a joint of " + robot->model.name);
-  inBounds(kind == "servos" ? servoNumbers() : jointNumbers(), number, value, path);
+  const Parameter& bounds = declaredIn(kind == "servos" ? servoNumbers() : jointNumbers(), number, path);
   const auto index = static_cast<std::size_t>(joint);
-  setDriveNumber(robot->drives[index], robot->model.joints[index], number, value, path);
+  double* target = driveNumber(robot->drives[index], robot->model.joints[index], number);
+  if (!target) noSuch(path, "a number that this kind of joint has");
+  return {target, bounds};
 }
 
+/// One of the numbers that a floor or ball has.
 struct Field {
   const char* name;
   double minimum, maximum;
+  double* target;
 };
 
-void setFloorNumber(Scene& scene, const std::string& path, const std::string& number, double value) {
-  if (!scene.floor) noSuch(path, "only in a scene with a floor");
-  FloorSpec& floor = *scene.floor;
-  const std::vector<std::pair<Field, double*>> fields{
-      {{"friction", 0, 100}, &floor.friction},           {{"restitution", 0, 1}, &floor.restitution},
-      {{"slip1_m_s_n", 0, 10}, &floor.slip1_m_s_n},      {{"slip2_m_s_n", 0, 10}, &floor.slip2_m_s_n},
-      {{"stiffness_n_m", 1, 1e9}, &floor.stiffness_n_m}, {{"damping_n_s_m", 0, 1e7}, &floor.damping_n_s_m}};
-  for (const auto& [field, target] : fields)
-    if (number == field.name) {
-      check({field.name, "", "", field.minimum, field.maximum}, value, path);
-      *target = value;
-      return;
-    }
-  noSuch(path, "floor.friction, restitution, slip1_m_s_n, slip2_m_s_n, stiffness_n_m or damping_n_s_m");
+Target fieldOf(const std::vector<Field>& fields, const std::string& number, const std::string& path) {
+  std::string names;
+  for (const Field& field : fields) {
+    if (number == field.name) return {field.target, {field.name, "", "", field.minimum, field.maximum}};
+    names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  noSuch(path, "one of " + names);
 }
 
-void setBallNumber(Scene& scene, const std::string& path, std::string rest, double value) {
+Target floorNumber(Scene& scene, const std::string& path, const std::string& number) {
+  if (!scene.floor) noSuch(path, "only in a scene with a floor");
+  FloorSpec& floor = *scene.floor;
+  return fieldOf({{"friction", 0, 100, &floor.friction},
+                  {"restitution", 0, 1, &floor.restitution},
+                  {"slip1_m_s_n", 0, 10, &floor.slip1_m_s_n},
+                  {"slip2_m_s_n", 0, 10, &floor.slip2_m_s_n},
+                  {"stiffness_n_m", 1, 1e9, &floor.stiffness_n_m},
+                  {"damping_n_s_m", 0, 1e7, &floor.damping_n_s_m}},
+                 number, path);
+}
+
+Target ballNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), number = rest;
   const auto ball = std::find_if(scene.balls.begin(), scene.balls.end(), [&](const auto& b) { return b.name == name; });
   if (ball == scene.balls.end()) noSuch(path, "a ball of the scene");
-  const std::vector<std::pair<Field, double*>> fields{
-      {{"radius_m", 0.001, 10}, &ball->radius_m},
-      {{"mass_kg", 1e-6, 1000}, &ball->mass_kg},
-      {{"inertia_factor", 0.01, 2.0 / 3.0}, &ball->inertiaFactor},
-      {{"rolling_deceleration_m_s2", 0, 100}, &ball->rollingDeceleration_m_s2},
-      {{"restitution", 0, 1}, &ball->restitution}};
-  for (const auto& [field, target] : fields)
-    if (number == field.name) {
-      check({field.name, "", "", field.minimum, field.maximum}, value, path);
-      *target = value;
-      return;
-    }
-  noSuch(path, "balls.NAME.radius_m, mass_kg, inertia_factor, rolling_deceleration_m_s2 or restitution");
+  return fieldOf({{"radius_m", 0.001, 10, &ball->radius_m},
+                  {"mass_kg", 1e-6, 1000, &ball->mass_kg},
+                  {"inertia_factor", 0.01, 2.0 / 3.0, &ball->inertiaFactor},
+                  {"rolling_deceleration_m_s2", 0, 100, &ball->rollingDeceleration_m_s2},
+                  {"restitution", 0, 1, &ball->restitution}},
+                 number, path);
+}
+
+Target targetOf(Scene& scene, const std::string& path) {
+  std::string rest = path;
+  const std::string first = next(rest);
+  if (first == "robots") return robotNumber(scene, path, rest);
+  if (first == "floor") return floorNumber(scene, path, rest);
+  if (first == "balls") return ballNumber(scene, path, rest);
+  if (first == "gravity_m_s2" && rest.size() == 1 && rest[0] >= 'x' && rest[0] <= 'z')
+    return {&scene.gravity_m_s2[rest[0] - 'x'], {"gravity_m_s2", "m/s²", "", -1000, 1000}};
+  noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls or gravity_m_s2");
 }
 
 bool startsWith(const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; }
@@ -161,18 +177,16 @@ void setServos(Scene& scene, const SceneSpec& spec, const std::string& name, dou
 
 void setByPath(Scene& scene, const std::string& path, double value) {
   if (!std::isfinite(value)) throw InputError(path, toText(value), "a finite number");
-  std::string rest = path;
-  const std::string first = next(rest);
-  if (first == "robots") return setRobotNumber(scene, path, rest, value);
-  if (first == "floor") return setFloorNumber(scene, path, rest, value);
-  if (first == "balls") return setBallNumber(scene, path, rest, value);
-  if (first == "gravity_m_s2" && rest.size() == 1 && rest[0] >= 'x' && rest[0] <= 'z') {
-    check({"gravity_m_s2", "m/s²", "", -1000, 1000}, value, path);
-    scene.gravity_m_s2[rest[0] - 'x'] = value;
-    return;
+  const Target target = targetOf(scene, path);
+  check(target.bounds, value, path);
+  if (target.scaled) {
+    scaleMass(*target.scaled, value / target.scaled->inertial.mass_kg);
+  } else {
+    *target.number = value;
   }
-  noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls or gravity_m_s2");
 }
+
+double numberByPath(Scene scene, const std::string& path) { return *targetOf(scene, path).number; }
 
 void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::string& name, double value) {
   check(*find(simulatorParameters(), name), value, "simulator");
@@ -185,7 +199,7 @@ void setSimulatorParameter(Scene& scene, const SceneSpec& spec, const std::strin
     return;
   }
   if (name == "friction" || name == "slip1_m_s_n" || name == "slip2_m_s_n")
-    return setFloorNumber(scene, name, name, value);
+    return setByPath(scene, "floor." + name, value);
   setServos(scene, spec, name, value);
 }
 

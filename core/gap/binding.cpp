@@ -171,6 +171,12 @@ Binding bind(const Scene& scene, const Recording& recording) {
   Binding binding = Binder(scene, recording).bind();
   std::stable_sort(binding.measured.begin(), binding.measured.end(),
                    [](const Measured& a, const Measured& b) { return a.column < b.column; });
+  const auto& silent = recording.notCompared;
+  const auto compared = std::stable_partition(binding.measured.begin(), binding.measured.end(), [&](const Measured& m) {
+    return std::find(silent.begin(), silent.end(), recording.channels[m.column]) == silent.end();
+  });
+  binding.startOnly.assign(compared, binding.measured.end());
+  binding.measured.erase(compared, binding.measured.end());
   // A cell that holds the last value needs a first one.
   for (const Input& input : binding.inputs)
     if (!(recording.columns[input.column][0] == recording.columns[input.column][0]))

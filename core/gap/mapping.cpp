@@ -52,18 +52,32 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     mapping.settings.push_back(std::move(setting));
   });
 
+  if (auto segments = reader.objectIfAny("segments")) {
+    mapping.segmentColumn = segments->text("column");
+    segments->finish();
+  }
+
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
-    if (channel == "settings") continue;
+    if (channel == "settings" || channel == "segments") continue;
     if (channel != "time_s" && !parseChannel(channel))
       throw InputError(place, "channel \"" + channel + "\"",
                        "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "
                        "leg.knee.position_rad");
     JsonReader entry = reader.object(channel);
-    MappedColumn column{channel, entry.text("column"), 1, 0, false};
+    MappedColumn column;
+    column.channel = channel;
+    column.column = entry.text("column");
     column.scale = entry.number("scale", -1e12, 1e12, 1);
     column.offset = entry.number("offset", -1e12, 1e12, 0);
     column.optional = entry.flag("optional", false);
+    column.compare = entry.flag("compare", true);
+    entry.array("add", [&](JsonReader term) {
+      MappedColumn::Added added{term.text("column"), term.number("scale", -1e12, 1e12, 1),
+                                term.flag("optional", false)};
+      term.finish();
+      column.added.push_back(std::move(added));
+    });
     if (column.scale == 0) entry.refuse("scale", "a number other than 0");
     if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
     entry.finish();

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "core/gap/trials.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
@@ -90,6 +91,7 @@ struct Use {
   double scale = 1, offset = 0;
   bool strict = true;  ///< a known channel: a cell that is not a number is an error
   std::size_t empty = 0, skipped = 0;
+  std::vector<std::pair<std::size_t, double>> added;  ///< further columns of the file, and their scales
 };
 
 std::vector<std::string> readHeader(CsvReader& reader, const std::string& path) {
@@ -131,7 +133,18 @@ std::vector<Use> usesOf(const std::vector<std::string>& header, const Mapping* m
       const auto source = static_cast<std::size_t>(found - header.begin());
       mapped[source] = 1;
       taken.insert(column.channel);
-      uses.push_back({column.channel, source, column.scale, column.offset});
+      uses.push_back({column.channel, source, column.scale, column.offset, true, 0, 0, {}});
+      for (const MappedColumn::Added& term : column.added) {
+        const auto other = std::find(header.begin(), header.end(), term.column);
+        if (other == header.end() && !term.optional)
+          throw InputError(recording.source + ": column \"" + term.column + "\" is missing, which " + mapping->source +
+                           " adds to " + column.channel + "; the file has " + list(header));
+        if (other == header.end()) continue;
+        const auto place = static_cast<std::size_t>(other - header.begin());
+        mapped[place] = 1;
+        uses.back().added.emplace_back(place, term.scale);
+      }
+      if (!column.compare) recording.notCompared.push_back(column.channel);
     }
   }
   for (std::size_t i = 0; i < header.size(); ++i) {
@@ -139,9 +152,10 @@ std::vector<Use> usesOf(const std::vector<std::string>& header, const Mapping* m
     if (taken.count(header[i]))
       throw InputError(recording.source + ": column \"" + header[i] + "\" has the name of a channel that " +
                        mapping->source + " fills from another column");
-    const bool known = header[i] == "time_s" || parseChannel(header[i]);
+    const bool known =
+        header[i] == "time_s" || parseChannel(header[i]) || (mapping && header[i] == mapping->segmentColumn);
     if (!known) recording.notes.push_back("column \"" + header[i] + "\" is not mapped to a channel; kept, not used");
-    uses.push_back({header[i], i, 1, 0, known});
+    uses.push_back({header[i], i, 1, 0, known, 0, 0, {}});
   }
   std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.source < b.source; });
   const auto time = std::find_if(uses.begin(), uses.end(), [](const Use& use) { return use.channel == "time_s"; });
@@ -152,7 +166,8 @@ std::vector<Use> usesOf(const std::vector<std::string>& header, const Mapping* m
   return uses;
 }
 
-double cellValue(const std::string& cell, Use& use, const CsvReader& reader) {
+/// The number in a cell; what it is multiplied with and added to is the caller's.
+double cellNumber(const std::string& cell, std::size_t source, Use& use, const CsvReader& reader) {
   const auto first = cell.find_first_not_of(" \t");
   if (first == std::string::npos) {
     ++use.empty;
@@ -163,15 +178,23 @@ double cellValue(const std::string& cell, Use& use, const CsvReader& reader) {
   if (*begin == '+' && end - begin > 1 && begin[1] != '-' && begin[1] != '+') ++begin;
   double number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
-  const double value = use.scale * number + use.offset;
-  if (error == std::errc() && stop == end && std::isfinite(value)) return value;
+  if (error == std::errc() && stop == end && std::isfinite(number)) return number;
   if (use.strict) {
     std::string allowed = "a finite number or an empty cell";
     if (cell.find(',') != std::string::npos) allowed += " (decimals after a point)";
-    throw InputError(reader.at(use.source + 1) + " (" + use.channel + ")", shown(cell), allowed);
+    throw InputError(reader.at(source + 1) + " (" + use.channel + ")", shown(cell), allowed);
   }
   ++use.skipped;
   return nothing;
+}
+
+double cellValue(const std::vector<std::string>& cells, Use& use, const CsvReader& reader) {
+  double value = use.scale * cellNumber(cells[use.source], use.source, use, reader) + use.offset;
+  for (const auto& [source, scale] : use.added) value += scale * cellNumber(cells[source], source, use, reader);
+  if (std::isinf(value))
+    throw InputError(reader.at(use.source + 1) + " (" + use.channel + ")", shown(cells[use.source]),
+                     "a number that stays finite in the channel's unit");
+  return value;
 }
 
 void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size, std::vector<Use>& uses,
@@ -182,8 +205,7 @@ void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size,
     if (cells.size() != width)
       throw InputError(reader.at(), std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns"),
                        "as many as the header has, " + std::to_string(width));
-    for (std::size_t i = 0; i < uses.size(); ++i)
-      recording.columns[i].push_back(cellValue(cells[uses[i].source], uses[i], reader));
+    for (std::size_t i = 0; i < uses.size(); ++i) recording.columns[i].push_back(cellValue(cells, uses[i], reader));
 
     const std::vector<double>& time = recording.columns[0];
     if (std::isnan(time.back()))
@@ -207,7 +229,7 @@ int Recording::column(const std::string& name) const {
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
 }
 
-Recording loadRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
+Recording readRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
   namespace fs = std::filesystem;
   std::error_code failure;
   const fs::file_status status = fs::status(path, failure);
@@ -216,14 +238,6 @@ Recording loadRecording(const std::string& path, const Mapping* mapping, std::si
   const std::uintmax_t size = fs::file_size(path, failure);
   if (!failure && size > limit)
     throw InputError(path, std::to_string(size) + " bytes", "at most " + std::to_string(limit) + " bytes");
-
-  Mapping beside;
-  if (!mapping) {
-    if (const auto found = findMapping(path)) {
-      beside = loadMapping(*found);
-      mapping = &beside;
-    }
-  }
 
   Recording recording;
   recording.source = path;

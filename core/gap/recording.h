@@ -15,6 +15,7 @@ struct Recording {
   std::vector<std::string> channels;         ///< contract names; unmapped columns keep their own names
   std::vector<std::vector<double>> columns;  ///< by channel, each rows() long; NaN where a cell is empty
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
+  std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
   std::vector<std::string> notes;            ///< what was skipped or looks odd
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
@@ -28,13 +29,21 @@ struct ChannelName {
 /// The parts of a name that the contract knows, or nothing.
 std::optional<ChannelName> parseChannel(const std::string& name);
 
-/// How one column of a foreign file becomes a channel: value = scale·x + offset; a negative scale turns the sign.
+/// How columns of a foreign file become a channel: value = scale·x + offset + Σ scaleᵢ·xᵢ; a negative scale turns the
+/// sign.
 struct MappedColumn {
+  struct Added {
+    std::string column;
+    double scale = 1;
+    bool optional = false;
+  };
   std::string channel;
   std::string column;
   double scale = 1;
   double offset = 0;
-  bool optional = false;  ///< a file without this column is accepted
+  bool optional = false;     ///< a file without this column is accepted
+  bool compare = true;       ///< false: a measurement that gives the start and the motion but is not compared
+  std::vector<Added> added;  ///< the other terms, e.g. a relative angle from two absolute ones
 };
 /// Numbers of the scene that were set differently from trial to trial and stand in the file's name alone.
 struct TrialSetting {
@@ -45,10 +54,11 @@ struct Mapping {
   std::string source;
   std::vector<MappedColumn> columns;
   std::vector<TrialSetting> settings;
+  std::string segmentColumn;  ///< whenever its number changes a new trial begins; "": the file is one trial
 };
 
-/// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}]}. Throws
-/// InputError for what is not a channel, a channel or a key that nobody knows.
+/// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
+/// "segments": {"column": "piece"}}. Throws InputError for what is not a channel, a channel or a key that nobody knows.
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is
@@ -58,7 +68,14 @@ std::optional<std::string> findMapping(const std::string& recordingPath);
 /// Reads a CSV in one pass; memory is that of the numbers. With no mapping given, findMapping() is asked, else the
 /// columns must have contract names. Damaged, empty, unordered, non-numeric files throw InputError with line and
 /// column; files larger than `limit` bytes are refused before they are read. Columns that nobody maps are kept with a
-/// note.
+/// note. A file that its mapping divides into trials is refused here.
 Recording loadRecording(const std::string& path, const Mapping* mapping = nullptr, std::size_t limit = 1u << 30);
+
+/// The file's trials, in their order: one, or those that its mapping divides it into, then called "DIR/NAME-1.csv" …
+std::vector<Recording> loadTrials(const std::string& path, const Mapping* mapping = nullptr,
+                                  std::size_t limit = 1u << 30);
+/// The same with the mapping file that was asked for ("" for none), else the one beside the recording, else
+/// SCENE.mapping.json beside the scene, else none.
+std::vector<Recording> loadTrialsFor(const std::string& path, const std::string& mapping, const std::string& scene);
 
 }  // namespace btr

@@ -13,7 +13,7 @@ namespace {
 
 using Input = Binding::Input;
 using Measured = Binding::Measured;
-constexpr double flightWindow_s = 0.05;
+constexpr double flightWindow_s = 0.05, startWindow_s = 0.03;
 
 std::span<const double> tail(const std::vector<double>& column, std::size_t row) {
   return std::span(column).subspan(row);
@@ -32,6 +32,24 @@ Start startOfBody(std::span<const double> time, std::span<const double> values, 
   const Start still = estimateStart(time, values, flightWindow_s);
   if (!still.moving) return still;
   return estimateStart(time, values, flightWindow_s, falls ? gravity : 0);
+}
+
+/// A joint: where it moves and its velocity was measured too, that is its rate, and the slope of that the bend of its
+/// path, which a line through positions would not follow.
+Start startOfJoint(std::span<const double> time, std::span<const double> values, std::span<const double> rates) {
+  const Start start = estimateStart(time, values);
+  if (!start.moving || rates.empty() || !anyFinite(rates)) return start;
+  const Start rate = estimateStart(time, rates);
+  return {estimateStart(time, values, startWindow_s, rate.rate).position, rate.position, true};
+}
+
+/// The velocity's column of the same joint, or nothing.
+std::span<const double> rateColumn(const Recording& recording, const std::vector<Measured>& known,
+                                   const Measured& joint, std::size_t row) {
+  for (const Measured& other : known)
+    if (other.what == Measured::What::rate && other.object == joint.object && other.part == joint.part)
+      return tail(recording.columns[other.column], row);
+  return {};
 }
 
 /// What the recording says of the inputs in one row.
@@ -143,7 +161,9 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
 
   const auto time = tail(recording.columns[0], row);
   std::vector<std::array<std::span<const double>, 4>> attitudes(scene.robots.size());
-  for (const Measured& measured : binding.measured) {
+  std::vector<Measured> known = binding.measured;
+  known.insert(known.end(), binding.startOnly.begin(), binding.startOnly.end());
+  for (const Measured& measured : known) {
     const auto values = tail(recording.columns[measured.column], row);
     if (!anyFinite(values)) continue;
     const bool ofBase =
@@ -151,7 +171,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     if (ofBase && !scene.robots[measured.object].freeBase) continue;  // it stands where the scene says
     const int axis = static_cast<int>(measured.part);
     if (measured.what == Measured::What::position) {
-      const Start start = estimateStart(time, values);
+      const Start start = startOfJoint(time, values, rateColumn(recording, known, measured, row));
       state.robots[measured.object].positions[measured.part] = start.position;
       state.robots[measured.object].rates[measured.part] = start.rate;
     } else if (measured.what == Measured::What::basePosition) {

@@ -25,7 +25,8 @@ struct Binding {
   };
   std::vector<Input> inputs;
   std::vector<Measured> measured;
-  std::vector<std::string> notes;  ///< columns that the simulator has no counterpart of, joints without a command
+  std::vector<Measured> startOnly;  ///< give the start but are not compared (Recording::notCompared)
+  std::vector<std::string> notes;   ///< columns that the simulator has no counterpart of, joints without a command
 };
 
 /// Finds robot, joint or ball of every channel. Throws InputError for a channel that the scene does not have, and for a
@@ -43,7 +44,8 @@ struct StartState {
   std::vector<Robot> robots;
   std::vector<BallState> balls;
 };
-/// From the samples that follow `row` (see initial_state.h).
+/// From the samples that follow `row` (see initial_state.h). A joint that moves takes its rate, and the bend of its
+/// path, from the samples of its velocity where there are some.
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row = 0);
 
 /// Simulated values at the recorded times.

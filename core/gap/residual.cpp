@@ -95,21 +95,6 @@ void joinNotes(std::vector<std::string>& notes) {
     notes.push_back(names[0] + (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : "") + text);
 }
 
-/// The mapping asked for, or the one beside recording or scene, or none.
-Recording load(const std::string& path, const ResidualRequest& request) {
-  if (!request.mapping.empty()) {
-    const Mapping mapping = loadMapping(request.mapping);
-    return loadRecording(path, &mapping);
-  }
-  if (findMapping(path)) return loadRecording(path);
-  const std::filesystem::path scene(request.scene);
-  const auto beside = scene.parent_path() / (scene.stem().string() + ".mapping.json");
-  std::error_code ignored;
-  if (!std::filesystem::exists(beside, ignored)) return loadRecording(path);
-  const Mapping mapping = loadMapping(beside.string());
-  return loadRecording(path, &mapping);
-}
-
 /// "DIR/sin_sin.leg.knee.position_rad.svg", a number added where two recordings have the same name.
 std::string freeName(const ChannelError& error, std::set<std::string>& taken) {
   const std::string stem = std::filesystem::path(error.recording).stem().string() + "." + error.channel;
@@ -136,11 +121,12 @@ ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& 
   ResidualReport report;
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
     if (progress && !progress(i, request.recordings.size())) return report;
-    const Recording recording = load(request.recordings[i], request);
-    // What is known of a trial goes before what was fitted.
-    SimulatorSpec own = simulator;
-    for (const auto& [path, value] : recording.settings) own.values[path] = value;
-    addRecording(makeScene(spec, models, own, effects), recording, report);
+    for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene)) {
+      // What is known of a trial goes before what was fitted.
+      SimulatorSpec own = simulator;
+      for (const auto& [path, value] : trial.settings) own.values[path] = value;
+      addRecording(makeScene(spec, models, own, effects), trial, report);
+    }
   }
   joinNotes(report.notes);
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;

@@ -61,8 +61,10 @@ Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSp
   const auto isParameter = [](const std::string& name) { return find(simulatorParameters(), name) != nullptr; };
   for (const auto& [name, value] : simulator.values)
     if (isParameter(name)) setSimulatorParameter(scene, spec, name, value);
-  for (const auto& [name, value] : simulator.values)
-    if (!isParameter(name)) setByPath(scene, name, value);
+  // A mass takes its inertia with it: it comes before an inertia that is given.
+  for (const bool mass : {true, false})
+    for (const auto& [name, value] : simulator.values)
+      if (!isParameter(name) && name.ends_with(".mass_kg") == mass) setByPath(scene, name, value);
   for (const auto& placed : simulator.effects) {
     scene.effects.push_back(placeEffect(scene, placed, effects));
     const SceneEffect effect = scene.effects.back();

@@ -143,9 +143,12 @@ Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models) {
   }
   // Numbers of single links and joints are paths into the scene like those of a simulator version.
   for (const auto& robot : spec.robots) {
+    // A mass takes its inertia with it: it comes before an inertia that is given.
     for (const auto& [link, values] : robot.links)
-      for (const auto& [number, value] : values)
-        setByPath(scene, "robots." + robot.name + ".links." + link + "." + number, value);
+      for (const bool mass : {true, false})
+        for (const auto& [number, value] : values)
+          if ((number == "mass_kg") == mass)
+            setByPath(scene, "robots." + robot.name + ".links." + link + "." + number, value);
     for (const auto& [joint, values] : robot.joints)
       for (const auto& [number, value] : values)
         setByPath(scene, "robots." + robot.name + ".joints." + joint + "." + number, value);

@@ -35,6 +35,15 @@ const Parameter& declaredIn(const std::vector<Parameter>& declared, const std::s
   noSuch(path, "one of " + names);
 }
 
+/// The other axes' numbers stay: what is about one axis alone may be known from it alone.
+Target linkNumber(Link& link, const std::string& number, const std::string& path) {
+  const Parameter& bounds = declaredIn(linkNumbers(), number, path);
+  if (number == "mass_kg") return {&link.inertial.mass_kg, bounds, &link};
+  if (number.starts_with("com_")) return {&link.inertial.centreOfMass_m[number[4] - 'x'], bounds};
+  const int axis = number[8] - 'x';
+  return {&link.inertial.inertia_kg_m2(axis, axis), bounds};
+}
+
 Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), kind = next(rest), item = next(rest), number = next(rest);
   const auto robot =
@@ -43,8 +52,7 @@ Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   if (kind == "links") {
     const int link = robot->model.findLink(item);
     if (link < 0) noSuch(path, "a link of " + robot->model.name);
-    Link& changed = robot->model.links[static_cast<std::size_t>(link)];
-    return {&changed.inertial.mass_kg, declaredIn(linkNumbers(), number, path), &changed};
+    return linkNumber(robot->model.links[static_cast<std::size_t>(link)], number, path);
   }
   if (kind != "servos" && kind != "joints") noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
   const int joint = robot->model.findJoint(item);

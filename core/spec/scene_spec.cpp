@@ -203,7 +203,7 @@ std::string toJsonText(const SceneSpec& scene) {
 
 const std::vector<Parameter>& servoNumbers() {
   static const std::vector<Parameter> numbers{
-      {"p", "N·m/rad or N/m", "proportional gain", 0, 1e6, 7.5},
+      {"p", "N·m/rad or N/m", "proportional gain", 0, 1e9, 7.5},
       {"i", "N·m/(rad·s) or N/(m·s)", "integral gain", 0, 1e6, 0},
       {"d", "N·m·s/rad or N·s/m", "damping", 0, 1e6, 0.05},
       {"max_torque_nm", "N·m", "largest torque of the drive", 0, 1e6, 0.85},
@@ -222,7 +222,15 @@ const std::vector<Parameter>& servoNumbers() {
 }
 
 const std::vector<Parameter>& linkNumbers() {
-  static const std::vector<Parameter> numbers{{"mass_kg", "kg", "mass; the inertia scales with it", 1e-6, 1e6, 1}};
+  static const std::vector<Parameter> numbers{
+      {"mass_kg", "kg", "mass; the inertia scales with it", 1e-6, 1e6, 1},
+      {"com_x_m", "m", "centre of mass, link's x", -100, 100, 0},
+      {"com_y_m", "m", "centre of mass, link's y", -100, 100, 0},
+      {"com_z_m", "m", "centre of mass, link's z", -100, 100, 0},
+      {"inertia_xx_kg_m2", "kg·m²", "about the centre of mass, link's x", 1e-12, 1e6, 1},
+      {"inertia_yy_kg_m2", "kg·m²", "about the centre of mass, link's y", 1e-12, 1e6, 1},
+      {"inertia_zz_kg_m2", "kg·m²", "about the centre of mass, link's z", 1e-12, 1e6, 1},
+  };
   return numbers;
 }
 

@@ -1,0 +1,81 @@
+// A file's trials: which mapping, and where one trial ends and the next begins.
+#include "core/gap/trials.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The trials in a file whose mapping is known.
+std::vector<Recording> divide(Recording whole, const Mapping* mapping) {
+  std::vector<Recording> trials;
+  if (!mapping || mapping->segmentColumn.empty()) {
+    trials.push_back(std::move(whole));
+    return trials;
+  }
+  const int column = whole.column(mapping->segmentColumn);
+  if (column < 0)
+    throw InputError(whole.source + ": column \"" + mapping->segmentColumn + "\" is missing, which " + mapping->source +
+                     " divides the file by");
+  const std::vector<double>& segment = whole.columns[static_cast<std::size_t>(column)];
+  const fs::path path(whole.source);
+  std::size_t first = 0;
+  for (std::size_t row = 1; row <= segment.size(); ++row) {
+    if (row < segment.size() && segment[row] == segment[row - 1]) continue;
+    Recording trial = rowsOf(whole, first, row);
+    trial.source = (path.parent_path() /
+                    (path.stem().string() + "-" + std::to_string(trials.size() + 1) + path.extension().string()))
+                       .string();
+    trials.push_back(std::move(trial));
+    first = row;
+  }
+  return trials;
+}
+
+}  // namespace
+
+Recording rowsOf(const Recording& recording, std::size_t first, std::size_t last) {
+  Recording part = recording;
+  for (std::vector<double>& column : part.columns)
+    column = {column.begin() + static_cast<std::ptrdiff_t>(first), column.begin() + static_cast<std::ptrdiff_t>(last)};
+  return part;
+}
+
+std::vector<Recording> loadTrials(const std::string& path, const Mapping* mapping, std::size_t limit) {
+  Mapping beside;
+  if (!mapping && fs::is_regular_file(path)) {
+    if (const auto found = findMapping(path)) {
+      beside = loadMapping(*found);
+      mapping = &beside;
+    }
+  }
+  return divide(readRecording(path, mapping, limit), mapping);
+}
+
+Recording loadRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
+  std::vector<Recording> trials = loadTrials(path, mapping, limit);
+  if (trials.size() > 1)
+    throw InputError(path, std::to_string(trials.size()) + " trials", "a file that is one trial, here");
+  return std::move(trials.front());
+}
+
+std::vector<Recording> loadTrialsFor(const std::string& path, const std::string& mapping, const std::string& scene) {
+  if (!mapping.empty()) {
+    const Mapping given = loadMapping(mapping);
+    return loadTrials(path, &given);
+  }
+  if (findMapping(path)) return loadTrials(path);
+  const fs::path scenePath(scene);
+  const auto beside = scenePath.parent_path() / (scenePath.stem().string() + ".mapping.json");
+  std::error_code ignored;
+  if (!fs::exists(beside, ignored)) return loadTrials(path);
+  const Mapping found = loadMapping(beside.string());
+  return loadTrials(path, &found);
+}
+
+}  // namespace btr

@@ -121,6 +121,13 @@ double JsonReader::number(const std::string& key, double minimum, double maximum
   return get(key) ? number(key, minimum, maximum) : byDefault;
 }
 
+double JsonReader::numberOrNull(const std::string& key, double unknown) {
+  const json& value = need(key);
+  if (value.is_null()) return unknown;
+  if (!value.is_number()) refuse(key, "a number or null");
+  return value.get<double>();
+}
+
 long long JsonReader::integer(const std::string& key, long long minimum, long long maximum) {
   const json& value = need(key);
   const std::string allowed = "whole numbers " + std::to_string(minimum) + " to " + std::to_string(maximum);
@@ -201,6 +208,18 @@ std::vector<double> JsonReader::numbers(const std::string& key, std::size_t coun
 std::vector<double> JsonReader::numbers(const std::string& key, std::size_t count,
                                         const std::vector<double>& byDefault) {
   return get(key) ? numbers(key, count) : byDefault;
+}
+
+std::vector<double> JsonReader::numberList(const std::string& key) {
+  std::vector<double> numbers;
+  const json* value = get(key);
+  if (!value) return numbers;
+  if (!value->is_array()) refuse(key, "a list of numbers");
+  for (const json& element : *value) {
+    if (!element.is_number() && !element.is_null()) refuse(key, "a list of numbers");
+    numbers.push_back(element.is_null() ? std::numeric_limits<double>::quiet_NaN() : element.get<double>());
+  }
+  return numbers;
 }
 
 std::vector<std::string> JsonReader::texts(const std::string& key) {

@@ -30,6 +30,8 @@ class JsonReader {
 
   double number(const std::string& key, double minimum, double maximum);
   double number(const std::string& key, double minimum, double maximum, double byDefault);
+  /// A finite number, or `unknown` where the file says null.
+  double numberOrNull(const std::string& key, double unknown);
   long long integer(const std::string& key, long long minimum, long long maximum);
   long long integer(const std::string& key, long long minimum, long long maximum, long long byDefault);
   /// Any 64-bit number without sign.
@@ -43,7 +45,12 @@ class JsonReader {
   /// Exactly `count` finite numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count);
   std::vector<double> numbers(const std::string& key, std::size_t count, const std::vector<double>& byDefault);
+  /// Any count of finite numbers; null is NaN. Absent means none.
+  std::vector<double> numberList(const std::string& key);
   std::vector<std::string> texts(const std::string& key);
+
+  /// The value as it is, nullptr if absent; the key counts as asked for.
+  const nlohmann::json* any(const std::string& key) { return get(key); }
 
   JsonReader object(const std::string& key);  ///< must exist
   std::optional<JsonReader> objectIfAny(const std::string& key);

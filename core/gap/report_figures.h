@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/gap/gap_report.h"
+
+/// What the page for people and the window draw of a report.
+namespace btr {
+
+enum class Simulated { asGiven, calibrated, withEffects };
+const std::vector<double>& curveOf(const GapReport::Series& series, Simulated which);
+
+/// One row of the heat map: the standardised error, root mean square of (simulated − recorded)/noise floor, of a
+/// channel in equal bins of the trial's time; NaN where nothing is known.
+struct HeatRow {
+  std::size_t trial = 0, series = 0;
+  double from_s = 0, to_s = 0;
+  std::vector<double> error;
+};
+HeatRow heatRow(const GapReport& report, std::size_t trial, std::size_t series, Simulated which, std::size_t bins);
+
+/// Colour of a standardised error, the same in print, light and dark: see-through at the noise floor, then from amber
+/// to deep red, by the logarithm up to `heatTop` noise floors.
+struct HeatColour {
+  int red = 0, green = 0, blue = 0;
+  double opacity = 0;
+};
+inline constexpr double heatTop = 50;
+HeatColour heatColour(double error);
+
+/// "backlash" → "backlash", "velocity_reversal" → "velocity reversal".
+std::string inWords(std::string name);
+/// Three or four digits that matter; "–" if it is not finite.
+std::string brief(double value);
+/// "0.7 %", "83 %".
+std::string percent(double share);
+/// "[0.047, 0.055]"; an open side is "…".
+std::string brief(const GapReport::Interval& interval);
+/// What the verdict means, a few words.
+std::string headline(GapReport::Verdict verdict);
+
+}  // namespace btr

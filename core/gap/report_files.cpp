@@ -1,0 +1,126 @@
+// The report as a folder: report.json, the tables beside it, the page for people.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "core/gap/gap_report.h"
+#include "core/gap/report_text.h"
+#include "core/spec/csv.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+
+NumberTable overlayTable(const GapReport::Trial& trial) {
+  NumberTable table{{"time_s"}, {trial.time_s}};
+  for (const GapReport::Series& series : trial.series)
+    for (const CurveName& curve : curveNames) {
+      table.header.push_back(series.channel + ":" + curve.name);
+      table.columns.push_back(series.*curve.values);
+    }
+  return table;
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!fs::is_directory(folder, failure)) throw InputError(folder.string() + ": the folder cannot be made");
+}
+
+}  // namespace
+
+std::string toCsv(const NumberTable& table) {
+  std::string csv;
+  for (std::size_t i = 0; i < table.header.size(); ++i) csv += (i ? "," : "") + csvField(table.header[i]);
+  csv += '\n';
+  std::size_t rows = 0;
+  for (const auto& column : table.columns) rows = std::max(rows, column.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      if (i) csv += ',';
+      const auto& column = table.columns[i];
+      if (row < column.size() && std::isfinite(column[row])) csv += toText(column[row]);
+    }
+    csv += '\n';
+  }
+  return csv;
+}
+
+NumberTable readNumberTable(const std::string& path) {
+  std::error_code failure;
+  if (!fs::is_regular_file(path, failure)) throw InputError(path + ": there is no such file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path + ": cannot be read");
+  CsvReader reader(stream, path, ',', {.bytes = std::size_t{1} << 30, .fieldBytes = 4096, .fields = 10'000});
+  NumberTable table;
+  if (!reader.next(table.header)) throw InputError(path + ": is empty; a header and rows of numbers are expected");
+  table.columns.resize(table.header.size());
+  std::vector<std::string> cells;
+  while (reader.next(cells)) {
+    if (cells.size() != table.header.size())
+      throw InputError(reader.at(), std::to_string(cells.size()) + " columns",
+                       "as many as the header has, " + std::to_string(table.header.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::optional<double> number =
+          cells[i].empty() ? std::numeric_limits<double>::quiet_NaN() : toNumber(cells[i]);
+      if (!number) throw InputError(reader.at(i + 1), "this text", "a number or an empty cell");
+      table.columns[i].push_back(*number);
+    }
+  }
+  return table;
+}
+
+std::string overlayCsv(const GapReport::Trial& trial) { return toCsv(overlayTable(trial)); }
+
+void readOverlayCsv(const std::string& path, GapReport::Trial& trial) {
+  NumberTable table = readNumberTable(path);
+  const std::vector<std::string> expected = overlayTable(trial).header;
+  if (table.header != expected)
+    throw InputError(path + " line 1: the columns are not those that report.json names for this trial; " +
+                     (expected.size() > 1 ? "time_s, " + expected[1] + ", …" : std::string("time_s")));
+  trial.time_s = std::move(table.columns[0]);
+  std::size_t column = 1;
+  for (GapReport::Series& series : trial.series)
+    for (const CurveName& curve : curveNames) series.*curve.values = std::move(table.columns[column++]);
+}
+
+void writeReport(const GapReport& report, const std::string& folder) {
+  const fs::path out(folder);
+  makeFolder(out);
+  makeFolder(out / "overlay");
+  for (std::size_t i = 0; i < report.trials.size(); ++i)
+    writeFile((out / "overlay" / overlayFileName(report, i)).string(), overlayCsv(report.trials[i]));
+  if (!report.next.columns.empty())
+    writeFile((out / "next_command.csv").string(), toCsv(NumberTable{report.next.channels, report.next.columns}));
+  if (!report.remainder.on.empty())
+    writeFile((out / "remainder.csv").string(),
+              toCsv(NumberTable{{report.remainder.on, "force", "standard_error"},
+                                {report.remainder.x, report.remainder.y, report.remainder.standardError}}));
+  writeFile((out / "simulator.json").string(), toJsonText(report.after));
+  writeFile((out / "report.html").string(), toHtml(report));
+  // Last: a folder with a report.json is whole.
+  writeFile((out / "report.json").string(), toJsonText(report));
+}
+
+GapReport loadReport(const std::string& folder) {
+  const fs::path from(folder);
+  std::error_code failure;
+  if (!fs::is_directory(from, failure)) throw InputError(folder + ": there is no such folder");
+  const std::string place = (from / "report.json").string();
+  std::vector<std::string> overlays;
+  GapReport report = reportFromJson(readFile(place), place, overlays);
+  for (std::size_t i = 0; i < report.trials.size(); ++i)
+    readOverlayCsv((from / overlays[i]).string(), report.trials[i]);
+  if (!report.next.columns.empty()) {
+    NumberTable table = readNumberTable((from / "next_command.csv").string());
+    report.next.channels = std::move(table.header);
+    report.next.columns = std::move(table.columns);
+  }
+  return report;
+}
+
+}  // namespace btr

@@ -1,0 +1,157 @@
+#include "tests/prove/blind_case.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/spec/error.h"
+#include "tests/prove/hide.h"
+#include "tests/prove/outside_effects.h"
+#include "tests/prove/reality.h"
+
+namespace btr::prove {
+namespace {
+
+std::string drawScene(Random& random, const std::string& engine) {
+  const double u = random.uniform();
+  if (engine == "mujoco") return u < 0.4 ? "pendulum" : u < 0.75 ? "leg" : "walk";
+  return u < 0.32 ? "pendulum" : u < 0.52 ? "leg" : u < 0.72 ? "carpet" : u < 0.87 ? "flight" : "walk";
+}
+
+/// Half of all cases have nothing to be found.
+std::string drawKind(Random& random) {
+  const double u = random.uniform();
+  return u < 0.25 ? "nothing" : u < 0.5 ? "parameters" : u < 0.8 ? "one" : u < 0.9 ? "two" : "outside";
+}
+
+/// Puts a number into the scene's file where its path says.
+void believe(SceneSpec& scene, const std::string& path, double value) {
+  const auto last = path.rfind('.');
+  const std::string number = path.substr(last + 1);
+  if (path == "floor.friction") {
+    scene.floor->friction = value;
+  } else if (path == "floor.restitution") {
+    scene.floor->restitution = value;
+  } else if (path == "gravity_m_s2.z") {
+    scene.gravity_m_s2[2] = value;
+  } else if (path.rfind("balls.", 0) == 0) {
+    scene.balls[0].rollingDeceleration_m_s2 = value;
+  } else {
+    const auto before = path.rfind('.', last - 1);
+    scene.robots[0].servos[path.substr(before + 1, last - before - 1)].numbers[number] = value;
+  }
+}
+
+std::string drawSalt(Random random) {
+  char text[33];
+  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(random.next()),
+                static_cast<unsigned long long>(random.next()));
+  return text;
+}
+
+/// Hidden effects, each large enough to be worth hiding.
+void hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& names, const Hideable& library,
+          Random random) {
+  const EffectFactory effects = withOutside(library.make);
+  constexpr double least = 1.2;  // error in noise floors without it: below, nobody could miss it
+  for (int attempt = 0; attempt < 60 && blind.simulator.effects.size() < wanted; ++attempt) {
+    const auto placed = drawHidden(random, blind.world, blind.simulator, names, effects);
+    if (!placed) continue;
+    blind.simulator.effects.push_back(*placed);
+    ConcealedAnswer::Hidden hidden{*placed, effects(placed->effect) && placed->effect.rfind("outside_", 0) == 0};
+    // Priced alone here, so that the next one may be drawn; with all of them in the end.
+    priceRemoval(hidden, blind.simulator.effects.size() - 1, blind.world, blind.simulator, library, effects);
+    if (hidden.cost < least) {
+      blind.simulator.effects.pop_back();
+    } else {
+      blind.answer.hidden.push_back(hidden);
+    }
+  }
+  if (blind.simulator.effects.size() < wanted) throw std::runtime_error("no effect acts in this scene");
+  for (std::size_t i = 0; i + 1 < blind.answer.hidden.size(); ++i)
+    priceRemoval(blind.answer.hidden[i], i, blind.world, blind.simulator, library, effects);
+}
+
+double measure(double value, const MeasuredColumn& column, Random& random) {
+  const double noisy = value + column.noise * random.normal();
+  return column.quantum > 0 ? column.quantum * std::round(noisy / column.quantum) : noisy;
+}
+
+}  // namespace
+
+const std::vector<std::string>& caseKinds() {
+  static const std::vector<std::string> kinds{"nothing", "parameters", "one", "two", "outside"};
+  return kinds;
+}
+
+BlindCase drawCase(const CaseRequest& request, const Hideable& library) {
+  const auto purpose = [&](const char* name) { return Random::forPurpose(request.seed, name, request.number); };
+  Random choice = purpose("choice"), bodies = purpose("world"), errors = purpose("errors");
+  const std::string scene = drawScene(choice, request.engine), kind = drawKind(choice);
+  BlindCase blind;
+  ConcealedAnswer& answer = blind.answer;
+  answer.seed = request.seed;
+  answer.number = request.number;
+  answer.engine = request.engine;
+  answer.scene = request.scene.empty() ? scene : request.scene;
+  answer.kind = request.kind.empty() ? kind : request.kind;
+  if (std::find(caseKinds().begin(), caseKinds().end(), answer.kind) == caseKinds().end())
+    throw InputError("--kind", answer.kind, "nothing, parameters, one, two or outside");
+  if (request.engine != "ode" && request.engine != "mujoco")
+    throw InputError("--engine", request.engine, "ode or mujoco");
+  if (request.engine == "mujoco" && (answer.scene == "carpet" || answer.scene == "flight"))
+    throw InputError("--scene", answer.scene, "pendulum, leg or walk with MuJoCo");
+  blind.world = drawWorld(answer.scene, bodies);
+  blind.simulator.values = blind.world.truth;
+  answer.truth = blind.world.truth;
+  for (const MeasuredColumn& column : blind.world.columns) answer.noise[column.name] = column.floor();
+
+  if (answer.kind == "one") hide(blind, 1, library.names, library, purpose("hidden"));
+  if (answer.kind == "two") hide(blind, 2, library.names, library, purpose("hidden"));
+  if (answer.kind == "outside") hide(blind, 1, outsideNames(), library, purpose("hidden"));
+
+  // What the scene's author got wrong.
+  const bool wrong = answer.kind == "parameters" || (answer.kind != "nothing" && errors.chance(0.7));
+  for (const auto& [path, value] : blind.world.truth) {
+    const double most = path == "gravity_m_s2.z" ? 0.05 : 0.2;
+    const double error = errors.uniform(-most, most);
+    believe(blind.world.scene, path, wrong ? value * (1 + error) : value);
+  }
+  answer.salt = drawSalt(purpose("salt"));
+  return blind;
+}
+
+std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& library) {
+  const BlindWorld& world = blind.world;
+  Scene scene = makeScene(world.scene, world.models, blind.simulator, withOutside(library.make));
+  scene.step_s = world.fineStep_s;
+  std::vector<std::string> texts;
+  for (std::size_t trial = 0; trial < world.trials.size(); ++trial) {
+    const TrialPlan& plan = world.trials[trial];
+    const Truth truth = (blind.answer.engine == "mujoco" ? simulateMujoco : simulateOde)(scene, plan, world.columns);
+    if (!truth.fault.empty()) throw std::runtime_error("reality failed: " + truth.fault);
+    Random noise = Random::forPurpose(blind.answer.seed, "noise", blind.answer.number * 100 + trial);
+    std::string text = "time_s";
+    for (const std::size_t joint : world.commanded) {
+      const std::string at = scene.robots[0].name + "." + scene.robots[0].model.joints[joint].name;
+      text += "," + at + ".command_rad";
+      if (world.showsEnabled) text += "," + at + ".enabled";
+    }
+    for (const MeasuredColumn& column : world.columns) text += "," + column.name;
+    text += "\n";
+    for (std::size_t row = 0; row < plan.rows; ++row) {
+      // A whole number of microseconds, as a logger would write it.
+      text += toText(std::round(1e6 * plan.sample_s * static_cast<double>(row)) / 1e6);
+      for (const std::size_t joint : world.commanded) {
+        text += "," + toText(plan.commands[row][joint]);
+        if (world.showsEnabled) text += plan.enabled[row] ? ",1" : ",0";
+      }
+      for (std::size_t i = 0; i < world.columns.size(); ++i)
+        text += "," + toText(measure(truth.values[i][row], world.columns[i], noise));
+      text += "\n";
+    }
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+}  // namespace btr::prove

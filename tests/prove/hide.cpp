@@ -1,0 +1,161 @@
+#include "tests/prove/hide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tests/prove/removal.h"
+
+namespace btr::prove {
+namespace {
+
+std::vector<std::string> placesOf(Effect::Place place, const BlindWorld& world) {
+  std::vector<std::string> places;
+  const SceneSpec& scene = world.scene;
+  for (const RobotSpec& robot : scene.robots) {
+    const RobotModel& model = *world.models.at(robot.model);
+    if (place == Effect::Place::joint)
+      for (const std::size_t joint : world.commanded) places.push_back(robot.name + "." + model.joints[joint].name);
+    // Parts that weigh something; the stand of a rig does not move.
+    constexpr double lightest_kg = 0.03;
+    for (std::size_t link = robot.base == "fixed" ? 1 : 0; link < model.links.size(); ++link)
+      if (place == Effect::Place::link && model.links[link].inertial.mass_kg >= lightest_kg)
+        places.push_back(robot.name + "." + model.links[link].name);
+  }
+  if (place == Effect::Place::ball)
+    for (const BallSpec& ball : scene.balls) places.push_back(ball.name);
+  if (place == Effect::Place::floor && scene.floor) places.push_back("floor");
+  if (place == Effect::Place::world) places.push_back("world");
+  return places;
+}
+
+double drawShape(Random& random, const Parameter& parameter) {
+  const double by = parameter.byDefault;
+  const double drawn = by > 0 && parameter.minimum >= 0
+                           ? drawLog(random, by / 2, by * 2)
+                           : by + 0.15 * (parameter.maximum - parameter.minimum) * random.uniform(-1, 1);
+  return std::clamp(drawn, parameter.minimum, parameter.maximum);
+}
+
+/// Directions in which the sizes grow from neutral: share of the way to a bound, signed.
+std::map<std::string, double> drawDirection(Random& random, const std::vector<Parameter>& parameters) {
+  std::map<std::string, double> direction;
+  std::size_t sizes = 0, signedSizes = 0;
+  for (const Parameter& parameter : parameters)
+    if (parameter.neutral) {
+      ++sizes;
+      if (*parameter.neutral > parameter.minimum) ++signedSizes;
+    }
+  // Of several that may have either sign (the axes of a tilt) some stay away.
+  const bool sparse = signedSizes > 1 && signedSizes == sizes && random.chance(0.5);
+  const std::size_t kept = sparse ? random.below(sizes) : 0;
+  std::size_t number = 0;
+  for (const Parameter& parameter : parameters) {
+    if (!parameter.neutral) continue;
+    const bool both = *parameter.neutral > parameter.minimum && *parameter.neutral < parameter.maximum;
+    const double sign = both ? (random.chance(0.5) ? 1 : -1) : *parameter.neutral > parameter.minimum ? -1 : 1;
+    const double share = random.uniform(0.4, 1);
+    if (!sparse || number == kept) direction[parameter.name] = sign * share;
+    ++number;
+  }
+  return direction;
+}
+
+void setSize(PlacedEffect& placed, const std::vector<Parameter>& parameters,
+             const std::map<std::string, double>& direction, double scale) {
+  for (const Parameter& parameter : parameters) {
+    if (!parameter.neutral) continue;
+    const double neutral = *parameter.neutral;
+    const auto found = direction.find(parameter.name);
+    const double way = found == direction.end() ? 0 : found->second;
+    const double room = way < 0 ? neutral - parameter.minimum : parameter.maximum - neutral;
+    placed.parameters[parameter.name] = neutral + scale * way * room;
+  }
+}
+
+/// Simpler effects of the library that a richer one turns into when a part of it is left out.
+const std::map<std::string, std::vector<std::string>>& relatives() {
+  static const std::map<std::string, std::vector<std::string>> simpler{
+      {"stribeck_friction", {"coulomb_friction"}},
+      {"load_dependent_friction", {"coulomb_friction"}},
+      {"asymmetric_friction", {"coulomb_friction"}},
+      {"anisotropic_rolling_resistance", {"rolling_resistance"}},
+      {"anisotropic_slip", {"slip"}}};
+  return simpler;
+}
+
+}  // namespace
+
+std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, const SimulatorSpec& before,
+                                       const std::vector<std::string>& names, const EffectFactory& effects) {
+  PlacedEffect placed;
+  placed.effect = names[random.below(names.size())];
+  const auto effect = effects(placed.effect);
+  // On a floor a turned gravity is the same as a sloping floor: that name is the one used there.
+  if (placed.effect == "gravity_tilt" && world.scene.floor) return std::nullopt;
+  const auto places = placesOf(effect->place(), world);
+  if (places.empty()) return std::nullopt;
+  placed.at = places[random.below(places.size())];
+  for (const PlacedEffect& other : before.effects)
+    if (other.effect == placed.effect) return std::nullopt;
+
+  const auto parameters = effect->parameters();
+  for (const Parameter& parameter : parameters)
+    if (!parameter.neutral) placed.parameters[parameter.name] = drawShape(random, parameter);
+  const auto direction = drawDirection(random, parameters);
+  if (direction.empty()) return std::nullopt;
+  const double wanted = drawLog(random, 2, 100);
+
+  const auto without = noiseless(world, before, effects);
+  const auto moved = [&](double scale) {
+    SimulatorSpec with = before;
+    setSize(placed, parameters, direction, scale);
+    with.effects.push_back(placed);
+    return difference(noiseless(world, with, effects), without);
+  };
+  // Bisection of the size's logarithm. What breaks the simulation is too large.
+  double low = std::log(1e-4), high = std::log(0.7);
+  const double most = moved(std::exp(high));
+  if (most < 2) return std::nullopt;
+  for (int i = 0; i < 9 && !(most <= wanted); ++i) {
+    const double middle = (low + high) / 2;
+    (moved(std::exp(middle)) < wanted ? low : high) = middle;
+  }
+  const double got = moved(std::exp(most <= wanted ? high : low));
+  if (!(got >= 1)) return std::nullopt;
+  return placed;
+}
+
+void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const BlindWorld& world,
+                  const SimulatorSpec& simulator, const Hideable& library, const EffectFactory& effects) {
+  const auto recorded = noiseless(world, simulator, effects);
+  const auto withNoise = [](double left) { return std::min(1e6, std::sqrt(1 + left * left)); };
+  SimulatorSpec without = simulator;
+  without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(index));
+  const double unfitted = difference(noiseless(world, without, effects), recorded);
+  hidden.costUnfitted = std::isfinite(unfitted) ? withNoise(unfitted) : 1e6;
+  double left = leftAfterRefit(world, without, effects, recorded);
+
+  const auto simpler = relatives().find(hidden.placed.effect);
+  if (simpler == relatives().end()) {
+    hidden.cost = withNoise(left);
+    return;
+  }
+  for (const std::string& name : simpler->second) {
+    if (std::find(library.names.begin(), library.names.end(), name) == library.names.end()) continue;
+    for (const double share : {0.1, 1.0, 4.0}) {
+      SimulatorSpec other = without;
+      PlacedEffect relative{name, hidden.placed.at, {}};
+      const auto effect = effects(name);
+      for (const Parameter& parameter : effect->parameters())
+        relative.parameters[parameter.name] =
+            std::clamp(parameter.byDefault * share, parameter.minimum, parameter.maximum);
+      other.effects.push_back(relative);
+      const int whole = static_cast<int>(other.effects.size()) - 1;
+      left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
+    }
+  }
+  hidden.cost = withNoise(left);
+}
+
+}  // namespace btr::prove

@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+
+#include "tests/prove/blind_case.h"
+
+namespace btr::prove {
+
+/// Draws an effect, its place and its size for a world: a size that moves the recordings by 2 to 100 noise floors (as
+/// far as it can), drawn on a logarithmic scale. `before` is the true simulator so far; effects and places that it
+/// already has are not drawn again. Nothing if the one that was drawn cannot act here.
+std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, const SimulatorSpec& before,
+                                       const std::vector<std::string>& names, const EffectFactory& effects);
+
+/// Fills in what it costs to leave out the hidden effect `index` of `simulator` (see ConcealedAnswer).
+void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const BlindWorld& world,
+                  const SimulatorSpec& simulator, const Hideable& library, const EffectFactory& effects);
+
+}  // namespace btr::prove

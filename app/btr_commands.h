@@ -30,7 +30,9 @@ void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|i
 void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export
 void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
-void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
+/// gap adopt|revert|recordings, below "gap"
+void addGapStoreCommands(CLI::App& gap, Shell& shell);
+void addBenchCommand(CLI::App& app, Shell& shell);  ///< bench
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);

@@ -19,7 +19,8 @@ std::vector<IndividualRecord> chooseMeasured(const RunContext& context, int stag
   const auto count = static_cast<std::size_t>(context.stageSetting("measured_individuals"));
   const int ask = static_cast<int>(count + taken.size());
   const int last = context.measuredAfter(stage);
-  const int first = context.simulator().madeAfterGeneration + 1;
+  // A simulator that was taken after the last generation has none of its own yet.
+  const int first = std::min(context.simulator().madeAfterGeneration + 1, last);
   const bool lastOnly = context.stageSetting("chosen_from") == 0;
 
   std::vector<IndividualRecord> chosen;
@@ -41,8 +42,8 @@ bool beginMeasuring(RunContext& context, int stage) {
 
   // Their traces, for replay and for comparing with recordings.
   std::vector<TrialJob> jobs;
-  const SimulatorRecord simulator = context.simulator();
-  for (const IndividualRecord& i : chosen) jobs.push_back({simulator.simulator, i.parameters, i.trialSeed, true});
+  for (const IndividualRecord& i : chosen)
+    jobs.push_back({db.simulator(i.simulator).simulator, i.parameters, i.trialSeed, true});
   const auto replies = context.evaluate(jobs);
   if (!replies) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i)

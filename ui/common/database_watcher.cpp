@@ -105,6 +105,8 @@ void DatabaseWatcher::readRun(const RunRecord& run) {
   if (all || simulators.size() != simulators_) {
     simulators_ = simulators.size();
     emit simulatorsChanged(run.id, simulators);
+    // One that was adopted between two stages.
+    if (!all) emit versionsChanged(run.id, simulators);
   }
   const auto generations = database_->generations(run.id, all ? 0 : lastGeneration_);
   if (all) lastGeneration_ = 0;

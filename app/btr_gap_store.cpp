@@ -1,0 +1,156 @@
+// btr gap adopt, revert, recordings: what gap analysis takes from the database and gives to it.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/run/adoption.h"
+#include "core/run/stored_recordings.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/store/database.h"
+
+namespace btr::cli {
+namespace {
+
+struct StoreArguments {
+  std::string database, simulator, report, mapping, out;
+  std::vector<std::string> files;
+  std::vector<Id> recordings;
+  Id run = 0, experiment = 0, individual = 0;
+  int version = -1;
+};
+
+void tell(const SimulatorRecord& version, Shell& shell) {
+  if (shell.json) {
+    std::cout << nlohmann::json{{"run", version.run},
+                                {"simulator", version.number},
+                                {"made_by", version.madeBy},
+                                {"made_after_generation", version.madeAfterGeneration},
+                                {"evidence", nlohmann::json::parse(version.evidence)}}
+                     .dump(1)
+              << '\n';
+    return;
+  }
+  std::cout << "run " << version.run << ": simulator version " << version.number << " by " << version.madeBy
+            << ", used after generation " << version.madeAfterGeneration << '\n';
+}
+
+void adopt(const StoreArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  tell(adoptFromFiles(db, shell.plugins(), a.run, a.simulator, a.report), shell);
+}
+
+void revert(const StoreArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  tell(revertSimulator(db, a.run, a.version < 0 ? std::nullopt : std::optional(a.version)), shell);
+}
+
+/// Recordings belong to an experiment; a run names the one that it is of.
+Id experimentOf(const Database& db, const StoreArguments& a) {
+  if (a.run != 0) return db.run(a.run).experiment;
+  if (a.experiment != 0) return db.experiment(a.experiment).id;
+  const auto all = db.experiments();
+  if (all.size() == 1) return all.front().id;
+  throw InputError("btr gap recordings: give --run or --experiment; the database has " + std::to_string(all.size()) +
+                   " experiments");
+}
+
+void import(const StoreArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  const Id experiment = experimentOf(db, a);
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& file : a.files) {
+    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual);
+    all.push_back({{"recording", stored.id},
+                   {"file", file},
+                   {"new", stored.isNew},
+                   {"trials", stored.trials},
+                   {"rows", stored.rows},
+                   {"notes", stored.notes}});
+    if (shell.json) continue;
+    std::cout << file << ": " << (stored.isNew ? "stored as recording " : "is there already as recording ") << stored.id
+              << ", " << stored.rows << " rows\n";
+    for (const std::string& note : stored.notes) std::cout << "  note: " << note << '\n';
+  }
+  if (shell.json) std::cout << all.dump(1) << '\n';
+}
+
+void list(const StoreArguments& a, Shell& shell) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  nlohmann::json all = nlohmann::json::array();
+  std::vector<std::vector<std::string>> rows;
+  for (const RecordingRecord& r : db.recordings(experimentOf(db, a))) {
+    all.push_back({{"recording", r.id},
+                   {"experiment", r.experiment},
+                   {"individual", r.individual == 0 ? nlohmann::json() : nlohmann::json(r.individual)},
+                   {"name", r.name},
+                   {"sha256", r.sha256},
+                   {"mapped", !r.mappingJson.empty()},
+                   {"source", r.source},
+                   {"added_at", r.addedAt}});
+    rows.push_back({std::to_string(r.id), r.name, r.individual == 0 ? "" : std::to_string(r.individual),
+                    r.mappingJson.empty() ? "no" : "yes", r.sha256.substr(0, 12), r.addedAt});
+  }
+  if (shell.json)
+    std::cout << all.dump(1) << '\n';
+  else if (rows.empty())
+    std::cout << "no recordings\n";
+  else
+    writeOut("", table({"recording", "name", "individual", "mapping", "SHA-256", "added"}, rows));
+}
+
+void exportThem(const StoreArguments& a) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  for (const Id recording : a.recordings) std::cout << exportRecording(db, recording, a.out) << '\n';
+}
+
+}  // namespace
+
+void addGapStoreCommands(CLI::App& gap, Shell& shell) {
+  auto a = std::make_shared<StoreArguments>();
+  const auto database = [&](CLI::App* command) {
+    command->add_option("--db", a->database, "experiment database")->required();
+  };
+  const auto run = [&](CLI::App* command, bool required) {
+    command->add_option("--run", a->run, "number of the run")->required(required)->check(CLI::PositiveNumber);
+  };
+
+  CLI::App* adoptApp = gap.add_subcommand("adopt", "make a repaired simulator the newest version of a run");
+  database(adoptApp);
+  run(adoptApp, true);
+  adoptApp->add_option("--simulator", a->simulator, "simulator.json of a gap analysis")->required();
+  adoptApp->add_option("--report", a->report, "folder of the report that it comes from: the evidence");
+  adoptApp->callback([a, &shell] { adopt(*a, shell); });
+
+  CLI::App* revertApp = gap.add_subcommand("revert", "make an earlier version the newest again, as a new version");
+  database(revertApp);
+  run(revertApp, true);
+  revertApp->add_option("--version", a->version, "number of the version (default: the newest one's parent)")
+      ->check(CLI::NonNegativeNumber);
+  revertApp->callback([a, &shell] { revert(*a, shell); });
+
+  CLI::App* recordings = gap.add_subcommand("recordings", "recordings kept in the database");
+  recordings->require_subcommand(1);
+  const auto owner = [&](CLI::App* command) {
+    database(command);
+    run(command, false);
+    command->add_option("--experiment", a->experiment, "number of the experiment")->check(CLI::PositiveNumber);
+  };
+  CLI::App* importApp = recordings->add_subcommand("import", "check recordings and keep them");
+  owner(importApp);
+  importApp->add_option("RECORDING.csv", a->files, "recorded trials")->required();
+  importApp->add_option("--mapping", a->mapping, "which column is which channel (default: the one beside the file)");
+  importApp->add_option("--individual", a->individual, "number of the individual that was recorded")
+      ->check(CLI::PositiveNumber);
+  importApp->callback([a, &shell] { import(*a, shell); });
+  CLI::App* listApp = recordings->add_subcommand("list", "what is kept");
+  owner(listApp);
+  listApp->callback([a, &shell] { list(*a, shell); });
+  CLI::App* exportApp = recordings->add_subcommand("export", "write recordings and mappings into a folder");
+  database(exportApp);
+  exportApp->add_option("--recording", a->recordings, "numbers of the recordings")->required();
+  exportApp->add_option("--out", a->out, "the folder")->required();
+  exportApp->callback([a] { exportThem(*a); });
+}
+
+}  // namespace btr::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/gap/recording.h"
+#include "core/gap/replay.h"
 
 namespace btr {
 
@@ -34,6 +35,13 @@ struct RecordingHealth {
 
 /// Looks at a recording before physics is blamed (gap analysis, step 1). Changes nothing.
 RecordingHealth examine(const Recording& recording);
+
+/// Whether the columns can be what their names say, by comparing what was commanded with what was measured at each
+/// joint that follows positions: wrong units (degrees, millimetres, milliseconds), turned signs, joints mixed up, a
+/// constant offset of the encoder that no load explains, a position that never changes. Each finding in words, with its
+/// evidence and with what to change in the mapping; nothing is changed. A joint whose command hardly moves, or where
+/// the evidence is ambiguous (the joints move alike, one fast sine), gives none.
+std::vector<std::string> doctor(const Scene& scene, const Recording& recording, const Binding& binding);
 
 /// By how much `measured` runs behind `command`; negative: ahead, which no servo does.
 struct ClockOffset {

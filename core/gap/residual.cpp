@@ -53,6 +53,7 @@ void addRecording(const Scene& scene, const Recording& recording, ResidualReport
   if (!health.gaps.empty()) note(health.findings.front());
   const Binding binding = bind(scene, recording);
   for (const std::string& text : binding.notes) note(text);
+  for (const std::string& text : doctor(scene, recording, binding)) note(text);
   if (binding.measured.empty())
     throw InputError(recording.source +
                      ": no column can be compared with the scene; position, velocity, torque, base or "

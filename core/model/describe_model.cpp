@@ -83,6 +83,7 @@ std::string servoOf(const Joint& joint) {
   add("i", servo.i_nm_rad_s, 3);
   add("d", servo.d_nm_s_rad, 3);
   add("max_torque_nm", servo.maxTorque_nm, 3);
+  add("no_load_speed_rad_s", servo.noLoadSpeed_rad_s, 3);
   add("coulomb_friction_nm", servo.coulombFriction_nm, 4);
   add("viscous_friction_nm_s_rad", servo.viscousFriction_nm_s_rad, 4);
   add("backlash_rad", servo.backlash_rad, 4);

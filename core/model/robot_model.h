@@ -43,7 +43,7 @@ struct Link {
 
 /// Numbers of a joint's servo and transmission that the file gave. Names and units as in the VRML extension.
 struct ServoData {
-  std::optional<double> p_nm_rad, i_nm_rad_s, d_nm_s_rad, maxTorque_nm;
+  std::optional<double> p_nm_rad, i_nm_rad_s, d_nm_s_rad, maxTorque_nm, noLoadSpeed_rad_s;
   std::optional<double> coulombFriction_nm, viscousFriction_nm_s_rad, backlash_rad, commandDelay_s;
   std::optional<double> gearRatio, rotorInertia_kg_m2;  ///< rotor inertia before the gear
 };

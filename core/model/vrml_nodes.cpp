@@ -106,7 +106,7 @@ const Line table[] = {
      "lvlimit "
      "uvlimit climit stiffness;SFRotation limitOrientation;SFFloat gearRatio rotorInertia rotorResistor torqueConst "
      "encoderPulse equivalentInertia maxTorque pGain iGain dGain coulombFriction viscousFriction backlash "
-     "commandDelay"},
+     "commandDelay noLoadSpeed"},
     {"Segment",
      BTR_BOUNDED "SFString name massGroup;SFVec3f centerOfMass;SFFloat mass;MFFloat momentsOfInertia;MFNode children "
                  "collision;SFNode coord;MFNode displacers"},

@@ -285,6 +285,7 @@ ServoData RobotBuilder::readServo(const Node& node) const {
   servo.i_nm_rad_s = number("iGain", 0);
   servo.d_nm_s_rad = number("dGain", 0);
   servo.maxTorque_nm = number("maxTorque", 0);
+  servo.noLoadSpeed_rad_s = number("noLoadSpeed", 0);
   servo.coulombFriction_nm = number("coulombFriction", 0);
   servo.viscousFriction_nm_s_rad = number("viscousFriction", 0);
   servo.backlash_rad = number("backlash", 0);

@@ -42,18 +42,26 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
   return places;
 }
 
-/// A noticeable, not absurd size of an effect: each parameter a tenth to three tenths of the way from neutral to a
-/// bound.
+/// How far the default of a parameter lies from where the effect does nothing: its size on a real robot.
+double typicalSize(const Parameter& p) { return p.byDefault - p.neutral.value_or(p.byDefault); }
+
+bool hasTypicalSize(const std::vector<Parameter>& parameters) {
+  return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return typicalSize(p) != 0; });
+}
+
+/// A size that the real robot could have: each parameter lies half to one and a half times its typical size away from
+/// the value at which it does nothing (log-uniform), on either side where both are possible. Bounds do not enter: they
+/// say how far a search may look, not what is likely. Numbers that only shape the effect (no neutral value) keep their
+/// default.
 Values drawSize(const std::vector<Parameter>& parameters, Random& random) {
   Values values;
   for (const Parameter& p : parameters) {
-    if (!p.neutral) {
-      values[p.name] = p.byDefault;
-      continue;
+    double value = p.byDefault;
+    if (const double typical = typicalSize(p); typical != 0) {
+      const double size = typical * std::exp(random.uniform(std::log(0.5), std::log(1.5)));
+      const bool either = p.minimum < *p.neutral && *p.neutral < p.maximum;
+      value = std::clamp(*p.neutral + (either && random.chance(0.5) ? -size : size), p.minimum, p.maximum);
     }
-    const bool up = *p.neutral <= p.minimum || (*p.neutral < p.maximum && random.chance(0.5));
-    const double reach = up ? p.maximum - *p.neutral : p.minimum - *p.neutral;
-    const double value = *p.neutral + reach * random.uniform(0.1, 0.3);
     values[p.name] = p.integer ? std::round(value) : value;
   }
   return values;
@@ -98,6 +106,11 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
   const auto seed = static_cast<std::uint64_t>(setting("seed"));
   Random random = Random::forPurpose(seed, "stand-in");
   const Scene plain = prepared.scene(prepared.spec.simulator);
+  std::vector<std::string> drawable;
+  for (const std::string& name : host.effects()) {
+    const auto effect = host.effect(name);
+    if (hasTypicalSize(effect->parameters()) && !placesFor(effect->place(), plain).empty()) drawable.push_back(name);
+  }
 
   while (true) {
     Concealed concealed{prepared.spec.simulator, setting("noise_m"), seed};
@@ -107,17 +120,12 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
       const double size = start != 0 ? std::abs(start) : 0.25 * (p.maximum - p.minimum);
       concealed.simulator.values[p.name] = std::clamp(start + error * size * random.normal(), p.minimum, p.maximum);
     }
-    const std::vector<std::string> names = host.effects();
-    for (int i = 0; i < static_cast<int>(setting("hidden_effects")) && !names.empty(); ++i) {
-      const std::string& name = names[random.below(names.size())];
+    for (int i = 0; i < static_cast<int>(setting("hidden_effects")) && !drawable.empty(); ++i) {
+      const std::string& name = drawable[random.below(drawable.size())];
       const std::shared_ptr<const Effect> effect = host.effect(name);
       const std::vector<std::string> places = placesFor(effect->place(), plain);
-      if (places.empty()) {
-        --i;
-        continue;
-      }
-      concealed.simulator.effects.push_back(
-          {name, places[random.below(places.size())], drawSize(effect->parameters(), random)});
+      const std::string& at = places[random.below(places.size())];
+      concealed.simulator.effects.push_back({name, at, drawSize(effect->parameters(), random)});
     }
     try {
       prepared.scene(concealed.simulator);

@@ -24,8 +24,8 @@ struct Concealed {
 
 /// Draws it: each of the 12 parameters deviates by a normal factor of the stand-in's `parameter_error` (of its range
 /// where the starting value is 0), within its bounds; `hidden_effects` effects at places of the scene's first robot,
-/// floor or ball. A function of the experiment's stand-in settings alone. Redraws while the arranged scene cannot be
-/// built.
+/// floor or ball, each parameter of half to one and a half times the typical size that its effect declares as default.
+/// A function of the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host);
 
 /// One answer of the robot.

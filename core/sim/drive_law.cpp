@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace btr {
 
@@ -27,13 +28,35 @@ void StepOf::add(DriveRow& row, double k, double c, double rate) const {
 
 namespace {
 
+/// The row of the torque-speed line where the servo's own row asks for more. Both fall with the rate, so for a joint
+/// that turns freely the smaller torque is that of the row which leaves it slower. Taken at the rate of the step's end
+/// alone: then no inertia, however wrongly known, lets the motor exceed its no-load speed.
+std::optional<DriveRow> lineRow(const Drive& drive, const DriveRow& servo, double wanted, double rate,
+                                const StepOf& step) {
+  const double most = drive.maxTorque, noLoad = drive.noLoadSpeed_rad_s;
+  const auto end = [&](double p, double d) { return (step.inertia * rate + step.h * p) / (step.inertia + step.h * d); };
+  const double slope = most / noLoad, free = end(servo.p, servo.d);
+  for (const double side : {1.0, -1.0}) {
+    if (side * free <= side * end(side * most, slope)) continue;
+    DriveRow line{side * most, slope, std::min(most, wanted)};
+    // Well under way the line itself stays within the limit, unless the joint is thrown back.
+    const double along = side * rate / noLoad;
+    if (along > 0.25 && along < 1 && most * (1 - along) <= wanted) line.limit = DriveRow{}.limit;
+    return line;
+  }
+  return std::nullopt;
+}
+
 DriveRow servoRow(const Drive& drive, const JointState& state, double integral, const StepOf& step) {
   DriveRow row;
   row.p = drive.p * (state.command - state.position) + drive.i * integral;
   const double withoutDamping = row.p;
   step.add(row, drive.p, drive.d, state.rate);
   const double now = row.p - row.d * state.rate;
-  if (std::max(std::abs(withoutDamping), std::abs(now)) > drive.maxTorque) row.limit = drive.maxTorque;
+  const double wanted = std::max(std::abs(withoutDamping), std::abs(now));
+  if (drive.noLoadSpeed_rad_s > 0)
+    if (const auto line = lineRow(drive, row, wanted, state.rate, step)) return *line;
+  if (wanted > drive.maxTorque) row.limit = drive.maxTorque;
   return row;
 }
 
@@ -78,13 +101,18 @@ DriveRow driveRow(const Drive& drive, const JointState& state, double integral, 
   return {};
 }
 
+double largestTorque(const Drive& drive, double rate) {
+  if (!(drive.noLoadSpeed_rad_s > 0)) return drive.maxTorque;
+  return drive.maxTorque * std::clamp(1 - rate / drive.noLoadSpeed_rad_s, -1.0, 1.0);
+}
+
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input) {
   if (!input.enabled) return 0;
   const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
   switch (drive.kind) {
     case Drive::Kind::servo:
       return std::clamp(drive.p * (state.command - state.position) + drive.i * integral - drive.d * state.rate,
-                        -drive.maxTorque, drive.maxTorque);
+                        -largestTorque(drive, -state.rate), largestTorque(drive, state.rate));
     case Drive::Kind::dcMotor:
       return perVolt * (motorVolts(drive, state, input).given - drive.torqueConstant_nm_a * state.rate);
     case Drive::Kind::torque:

@@ -37,13 +37,19 @@ struct StepOf {
 
 /// The law of a drive over one step. A servo far from its torque limit gets no limit in its row (such rows are cheaper
 /// to solve). `state.position`, `.rate`, `.command` are those of now.
-///   servo     clamp(p·(command − q) + i·∫ − d·rate, ±max)
+///   servo     clamp(p·(command − q) + i·∫ − d·rate, ±max), and with a no-load speed ω0 also within the motor's
+///             torque-speed line: at most max·(1 − rate/ω0), at least −max·(1 + rate/ω0). At rest that is ±max, at ω0
+///             nothing is left to drive with, beyond it the motor brakes; where it brakes it has its full torque.
 ///   DC motor  kt·u/R − kt²·rate/R,  u = supply·(duty as given, or clamp(gain·(command − q)/nominal
 ///             supply, ±maxDuty))
 ///   torque    clamp(command, ±max)
 /// A drive that is switched off gives nothing (a DC motor: open circuit, no braking by its own voltage).
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
                   const StepOf& step);
+
+/// The largest torque that a servo's motor gives towards positive positions at this rate; towards negative ones it is
+/// −largestTorque(drive, −rate).
+double largestTorque(const Drive& drive, double rate);
 
 /// The same law at this instant, as a number.
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input);

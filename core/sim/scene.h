@@ -22,6 +22,8 @@ struct Drive {
   Kind kind = Kind::servo;
   double p = 0, i = 0, d = 0;  ///< servo: torque = p·(command − q) + i·∫ − d·q̇, clamped to ±maxTorque
   double maxTorque = 1e9;
+  double noLoadSpeed_rad_s =
+      0;  ///< servo: rate (m/s on a slide joint) at which its torque ends, see drive_law.h; 0: none
   double firmwareGain_v_rad = 0;  ///< DC motor: volts per rad of error at supply_v, that is gain/supply_v in duty;
                                   ///< the duty is clamped to ±maxDuty and applied to the supply of the moment
   double supply_v = 0, torqueConstant_nm_a = 0, resistance_ohm = 1, maxDuty = 1;

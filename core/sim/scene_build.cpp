@@ -21,6 +21,7 @@ Drive driveFromModel(const Joint& joint) {
   drive.i = servo.i_nm_rad_s.value_or(0);
   drive.d = servo.d_nm_s_rad.value_or(0.05);
   drive.maxTorque = servo.maxTorque_nm.value_or(joint.type == Joint::Type::slide ? 10 : 0.85);
+  drive.noLoadSpeed_rad_s = servo.noLoadSpeed_rad_s.value_or(0);
   drive.coulombFriction = servo.coulombFriction_nm.value_or(0);
   drive.viscousFriction = servo.viscousFriction_nm_s_rad.value_or(0);
   const double ratio = servo.gearRatio.value_or(1);
@@ -46,11 +47,27 @@ int jointOf(const SceneRobot& robot, const std::string& name, const std::string&
   return joint;
 }
 
+/// A body that nothing carries needs a mass: the root's, with what is rigidly fixed to it.
+void needMass(const RobotSpec& spec, const RobotModel& model) {
+  std::vector<char> rigid(model.links.size(), 0);
+  rigid[0] = 1;
+  double mass = model.links[0].inertial.mass_kg;
+  for (std::size_t i = 0; i < model.joints.size() && spec.mergeFixed; ++i) {
+    const Joint& joint = model.joints[i];
+    rigid[i + 1] = joint.type == Joint::Type::fixed && rigid[static_cast<std::size_t>(joint.parentLink)];
+    if (rigid[i + 1]) mass += model.links[i + 1].inertial.mass_kg;
+  }
+  if (!(mass > 0))
+    throw InputError("scene robots." + spec.name + ".base", "free",
+                     "fixed: the root link " + model.links[0].name + " of the model " + model.name + " has no mass");
+}
+
 SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   SceneRobot robot;
   robot.name = spec.name;
   robot.model = model;
   robot.freeBase = spec.base == "free";
+  if (robot.freeBase) needMass(spec, model);
   robot.collision = spec.collision;
   robot.mergeFixed = spec.mergeFixed;
   const auto& q = spec.orientation_wxyz;
@@ -71,7 +88,7 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
     Drive& drive = robot.drives[joint];
     drive.kind = kindOf(servo, model.joints[joint], place + ".servos." + name);
     // What a kind of drive does not have stays out of it: only a servo's numbers come from the model.
-    if (drive.kind != Drive::Kind::servo) drive.maxTorque = 1e9;
+    if (drive.kind != Drive::Kind::servo) drive.maxTorque = 1e9, drive.noLoadSpeed_rad_s = 0;
     if (drive.kind == Drive::Kind::dcMotor)
       for (const char* number : {"voltage_v", "resistance_ohm", "max_duty"})
         setDriveNumber(drive, model.joints[joint], number, find(servoNumbers(), number)->byDefault, place);
@@ -90,6 +107,7 @@ double* driveNumber(Drive& drive, const Joint& joint, const std::string& number)
   if (number == "i") return &drive.i;
   if (number == "d") return &drive.d;
   if (is("max_torque_nm", "max_force_n")) return &drive.maxTorque;
+  if (is("no_load_speed_rad_s", "no_load_speed_m_s")) return &drive.noLoadSpeed_rad_s;
   if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m")) return &drive.firmwareGain_v_rad;
   if (number == "voltage_v") return &drive.supply_v;
   if (is("torque_constant_nm_per_a", "force_constant_n_per_a")) return &drive.torqueConstant_nm_a;

@@ -208,6 +208,8 @@ const std::vector<Parameter>& servoNumbers() {
       {"d", "N·m·s/rad or N·s/m", "damping", 0, 1e6, 0.05},
       {"max_torque_nm", "N·m", "largest torque of the drive", 0, 1e6, 0.85},
       {"max_force_n", "N", "largest force of the drive on a slide joint", 0, 1e6, 10},
+      {"no_load_speed_rad_s", "rad/s", "a servo's torque ends at this speed; 0: no such limit", 0, 1e6, 0},
+      {"no_load_speed_m_s", "m/s", "a servo's force ends at this speed of a slide joint; 0: no such limit", 0, 1e6, 0},
       {"firmware_gain_v_per_rad", "V/rad", "voltage per position error", 0, 1e6, 0},
       {"firmware_gain_v_per_m", "V/m", "voltage per position error on a slide joint", 0, 1e6, 0},
       {"voltage_v", "V", "supply voltage", 0, 1000, 7.2},

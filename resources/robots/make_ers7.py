@@ -32,10 +32,10 @@ PROTOS = '''PROTO Joint [
   exposedField MFFloat lvlimit []  exposedField MFFloat uvlimit []  exposedField MFFloat climit []
   exposedField SFFloat gearRatio 1  exposedField SFFloat rotorInertia 0  exposedField SFFloat rotorResistor 0
   exposedField SFFloat torqueConst 1  exposedField SFFloat encoderPulse 1
-  # Ours, all optional: N.m, N.m/rad, N.m/(rad.s), N.m.s/rad, N.m, N.m.s/rad, rad, s, and the OPEN-R name of the joint.
+  # Ours, all optional: N.m, N.m/rad, N.m/(rad.s), N.m.s/rad, N.m, N.m.s/rad, rad, s, rad/s, and the OPEN-R name of the joint.
   exposedField SFFloat maxTorque 0  exposedField SFFloat pGain 0  exposedField SFFloat iGain 0  exposedField SFFloat dGain 0
   exposedField SFFloat coulombFriction 0  exposedField SFFloat viscousFriction 0  exposedField SFFloat backlash 0
-  exposedField SFFloat commandDelay 0  exposedField SFString primitive ""
+  exposedField SFFloat commandDelay 0  exposedField SFFloat noLoadSpeed 0  exposedField SFString primitive ""
 ] { Transform { center IS center children IS children translation IS translation rotation IS rotation scale IS scale
                 scaleOrientation IS scaleOrientation } }
 PROTO Segment [
@@ -140,12 +140,13 @@ joint_count = 0
 
 
 def open_joint(depth, name, axis, at, limits, speed, servo, primitive):
-    """Limits are those of the software; the mechanical stops lie 5 degrees further."""
+    """Limits are those of the software; the mechanical stops lie 5 degrees further. Sony's largest joint speeds stand in
+    Tekkotsu's ERS7Info.h; that they are the speeds at which the motors' torque ends is our reading of them."""
     global joint_count
     p, d, torque = SERVO[servo]
     write(depth, f'DEF {name} Joint {{ name "{name}" jointType "rotate" jointId {joint_count} jointAxis {axis} translation {metres(at)}')
     write(depth, f" llimit {degrees(limits[0])} ulimit {degrees(limits[1])} lvlimit {-speed} uvlimit {speed}"
-                 f' maxTorque {torque} pGain {number(p)} iGain 0 dGain {d} primitive "{primitive}"')
+                 f' maxTorque {torque} noLoadSpeed {speed} pGain {number(p)} iGain 0 dGain {d} primitive "{primitive}"')
     write(depth, " children [")
     joint_count += 1
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/sim/drive_law.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -107,6 +108,96 @@ TEST(Servo, SwitchedOffLetsTheJointSwing) {
     EXPECT_EQ(0, world.robot(0).torque[0]);
   }
   EXPECT_EQ(ends[0], ends[1]);
+}
+
+TEST(NoLoadSpeed, IsReachedAndNeverExceededByTheServosOwnDrive) {
+  // From a step that resolves the speeding up to one that is three times as long as it takes.
+  for (const double step : {0.00025, 0.002, 0.008}) {
+    const Drive drive{.p = 50, .d = 0.02, .maxTorque = 0.85, .noLoadSpeed_rad_s = 5.3};
+    Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, drive), step));
+    World world(scene, 1);
+    for (int i = 0; i < 60; ++i) {
+      world.advance(commands(scene, 1000), 0.008);
+      EXPECT_LE(world.robot(0).rate[0], 5.3 * (1 + 1e-9)) << step;
+      EXPECT_LE(std::abs(world.robot(0).torque[0]), 0.85 * (1 + 1e-12));
+    }
+    EXPECT_NEAR(5.3, world.robot(0).rate[0], 1e-6);
+    EXPECT_NEAR(0, world.robot(0).torque[0], 1e-6);
+  }
+}
+
+TEST(NoLoadSpeed, SpeedsUpExponentially) {
+  const Drive drive{.p = 500, .maxTorque = 0.85, .noLoadSpeed_rad_s = 5.3};
+  Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, drive), 0.00005));
+  World world(scene, 1);
+  const double tau = inertia * 5.3 / 0.85;  // of ω0·(1 − exp(−t/τ))
+  world.advance(commands(scene, 1000), 0.008);
+  EXPECT_NEAR(5.3 * (1 - std::exp(-0.008 / tau)), world.robot(0).rate[0], 0.01 * 5.3);
+}
+
+TEST(NoLoadSpeed, LeavesTheLargestTorqueToAHeldShaft) {
+  const Drive drive{.p = 500, .maxTorque = 0.85, .noLoadSpeed_rad_s = 5.3, .coulombFriction = 100};
+  Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, drive), 0.002));
+  World world(scene, 1);
+  world.advance(commands(scene, 1000), 0.1);
+  EXPECT_NEAR(0.85, world.robot(0).torque[0], 1e-9);
+}
+
+TEST(NoLoadSpeed, LeavesASlowServoAndItsHoldingTorqueAsTheyAre) {
+  // A weight that takes most of the torque is held to the same place with and without the line.
+  const Drive plain{.p = 20, .d = 0.2, .maxTorque = 1};
+  Drive line = plain;
+  line.noLoadSpeed_rad_s = 5;
+  double positions[2], torques[2];
+  for (const bool withLine : {false, true}) {
+    Scene scene = sceneOf(robot(pendulumModel(0.5, 0.2, 0.001), false, withLine ? line : plain), 0.008);
+    scene.robots[0].jointStart = {0.9};
+    World world(scene, 1);
+    world.advance(commands(scene, 0.94), 4);
+    positions[withLine] = world.robot(0).position[0];
+    torques[withLine] = world.robot(0).torque[0];
+  }
+  EXPECT_NEAR(positions[0], positions[1], 1e-9);
+  EXPECT_NEAR(torques[0], torques[1], 1e-9);
+}
+
+TEST(NoLoadSpeed, FollowsTheLawSteppedByHand) {
+  // A swing through most of the speed range and back: the line drives, the full torque brakes.
+  const Drive drive{.p = 7.5, .d = 0.05, .maxTorque = 0.4, .noLoadSpeed_rad_s = 5};
+  Scene scene = weightless(sceneOf(robot(wheelModel(0.004), false, drive), 0.00025));
+  World world(scene, 1);
+  double q = 0, rate = 0, fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.advance(commands(scene, 1), 0.008);
+    for (int k = 0; k < 4000; ++k) {
+      const double law = 7.5 * (1 - q) - 0.05 * rate;
+      const double up = std::min(0.4 * (1 - rate / 5), 0.4), down = std::max(-0.4 * (1 + rate / 5), -0.4);
+      rate += std::clamp(law, down, up) / 0.004 * 2e-6;
+      q += rate * 2e-6;
+    }
+    fastest = std::max(fastest, rate);
+    EXPECT_NEAR(q, world.robot(0).position[0], 0.01);
+  }
+  EXPECT_GT(fastest, 4);
+}
+
+TEST(NoLoadSpeed, BrakesWhatIsDrivenBeyondIt) {
+  const Drive drive{.p = 50, .maxTorque = 0.85, .noLoadSpeed_rad_s = 5};
+  EXPECT_DOUBLE_EQ(0.85, largestTorque(drive, -3));
+  EXPECT_DOUBLE_EQ(0.85, largestTorque(drive, 0));
+  EXPECT_NEAR(0.85 * 0.4, largestTorque(drive, 3), 1e-15);
+  EXPECT_DOUBLE_EQ(0, largestTorque(drive, 5));
+  EXPECT_NEAR(-0.85 * 0.2, largestTorque(drive, 6), 1e-15);
+  EXPECT_DOUBLE_EQ(-0.85, largestTorque(drive, 100));
+  EXPECT_DOUBLE_EQ(0.85, largestTorque(Drive{.maxTorque = 0.85}, 100));
+
+  Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, drive), 0.001));
+  scene.robots[0].jointStartRate = {9};
+  World world(scene, 1);
+  world.advance(commands(scene, 1000), 0.004);
+  EXPECT_LT(world.robot(0).torque[0], 0);
+  world.advance(commands(scene, 1000), 0.2);
+  EXPECT_NEAR(5, world.robot(0).rate[0], 1e-6);
 }
 
 const Drive motor{.kind = Drive::Kind::dcMotor,

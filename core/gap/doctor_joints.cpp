@@ -1,0 +1,199 @@
+// What a comparison of commands and measured positions says about the mapping.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/gap/doctor.h"
+#include "core/gap/encoder_offset.h"
+#include "core/gap/even_grid.h"
+#include "core/gap/following.h"
+#include "core/gap/joint_series.h"
+
+namespace btr {
+namespace {
+
+constexpr double degree = M_PI / 180;
+
+std::string digits(double value, int count = 3) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", count, value);
+  return text;
+}
+
+class JointDoctor {
+ public:
+  JointDoctor(const Scene& scene, const Recording& recording, const Binding& binding)
+      : scene_(scene), joints_(jointSeries(scene, recording, binding, period_s_)) {}
+
+  std::vector<std::string> look() {
+    std::vector<char> known(joints_.size(), 0);
+    findSwaps(known);
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      if (!known[i]) lookAt(joints_[i]);
+    return std::move(findings_);
+  }
+
+ private:
+  const Joint& model(const JointSeries& series) const { return scene_.robots[series.robot].model.joints[series.joint]; }
+  bool slides(const JointSeries& series) const { return model(series).type == Joint::Type::slide; }
+  bool excited(const JointSeries& series) const { return series.commandSpread > (slides(series) ? 0.002 : 0.02); }
+  Following between(const JointSeries& command, const JointSeries& position) const {
+    return follow(command.command, position.position, position.used, period_s_);
+  }
+
+  /// Follows another joint's command clearly better than its own, and that one is not alike.
+  bool followsOther(const JointSeries& own, const JointSeries& other) const {
+    if (slides(own) != slides(other) || !excited(other)) return false;
+    const double mine = std::abs(between(own, own).correlation);
+    const double strange = std::abs(between(other, own).correlation);
+    if (strange < 0.9 || mine > 0.7 || strange < mine + 0.25) return false;
+    return std::abs(follow(own.command, other.command, own.used, period_s_).correlation) < 0.9;
+  }
+
+  void findSwaps(std::vector<char>& known) {
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      for (std::size_t j = i + 1; j < joints_.size(); ++j) {
+        const JointSeries &a = joints_[i], &b = joints_[j];
+        if (known[i] || known[j] || !excited(a) || !excited(b) || !followsOther(a, b) || !followsOther(b, a)) continue;
+        known[i] = known[j] = 1;
+        findings_.push_back(a.positionChannel + " follows " + b.commandChannel + " (correlation " +
+                            digits(between(b, a).correlation) + ") and not its own command (" +
+                            digits(between(a, a).correlation) + "), and " + b.positionChannel + " follows " +
+                            a.commandChannel + " (" + digits(between(a, b).correlation) + ", own " +
+                            digits(between(b, b).correlation) +
+                            "): the two joints are mixed up; exchange the two columns in the mapping");
+      }
+  }
+
+  void lookAt(const JointSeries& series) {
+    const bool rotary = !slides(series);
+    const std::string unit = rotary ? " rad" : " m";
+    // A column that stands still.
+    if (series.highest == series.lowest) {
+      if (series.commandSpread > (rotary ? 0.1 : 0.01))
+        findings_.push_back(series.positionChannel + " is always " + digits(series.highest, 6) + unit + " while " +
+                            series.commandChannel + " moves with a spread of " + digits(series.commandSpread) + unit +
+                            ": the sensor was not read, or the mapping names a wrong column");
+      return;
+    }
+    if (!excited(series)) return;
+    const Following following = between(series, series);
+    if (std::abs(following.correlation) < 0.8) return;
+    const std::string evidence = series.positionChannel + " moves " + digits(following.ratio) + " times as far as " +
+                                 series.commandChannel + " (correlation " + digits(following.correlation) +
+                                 " at a lag of " + digits(following.lag_s) + " s)";
+    const bool unitsFine = checkUnits(series, following, evidence);
+    const bool turned = following.correlation < 0 && following.highest < -0.5;
+    if (turned)
+      findings_.push_back(series.positionChannel + " moves against " + series.commandChannel + " (correlation " +
+                          digits(following.correlation) + " at a lag of " + digits(following.lag_s) +
+                          " s, nowhere above " + digits(following.highest) +
+                          "): a sign is turned; give one of them, the one that is not right-handed about the model's " +
+                          "axis, a negative \"scale\" in the mapping");
+    if (!unitsFine || turned || following.correlation < 0.9) return;
+    if (const auto found = encoderOffset(scene_, joints_, series, following.lag_s, period_s_))
+      findings_.push_back(series.positionChannel + " lies " + digits(std::abs(found->offset)) + " ± " +
+                          digits(found->uncertainty, 2) + unit + (found->offset > 0 ? " above " : " below ") +
+                          series.commandChannel + " throughout, more than its load explains: an offset of the " +
+                          "encoder; add " + digits(-found->offset) + " to its \"offset\" in the mapping");
+  }
+
+  /// True if nothing is wrong with them.
+  bool checkUnits(const JointSeries& series, const Following& following, const std::string& evidence) {
+    const bool rotary = !slides(series);
+    struct Unit {
+      const char* name;
+      double size;  ///< in rad or m
+    };
+    const std::vector<Unit> units = rotary ? std::vector<Unit>{{"degrees", degree}}
+                                           : std::vector<Unit>{{"millimetres", 0.001}, {"centimetres", 0.01}};
+    // The nearest unit. A soft servo lags far behind its command, so the ratio itself is only known roughly.
+    const Unit* named = nullptr;
+    const bool up = following.ratio > 5;
+    double nearest = std::log(6);
+    for (const Unit& unit : units) {
+      const double away = std::abs(std::log(following.ratio * (up ? unit.size : 1 / unit.size)));
+      if ((up || following.ratio < 0.1) && away < nearest) named = &unit, nearest = away;
+    }
+    const std::string right = rotary ? "radians" : "metres";
+    if (named) {
+      // The larger of the two is in the smaller unit, unless only the larger one can be where the joint can be.
+      const bool positionWrong = up == !inReach(series, up);
+      const std::string& wrong = positionWrong ? series.positionChannel : series.commandChannel;
+      const bool shrink = positionWrong == up;
+      findings_.push_back(
+          evidence + ": " + wrong + " is " +
+          (shrink ? "in " + std::string(named->name) + ", not " + right : right + " taken for " + named->name) +
+          "; multiply its \"scale\" in the mapping by " + digits(shrink ? named->size : 1 / named->size, 6));
+      return false;
+    }
+    if (std::abs(following.correlation) > 0.9 && (following.ratio > 5 || following.ratio < 0.1)) {
+      findings_.push_back(evidence + ": no servo does that; check the \"scale\" of both in the mapping");
+      return false;
+    }
+    // Both alike but nowhere near where the joint can be.
+    const Joint& joint = model(series);
+    const double reach = std::max(std::abs(joint.lower), std::abs(joint.upper));
+    const double farthest = std::max(std::abs(series.lowest), std::abs(series.highest));
+    if (reach < 1e6 && farthest > 4 * reach + (rotary ? 1 : 0.1)) {
+      findings_.push_back(series.positionChannel + " and " + series.commandChannel + " reach " + digits(farthest) +
+                          ", the model's joint " + digits(reach) + (rotary ? " rad" : " m") + " at most: both are in " +
+                          units.front().name + ", it seems; multiply both \"scale\"s in the mapping by " +
+                          digits(units.front().size, 6));
+      return false;
+    }
+    return true;
+  }
+
+  /// Whether the larger of position and command lies where the joint can be.
+  bool inReach(const JointSeries& series, bool positionIsLarger) const {
+    const std::vector<double>& larger = positionIsLarger ? series.position : series.command;
+    const Joint& joint = model(series);
+    const bool rotary = !slides(series);
+    const double slack = rotary ? 0.3 : 0.05;
+    const double low = joint.lower > -1e6 ? joint.lower - slack : rotary ? -4 * M_PI : -10;
+    const double high = joint.upper < 1e6 ? joint.upper + slack : rotary ? 4 * M_PI : 10;
+    const auto [lowest, highest] = std::minmax_element(larger.begin(), larger.end());
+    return *lowest >= low && *highest <= high;
+  }
+
+  const Scene& scene_;
+  double period_s_ = 0;
+  std::vector<JointSeries> joints_;
+  std::vector<std::string> findings_;
+};
+
+/// Time in milliseconds, places in millimetres.
+void lookAtScales(const Recording& recording, const Binding& binding, std::vector<std::string>& findings) {
+  constexpr double slowest_s = 0.9, farthest_m = 50;
+  const std::vector<double>& time = recording.columns.at(0);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  if (median(steps) > slowest_s)
+    findings.push_back("time_s: a sample every " + digits(median(steps)) +
+                       " s, too slow for a servo's log: milliseconds, it seems; give it the \"scale\" 0.001 in the " +
+                       "mapping");
+  for (const Binding::Measured& measured : binding.measured) {
+    if (measured.what != Binding::Measured::What::basePosition &&
+        measured.what != Binding::Measured::What::ballPosition)
+      continue;
+    double farthest = 0;
+    for (const double value : recording.columns[measured.column])
+      if (std::isfinite(value)) farthest = std::max(farthest, std::abs(value));
+    if (farthest > farthest_m)
+      findings.push_back(recording.channels[measured.column] + " reaches " + digits(farthest) +
+                         " m: millimetres, it seems; multiply its \"scale\" in the mapping by 0.001");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
+  std::vector<std::string> findings;
+  if (recording.rows() < 2) return findings;
+  lookAtScales(recording, binding, findings);
+  for (std::string& text : JointDoctor(scene, recording, binding).look()) findings.push_back(std::move(text));
+  return findings;
+}
+
+}  // namespace btr

@@ -1,0 +1,102 @@
+// An experiment made ready from files, stored as a run, and made ready again from what was stored.
+#include "core/run/prepared_experiment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
+
+namespace {
+
+using namespace btr;
+using testing::HasSubstr;
+
+const PluginHost& host() {
+  static PluginHost plugins(PLUGIN_DIR);
+  return plugins;
+}
+
+PreparedExperiment kick() {
+  return prepareFromFiles(loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json"), host());
+}
+
+TEST(RunRecord, HoldsEverythingThatARunDependsOn) {
+  const PreparedExperiment prepared = kick();
+  const RunRecord run = makeRunRecord(prepared, 7, 42);
+  EXPECT_EQ(run.experiment, 7);
+  EXPECT_EQ(run.seed, 42u);
+  EXPECT_EQ(run.reality, "stand_in");
+  EXPECT_EQ(run.state, RunState::ready);
+  ASSERT_EQ(run.files.size(), 1u);
+  EXPECT_EQ(run.files[0].name, "../robots/ers7.wrl");
+  EXPECT_EQ(run.files[0].content, readFile(SOURCE_DIR "/resources/robots/ers7.wrl"));
+  EXPECT_EQ(run.files[0].sha256, sha256(run.files[0].content));
+  EXPECT_EQ(run.specSha256, sha256(run.specJson + run.sceneJson + run.files[0].name + run.files[0].sha256));
+}
+
+TEST(RunRecord, ItsHashTellsSpecificationsSceneAndModelsApartAndSeedsNot) {
+  const PreparedExperiment prepared = kick();
+  const std::string hash = makeRunRecord(prepared, 1, 1).specSha256;
+  EXPECT_EQ(makeRunRecord(prepared, 2, 9).specSha256, hash);
+
+  PreparedExperiment other = kick();
+  other.specInWords.stages["repeats"] = 3;
+  EXPECT_NE(makeRunRecord(other, 1, 1).specSha256, hash);
+  other = kick();
+  other.sceneSpec.floor->friction += 1e-9;
+  EXPECT_NE(makeRunRecord(other, 1, 1).specSha256, hash);
+  other = kick();
+  other.files[0].sha256 = sha256("another robot");
+  EXPECT_NE(makeRunRecord(other, 1, 1).specSha256, hash);
+}
+
+TEST(PreparedExperiment, FromItsRunIsTheSameToTheLastBit) {
+  const PreparedExperiment first = kick();
+  const RunRecord run = makeRunRecord(first, 1, 5);
+  const PreparedExperiment again = prepareFromRun(run, host());
+  EXPECT_EQ(toJsonText(again.specInWords), toJsonText(first.specInWords));
+  EXPECT_EQ(again.genotype.size(), first.genotype.size());
+  EXPECT_EQ(makeRunRecord(again, 1, 5).specSha256, run.specSha256);
+
+  std::vector<double> middle;
+  for (const Parameter& p : first.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const auto result = [&](const PreparedExperiment& prepared) {
+    return prepared.trial(prepared.scene(prepared.spec.simulator), middle, 11, true);
+  };
+  const TrialResult one = result(first), two = result(again);
+  EXPECT_EQ(one.trace.values, two.trace.values);
+  EXPECT_EQ(first.fitnessOf(one), again.fitnessOf(two));
+}
+
+TEST(PreparedExperiment, NeedsNoFilesOnceItIsStored) {
+  RunRecord run = makeRunRecord(kick(), 1, 5);
+  run.files[0].content = "#VRML V2.0 utf8\n";
+  EXPECT_THROW(prepareFromRun(run, host()), InputError) << "the stored text is what counts";
+  run.files.clear();
+  EXPECT_THROW(prepareFromRun(run, host()), InputError);
+}
+
+TEST(PreparedExperiment, RefusesWhatCannotBeRun) {
+  const auto refusal = [](const std::function<void(ExperimentSpec&)>& change) -> std::string {
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+    change(spec);
+    try {
+      prepareFromFiles(spec, host());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(refusal([](ExperimentSpec& s) { s.controller.name = "dance"; }), HasSubstr("dance"));
+  EXPECT_THAT(refusal([](ExperimentSpec& s) { s.learner.settings["population"] = -4; }), HasSubstr("population"));
+  EXPECT_THAT(refusal([](ExperimentSpec& s) { s.simulator.values["friction"] = 99; }), HasSubstr("friction"));
+  EXPECT_THAT(refusal([](ExperimentSpec& s) { s.simulator.values["robots.ers7.servos.LF_J9.p"] = 1; }),
+              HasSubstr("LF_J9"));
+  EXPECT_THAT(refusal([](ExperimentSpec& s) { s.scene = "../scenes/nowhere.json"; }), HasSubstr("nowhere.json"));
+}
+
+}  // namespace

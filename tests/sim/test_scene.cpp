@@ -1,0 +1,79 @@
+// From a scene file's values and a model to a scene that can be built.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/spec/error.h"
+#include "tests/sim/small_worlds.h"
+
+namespace btr::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Scene made(const RobotModel& model, const std::string& base, bool mergeFixed = true) {
+  SceneSpec spec;
+  RobotSpec robot;
+  robot.name = "rig";
+  robot.model = "rig.urdf";
+  robot.base = base;
+  robot.mergeFixed = mergeFixed;
+  spec.robots = {robot};
+  return makeScene(spec, {{"rig.urdf", std::make_shared<const RobotModel>(model)}}, {}, {});
+}
+
+std::string refusal(const RobotModel& model, const std::string& base, bool mergeFixed = true) {
+  try {
+    made(model, base, mergeFixed);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SceneBase, ARootWithoutMassIsRefusedOnAFreeBaseOnly) {
+  RobotModel model = pendulumModel(0.5, 0.2, 0.001);
+  model.links[0].inertial = {};
+  EXPECT_THAT(refusal(model, "free"), AllOf(HasSubstr("robots.rig.base"), HasSubstr("free"), HasSubstr("fixed"),
+                                            HasSubstr("stand"), HasSubstr("no mass")));
+  EXPECT_EQ(refusal(model, "fixed"), "accepted");
+  EXPECT_EQ(refusal(pendulumModel(0.5, 0.2, 0.001), "free"), "accepted");
+}
+
+TEST(SceneBase, WhatIsRigidlyFixedToTheRootGivesItItsMass) {
+  RobotModel model = bodyModel(0, {0, 0, 0}, {});
+  model.links.push_back(link("ballast", 1, {0, 0, 0}, {0.01, 0.01, 0.01}));
+  model.joints.push_back(joint("bolt", 0, {0, 0, 1}, {0, 0, 0}, Joint::Type::fixed));
+  EXPECT_EQ(refusal(model, "free"), "accepted");
+  EXPECT_THAT(refusal(model, "free", false), HasSubstr("no mass"));
+  World world(made(model, "free"), 1);
+  world.advance({{JointInput{}}}, 0.1);
+  EXPECT_EQ("", world.fault());
+}
+
+TEST(SceneServo, TakesItsNoLoadSpeedFromTheModelAndFromTheScene) {
+  RobotModel model = pendulumModel(0.5, 0.2, 0.001);
+  EXPECT_EQ(0, made(model, "fixed").robots[0].drives[0].noLoadSpeed_rad_s);
+  model.joints[0].servo.noLoadSpeed_rad_s = 5.28;
+  EXPECT_EQ(5.28, made(model, "fixed").robots[0].drives[0].noLoadSpeed_rad_s);
+
+  SceneSpec spec;
+  RobotSpec robot;
+  robot.name = "rig";
+  robot.model = "rig.urdf";
+  robot.base = "fixed";
+  const ModelSet models{{"rig.urdf", std::make_shared<const RobotModel>(model)}};
+  robot.servos["hinge"].numbers = {{"no_load_speed_rad_s", 3}};
+  spec.robots = {robot};
+  EXPECT_EQ(3, makeScene(spec, models, {}, {}).robots[0].drives[0].noLoadSpeed_rad_s);
+  SimulatorSpec simulator;
+  simulator.values = {{"robots.rig.servos.hinge.no_load_speed_rad_s", 4}};
+  EXPECT_EQ(4, makeScene(spec, models, simulator, {}).robots[0].drives[0].noLoadSpeed_rad_s);
+  // Other drives have no such line.
+  spec.robots[0].servos["hinge"] = ServoSpec{};
+  spec.robots[0].servos["hinge"].drive = "dc_motor";
+  EXPECT_EQ(0, makeScene(spec, models, {}, {}).robots[0].drives[0].noLoadSpeed_rad_s);
+}
+
+}  // namespace
+}  // namespace btr::test

@@ -12,6 +12,7 @@ struct JointDrive {
   JointEffects effects;
   double command = 0;     ///< that was given
   bool fresh = true;      ///< no command has been given yet
+  bool enabled = true;    ///< as in the last step
   double integral = 0;    ///< ∫(command − q)dt of the servo
   double rate = 0;        ///< at the end of the last step
   double rateBefore = 0;  ///< of the joint before the last step

@@ -65,14 +65,21 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   // Command, servo law, drive torque. A kick acts for half a step before and after its instant: where the command
   // changes just then it follows the mean of old and new.
   const double mean = drive.fresh ? input.command : (drive.command + input.command) / 2;
+  // Switched on or off just then: half of the kick, for the same reason.
+  const bool switched = !drive.fresh && drive.enabled != input.enabled;
+  JointInput acting = input;
+  acting.enabled = input.enabled || switched;
   drive.command = input.command;
+  drive.enabled = input.enabled;
   drive.fresh = false;
   JointState state = stateOf(robot, index, now);
   state.command = drive.effects.empty() ? mean : drive.effects.command(mean, state, h);
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
-  DriveRow row = driveRow(spec, state, drive.integral, input, step);
-  if (!drive.effects.empty() && input.enabled && spec.kind != Drive::Kind::none)
-    row = drive.effects.drive(row, spec, state, drive.integral, input, step);
+  DriveRow row = driveRow(spec, state, drive.integral, acting, step);
+  if (!drive.effects.empty() && acting.enabled && spec.kind != Drive::Kind::none)
+    row = drive.effects.drive(row, spec, state, drive.integral, acting, step);
+  if (switched)
+    for (double* force : {&row.p, &row.d, &row.limit}) *force /= 2;
   drive.row = row;
 
   // What acts at the joint itself: viscous friction, effects, stops. Dry friction is a row of its own: it holds, or

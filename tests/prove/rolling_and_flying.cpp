@@ -67,6 +67,7 @@ BlindWorld drawFlight(Random& random) {
   BlindWorld world = ballWorld(random);
   const bool bounces = random.chance(0.6);
   if (bounces) {
+    world.scene.step_s = 0.0005;  // a bounce is a matter of its instant
     world.scene.floor->restitution = random.uniform(0.4, 0.8);
     calibrate(world, "floor.restitution", world.scene.floor->restitution);
     world.scene.calibrate.back().maximum = 1;

@@ -58,6 +58,23 @@ TEST(Servo, ItsErrorVanishesWithTheStep) {
   EXPECT_LT(fine, coarse / 5);
 }
 
+TEST(Servo, SwitchedOffAndOnActsForExactlyItsTime) {
+  // A constant torque for 0.1 s, nothing for 0.2 s, again for 0.1 s; no other force. By arithmetic:
+  constexpr double torque = 0.03, a = torque / inertia;
+  const double expected = a * 0.1 * 0.1 / 2 + a * 0.1 * 0.2 + (a * 0.1 * 0.1 + a * 0.1 * 0.1 / 2);
+  Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, {.kind = Drive::Kind::torque}), 0.01));
+  World world(scene, 1);
+  auto inputs = commands(scene, torque);
+  world.setRobot(0, scene.robots[0].start, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), std::vector{0.0},
+                 std::vector{0.0});
+  world.advance(inputs, 0.1);
+  inputs[0][0].enabled = false;
+  world.advance(inputs, 0.2);
+  inputs[0][0].enabled = true;
+  world.advance(inputs, 0.1);
+  EXPECT_NEAR(expected, world.robot(0).position[0], 1e-9 * expected);
+}
+
 TEST(Servo, IsStableAndNearlyRightAtEightMilliseconds) {
   const Drive drive{.p = 7.5, .d = 0.05, .maxTorque = 0.85};
   EXPECT_LT(servoError(drive, 0.008, 0.5), 0.5 * 0.16);

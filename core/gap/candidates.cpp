@@ -1,0 +1,111 @@
+#include "core/gap/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace btr {
+namespace {
+
+std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
+  std::vector<std::string> places;
+  switch (place) {
+    case Effect::Place::joint:
+      for (const SceneRobot& robot : scene.robots)
+        for (const Joint& joint : robot.model.joints)
+          if (joint.type != Joint::Type::fixed) places.push_back(robot.name + "." + joint.name);
+      break;
+    case Effect::Place::link:
+      for (const SceneRobot& robot : scene.robots)
+        for (std::size_t i = 0; i < robot.model.links.size(); ++i) {
+          // What never moves does not feel a load.
+          const bool carried = robot.freeBase || i > 0;
+          if (carried && robot.model.links[i].inertial.mass_kg > 0)
+            places.push_back(robot.name + "." + robot.model.links[i].name);
+        }
+      break;
+    case Effect::Place::ball:
+      for (const BallSpec& ball : scene.balls) places.push_back(ball.name);
+      break;
+    case Effect::Place::floor:
+      if (scene.floor) places.push_back("floor");
+      break;
+    case Effect::Place::world:
+      places.push_back("world");
+      break;
+  }
+  return places;
+}
+
+/// Whole numbers are tried one after another, numbers without a neutral value at a few places of their range.
+std::vector<double> triesOf(const Parameter& p) {
+  if (p.integer || !p.choices.empty()) {
+    std::vector<double> tries;
+    for (double value = std::ceil(p.minimum); value <= p.maximum && tries.size() < 12; ++value) tries.push_back(value);
+    return tries;
+  }
+  const double range = p.maximum - p.minimum;
+  if (p.minimum > 0 && p.maximum / p.minimum > 20)
+    return {p.byDefault, std::max(p.minimum, p.byDefault / 4), std::min(p.maximum, p.byDefault * 4)};
+  return {p.byDefault, p.minimum + 0.25 * range, p.minimum + 0.75 * range};
+}
+
+std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
+  Values base;
+  for (const Parameter& p : declared) base[p.name] = p.neutral.value_or(p.byDefault);
+  std::vector<Values> variants;
+  const auto sized = [&](const Parameter& p, double share, double sign, const Values& others) {
+    const double typical =
+        std::abs(p.byDefault - *p.neutral) > 0 ? std::abs(p.byDefault - *p.neutral) : 0.1 * (p.maximum - p.minimum);
+    Values values = others;
+    values[p.name] = std::clamp(*p.neutral + sign * share * typical, p.minimum, p.maximum);
+    if (values[p.name] != *p.neutral) variants.push_back(values);
+  };
+  for (const Parameter& p : declared) {
+    if (!p.neutral) continue;
+    const bool up = *p.neutral<p.maximum, down = *p.neutral> p.minimum;
+    // A linear effect needs one size and sign only, but few are linear: a typical size, a small one, both signs.
+    if (up) sized(p, 1, 1, base);
+    if (down) sized(p, 1, -1, base);
+    sized(p, 0.2, up ? 1 : -1, base);
+    for (const Parameter& other : declared) {
+      if (other.neutral) continue;
+      for (const double value : triesOf(other)) {
+        if (value == base[other.name]) continue;
+        Values others = base;
+        others[other.name] = value;
+        sized(p, 1, up ? 1 : -1, others);
+      }
+    }
+  }
+  return variants;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidatesFor(const FitProblem& problem, const FitModel& model,
+                                     const std::vector<std::string>& names) {
+  const Scene scene = problem.sceneOf(problem.given, 0);
+  const auto taken = [&](const std::string& effect, const std::string& at) {
+    const auto same = [&](const PlacedEffect& other) { return other.effect == effect && other.at == at; };
+    return std::any_of(problem.given.effects.begin(), problem.given.effects.end(), same) ||
+           std::any_of(model.effects.begin(), model.effects.end(), same);
+  };
+  std::vector<Candidate> candidates;
+  for (const std::string& name : names.empty() ? problem.library.names : names) {
+    const auto effect = problem.library.make(name);
+    const std::vector<Parameter> declared = effect->parameters();
+    for (const std::string& at : placesFor(effect->place(), scene))
+      if (!taken(name, at)) candidates.push_back({name, at, declared, variantsOf(declared)});
+  }
+  return candidates;
+}
+
+Values scaledVariant(const Candidate& candidate, const Values& variant, double step) {
+  Values values = variant;
+  for (const Parameter& p : candidate.declared)
+    if (p.neutral)
+      values[p.name] = std::clamp(*p.neutral + step * (variant.at(p.name) - *p.neutral), p.minimum, p.maximum);
+  return values;
+}
+
+}  // namespace btr

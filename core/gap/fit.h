@@ -1,0 +1,64 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "core/gap/fit_model.h"
+
+namespace btr {
+
+/// Which residuals take part in a fit.
+enum class Fold { all = -1, first = 0, second = 1 };
+
+struct FitOptions {
+  int iterations = 20;
+  Fold fold = Fold::all;
+  bool startsOnly = false;  ///< the parameters stay; only initial states are fitted
+};
+
+/// A model fitted to the recordings.
+struct Fit {
+  FitModel model;
+  std::vector<std::vector<double>> shifts;  ///< of the initial states, by segment and nuisance
+  double cost = 0;                          ///< ½ sum of squared residuals that took part, and of the shifts
+};
+
+/// Bounded least squares (Levenberg–Marquardt, Ceres) over the model's parameters and each segment's initial state. Far
+/// outliers count in proportion to their size only (Huber). Starts from model.values; `shifts` may be empty: zero.
+Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
+             const FitOptions& options);
+
+/// All residuals of a fitted model, one segment after the other.
+Eigen::VectorXd residualsOf(const FitProblem& problem, const FitModel& model,
+                            const std::vector<std::vector<double>>& shifts);
+
+/// Residuals and how they change with the parameters, what initial states explain taken out of both: least squares over
+/// the columns is then least squares over parameters and initial states. Columns are per `scale` of their parameter.
+struct Linearised {
+  Eigen::VectorXd residuals;            ///< as they are
+  Eigen::VectorXd profiled;             ///< initial states taken out
+  Eigen::MatrixXd columns;              ///< by residual and parameter, initial states taken out
+  std::vector<Eigen::MatrixXd> starts;  ///< by segment: orthonormal columns of what its initial state explains
+  /// Takes what initial states explain out of a column.
+  Eigen::VectorXd profile(const FitProblem& problem, const Eigen::VectorXd& column) const;
+};
+Linearised linearise(const FitProblem& problem, const Fit& fit);
+
+/// Standard errors of the parameters from the blocks' scatter (a sandwich: residuals of one block belong together), and
+/// the correlations.
+struct Uncertainty {
+  std::vector<double> standardError;  ///< in the parameter's unit; infinite where the recordings do not tell it
+  Eigen::MatrixXd correlation;
+};
+Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linearised);
+
+/// Mean squared residual of each scoring block, −1 for a block without residuals of this fold.
+std::vector<double> blockScores(const FitProblem& problem, const Eigen::VectorXd& residuals, Fold fold);
+
+/// Runs f(0 … count−1) in `jobs` worker processes and returns what each gave, in order; a failed one gives an empty
+/// vector. Throws Cancelled when `goOn` says no.
+std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
+                                          const std::function<std::vector<double>(std::size_t)>& f,
+                                          const std::function<bool(std::size_t)>& goOn = {});
+
+}  // namespace btr

@@ -1,0 +1,83 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/gap/analysis.h"
+#include "core/gap/replay.h"
+
+namespace btr {
+
+/// One coordinate of a segment's initial state that the recording knows only so well. A fit may shift it, in multiples
+/// of `unit`, at the price of one squared multiple.
+struct Nuisance {
+  enum class What {
+    jointPosition,
+    jointRate,
+    basePosition,
+    baseVelocity,
+    baseTurn,
+    baseSpin,
+    ballPosition,
+    ballVelocity
+  };
+  What what = What::jointPosition;
+  std::size_t object = 0, part = 0;  ///< robot or ball; joint or axis
+  double unit = 0;                   ///< its standard error, SI
+};
+
+/// A stretch of a trial that is simulated from an estimated initial state: a whole trial, or a window of it.
+struct Segment {
+  std::size_t trial = 0;
+  std::size_t first = 0, scored = 0, last = 0;  ///< rows: simulated from `first`, compared in [scored, last)
+  StartState start;
+  std::vector<Nuisance> nuisances;
+  /// What is compared: residual k is (simulated − recorded)/noise floor of channel[k] in row[k].
+  std::vector<std::size_t> channel, row;
+  std::vector<int> block;  ///< of each, for scoring
+  std::vector<char> fold;  ///< of each: 0 or 1, for cross-validation
+};
+
+struct FitTrial {
+  Recording recording;
+  Binding binding;
+  std::vector<double> noiseFloor;  ///< by measured channel [its unit]; 0: not compared
+};
+
+/// Recordings made ready for fits: bound to the scene, cut into segments, blocks and folds.
+struct FitProblem {
+  SceneSpec scene;
+  ModelSet models;
+  SimulatorSpec given;
+  EffectLibrary library;
+  std::vector<FitTrial> trials;
+  std::vector<Segment> segments;
+  int blocks = 0;        ///< number of scoring blocks over all trials
+  double block_s = 0.5;  ///< their length
+  double window_s = 0;   ///< length of a segment; 0: whole trials run freely
+  std::vector<std::string> notes;
+
+  /// The scene of a trial in a simulator, its own settings over it.
+  Scene sceneOf(const SimulatorSpec& simulator, std::size_t trial) const;
+  std::size_t residuals() const;
+};
+
+/// Binds, estimates noise floors and initial states, decides between free runs and windows (free runs where an error
+/// of the initial state dies out, else windows), cuts. `window_s` > 0 asks for windows of that length. Throws
+/// InputError for recordings with nothing to compare.
+FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording>& recordings,
+                          const EffectLibrary& library, double window_s = -1);
+
+/// Cuts all trials into segments of `window_s` (0: whole trials), with blocks and folds.
+void cutSegments(FitProblem& problem, double window_s);
+
+/// The state at a row from the samples on both sides of it, and how uncertain each coordinate is.
+StartState stateAt(const FitProblem& problem, std::size_t trial, std::size_t row, std::vector<Nuisance>& nuisances);
+
+/// Simulates a segment from its start, shifted by `shift` (by nuisance, in their units), and returns its residuals.
+/// After a fault they are 100.
+std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                const std::vector<double>& shift);
+
+}  // namespace btr

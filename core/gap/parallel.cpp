@@ -1,0 +1,42 @@
+#include <cstring>
+
+#include "core/gap/fit.h"
+#include "core/sim/worker_pool.h"
+
+namespace btr {
+
+std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
+                                          const std::function<std::vector<double>(std::size_t)>& f,
+                                          const std::function<bool(std::size_t)>& goOn) {
+  std::vector<std::vector<double>> results(count);
+  if (jobs <= 1 || count <= 1) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (goOn && !goOn(i)) throw Cancelled{};
+      results[i] = f(i);
+    }
+    return results;
+  }
+  constexpr double secondsPerJob = 3600;
+  const auto work = [&](const std::string& job) {
+    const std::vector<double> values = f(std::stoul(job));
+    std::string bytes(values.size() * sizeof(double), '\0');
+    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+  };
+  WorkerPool pool(std::min(jobs, static_cast<int>(count)), work, secondsPerJob);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(std::to_string(i));
+  std::atomic<bool> stop{false};
+  const auto replies = pool.run(texts, stop, [&](std::size_t done) {
+    if (goOn && !goOn(done)) stop = true;
+  });
+  if (stop) throw Cancelled{};
+  for (std::size_t i = 0; i < count && i < replies.size(); ++i) {
+    if (!replies[i].ok) continue;
+    results[i].resize(replies[i].bytes.size() / sizeof(double));
+    if (!results[i].empty()) std::memcpy(results[i].data(), replies[i].bytes.data(), replies[i].bytes.size());
+  }
+  return results;
+}
+
+}  // namespace btr

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "core/gap/fit.h"
+
+namespace btr {
+
+/// A fitted model and how well it predicts what it was not fitted to.
+struct Scored {
+  Fit fit;  ///< to everything
+  std::vector<double>
+      blocks;  ///< mean squared error of each block [noise floors²] by the fit to the other fold; −1: none
+  Eigen::VectorXd heldOut;  ///< residuals of the same, all samples
+
+  double mean() const;  ///< over the blocks
+};
+
+/// Two fits to one half of the blocks each, from `fit`; each scores the other half. Initial states are fitted to what
+/// is scored where a segment lies in one half alone.
+Scored crossValidate(const FitProblem& problem, const Fit& fit, int iterations);
+/// The same for a model that nothing is fitted of but initial states.
+Scored scoreAsIs(const FitProblem& problem, const Fit& fit);
+
+/// Paired comparison of two models by block.
+struct Comparison {
+  double t = 0;       ///< Student's t; positive: `with` is better
+  double pValue = 1;  ///< one-sided
+  double gain = 0;    ///< 1 − mean squared error with / without
+};
+/// On the logarithms of the blocks' errors (a model that is better where errors are small counts too) and on the errors
+/// themselves (one that matters in few blocks): the more decisive of both, its p-value doubled for the choice.
+Comparison compare(const std::vector<double>& without, const std::vector<double>& with);
+
+}  // namespace btr

@@ -1,0 +1,55 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/gap/candidates.h"
+#include "core/gap/score.h"
+
+namespace btr {
+
+struct SearchOptions {
+  int jobs = 1;
+  int maximumEffects = 3;
+  std::vector<std::string> names;  ///< effects to consider; empty: all
+  std::uint64_t seed = 1;
+  AnalysisProgress progress;
+};
+
+/// A candidate that was looked at, and what became of it.
+struct Attempt {
+  Candidate candidate;
+  int rank = 0;      ///< in the screening, 1 the best
+  double share = 0;  ///< of the excess that the screening promised
+  bool excited = true;
+  bool fitted = false, scored = false, accepted = false;
+  Values values;          ///< of the fit, or of the screening's best start
+  Comparison comparison;  ///< with the model before it
+  std::string reason;
+};
+
+/// An effect of the final simulator.
+struct Found {
+  PlacedEffect effect;
+  Comparison comparison;  ///< with the final simulator without it
+  std::vector<GapReport::Rival> rivals;
+};
+
+struct SearchResult {
+  Scored given, calibrated, final;
+  std::vector<Found> effects;     ///< by effect of the final model
+  std::vector<Attempt> attempts;  ///< of all stages; one per effect and place
+  std::vector<GapReport::Step> ladder;
+  Linearised calibratedLinear, finalLinear;
+  Uncertainty calibratedUncertainty, finalUncertainty;
+  /// Fitted rivals of the first accepted effect, for the next recording: the best alternative model, if any.
+  std::vector<FitModel> rivalModels;
+};
+
+/// Steps 4 and 6 to 8: calibrate, screen, confirm one effect at a time, drop what became useless, list rivals.
+SearchResult searchEffects(const FitProblem& problem, const SearchOptions& options);
+
+/// Mean over blocks of the excess over the noise: mean squared error − 1, not below 0.
+double excessOf(const Scored& scored);
+
+}  // namespace btr

@@ -5,7 +5,9 @@
 #include <iostream>
 
 #include "app/btr_commands.h"
+#include "core/gap/analysis.h"
 #include "core/gap/residual.h"
+#include "core/sim/worker_pool.h"
 
 namespace btr::cli {
 namespace {
@@ -24,6 +26,63 @@ void residualCommand(const ResidualRequest& request, Shell& shell) {
   if (stopped) shell.exitCode = stoppedEarly;
 }
 
+/// What the terminal sees; with --progress one line "STAGE SHARE" for the window.
+class ProgressLine {
+ public:
+  ProgressLine(Shell& shell, bool lines) : shell_(shell), lines_(lines), show_(isatty(STDERR_FILENO)) {}
+  bool operator()(const std::string& stage, double share) const {
+    if (lines_)
+      std::fprintf(stderr, "%s %.3f\n", stage.c_str(), share);
+    else if (show_)
+      std::fprintf(stderr, "\r%3.0f %% %s \x1b[K", 100 * share, stage.c_str());
+    return !*shell_.stop;
+  }
+  void end() const {
+    if (show_ && !lines_) std::fprintf(stderr, "\n");
+  }
+
+ private:
+  Shell& shell_;
+  bool lines_, show_;
+};
+
+void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
+  const ProgressLine progress(shell, lines);
+  const EffectLibrary library{shell.plugins().effectFactory(), shell.plugins().effects()};
+  try {
+    const GapReport report = runAnalysis(request, library, progress);
+    progress.end();
+    std::cout << (shell.json ? toJsonText(report) : toPlainText(report));
+  } catch (const Cancelled&) {
+    progress.end();
+    std::fprintf(stderr, "stopped; nothing was written\n");
+    shell.exitCode = stoppedEarly;
+  }
+}
+
+void addAnalyse(CLI::App& gap, Shell& shell) {
+  auto request = std::make_shared<AnalysisRequest>();
+  auto lines = std::make_shared<bool>(false);
+  request->options.jobs = processorCount();
+  CLI::App* analyse = gap.add_subcommand("analyse", "find the physics that the simulator left out");
+  analyse->add_option("SCENE.json", request->scene, "scene file; its \"calibrate\" list is what a fit may change")
+      ->required();
+  analyse->add_option("--recording", request->recordings, "recorded trial (.csv), several are several trials")
+      ->required()
+      ->take_all();
+  analyse->add_option("--held-out", request->heldOut, "trials that no fit sees, scored at the end")->take_all();
+  analyse->add_option("--mapping", request->mapping, "which column is which channel, for all recordings");
+  analyse->add_option("--simulator", request->simulator, "simulator version to start from (simulator.json)");
+  analyse->add_option("--out", request->out, "folder for report.json, report.html, simulator.json")->required();
+  analyse->add_option("--jobs", request->options.jobs, "worker processes")->check(CLI::Range(1, 256));
+  analyse->add_option("--seed", request->options.seed, "of the fits' starting points");
+  analyse->add_option("--effects", request->options.effects, "consider these alone")->take_all();
+  analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added")
+      ->check(CLI::Range(0, 8));
+  analyse->add_flag("--progress", *lines, "a line STAGE SHARE on standard error at every step");
+  analyse->callback([request, lines, &shell] { analyseCommand(*request, *lines, shell); });
+}
+
 }  // namespace
 
 void addGapCommands(CLI::App& app, Shell& shell) {
@@ -40,6 +99,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   residual->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
   residual->add_option("--out", request->out, "folder for tables and overlay plots");
   residual->callback([request, &shell] { residualCommand(*request, shell); });
+  addAnalyse(*gap, shell);
 }
 
 }  // namespace btr::cli

@@ -125,6 +125,8 @@ const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters
 /// The contract's report.json (this program's additions: resources/formats.md). Without the series, which are in
 /// overlay/*.csv.
 std::string toJsonText(const GapReport& report);
+/// What a terminal shows: the sentence, the ladder, effects tried, calibrated numbers, errors by channel.
+std::string toPlainText(const GapReport& report);
 /// A self-contained page for people: the same content with vector plots; prints well.
 std::string toHtml(const GapReport& report);
 

@@ -1,0 +1,56 @@
+// A gap report for a terminal.
+#include <cstdio>
+#include <string>
+
+#include "core/gap/gap_report.h"
+
+namespace btr {
+namespace {
+
+template <class... Numbers>
+std::string line(const char* format, Numbers... numbers) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+}  // namespace
+
+std::string toPlainText(const GapReport& report) {
+  std::string text = std::string(toText(report.verdict)) + ": " + report.sentence + "\n\n";
+  text += "error in noise floors, held-out blocks\n";
+  for (const auto& step : report.ladder)
+    text += line("  %8.3f ± %.3f  %s\n", step.error, step.standardError, step.what.c_str());
+  text += "\nRMSE by channel        noise floor    as given  calibrated  with effects   (held-out recordings)\n";
+  for (const auto& channel : report.channels)
+    text += line("  %-28s %9.3g %9.3g %9.3g %9.3g   %9.3g %9.3g %9.3g %s\n", channel.name.c_str(), channel.noiseFloor,
+                 channel.asGiven, channel.calibrated, channel.withEffects, channel.heldoutAsGiven,
+                 channel.heldoutCalibrated, channel.heldoutWithEffects, channel.unit.c_str());
+  text += "\neffects tried\n";
+  for (const auto& effect : report.tried) {
+    text +=
+        line("  %s %-28s at %-20s screened %2d. (%.1f %%)  %s\n", effect.accepted ? "+" : " ", effect.effect.c_str(),
+             effect.at.c_str(), effect.screenRank, 100 * effect.screenShare, effect.reason.c_str());
+    if (effect.accepted)
+      for (const auto& number : effect.parameters)
+        text += line("        %-28s %.4g %s [%.4g … %.4g]\n", number.name.c_str(), number.value, number.unit.c_str(),
+                     number.ci95.low, number.ci95.high);
+    for (const auto& rival : effect.rivals)
+      text += line("        not told from %s at %s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
+                   rival.heldoutErrorRatio);
+  }
+  text += "\ncalibrated\n";
+  for (const auto& number : report.calibrated)
+    text += line("  %-52s %.5g → %.5g [%.4g … %.4g]%s\n", number.name.c_str(), number.before, number.value,
+                 number.ci95.low, number.ci95.high,
+                 !number.excited  ? " (not told by these recordings)"
+                 : number.atBound ? " (at its bound)"
+                                  : "");
+  for (const std::string& pair : report.strongCorrelations) text += "  hardly separated: " + pair + "\n";
+  if (!report.notes.empty()) text += "\n";
+  for (const std::string& note : report.notes) text += "note: " + note + "\n";
+  text += line("\n%.1f s\n", report.seconds);
+  return text;
+}
+
+}  // namespace btr

@@ -271,6 +271,13 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.before = given.simulator;
   report.after = found.final.fit.model.simulator(problem);
   report.calibrated = numbersOf(found.final.fit.model, found.finalUncertainty, -1);
+  for (GapReport::Number& number : numbersOf(found.calibrated.fit.model, found.calibratedUncertainty, -1))
+    if (std::none_of(report.calibrated.begin(), report.calibrated.end(),
+                     [&](const GapReport::Number& other) { return other.name == number.name; })) {
+      number.value = number.before;
+      number.excited = false;
+      report.calibrated.push_back(number);
+    }
   addErrors(report, problem, found.given.heldOut, &GapReport::Channel::asGiven, &GapReport::Channel::maeAsGiven);
   addErrors(report, problem, found.calibrated.heldOut, &GapReport::Channel::calibrated,
             &GapReport::Channel::maeCalibrated);

@@ -71,20 +71,54 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   return false;
 }
 
-/// How much a small error of the initial state grows over a trial, against its size in the first tenth of a second.
-double growth(const FitProblem& problem, const Segment& segment) {
+/// How far the answer to an error of the initial state is from proportional to it: contacts and limit cycles.
+double nonlinearity(const FitProblem& problem, const Segment& segment) {
   const Scene scene = problem.sceneOf(problem.given, segment.trial);
-  std::vector<double> none(segment.nuisances.size(), 0), shifted(segment.nuisances.size(), 0.1);
-  const std::vector<double> a = residualsOf(problem, segment, scene, none);
-  const std::vector<double> b = residualsOf(problem, segment, scene, shifted);
-  const std::vector<double>& time = problem.trials[segment.trial].recording.columns[0];
-  double early = 0, late = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double difference = std::abs(a[k] - b[k]);
-    (time[segment.row[k]] < time[segment.first] + 0.1 ? early : late) =
-        std::max(time[segment.row[k]] < time[segment.first] + 0.1 ? early : late, difference);
+  const auto shifted = [&](double by) {
+    return residualsOf(problem, segment, scene, std::vector<double>(segment.nuisances.size(), by));
+  };
+  const std::vector<double> none = shifted(0), once = shifted(0.5), twice = shifted(1);
+  double answer = 0, deviation = 0;
+  for (std::size_t k = 0; k < none.size(); ++k) {
+    answer += std::pow(twice[k] - none[k], 2);
+    deviation += std::pow(twice[k] - 2 * once[k] + none[k], 2);
   }
-  return early > 0 ? late / early : 0;
+  // What stays within a noise floor does no harm.
+  return deviation > static_cast<double>(none.size()) ? std::sqrt(deviation / answer) : 0;
+}
+
+/// Residuals of all segments from their estimated starts.
+std::vector<double> plainResiduals(const FitProblem& problem) {
+  std::vector<double> all;
+  for (const Segment& segment : problem.segments) {
+    const auto part = residualsOf(problem, segment, problem.sceneOf(problem.given, segment.trial),
+                                  std::vector<double>(segment.nuisances.size(), 0));
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// A step that is coarser than the scene's where the integration's own error stays far below the noise: fits take
+/// hundreds of replays.
+void chooseStep(FitProblem& problem) {
+  constexpr double harmless = 0.1;  // noise floors
+  const double asGiven = problem.scene.step_s;
+  const std::vector<double>& time = problem.trials[0].recording.columns[0];
+  const double sample = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  const std::vector<double> fine = plainResiduals(problem);
+  for (const double factor : {8.0, 4.0, 2.0}) {
+    if (factor * asGiven > 1.01 * std::max(sample, asGiven)) continue;
+    problem.scene.step_s = factor * asGiven;
+    const std::vector<double> coarse = plainResiduals(problem);
+    double square = 0;
+    for (std::size_t k = 0; k < fine.size(); ++k) square += (coarse[k] - fine[k]) * (coarse[k] - fine[k]);
+    if (std::sqrt(square / static_cast<double>(fine.size())) < harmless) {
+      problem.notes.push_back("fits use a step of " + toText(problem.scene.step_s) +
+                              " s: it changes the replay by less than " + toText(harmless) + " noise floors");
+      return;
+    }
+  }
+  problem.scene.step_s = asGiven;
 }
 
 }  // namespace
@@ -145,14 +179,16 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
     } else {
       cutSegments(ready, 0);
       double most = 0;
-      for (const Segment& segment : ready.segments) most = std::max(most, growth(ready, segment));
-      if (most > 20) window_s = 1;
+      for (const Segment& segment : ready.segments) most = std::max(most, nonlinearity(ready, segment));
+      if (most > 0.3) window_s = 1;
     }
+    ready.mayCoarsen = !freeBase;
     if (window_s > 0)
       ready.notes.push_back("trials are simulated in windows of " + toText(window_s) +
                             " s from the recorded state: free runs would show where errors have drifted to");
   }
   cutSegments(ready, window_s);
+  if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }
 

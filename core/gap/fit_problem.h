@@ -53,9 +53,10 @@ struct FitProblem {
   EffectLibrary library;
   std::vector<FitTrial> trials;
   std::vector<Segment> segments;
-  int blocks = 0;        ///< number of scoring blocks over all trials
-  double block_s = 0.5;  ///< their length
-  double window_s = 0;   ///< length of a segment; 0: whole trials run freely
+  int blocks = 0;           ///< number of scoring blocks over all trials
+  double block_s = 0.5;     ///< their length
+  double window_s = 0;      ///< length of a segment; 0: whole trials run freely
+  bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   std::vector<std::string> notes;
 
   /// The scene of a trial in a simulator, its own settings over it.

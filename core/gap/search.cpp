@@ -68,6 +68,7 @@ class Search {
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
   void findRivals(SearchResult& result);
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
@@ -132,7 +133,12 @@ Scored Search::calibrate() const {
       const FitParameter& p = given.parameters[i];
       starts[s].values[i] = std::clamp(p.given + 2 * p.scale * random.uniform(-1, 1), p.minimum, p.maximum);
     }
-  std::vector<Fit> fits = fitAll(starts, {}, 15, "calibrating", 0.02, 0.08);
+  std::vector<Fit> fits = fitAll({given}, {}, 15, "calibrating", 0.02, 0.05);
+  // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
+  if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
+    const std::vector<Fit> others = fitAll({starts[1], starts[2]}, {}, 15, "calibrating", 0.05, 0.08);
+    fits.insert(fits.end(), others.begin(), others.end());
+  }
   const auto best =
       std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
   return scoreAll({*best}, "calibrating", 0.08, 0.1)[0];
@@ -169,31 +175,36 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
     tried.push_back(std::move(each));
   }
 
-  // Two starts each of the most promising.
-  std::vector<FitModel> models;
-  std::vector<std::size_t> owner;
-  std::size_t taken = 0;
-  for (std::size_t k = 0; k < tried.size() && taken < candidatesToFit; ++k) {
-    const Screened& of = screened[order[k]];
-    if (of.share < leastGain / 2 || !of.excited) continue;
-    ++taken;
-    for (std::size_t s = 0; s < std::min<std::size_t>(2, of.starts.size()); ++s) {
-      FitModel model = base.model.with(problem_, tried[k].attempt.candidate.placed(of.starts[s].effect));
-      std::copy(of.starts[s].parameters.begin(), of.starts[s].parameters.end(), model.values.begin());
+  // One start each of the most promising, a second one of the best of them.
+  const auto fitStarts = [&](const std::vector<std::size_t>& which, std::size_t start, double begin, double end) {
+    std::vector<FitModel> models;
+    std::vector<std::size_t> owner;
+    for (const std::size_t k : which) {
+      const Screened& of = screened[order[k]];
+      if (start >= of.starts.size()) continue;
+      FitModel model = base.model.with(problem_, tried[k].attempt.candidate.placed(of.starts[start].effect));
+      std::copy(of.starts[start].parameters.begin(), of.starts[start].parameters.end(), model.values.begin());
       models.push_back(model);
       owner.push_back(k);
     }
-  }
-  std::vector<Fit> fits = fitAll(models, base.shifts, 8, "fitting candidates" + stage, from + part, from + 2 * part);
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    if (fits[i].cost < tried[owner[i]].fit.cost) {
-      tried[owner[i]].fit = fits[i];
-      tried[owner[i]].attempt.fitted = true;
-    }
+    const std::vector<Fit> fits = fitAll(models, base.shifts, 8, "fitting candidates" + stage, begin, end);
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      if (fits[i].cost < tried[owner[i]].fit.cost) {
+        tried[owner[i]].fit = fits[i];
+        tried[owner[i]].attempt.fitted = true;
+      }
+  };
+  std::vector<std::size_t> promising;
+  for (std::size_t k = 0; k < tried.size() && promising.size() < candidatesToFit; ++k)
+    if (screened[order[k]].share >= leastGain / 2 && screened[order[k]].excited) promising.push_back(k);
+  fitStarts(promising, 0, from + part, from + 1.6 * part);
+  std::stable_sort(promising.begin(), promising.end(),
+                   [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; });
+  if (promising.size() > candidatesToScore) promising.resize(candidatesToScore);
+  fitStarts(promising, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
 
   // The best are fitted to the end, then judged on what they were not fitted to.
-  models.clear();
   std::vector<Fit> best;
   for (std::size_t k = 0; k < std::min(candidatesToScore, tried.size()); ++k)
     if (tried[k].attempt.fitted) best.push_back(tried[k].fit);
@@ -309,6 +320,29 @@ bool Search::tryPair(const Scored& current, const std::vector<Tried>& singles, S
   return found;
 }
 
+/// Calibrated numbers that the recordings do not feel stay as given from here on: each costs a replay a step.
+void Search::holdUntold(SearchResult& result) const {
+  constexpr double felt = 0.5;  // noise floors, all residuals together, for a typical change
+  FitModel& model = result.final.fit.model;
+  FitModel kept = model;
+  kept.parameters.clear();
+  kept.values.clear();
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    if (result.calibratedLinear.columns.col(column).norm() < felt) continue;
+    kept.parameters.push_back(model.parameters[i]);
+    kept.values.push_back(model.values[i]);
+    columns.push_back(column);
+  }
+  if (columns.size() == model.parameters.size()) return;
+  model = kept;
+  Eigen::MatrixXd left(result.calibratedLinear.columns.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    left.col(static_cast<Eigen::Index>(i)) = result.calibratedLinear.columns.col(columns[i]);
+  result.calibratedLinear.columns = left;
+}
+
 void Search::prune(SearchResult& result) {
   for (bool changed = true; changed && result.final.fit.model.effects.size() > 1;) {
     changed = false;
@@ -412,6 +446,7 @@ SearchResult Search::run() {
   result.calibratedLinear = linearise(problem_, result.calibrated.fit);
   result.calibratedUncertainty = uncertaintyOf(problem_, result.calibrated.fit, result.calibratedLinear);
   result.final = result.calibrated;
+  holdUntold(result);
 
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {

@@ -1,7 +1,9 @@
 #include "core/gap/verdict.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace btr {
 namespace {
@@ -14,9 +16,9 @@ constexpr double leastMotion = 10;  // noise floors that something must move
 
 std::string percent(double share) { return toText(std::round(100 * share)) + " %"; }
 std::string rounded(double value) {
-  if (value == 0 || !std::isfinite(value)) return toText(value);
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  return toText(std::round(value / unit) * unit);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
 }
 std::string words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');

@@ -10,6 +10,6 @@ namespace btr {
 /// an error is seen where it is made, not where it has drifted to; the excess of each window over the noise is then
 /// shared out over channels and regimes (velocity reversal, low and high speed, high load, saturation, contact,
 /// position, time, direction) and compared with the regimes' share of the time.
-std::vector<GapReport::Located> locate(const GapProblem& given, const FitModel& calibrated, const FitProblem& problem);
+std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProblem& problem);
 
 }  // namespace btr

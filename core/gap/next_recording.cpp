@@ -1,4 +1,149 @@
 #include "core/gap/next_recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/spec/random.h"
+
 namespace btr {
-GapReport::NextRecording designNext(const FitProblem&, const SearchResult&) { return {}; }
+namespace {
+
+constexpr double length_s = 8, sample_s = 0.008, rest_s = 0.5;
+
+struct CommandedJoint {
+  std::size_t robot = 0, joint = 0;
+  std::string name, quantity;
+  double middle = 0, reach = 0;  ///< of the commands that were recorded, inside the joint's limits
+};
+
+std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Scene& scene) {
+  std::vector<CommandedJoint> joints;
+  for (const auto& input : problem.trials[0].binding.inputs) {
+    if (input.what != Binding::Input::What::command) continue;
+    const SceneRobot& robot = scene.robots[input.robot];
+    const Joint& joint = robot.model.joints[input.joint];
+    double low = INFINITY, high = -INFINITY;
+    for (const FitTrial& trial : problem.trials)
+      for (const double value : trial.recording.columns[input.column])
+        if (std::isfinite(value)) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+    if (!(high > low) || robot.drives[input.joint].kind == Drive::Kind::torque) continue;
+    low = std::max(low, joint.lower);
+    high = std::min(high, joint.upper);
+    joints.push_back({input.robot, input.joint, robot.name + "." + joint.name,
+                      joint.type == Joint::Type::slide ? "command_m" : "command_rad", (low + high) / 2,
+                      (high - low) / 2});
+  }
+  return joints;
+}
+
+/// A command over time for joint number `k` of a sequence; within ±1 of its reach.
+using Shape = std::function<double(double t, std::size_t k)>;
+
+std::vector<std::pair<std::string, Shape>> shapes(std::uint64_t seed) {
+  const auto phase = [](std::size_t k) { return 2.1 * static_cast<double>(k); };
+  std::vector<std::pair<std::string, Shape>> list;
+  for (const double frequency : {0.2, 0.5, 1.0, 2.0, 4.0})
+    for (const double size : {0.15, 0.5, 1.0})
+      if (frequency * size <= 1.01)
+        list.push_back({"a sine of " + toText(frequency) + " Hz", [=](double t, std::size_t k) {
+                          return size * std::sin(2 * M_PI * frequency * (1 + 0.13 * static_cast<double>(k)) * t);
+                        }});
+  list.push_back({"a slow triangle", [phase](double t, std::size_t k) {
+                    const double p = std::fmod(t / 4 + phase(k) / 6, 1.0);
+                    return p < 0.5 ? 4 * p - 1 : 3 - 4 * p;
+                  }});
+  list.push_back({"steps", [phase](double t, std::size_t k) {
+                    return std::fmod(t + 0.3 * static_cast<double>(k), 2.0) < 1 ? 0.8 : -0.8;
+                  }});
+  list.push_back({"small steps", [](double t, std::size_t k) {
+                    return std::fmod(t + 0.2 * static_cast<double>(k), 1.0) < 0.5 ? 0.1 : -0.1;
+                  }});
+  list.push_back({"a sweep", [phase](double t, std::size_t k) {
+                    return 0.4 * std::sin(2 * M_PI * (0.2 * t + 0.35 * t * t) + phase(k));
+                  }});
+  std::vector<double> levels;
+  Random random = Random::forPurpose(seed, "next recording");
+  for (int i = 0; i < 64; ++i) levels.push_back(random.uniform(-0.9, 0.9));
+  list.push_back({"steps and holds", [levels](double t, std::size_t k) {
+                    return levels[(static_cast<std::size_t>(t / 0.7) + 17 * k) % levels.size()];
+                  }});
+  return list;
+}
+
+Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial& like, const Shape& shape) {
+  Recording recording;
+  recording.source = "next command";
+  recording.channels = {"time_s"};
+  recording.columns.resize(1);
+  for (double t = 0; t < length_s; t += sample_s) recording.columns[0].push_back(t);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    recording.channels.push_back(joints[k].name + "." + joints[k].quantity);
+    std::vector<double> column;
+    for (const double t : recording.columns[0])
+      column.push_back(joints[k].middle +
+                       (t < rest_s ? 0 : 0.95 * joints[k].reach * std::clamp(shape(t - rest_s, k), -1.0, 1.0)));
+    recording.columns.push_back(column);
+  }
+  for (const auto& measured : like.binding.measured) {
+    recording.channels.push_back(like.recording.channels[measured.column]);
+    recording.columns.emplace_back(recording.columns[0].size(), NAN);
+  }
+  recording.settings = like.recording.settings;
+  return recording;
+}
+
+}  // namespace
+
+GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed) {
+  GapReport::NextRecording next;
+  if (found.rivalModels.empty() || found.effects.empty()) return next;
+  const FitTrial& like = problem.trials[0];
+  const FitModel &first = found.final.fit.model, &rival = found.rivalModels[0];
+  const Scene sceneA = problem.sceneOf(first.simulator(problem), 0),
+              sceneB = problem.sceneOf(rival.simulator(problem), 0);
+  const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA);
+  if (joints.empty()) return next;
+
+  std::string shapeName;
+  for (const auto& [name, shape] : shapes(seed)) {
+    const Recording recording = recordingOf(joints, like, shape);
+    const Binding binding = bind(sceneA, recording);
+    StartState start = startState(sceneA, recording, binding);
+    for (const CommandedJoint& joint : joints) start.robots[joint.robot].positions[joint.joint] = joint.middle;
+    const ReplayedRecording a = replayRecording(sceneA, recording, binding, start),
+                            b = replayRecording(sceneB, recording, binding, start);
+    if (!a.fault.empty() || !b.fault.empty()) continue;
+    double square = 0, count = 0;
+    for (std::size_t c = 0; c < binding.measured.size(); ++c) {
+      const double floor = like.noiseFloor[c];
+      if (floor <= 0) continue;
+      for (std::size_t row = 0; row < recording.rows(); ++row) {
+        const double difference = (a.values[c][row] - b.values[c][row]) / floor;
+        if (!std::isfinite(difference)) continue;
+        square += difference * difference;
+        ++count;
+      }
+    }
+    const double separation = count > 0 ? std::sqrt(square / count) : 0;
+    if (separation <= next.separation) continue;
+    next.separation = separation;
+    next.channels.assign(recording.channels.begin(),
+                         recording.channels.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
+    next.columns.assign(recording.columns.begin(),
+                        recording.columns.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
+    shapeName = name;
+  }
+  if (next.separation <= 0) return next;
+  const Found& effect = found.effects[0];
+  const GapReport::Rival& other = effect.rivals[0];
+  char numbers[64];
+  std::snprintf(numbers, sizeof numbers, "%.2g", next.separation);
+  next.why = "separates " + effect.effect.effect + " at " + effect.effect.at + " from " + other.effect + " at " +
+             other.at + " by " + numbers + " noise floors (" + shapeName + ", " + toText(length_s) + " s)";
+  return next;
+}
+
 }  // namespace btr

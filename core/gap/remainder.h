@@ -8,4 +8,8 @@ namespace btr {
 /// that takes most of the rest on blocks that it was not fitted to is kept if a paired test says so.
 GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult& found, int jobs);
 
+/// True if such a curve alone predicts held-out blocks clearly better than the named effects that were found, which
+/// then are names for something else.
+bool aCurveDoesBetter(const FitProblem& problem, const SearchResult& found, int jobs);
+
 }  // namespace btr

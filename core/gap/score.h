@@ -15,9 +15,9 @@ struct Scored {
   double mean() const;  ///< over the blocks
 };
 
-/// Two fits to one half of the blocks each, from `fit`; each scores the other half. Initial states are fitted to what
-/// is scored where a segment lies in one half alone.
-Scored crossValidate(const FitProblem& problem, const Fit& fit, int iterations);
+/// The parameters as either half of the blocks alone would have them (a linear step from the fit to everything); each
+/// scores the other half. Initial states stay: they are part of what is scored.
+Scored crossValidate(const FitProblem& problem, const Fit& fit);
 /// The same for a model that nothing is fitted of but initial states.
 Scored scoreAsIs(const FitProblem& problem, const Fit& fit);
 

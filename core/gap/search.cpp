@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/spec/random.h"
 
@@ -14,7 +13,7 @@ namespace {
 // standard errors), kept: fewer conditions let false effects in.
 constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 constexpr double unexplainedExcess = 0.3;  // mean squared error above 1 at which pairs are tried
-constexpr std::size_t candidatesToFit = 8, candidatesToScore = 4;
+constexpr std::size_t candidatesToFit = 8, candidatesInPairs = 4;  // half of them are fitted to the end and scored
 
 std::vector<double> packed(const Fit& fit) {
   std::vector<double> numbers{fit.cost};
@@ -63,11 +62,16 @@ class Search {
                           int iterations, const std::string& stage, double from, double to) const;
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate() const;
-  std::vector<Tried> tryCandidates(const Fit& base, const Linearised& linear, const std::set<std::string>& excluded,
+  std::vector<Tried> tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
                                    const std::string& stage, double from, double to);
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  static std::vector<double> sharesOf(const std::vector<Tried>& tried) {
+    std::vector<double> shares;
+    for (const Tried& each : tried) shares.push_back(each.attempt.share);
+    return shares;
+  }
   void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
   void findRivals(SearchResult& result);
@@ -98,11 +102,10 @@ std::vector<Fit> Search::fitAll(const std::vector<FitModel>& models, const std::
 
 std::vector<Scored> Search::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
                                      double to) const {
-  constexpr int iterations = 5;
   const auto numbers = parallel(
       options_.jobs, fits.size(),
       [&](std::size_t i) {
-        const Scored scored = crossValidate(problem_, fits[i], iterations);
+        const Scored scored = crossValidate(problem_, fits[i]);
         std::vector<double> list = scored.blocks;
         list.insert(list.end(), scored.heldOut.begin(), scored.heldOut.end());
         return list;
@@ -144,12 +147,9 @@ Scored Search::calibrate() const {
   return scoreAll({*best}, "calibrating", 0.08, 0.1)[0];
 }
 
-std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearised& linear,
-                                                 const std::set<std::string>& excluded, const std::string& stage,
-                                                 double from, double to) {
-  std::vector<Candidate> candidates;
-  for (Candidate& candidate : candidatesFor(problem_, base.model, options_.names))
-    if (!excluded.contains(candidate.text())) candidates.push_back(std::move(candidate));
+std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
+                                                 const std::string& stage, double from, double to) {
+  const std::vector<Candidate> candidates = candidatesFor(problem_, base.model, options_.names);
   const double part = (to - from) / 3;
   const std::vector<Screened> screened = screen(problem_, base, linear, candidates, options_.jobs,
                                                 reporter("screening" + stage, candidates.size(), from, from + part));
@@ -195,18 +195,20 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
       }
   };
   std::vector<std::size_t> promising;
-  for (std::size_t k = 0; k < tried.size() && promising.size() < candidatesToFit; ++k)
-    if (screened[order[k]].share >= leastGain / 2 && screened[order[k]].excited) promising.push_back(k);
+  for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
+    if (screened[order[k]].excited &&
+        screened[order[k]].share >= std::max(0.7 * leastGain, 0.1 * screened[order[0]].share))
+      promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
   std::stable_sort(promising.begin(), promising.end(),
                    [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; });
-  if (promising.size() > candidatesToScore) promising.resize(candidatesToScore);
+  if (promising.size() > toFit / 2) promising.resize(toFit / 2);
   fitStarts(promising, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
 
   // The best are fitted to the end, then judged on what they were not fitted to.
   std::vector<Fit> best;
-  for (std::size_t k = 0; k < std::min(candidatesToScore, tried.size()); ++k)
+  for (std::size_t k = 0; k < std::min(toFit / 2, tried.size()); ++k)
     if (tried[k].attempt.fitted) best.push_back(tried[k].fit);
   const auto polished = parallel(
       options_.jobs, best.size(),
@@ -223,8 +225,7 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
   }
   for (Tried& each : tried) {
     if (!each.attempt.fitted) continue;
-    const PlacedEffect& effect = each.fit.model.simulator(problem_).effects.back();
-    each.attempt.values = effect.parameters;
+    each.attempt.values = each.fit.model.simulator(problem_).effects.back().parameters;
   }
   std::stable_sort(tried.begin(), tried.begin() + static_cast<std::ptrdiff_t>(scored.size()),
                    [](const Tried& a, const Tried& b) { return a.scored.mean() < b.scored.mean(); });
@@ -301,12 +302,18 @@ void Search::remember(std::vector<Attempt>& attempts, const Attempt& attempt) co
   attempts.push_back(attempt);
 }
 
+/// Two effects that need each other still show a little alone.
+bool promisesAPair(const std::vector<double>& shares) {
+  constexpr double least = 0.03;
+  return std::any_of(shares.begin(), shares.end(), [](double share) { return share > least; });
+}
+
 bool Search::tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair) {
   bool found = false;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
     const Linearised linear = linearise(problem_, singles[k].fit);
-    const auto seconds = tryCandidates(singles[k].fit, linear, {}, ", in pairs", 0.5, 0.6);
+    const auto seconds = tryCandidates(singles[k].fit, linear, candidatesInPairs, ", in pairs", 0.5, 0.6);
     if (seconds.empty() || !seconds[0].attempt.scored) continue;
     Comparison comparison;
     std::string reason;
@@ -374,6 +381,7 @@ std::size_t sizeOf(const FitModel& model, std::size_t effect) {
 }
 
 void Search::findRivals(SearchResult& result) {
+  result.rivalModels.clear();
   for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i) {
     const PlacedEffect own = result.final.fit.model.effects[i];
     const std::string ownText = own.effect + " at " + own.at;
@@ -385,7 +393,7 @@ void Search::findRivals(SearchResult& result) {
     } else {
       without = scoreAll(fitAll({result.final.fit.model.without(i)}, result.final.fit.shifts, 12, "rivals", 0.86, 0.87),
                          "rivals", 0.87, 0.88)[0];
-      others = tryCandidates(without.fit, linearise(problem_, without.fit), {}, ", rivals", 0.88, 0.95);
+      others = tryCandidates(without.fit, linearise(problem_, without.fit), candidatesToFit, ", rivals", 0.88, 0.95);
     }
     Found found{own, compare(without.blocks, result.final.blocks), {}};
     for (const Tried& other : others) {
@@ -440,8 +448,21 @@ SearchResult Search::run() {
   result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
   result.ladder.push_back(step("as given", result.given));
   result.calibrated = calibrate();
+  const std::vector<double> inside = blockScores(
+      problem_, residualsOf(problem_, result.calibrated.fit.model, result.calibrated.fit.shifts), Fold::all);
+  double fitted = 0, blocks = 0;
+  for (const double block : inside)
+    if (block >= 0) {
+      fitted += block;
+      ++blocks;
+    }
+  if (problem_.window_s == 0 && blocks > 0 && result.calibrated.mean() > 1.5 * fitted / blocks &&
+      result.calibrated.mean() > 1.3) {
+    result.unstable = true;
+    return result;
+  }
   // Never worse than what was given.
-  if (compare(result.calibrated.blocks, result.given.blocks).t > leastT) result.calibrated = result.given;
+  if (result.calibrated.mean() >= result.given.mean()) result.calibrated = result.given;
   result.ladder.push_back(step("calibrated", result.calibrated));
   result.calibratedLinear = linearise(problem_, result.calibrated.fit);
   result.calibratedUncertainty = uncertaintyOf(problem_, result.calibrated.fit, result.calibratedLinear);
@@ -451,8 +472,8 @@ SearchResult Search::run() {
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    auto tried = tryCandidates(result.final.fit, linear, {}, stage == 0 ? "" : ", effect " + std::to_string(stage + 1),
-                               from, to);
+    auto tried = tryCandidates(result.final.fit, linear, candidatesToFit,
+                               stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to);
     if (stage == 0) firstStage_ = tried;
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {
@@ -468,7 +489,8 @@ SearchResult Search::run() {
       result.final = tried[winner].scored;
       result.ladder.push_back(step("+ " + tried[winner].attempt.candidate.text(), result.final));
     } else if (Scored pair; static_cast<int>(result.final.fit.model.effects.size()) + 2 <= options_.maximumEffects &&
-                            excessOf(result.final) > unexplainedExcess && tryPair(result.final, tried, pair)) {
+                            excessOf(result.final) > unexplainedExcess && promisesAPair(sharesOf(tried)) &&
+                            tryPair(result.final, tried, pair)) {
       result.final = pair;
       const auto& effects = pair.fit.model.effects;
       std::string what = "+";

@@ -44,6 +44,7 @@ struct SearchResult {
   Uncertainty calibratedUncertainty, finalUncertainty;
   /// Fitted rivals of the first accepted effect, for the next recording: the best alternative model, if any.
   std::vector<FitModel> rivalModels;
+  bool unstable = false;  ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 
 /// Steps 4 and 6 to 8: calibrate, screen, confirm one effect at a time, drop what became useless, list rivals.

@@ -11,7 +11,7 @@ namespace {
 using Verdict = GapReport::Verdict;
 
 // Mean squared errors in noise floors²: what is at the noise, and what is too much to stay without a name.
-constexpr double atNoise = 1.3, unexplained = 1.5, unexplainedShare = 0.2;
+constexpr double atNoise = 1.3, stillNoise = 1.15, unexplained = 1.5, unexplainedShare = 0.2;
 constexpr double leastMotion = 10;  // noise floors that something must move
 
 std::string percent(double share) { return toText(std::round(100 * share)) + " %"; }
@@ -74,7 +74,7 @@ std::string rivalsText(const GapReport::Effect& effect) {
 
 }  // namespace
 
-void judge(GapReport& report, const FitProblem& problem, const SearchResult& found) {
+void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter) {
   const double given = found.given.mean(), calibrated = found.calibrated.mean(), final = found.final.mean();
   const double excess = std::max(0.0, calibrated - 1), left = std::max(0.0, final - 1);
   report.remainder.explainedShare = excess > 0 ? std::clamp(1 - left / excess, 0.0, 1.0) : 1;
@@ -85,7 +85,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   const bool calibrationHelps =
       compare(found.given.blocks, found.calibrated.blocks).t > 2.5 && given - calibrated > std::max(0.02 * given, 0.02);
   const bool named = !found.effects.empty();
-  const bool tooMuchLeft = final > unexplained && (!named || left > unexplainedShare * excess);
+  const bool tooMuchLeft =
+      named ? final > stillNoise && (curveIsBetter || left > unexplainedShare * excess) : final > unexplained;
 
   if (!moves) {
     report.verdict = Verdict::notExcited;

@@ -79,6 +79,7 @@ class MainWindow : public QMainWindow {
 
   // main_window_menus.cpp
   void makeMenus();
+  void makeEditMenu();  ///< main_window_edit.cpp
   void fillRecent();
   void fillRunMenu();
   void fillExamples(QMenu& menu);

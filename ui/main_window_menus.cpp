@@ -66,6 +66,7 @@ void MainWindow::makeMenus() {
   file->addSeparator();
   add(file, "application-exit", tr("&Quit"), QKeySequence::Quit, [this] { close(); });
 
+  makeEditMenu();
   runMenu_ = menuBar()->addMenu(tr("&Run"));
   connect(runMenu_, &QMenu::aboutToShow, this, [this] { fillRunMenu(); });
   fillRunMenu();

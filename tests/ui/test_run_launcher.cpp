@@ -1,4 +1,5 @@
 // Storing, duplicating, exporting and importing through the real program, beside the window.
+#include <QDir>
 #include <QFile>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -81,6 +82,22 @@ class TestRunLauncher : public QObject {
     bench.launcher.importFitness(bench.path, run, bench.folder.filePath("absent.csv"));
     QVERIFY(failed.wait(longest_ms));
     QVERIFY2(failed.first().first().toString().contains("absent.csv"), qPrintable(failed.first().first().toString()));
+  }
+
+  void theLogOfAStartedRunGoesWithTheLauncher() {
+    const auto logs = [] {
+      return QDir::temp().entryList({QStringLiteral("uchilsim-%1-run-*.log").arg(QCoreApplication::applicationPid())});
+    };
+    QVERIFY(logs().isEmpty());
+    {
+      Bench bench;
+      const Id run = bench.stored(1);
+      QVERIFY(bench.launcher.work(bench.folder.filePath("absent.db"), run, 1));
+      QTRY_VERIFY_WITH_TIMEOUT(!bench.launcher.isAlive(run), longest_ms);
+      QVERIFY(bench.launcher.lastWords(run).contains("absent.db"));
+      QCOMPARE(logs().size(), 1);
+    }
+    QVERIFY(logs().isEmpty());
   }
 };
 

@@ -122,13 +122,14 @@ Theme::Theme(QApplication& application, QObject* parent)
 void Theme::apply(Look look) {
   look_ = look;
   dark_ = look == Look::dark || (look == Look::system && systemIsDark_);
+  // Icons first: whoever hears of the new palette asks for its icons again.
+  QIcon::setThemeName(dark_ ? QStringLiteral("breeze-dark") : QStringLiteral("breeze"));
   application_.setStyle(new OutlinedFusion(dark_));
   application_.setPalette(paletteFrom(dark_ ? darkColours : lightColours));
   // The text of a progress bar has one colour: its filled part must suit it.
   application_.setStyleSheet(
       QString::fromLatin1(styleSheet) +
       QStringLiteral("QProgressBar::chunk { background: %1; border-radius: 3px; }").arg(dark_ ? "#2f66c4" : "#a8c8fa"));
-  QIcon::setThemeName(dark_ ? QStringLiteral("breeze-dark") : QStringLiteral("breeze"));
   emit changed();
 }
 

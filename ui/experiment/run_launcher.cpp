@@ -21,6 +21,8 @@ RunLauncher::RunLauncher(std::shared_ptr<const PluginHost> host, const QString& 
 
 RunLauncher::~RunLauncher() {
   if (thread_) thread_->wait();
+  // A process that goes on without the window keeps its open file.
+  for (const auto& [run, process] : processes_) QFile::remove(process.log);
 }
 
 void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {

@@ -1,6 +1,7 @@
 #include "ui/measure/alarm.h"
 
 #include <QApplication>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -15,6 +16,21 @@ namespace btr::ui {
 namespace {
 constexpr int chimeEvery_ms = 4000, chimesAtMost = 30;
 constexpr auto mutedFlag = "alarmMuted";
+/// Its icon suits the look, also when that changes.
+class Bell final : public QLabel {
+ public:
+  explicit Bell(QWidget* parent) : QLabel(parent) { draw(); }
+
+ protected:
+  void changeEvent(QEvent* event) override {
+    if (event->type() == QEvent::PaletteChange) draw();
+    QLabel::changeEvent(event);
+  }
+
+ private:
+  void draw() { setPixmap(themeIcon("appointment-reminder").pixmap(22, 22)); }
+};
+
 }  // namespace
 
 Alarm::Alarm(QWidget* parent, const QString& settingsFile, std::function<void()> play)
@@ -30,8 +46,7 @@ Alarm::Alarm(QWidget* parent, const QString& settingsFile, std::function<void()>
   setAccessibleName(tr("Alarm"));
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(12, 6, 8, 6);
-  auto* icon = new QLabel(this);
-  icon->setPixmap(themeIcon("appointment-reminder").pixmap(22, 22));
+  auto* icon = new Bell(this);
   text_ = new QLabel(this);
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -95,6 +95,10 @@ void MeasurementView::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEdi
 void MeasurementView::keyPressEvent(QKeyEvent* event) {
   if (state() == EditingState) return QTableView::keyPressEvent(event);
   if (event->matches(QKeySequence::Copy)) return copySelection();
+  if (event->matches(QKeySequence::Cut)) {
+    copySelection();
+    return clearUnsaved();
+  }
   if (event->matches(QKeySequence::Paste)) return paste();
   switch (event->key()) {
     case Qt::Key_Return:

@@ -2,6 +2,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
+#include "ui/scene3d/ball_roll.h"
 
 namespace btr::ui {
 
@@ -12,6 +13,12 @@ ReplayData toReplayData(const Replay& replay, std::vector<ReplayBall> balls, con
   data.model = replay.model;
   data.robotName = replay.robotName;
   data.balls = std::move(balls);
+  const std::size_t simulated = data.trace.rows();
+  if (replay.result.outcome == TrialResult::Outcome::finished)
+    for (std::size_t i = 0; i < data.balls.size() && i < replay.result.balls.size(); ++i)
+      appendRoll(data.trace, data.balls[i].name, data.balls[i].radius_m, replay.result.balls[i].rest_m);
+  if (const int time = data.trace.column("time_s"); data.trace.rows() > simulated && time >= 0)
+    data.rollsFrom_s = data.trace.at(simulated - 1, static_cast<std::size_t>(time));
   data.title = title;
   data.check = replay.identical ? ReplayData::Check::identical : ReplayData::Check::differs;
   data.fitness = replay.fitness;

@@ -35,7 +35,8 @@ struct ReplayData {
   double fitness = 0;
   double storedFitness = 0;
   QString fitnessUnit;
-  QString note;  ///< a failed trial's reason, or empty
+  double rollsFrom_s = -1;  ///< from then on the ball rolls out by the closed form; −1: the trial shows all
+  QString note;             ///< a failed trial's reason, or empty
 };
 
 /// What core/run says of a stored individual, with the words and sizes that it does not know.

@@ -267,6 +267,7 @@ void ReplayPanel::refreshCaption() {
   QStringList lines;
   if (!data_.title.isEmpty()) lines << data_.title;
   lines << tr("t = %1 s, %2×").arg(seconds(now), QLocale::c().toString(playback_.speed()));
+  if (data_.rollsFrom_s >= 0 && now > data_.rollsFrom_s) lines << tr("the ball rolls out, by formula");
   view_->setCaption(lines);
 }
 

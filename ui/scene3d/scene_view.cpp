@@ -8,29 +8,12 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QPainterPath>
 #include <QWheelEvent>
 
 namespace btr::ui {
 namespace {
 
 constexpr double kMovingPicture_s = 0.030;  ///< finer pictures that would take longer are left for moments of rest
-
-QColor toneColour(Badge::Tone tone) {
-  switch (tone) {
-    case Badge::Tone::good:
-      return QColor(34, 125, 62);
-    case Badge::Tone::bad:
-      return QColor(180, 35, 40);
-    case Badge::Tone::warning:
-      return QColor(150, 92, 0);
-    case Badge::Tone::standIn:
-      return QColor(123, 63, 181);
-    case Badge::Tone::neutral:
-      return QColor(90, 96, 105);
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -184,7 +167,7 @@ QImage SceneView::picture(QSize size) {
   if (result.isNull()) return result;
   QPainter painter(&result);
   painter.setFont(font());
-  drawTexts(painter, size);
+  drawTexts(painter, size, caption_, badges_);
   return result;
 }
 
@@ -236,35 +219,7 @@ void SceneView::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
     painter.drawImage(rect(), image_);
   }
-  drawTexts(painter, size());
-}
-
-void SceneView::drawTexts(QPainter& painter, const QSize& size) const {
-  painter.setRenderHint(QPainter::Antialiasing);
-  const QFontMetrics metrics(painter.font());
-  const int pad = metrics.height() / 3, margin = metrics.height() / 2, line = metrics.height() + 2 * pad;
-  const auto plate = [&](QRect area, const QColor& colour) {
-    QPainterPath path;
-    path.addRoundedRect(area, pad + 2, pad + 2);
-    painter.fillPath(path, colour);
-  };
-  if (!caption_.isEmpty()) {
-    int width = 0;
-    for (const QString& text : caption_) width = std::max(width, metrics.horizontalAdvance(text));
-    const QRect area(margin, margin, width + 4 * pad, metrics.height() * int(caption_.size()) + 2 * pad);
-    plate(area, QColor(20, 24, 30, 150));
-    painter.setPen(Qt::white);
-    painter.drawText(area.adjusted(2 * pad, pad, -2 * pad, -pad), Qt::AlignLeft | Qt::AlignTop, caption_.join('\n'));
-  }
-  int y = margin;
-  for (const Badge& badge : badges_) {
-    const int width = metrics.horizontalAdvance(badge.text) + 4 * pad;
-    const QRect area(size.width() - width - margin, y, width, line);
-    plate(area, toneColour(badge.tone));
-    painter.setPen(Qt::white);
-    painter.drawText(area, Qt::AlignCenter, badge.text);
-    y += line + pad;
-  }
+  drawTexts(painter, size(), caption_, badges_);
 }
 
 void SceneView::mousePressEvent(QMouseEvent* event) {

@@ -8,17 +8,11 @@
 #include "ui/scene3d/renderer.h"
 #include "ui/scene3d/scene_builder.h"
 #include "ui/scene3d/view_camera.h"
+#include "ui/scene3d/view_texts.h"
 
 class QAction;
 
 namespace btr::ui {
-
-/// A short word on coloured ground in the view's upper right corner.
-struct Badge {
-  enum class Tone { good, bad, neutral, warning, standIn };
-  QString text;
-  Tone tone = Tone::neutral;
-};
 
 /// The 3D view: a widget that paints what the renderer draws, only when something changed. Left drag orbits, middle or
 /// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, W wireframe, B collision shapes, S shadows,
@@ -89,7 +83,6 @@ class SceneView : public QWidget {
   void applyFollow();
   QImage rendered(QSize pixels, int supersampling);
   void draw(QSize pixels);
-  void drawTexts(QPainter& painter, const QSize& size) const;
 
   SceneBuilder scene_;
   OffscreenRenderer renderer_;

@@ -32,6 +32,7 @@ void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 /// gap adopt|revert|recordings, below "gap"
 void addGapStoreCommands(CLI::App& gap, Shell& shell);
+void addGapProveCommand(CLI::App& gap, Shell& shell);
 void addBenchCommand(CLI::App& app, Shell& shell);  ///< bench
 
 /// Writes to the file, or to standard output if `path` is empty.

@@ -25,6 +25,8 @@ std::string toJsonText(const ConcealedAnswer& answer) {
                                   {"at", hidden.placed.at},
                                   {"parameters", hidden.placed.parameters},
                                   {"outside_library", hidden.outside},
+                                  {"also_at", hidden.alsoAt},
+                                  {"sizes", hidden.sizes},
                                   {"cost_unfitted", hidden.costUnfitted},
                                   {"cost", hidden.cost}});
   return document.dump(2) + "\n";
@@ -46,6 +48,8 @@ ConcealedAnswer answerFromJson(const std::string& text, const std::string& place
     hidden.placed.at = entry.text("at");
     hidden.placed.parameters = entry.anyValues("parameters");
     hidden.outside = entry.flag("outside_library", false);
+    hidden.alsoAt = entry.text("also_at", "");
+    hidden.sizes = entry.texts("sizes");
     hidden.costUnfitted = entry.number("cost_unfitted", 0, largest);
     hidden.cost = entry.number("cost", 0, largest);
     entry.finish();

@@ -14,6 +14,8 @@ struct ConcealedAnswer {
   struct Hidden {
     PlacedEffect placed;
     bool outside = false;
+    std::string alsoAt;              ///< the joint that carries the link, or the link that the joint carries
+    std::vector<std::string> sizes;  ///< parameters that make it act: those with a neutral value, not at it
     /// Error in noise floors (root mean square, noise included) of the true simulator without this effect, nothing
     /// refitted.
     double costUnfitted = 1;

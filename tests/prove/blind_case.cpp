@@ -57,7 +57,7 @@ void hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& 
     const auto placed = drawHidden(random, blind.world, blind.simulator, names, effects);
     if (!placed) continue;
     blind.simulator.effects.push_back(*placed);
-    ConcealedAnswer::Hidden hidden{*placed, effects(placed->effect) && placed->effect.rfind("outside_", 0) == 0};
+    ConcealedAnswer::Hidden hidden = describeHidden(*placed, blind.world, effects);
     // Priced alone here, so that the next one may be drawn; with all of them in the end.
     priceRemoval(hidden, blind.simulator.effects.size() - 1, blind.world, blind.simulator, library, effects);
     if (hidden.cost < least) {

@@ -126,6 +126,26 @@ std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, 
   return placed;
 }
 
+ConcealedAnswer::Hidden describeHidden(const PlacedEffect& placed, const BlindWorld& world,
+                                       const EffectFactory& effects) {
+  ConcealedAnswer::Hidden hidden;
+  hidden.placed = placed;
+  hidden.outside = placed.effect.rfind("outside_", 0) == 0;
+  for (const RobotSpec& robot : world.scene.robots) {
+    const RobotModel& model = *world.models.at(robot.model);
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
+      const std::string joint = robot.name + "." + model.joints[j].name,
+                        link = robot.name + "." + model.links[j + 1].name;
+      if (placed.at == joint) hidden.alsoAt = link;
+      if (placed.at == link) hidden.alsoAt = joint;
+    }
+  }
+  for (const Parameter& parameter : effects(placed.effect)->parameters())
+    if (parameter.neutral && placed.parameters.at(parameter.name) != *parameter.neutral)
+      hidden.sizes.push_back(parameter.name);
+  return hidden;
+}
+
 void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const BlindWorld& world,
                   const SimulatorSpec& simulator, const Hideable& library, const EffectFactory& effects) {
   const auto recorded = noiseless(world, simulator, effects);

@@ -11,6 +11,10 @@ namespace btr::prove {
 std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, const SimulatorSpec& before,
                                        const std::vector<std::string>& names, const EffectFactory& effects);
 
+/// The same with what else the answer says of it, but for its cost.
+ConcealedAnswer::Hidden describeHidden(const PlacedEffect& placed, const BlindWorld& world,
+                                       const EffectFactory& effects);
+
 /// Fills in what it costs to leave out the hidden effect `index` of `simulator` (see ConcealedAnswer).
 void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const BlindWorld& world,
                   const SimulatorSpec& simulator, const Hideable& library, const EffectFactory& effects);

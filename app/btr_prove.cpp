@@ -1,0 +1,58 @@
+// btr gap prove: the blind trial.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "app/btr_commands.h"
+#include "core/gap/proof_run.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr::cli {
+namespace {
+
+void proveCommand(ProofRequest request, Shell& shell) {
+  request.generator = findGenerator();
+  const PluginHost& plugins = shell.plugins();
+  const EffectLibrary library{plugins.effectFactory(), plugins.effects()};
+  const bool show = isatty(STDERR_FILENO);
+  const auto analyst = [](const AnalysisRequest& asked, const EffectLibrary& effects) {
+    return runAnalysis(asked, effects);
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto cases = runProof(request, library, analyst, *shell.stop, [&](std::size_t done, std::size_t all) {
+    if (!show) return;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    std::fprintf(stderr, "\r%zu of %zu cases, %.0f s \x1b[K", done, all, seconds);
+  });
+  if (show) std::fprintf(stderr, "\n");
+  std::cout << readFile(request.out + (shell.json ? "/proof.json" : "/proof.txt"), std::size_t{1} << 30);
+  if (cases.size() < request.cases) shell.exitCode = stoppedEarly;
+}
+
+}  // namespace
+
+void addGapProveCommand(CLI::App& gap, Shell& shell) {
+  auto request = std::make_shared<ProofRequest>();
+  request->options.designNext = false;
+  CLI::App* prove = gap.add_subcommand("prove", "blind trial: conceal, analyse, open the seal, score");
+  prove->add_option("--cases", request->cases, "cases 1 to N of the seed; finished ones are not repeated")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  prove->add_option("--seed", request->seed, "of the generator")->capture_default_str();
+  prove->add_option("--out", request->out, "folder for cases, proof.json, proof.txt and proof.html")->required();
+  prove->add_option("--jobs", request->jobs, "worker processes, one case each")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  prove->add_option("--engine", request->engine, "who is reality: ode or mujoco")
+      ->check(CLI::IsMember({"ode", "mujoco"}));
+  prove->add_option("--scene", request->scene, "one kind of scene alone")
+      ->check(CLI::IsMember({"pendulum", "leg", "carpet", "flight", "walk"}));
+  prove->add_option("--kind", request->kind, "one kind of case alone")
+      ->check(CLI::IsMember({"nothing", "parameters", "one", "two", "outside"}));
+  prove->callback([request, &shell] { proveCommand(*request, shell); });
+}
+
+}  // namespace btr::cli

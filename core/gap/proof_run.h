@@ -1,0 +1,38 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/gap/analysis.h"
+#include "core/gap/proof_score.h"
+
+namespace btr {
+
+/// A blind trial: cases 1 … `cases` of a seed. Empty `engine`, `scene`, `kind`: our own engine, drawn, drawn.
+struct ProofRequest {
+  std::string generator;  ///< path of the program that conceals
+  std::string out;        ///< folder; finished cases in it are kept, those of another trial refused
+  std::uint64_t seed = 1;
+  std::size_t cases = 20;
+  std::string engine, scene, kind;
+  int jobs = 1;  ///< worker processes, one case each
+  AnalysisOptions options;
+};
+
+/// Loads, analyses, writes its report: runAnalysis().
+using Analyse = std::function<GapReport(const AnalysisRequest& request, const EffectLibrary& library)>;
+
+/// Lets the generator conceal, keeps the seal, analyses, writes the verdict, opens the seal and checks it, case by
+/// case; then proof.json, proof.txt and proof.html of all finished cases. Each finished case is in
+/// OUT/case_NNN/verdict.json and is not repeated. A raised `stop` ends it early with what is finished. `progress(done,
+/// all)` is called after each case. Throws InputError for a generator that is not there or fails, and for a folder of
+/// another trial.
+std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrary& library, const Analyse& analyse,
+                                 const std::atomic<bool>& stop,
+                                 const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+/// $UCHILSIM_CONCEAL, else `conceal` beside the running program. Throws InputError that says how to build it.
+std::string findGenerator();
+
+}  // namespace btr

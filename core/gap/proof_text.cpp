@@ -1,0 +1,168 @@
+// The proof's tables, once for a terminal and once as a page.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <sstream>
+
+#include "core/gap/proof_score.h"
+
+namespace btr {
+namespace {
+
+struct Table {
+  std::string title, note;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+std::string number(double value, const char* format) {
+  if (!std::isfinite(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string brief(const Share& share) {
+  if (share.cases == 0) return "-";
+  return std::to_string(share.hits) + "/" + std::to_string(share.cases);
+}
+
+std::string withInterval(const Share& share) {
+  if (share.cases == 0) return "-";
+  return brief(share) + " = " + number(100 * share.value(), "%.1f") + " % (" + number(100 * share.low(), "%.1f") +
+         " to " + number(100 * share.high(), "%.1f") + ")";
+}
+
+Table barTable(const ProofScore& score) {
+  Table table{"Bars", "Shares with their 95 % intervals.", {"question", "wanted", "found", ""}, {}};
+  for (const ProofBar& bar : score.bars)
+    table.rows.push_back({bar.question, bar.wanted, bar.found, !bar.asked ? "not asked" : bar.met ? "met" : "NOT MET"});
+  return table;
+}
+
+Table otherTable(const ProofGroup& all) {
+  return {"Beside the bars",
+          "",
+          {"what", "value"},
+          {{"one effect named, and nothing else accepted", withInterval(all.alone)},
+           {"an effect from outside is called unexplained", withInterval(all.unexplained)},
+           {"held-out error over noise, median", number(middleOf(all.heldOut), "%.3f")},
+           {"calibrated numbers, median error", number(100 * middleOf(all.calibratedErrors), "%.2f %%")},
+           {"analyses that failed", std::to_string(all.failed) + " of " + std::to_string(all.cases)},
+           {"time of an analysis, median", number(middleOf(all.seconds), "%.1f s")}}};
+}
+
+Table groupTable(const std::string& title, const std::vector<std::pair<std::string, ProofGroup>>& groups) {
+  Table table{title,
+              "Hits of cases. Named, place, both: effects above three noise floors.",
+              {"", "cases", "false alarms", "named", "alone", "both", "place", "held-out ok", "outside wrong",
+               "error/noise", "parameters", "seconds"},
+              {}};
+  for (const auto& [name, group] : groups)
+    table.rows.push_back({name, std::to_string(group.cases), brief(group.falseAlarms), brief(group.named),
+                          brief(group.alone), brief(group.bothNamed), brief(group.location), brief(group.heldOutNear),
+                          brief(group.confidentlyWrong), number(middleOf(group.heldOut), "%.3f"),
+                          number(100 * middleOf(group.parameterErrors), "%.1f %%"),
+                          number(middleOf(group.seconds), "%.1f")});
+  return table;
+}
+
+Table confusionTable(const ProofScore& score) {
+  std::set<std::string> rows, columns;
+  for (const auto& [pair, count] : score.confusion) {
+    rows.insert(pair.first);
+    columns.insert(pair.second);
+  }
+  Table table{"What was hidden (rows) and what was named (columns)",
+              "Effects above three noise floors, and the cases with nothing missing. \"(rival)\": among at most two "
+              "rivals of what was accepted. In brackets: the verdict where no effect was accepted.",
+              {"hidden"},
+              {}};
+  table.header.insert(table.header.end(), columns.begin(), columns.end());
+  for (const std::string& row : rows) {
+    table.rows.push_back({row});
+    for (const std::string& column : columns) {
+      const auto found = score.confusion.find({row, column});
+      table.rows.back().push_back(found == score.confusion.end() ? "" : std::to_string(found->second));
+    }
+  }
+  return table;
+}
+
+std::vector<Table> tablesOf(const ProofScore& score) {
+  return {barTable(score),
+          otherTable(score.all),
+          groupTable("By scene", score.byScene),
+          groupTable("By kind of case", score.byKind),
+          groupTable("By cost of leaving the effect out [noise floors]", score.byCost),
+          confusionTable(score)};
+}
+
+/// Characters, not bytes.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+void writeText(std::ostream& out, const Table& table) {
+  out << table.title << "\n";
+  if (!table.note.empty()) out << table.note << "\n";
+  std::vector<std::size_t> widths;
+  for (const auto& cell : table.header) widths.push_back(width(cell));
+  for (const auto& row : table.rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text;
+    for (std::size_t i = 0; i < cells.size(); ++i) text += cells[i] + std::string(widths[i] - width(cells[i]) + 2, ' ');
+    out << text.substr(0, text.find_last_not_of(' ') + 1) << "\n";
+  };
+  line(table.header);
+  for (const auto& row : table.rows) line(row);
+  out << "\n";
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return safe;
+}
+
+void writeHtml(std::ostream& out, const Table& table) {
+  out << "<h2>" << escaped(table.title) << "</h2>\n";
+  if (!table.note.empty()) out << "<p>" << escaped(table.note) << "</p>\n";
+  out << "<table><tr>";
+  for (const auto& cell : table.header) out << "<th>" << escaped(cell) << "</th>";
+  out << "</tr>\n";
+  for (const auto& row : table.rows) {
+    out << "<tr>";
+    for (const auto& cell : row) {
+      const std::string kind = cell == "met" ? " class=\"met\"" : cell == "NOT MET" ? " class=\"missed\"" : "";
+      out << "<td" << kind << ">" << escaped(cell) << "</td>";
+    }
+    out << "</tr>\n";
+  }
+  out << "</table>\n";
+}
+
+}  // namespace
+
+std::string proofText(const ProofScore& score) {
+  std::ostringstream out;
+  for (const Table& table : tablesOf(score)) writeText(out, table);
+  return out.str();
+}
+
+std::string proofHtml(const ProofScore& score) {
+  std::ostringstream out;
+  out << "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Blind trial of gap analysis</title>\n"
+         "<style>body{font:14px sans-serif;margin:2em;max-width:80em}table{border-collapse:collapse}"
+         "td,th{border:1px solid #bbb;padding:3px 7px;text-align:left}th{background:#eee}"
+         ".met{background:#d8f0d8}.missed{background:#f6d5d5;font-weight:bold}</style></head><body>\n"
+         "<h1>Blind trial of gap analysis</h1>\n";
+  for (const Table& table : tablesOf(score)) writeHtml(out, table);
+  out << "</body></html>\n";
+  return out.str();
+}
+
+}  // namespace btr

@@ -32,8 +32,8 @@ void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 /// gap adopt|revert|recordings, below "gap"
 void addGapStoreCommands(CLI::App& gap, Shell& shell);
-void addGapProveCommand(CLI::App& gap, Shell& shell);
-void addBenchCommand(CLI::App& app, Shell& shell);  ///< bench
+void addGapProveCommand(CLI::App& gap, Shell& shell);  ///< gap prove
+void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);

@@ -89,6 +89,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   CLI::App* gap = app.add_subcommand("gap", "simulated against recorded");
   gap->require_subcommand(1);
   addGapStoreCommands(*gap, shell);
+  addGapProveCommand(*gap, shell);
   auto request = std::make_shared<ResidualRequest>();
   CLI::App* residual = gap->add_subcommand("residual", "simulate the recorded commands, report the mismatch");
   residual->add_option("SCENE.json", request->scene, "scene file")->required();

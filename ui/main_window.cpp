@@ -60,6 +60,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   connectRuns();
   connectShow();
   connectMeasure();
+  connectGap();
   arrangeDocks();
   restoreWindow();
   restoreDraft();
@@ -124,6 +125,7 @@ void MainWindow::makeDocks() {
   sheetDock_ = addDock("sheet", tr("Measurement sheet"), "document-edit", sheet_);
   replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
+  makeGapPage();
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
 
   // Messages stand above everything, in a tool bar of their own that is there only while there is one.
@@ -169,6 +171,8 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, cons
 
 // Left what there is, in the middle how it goes, right what is asked for.
 void MainWindow::arrangeDocks() {
+  runsLayout_.clear();
+  gapAction_->setChecked(false);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     removeDockWidget(dock);
     dock->setFloating(false);
@@ -185,6 +189,7 @@ void MainWindow::arrangeDocks() {
   tabifyDockWidget(individualsDock_, sheetDock_);
   tabifyDockWidget(sheetDock_, versionsDock_);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
+  gapPageDock_->hide();
   specDock_->raise();
   individualsDock_->raise();
   sized_ = false;
@@ -241,7 +246,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
       for (const Id run : active) stopRun(run);
   }
   keepDraft();
-  settings_.setWindow(saveGeometry(), saveState(Settings::layoutVersion));
+  settings_.setWindow(saveGeometry(), runsLayout_.isEmpty() ? saveState(Settings::layoutVersion) : runsLayout_);
   event->accept();
 }
 

@@ -21,6 +21,7 @@ class ExperimentForm;
 class ExperimentTree;
 class FitnessChart;
 class GapChart;
+class GapPage;
 class MeasurementSheet;
 class MessageBanner;
 class IndividualsTable;
@@ -55,8 +56,14 @@ class MainWindow : public QMainWindow {
   void replayIndividual(Id individual);
   void replayBest();  ///< of the last generation
 
+  /// Opens a gap report's folder in the gap page. False, with a message, keeps what was there.
+  bool openReport(const QString& folder);
+  /// The gap page with the experiments beside it, or the runs again.
+  void showGapPage(bool on);
+
   MessageBanner& banner() { return *banner_; }
   DatabaseWatcher& watcher() { return watcher_; }
+  GapPage& gapPage() { return *gapPage_; }
   ExperimentForm& draft() { return *draft_; }
   const Settings& settings() const { return settings_; }
 
@@ -118,6 +125,13 @@ class MainWindow : public QMainWindow {
   void showSpec(const RunRecord& run);
   void showTitle();
 
+  // main_window_gap.cpp
+  void makeGapPage();
+  void connectGap();
+  void showAdoption();
+  void keepRecordings(const QStringList& files);
+  void takeStoredRecordings();
+
   /// The connection for the user's own words, opened when it is first needed.
   Database& writer();
 
@@ -143,6 +157,10 @@ class MainWindow : public QMainWindow {
   RunPanel* panel_ = nullptr;
   FitnessChart* fitness_ = nullptr;
   GapChart* gap_ = nullptr;
+  GapPage* gapPage_ = nullptr;
+  QAction* gapAction_ = nullptr;
+  QByteArray runsLayout_;  ///< of the docks while the gap page has the window
+  bool runActive_ = false;
   SimulatorsPage* versions_ = nullptr;
   IndividualsTable* individuals_ = nullptr;
   MeasurementSheet* sheet_ = nullptr;
@@ -151,7 +169,7 @@ class MainWindow : public QMainWindow {
   ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
               *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
-              *individualsDock_ = nullptr, *sheetDock_ = nullptr;
+              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *gapPageDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

@@ -89,6 +89,11 @@ void MainWindow::makeMenus() {
       theme_.apply(chosen);
     });
   }
+  gapAction_ = add(viewMenu_, "office-chart-area", tr("&Gap analysis"), Qt::Key_F8,
+                   [this] { showGapPage(gapAction_->isChecked()); });
+  gapAction_->setObjectName("showGapPage");
+  gapAction_->setCheckable(true);
+  gapAction_->setToolTip(tr("Recordings against simulation: what physics is missing (F8)"));
   add(viewMenu_, "view-restore", tr("&Reset layout"), {}, [this] { arrangeDocks(); });
   QAction* full = add(viewMenu_, "view-fullscreen", tr("&Full screen"), QKeySequence::FullScreen,
                       [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
@@ -105,6 +110,8 @@ void MainWindow::makeMenus() {
   bar->addActions({fresh, open, save});
   bar->addSeparator();
   bar->addAction(database);
+  bar->addSeparator();
+  bar->addAction(gapAction_);
   insertToolBar(findChild<QToolBar*>("toolbar.messages"), bar);
   insertToolBarBreak(findChild<QToolBar*>("toolbar.messages"));
 }

@@ -69,6 +69,7 @@ void MainWindow::connectShow() {
             gap_->setGaps(gaps_, simulators_);
             versions_->setSimulators(simulators_);
             individuals_->setSimulators(simulators_);
+            showAdoption();
           });
   connect(&watcher_, &DatabaseWatcher::gapsChanged, this, [this](Id, const std::vector<GapRecord>& gaps) {
     gaps_ = gaps;
@@ -91,6 +92,7 @@ void MainWindow::selectRun(Id run) {
     individuals_->clear();
     sheet_->setTasks({});
     alarm_->clear();
+    showAdoption();
   } else {
     guard([&] { showSpec(watcher_.database().run(run)); });
     settings_.setSelectedRun(databasePath(), run);
@@ -126,7 +128,9 @@ void MainWindow::showSpec(const RunRecord& run) {
 
 void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
   run_ = run;
+  runActive_ = active;
   panel_->showRun(run, progress, active);
+  showAdoption();
   showWaiting();
 }
 

@@ -41,7 +41,7 @@ class Settings {
   void setFlag(const QString& name, bool value);
 
   /// Raised when the docks change so much that a stored layout no longer fits.
-  static constexpr int layoutVersion = 1;
+  static constexpr int layoutVersion = 2;
 
  private:
   mutable QSettings store_;

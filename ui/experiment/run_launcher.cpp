@@ -118,6 +118,22 @@ void RunLauncher::importFitness(const QString& database, Id run, const QString& 
            [this, file] { emit imported(file); });
 }
 
+void RunLauncher::adopt(const QString& database, Id run, const QString& simulator, const QString& report) {
+  runToEnd(
+      {"gap", "adopt", "--db", database, "--run", QString::number(run), "--simulator", simulator, "--report", report},
+      [this, run] { emit simulatorChanged(run); });
+}
+
+void RunLauncher::revert(const QString& database, Id run) {
+  runToEnd({"gap", "revert", "--db", database, "--run", QString::number(run)},
+           [this, run] { emit simulatorChanged(run); });
+}
+
+void RunLauncher::keepRecordings(const QString& database, Id run, const QStringList& files) {
+  runToEnd(QStringList{"gap", "recordings", "import", "--db", database, "--run", QString::number(run)} + files,
+           [this, count = int(files.size())] { emit recordingsKept(count); });
+}
+
 // Short commands run beside the window; one line on their standard error says what is wrong.
 void RunLauncher::runToEnd(const QStringList& arguments, const std::function<void()>& done) {
   auto* process = new QProcess(this);

@@ -35,12 +35,20 @@ class RunLauncher : public QObject {
   void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
   /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
   void importFitness(const QString& database, Id run, const QString& file);
+  /// Makes the simulator of a gap report the run's newest version, or the newest one's parent again; tells
+  /// simulatorChanged() or failed().
+  void adopt(const QString& database, Id run, const QString& simulator, const QString& report);
+  void revert(const QString& database, Id run);
+  /// Keeps recordings in the database with their mappings; tells recordingsKept() or failed().
+  void keepRecordings(const QString& database, Id run, const QStringList& files);
   bool isBusy() const { return thread_ != nullptr; }
 
  signals:
   void stored(btr::Id run);
   void exported(const QString& file);
   void imported(const QString& file);
+  void simulatorChanged(btr::Id run);
+  void recordingsKept(int files);
   void failed(const QString& message);
 
  private:

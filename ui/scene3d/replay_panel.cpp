@@ -222,6 +222,12 @@ void ReplayPanel::showFrame(std::size_t frame) {
   refresh();
 }
 
+void ReplayPanel::showTime(double time_s) {
+  if (playback_.frames() == 0) return;
+  playback_.showTime(time_s);
+  refresh();
+}
+
 /// Brings view, slider, button and timer to where the playback stands.
 void ReplayPanel::refresh() {
   const bool playing = playback_.playing(), any = playback_.frames() > 0;

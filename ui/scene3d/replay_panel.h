@@ -52,6 +52,7 @@ class ReplayPanel : public QWidget {
   void advance(double elapsed_s);
   void step(int frames);
   void showFrame(std::size_t frame);
+  void showTime(double time_s);  ///< paused; nothing happens while there is no replay
 
  signals:
   /// Another frame is shown: its time in the trace [s].

@@ -1,0 +1,366 @@
+// The gap page: a stored report shown, the map and its plots, effects with their reasons, adoption, the mapping form.
+#include <QAction>
+#include <QComboBox>
+#include <QFile>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "core/gap/recording.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "tests/gap/sample_report.h"
+#include "ui/charts/plot_widget.h"
+#include "ui/gap/analysis_setup.h"
+#include "ui/gap/effects_table.h"
+#include "ui/gap/gap_page.h"
+#include "ui/gap/gap_plots.h"
+#include "ui/gap/heat_map.h"
+#include "ui/gap/mapping_form.h"
+#include "ui/gap/report_view.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+/// A page with the sample report opened from a folder.
+struct Bench {
+  Bench() {
+    writeReport(sampleReport(), folder.filePath("report").toStdString());
+    page.resize(1100, 800);
+    page.show();
+    opened = page.openReport(folder.filePath("report"));
+  }
+  QTemporaryDir folder;
+  GapPage page{BTR_PROGRAM};
+  bool opened = false;
+};
+
+std::vector<SimulatorRecord> versions(int count) {
+  std::vector<SimulatorRecord> all(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) all[static_cast<std::size_t>(i)].number = i;
+  return all;
+}
+
+QString file(const QTemporaryDir& folder, const QString& name, const std::string& content) {
+  writeFile(folder.filePath(name).toStdString(), content);
+  return folder.filePath(name);
+}
+
+void type(QTableWidget& table, int row, int column, const QString& text) { table.item(row, column)->setText(text); }
+
+}  // namespace
+
+class TestGapPage : public QObject {
+  Q_OBJECT
+ private slots:
+  void showsTheVerdictOfAStoredReport() {
+    Bench bench;
+    QVERIFY(bench.opened);
+    QCOMPARE(bench.page.findChild<QLabel*>("headline")->text(), QString("Physics was left out"));
+    QCOMPARE(bench.page.findChild<QLabel*>("sentence")->text(), QString::fromStdString(sampleReport().sentence));
+    QCOMPARE(bench.page.findChild<QTabWidget*>("gapTabs")->currentIndex(), 1);
+  }
+
+  void aFolderThatIsNoReportIsAMessageAndKeepsWhatIsShown() {
+    Bench bench;
+    QSignalSpy failed(&bench.page, &GapPage::failed);
+    QVERIFY(!bench.page.openReport(bench.folder.filePath("nothing")));
+    QVERIFY(failed.first().first().toString().contains("there is no such folder"));
+    QVERIFY(bench.page.view().report() != nullptr);
+  }
+
+  void theMapOpensAtTheWorstPlace() {
+    Bench bench;
+    const HeatMap& map = bench.page.view().map();
+    QCOMPARE(map.rows(), 10);
+    QVERIFY(map.current().has_value());
+    const double worst = map.row(map.current()->row).error[map.current()->bin];
+    for (int r = 0; r < map.rows(); ++r)
+      for (const double error : map.row(std::size_t(r)).error) QVERIFY(!(error > worst));
+  }
+
+  void aClickInTheMapMovesTheCursorOfThePlots() {
+    Bench bench;
+    HeatMap& map = bench.page.view().map();
+    QSignalSpy chosen(&bench.page, &GapPage::timeChosen);
+    const HeatMap::Cell cell{2, 40};
+    QTest::mouseClick(map.viewport(), Qt::LeftButton, {}, map.rectOf(cell).center());
+    const HeatRow& row = map.row(2);
+    const double time = row.from_s + (row.to_s - row.from_s) * 40.5 / double(HeatMap::bins);
+    QCOMPARE(chosen.size(), 1);
+    QCOMPARE(chosen.first().at(0).toULongLong(), 1ULL);  // the second trial's first channel
+    QCOMPARE(chosen.first().at(1).toDouble(), time);
+    const PlotData& plot = bench.page.view().overlay().data();
+    QVERIFY(plot.title.startsWith("leg.knee.position_rad · sine-2.csv"));
+    QCOMPARE(plot.markers.size(), std::size_t(1));
+    QCOMPARE(plot.markers.front().x, time);
+    const QRectF seen = bench.page.view().overlay().visibleRange();
+    QVERIFY(seen.left() < time && time < seen.right());
+    QVERIFY(seen.width() < 2);
+    QCOMPARE(bench.page.findChild<QComboBox*>("channel")->currentIndex(), 2);
+  }
+
+  void theMapIsUsedWithKeysToo() {
+    Bench bench;
+    HeatMap& map = bench.page.view().map();
+    map.choose({0, 10});
+    QTest::keyClick(&map, Qt::Key_Right);
+    QTest::keyClick(&map, Qt::Key_Down);
+    QCOMPARE(map.current()->row, std::size_t(1));
+    QCOMPARE(map.current()->bin, std::size_t(11));
+    for (int i = 0; i < 3; ++i) QTest::keyClick(&map, Qt::Key_Up);
+    QCOMPARE(map.current()->row, std::size_t(0));
+  }
+
+  void theMapFollowsTheChosenSimulator() {
+    Bench bench;
+    const HeatMap& map = bench.page.view().map();
+    const double before = map.row(0).error[20];
+    bench.page.findChild<QComboBox*>("which")->setCurrentIndex(2);
+    QVERIFY(map.row(0).error[20] < before);
+    QVERIFY(map.describe({0, 20}).contains("noise floors"));
+  }
+
+  void theCurvesAreThoseOfTheReport() {
+    const GapReport report = sampleReport();
+    const PlotData plot = overlayPlot(report, 4, 0);
+    QVERIFY(plot.title.endsWith("(held out)"));
+    QCOMPARE(plot.series.size(), std::size_t(4));
+    QCOMPARE(plot.series[0].points.size(), std::size_t(500));
+    QCOMPARE(plot.series[3].points.size(), std::size_t(497));  // three are not known
+    QCOMPARE(plot.series[0].points[7].y(), report.trials[4].series[0].recorded[7]);
+    QCOMPARE(plot.yTitle, QString("position (rad)"));
+    const PlotData error = errorPlot(report, 4, 0);
+    const GapReport::Series& s = report.trials[4].series[0];
+    QCOMPARE(error.series[0].points[7].y(), (s.asGiven[7] - s.recorded[7]) / s.noiseFloor);
+  }
+
+  void rejectedEffectsAreShownWithTheirReason() {
+    Bench bench;
+    const EffectsTable& table = bench.page.view().effects();
+    QCOMPARE(table.rowCount(), 4);
+    QCOMPARE(table.item(0, EffectsTable::verdict)->text(), QString("accepted"));
+    QVERIFY(table.item(0, EffectsTable::effect)->font().bold());
+    QVERIFY(table.item(0, EffectsTable::rivals)->text().startsWith("gear elasticity at leg.knee"));
+    QCOMPARE(table.item(3, EffectsTable::verdict)->text(), QString("rejected"));
+    QCOMPARE(table.item(3, EffectsTable::reason)->text(), QString("explains nothing that the calibration does not"));
+    QCOMPARE(table.item(0, EffectsTable::gain)->text(), QString("71 %"));
+  }
+
+  void theLadderEndsBesideTheNoiseFloor() {
+    const PlotData plot = ladderPlot(sampleReport());
+    QCOMPARE(plot.series[0].points.size(), std::size_t(3));
+    QCOMPARE(plot.series[0].points[2], QPointF(2, 1.19));
+    QCOMPARE(plot.series[0].errors[1], 1.1);
+    QCOMPARE(plot.series[1].points[0].y(), 1.0);
+    QCOMPARE(plot.xLabels.value(2), QString("+ backlash at leg.knee"));
+  }
+
+  void anEmptyReportSaysSoEverywhere() {
+    const GapReport nothing;
+    for (const PlotData& plot : {overlayPlot(nothing, 0, 0), ladderPlot(nothing), regimePlot(nothing, 0),
+                                 remainderPlot(nothing), nextRecordingPlot(nothing)}) {
+      QVERIFY(plot.series.empty());
+      QVERIFY(!plot.empty.isEmpty());
+    }
+    ReportView view;
+    view.setReport(std::make_shared<const GapReport>(nothing));
+    QVERIFY(view.next().data().series.empty());
+  }
+
+  void adoptingAsksForTheReportsSimulator() {
+    Bench bench;
+    QSignalSpy adopted(&bench.page, &GapPage::adoptRequested), reverted(&bench.page, &GapPage::revertRequested);
+    QVERIFY(!bench.page.adoptAction()->isEnabled());  // no run is selected
+    bench.page.setRun("run 3", versions(1), {});
+    QVERIFY(bench.page.adoptAction()->isEnabled());
+    QVERIFY(!bench.page.revertAction()->isEnabled());
+    bench.page.adoptAction()->trigger();
+    QCOMPARE(adopted.first().at(0).toString(), bench.folder.filePath("report/simulator.json"));
+    QCOMPARE(adopted.first().at(1).toString(), bench.folder.filePath("report"));
+    bench.page.setRun("run 3", versions(2), {});
+    bench.page.revertAction()->trigger();
+    QCOMPARE(reverted.size(), 1);
+  }
+
+  void adoptionSaysWhyItIsNotPossible() {
+    Bench bench;
+    bench.page.setRun("run 3", versions(2), "A process works on the run.");
+    QVERIFY(!bench.page.adoptAction()->isEnabled());
+    QVERIFY(!bench.page.revertAction()->isEnabled());
+    QCOMPARE(bench.page.adoptAction()->toolTip(), QString("A process works on the run."));
+  }
+
+  void thePageAndTheSuggestedCommandsAreExported() {
+    Bench bench;
+    QVERIFY(bench.page.exportTo(bench.folder.filePath("out.html")));
+    QCOMPARE(readFile(bench.folder.filePath("out.html").toStdString()), toHtml(sampleReport()));
+    QVERIFY(bench.page.saveNext(bench.folder.filePath("next.csv")));
+    const Recording next = loadRecording(bench.folder.filePath("next.csv").toStdString());
+    QCOMPARE(next.channels[1], std::string("leg.knee.command_rad"));
+    QVERIFY(next.columns[1] == sampleReport().next.columns[1]);
+    QSignalSpy failed(&bench.page, &GapPage::failed);
+    QVERIFY(!bench.page.exportTo(bench.folder.filePath("none/out.html")));
+    QCOMPARE(failed.size(), 1);
+  }
+
+  void aMappingSurvivesBeingReadAndWritten() {
+    QTemporaryDir folder;
+    const QString csv = file(folder, "swing.csv", "t_ms,q,extra\n0,10,1\n10,20,1\n");
+    const std::string text =
+        R"({"time_s": {"column": "t_ms", "scale": 0.001},
+            "leg.knee.position_rad": {"column": "q", "scale": -0.5, "offset": 0.25, "optional": true},
+            "settings": [{"file_contains": "kp8", "values": {"robots.leg.servos.knee.p": 8}}]})";
+    file(folder, "swing.mapping.json", text);
+    MappingForm form;
+    form.open(csv);
+    QVERIFY(form.isValid());
+    QCOMPARE(form.draft().rows.size(), std::size_t(2));
+    QVERIFY(form.draft().rows[1].flipped);
+    QCOMPARE(form.table().item(1, MappingForm::range)->text(), QString("-9.75 … -4.75\u202Frad"));
+    form.save();
+    const Mapping before = mappingFromJson(text, "before"), after = loadMapping(form.file().toStdString());
+    QCOMPARE(after.columns.size(), before.columns.size());
+    for (std::size_t i = 0; i < before.columns.size(); ++i) {
+      QCOMPARE(after.columns[i].channel, before.columns[i].channel);
+      QCOMPARE(after.columns[i].column, before.columns[i].column);
+      QCOMPARE(after.columns[i].scale, before.columns[i].scale);
+      QCOMPARE(after.columns[i].offset, before.columns[i].offset);
+      QCOMPARE(after.columns[i].optional, before.columns[i].optional);
+    }
+    QCOMPARE(after.settings.size(), std::size_t(1));
+  }
+
+  void whatIsNotAllowedIsMarkedSaidAndNotSaved() {
+    QTemporaryDir folder;
+    MappingForm form;
+    form.open(file(folder, "swing.csv", "t,q\n0,10\n1,20\n"));
+    form.addRow();
+    QTableWidget& table = form.table();
+    type(table, 1, MappingForm::channel, "leg.knee.position");
+    type(table, 1, MappingForm::column, "q");
+    type(table, 1, MappingForm::scale, "many");
+    QVERIFY(!form.isValid());
+    QVERIFY(table.item(1, MappingForm::channel)->toolTip().contains("leg.knee.position is not allowed"));
+    QVERIFY(table.item(1, MappingForm::scale)->toolTip().contains("many is not allowed"));
+    QVERIFY(table.item(1, MappingForm::scale)->background().style() != Qt::NoBrush);
+    QVERIFY(table.item(1, MappingForm::column)->background().style() == Qt::NoBrush);
+    QVERIFY(form.findChild<QLabel*>("problem")->text().contains("Line 2"));
+    QVERIFY(!form.findChild<QPushButton*>("saveMapping")->isEnabled());
+    QVERIFY_EXCEPTION_THROWN(form.save(), InputError);
+    QVERIFY(!QFile::exists(form.file()));
+
+    type(table, 1, MappingForm::channel, "leg.knee.position_rad");
+    type(table, 1, MappingForm::unit, "deg");
+    QVERIFY(form.isValid());
+    form.save();
+    QCOMPARE(form.file(), folder.filePath("swing.mapping.json"));
+    QVERIFY(qAbs(loadMapping(form.file().toStdString()).columns[1].scale - 0.017453292519943295) < 1e-15 ||
+            qAbs(loadMapping(form.file().toStdString()).columns[0].scale - 0.017453292519943295) < 1e-15);
+  }
+
+  void everyChangeOfAMappingCanBeUndone() {
+    QTemporaryDir folder;
+    MappingForm form;
+    form.open(file(folder, "swing.csv", "time,leg.knee.position_rad\n0,1\n1,2\n"));
+    const MappingDraft first = form.draft();
+    QCOMPARE(first.rows.size(), std::size_t(2));
+    type(form.table(), 1, MappingForm::offset, "0.5");
+    form.table().item(1, MappingForm::flip)->setCheckState(Qt::Checked);
+    form.table().setCurrentCell(0, 0);
+    form.removeRow();
+    QCOMPARE(form.draft().rows.size(), std::size_t(1));
+    QVERIFY(!form.isValid());
+    form.undoStack().undo();
+    QVERIFY(form.draft().rows[1].flipped);
+    form.undoStack().undo();
+    form.undoStack().undo();
+    QVERIFY(form.draft() == first);
+    QVERIFY(!form.undoStack().canUndo());
+    form.undoStack().redo();
+    QCOMPARE(form.draft().rows[1].offset, QString("0.5"));
+  }
+
+  void theJobIsWhatTheFormSays() {
+    QTemporaryDir folder;
+    AnalysisSetup setup;
+    QVERIFY(!setup.problem().isEmpty());
+    QVERIFY(!setup.findChild<QPushButton*>("startAnalysis")->isEnabled());
+    setup.setScene(SOURCE_DIR "/resources/scenes/xl330.json");
+    const QString a = SOURCE_DIR "/tests/data/bam_xl330/lift_and_drop_kp200_2026-01-15_10h28m49.csv";
+    const QString b = SOURCE_DIR "/tests/data/bam_xl330/sin_sin_kp800_2026-01-15_10h29m47.csv";
+    setup.addRecordings({a, b, a});
+    setup.setHeldOut(1, true);
+    setup.findChild<QLineEdit*>("out")->setText(folder.filePath("report"));
+    setup.findChild<QLineEdit*>("seed")->setText("7");
+    QCOMPARE(setup.problem(), QString());
+    QVERIFY(setup.findChild<QPushButton*>("startAnalysis")->isEnabled());
+    QCOMPARE(setup.recordings().rowCount(), 2);
+    const AnalysisJob job = setup.job();
+    QCOMPARE(job.recordings, QStringList{a});
+    QCOMPARE(job.heldOut, QStringList{b});
+    QCOMPARE(argumentsOf(job),
+             (QStringList{"gap", "analyse", SOURCE_DIR "/resources/scenes/xl330.json", "--recording", a, "--held-out",
+                          b, "--seed", "7", "--out", folder.filePath("report"), "--progress"}));
+    // The scene's own mapping is in the form.
+    QVERIFY(setup.mapping().file().endsWith("xl330.mapping.json"));
+    QVERIFY(setup.mapping().isValid());
+    setup.findChild<QLineEdit*>("seed")->setText("-1");
+    QVERIFY(setup.problem().contains("-1 is not allowed"));
+  }
+
+  void progressIsReadFromTheProcess() {
+    QTemporaryDir folder;
+    const QString program = file(folder, "btr",
+                                 "#!/bin/sh\necho 'calibrating 0.25' >&2\necho 'screening effects 0.5' >&2\n"
+                                 "echo 'scene.json: is wrong' >&2\nexit 1\n");
+    QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    AnalysisProcess process(program);
+    QSignalSpy progressed(&process, &AnalysisProcess::progressed), failed(&process, &AnalysisProcess::failed);
+    process.start({"scene.json", {"a.csv"}, {}, {}, {}, "out", 0, 1});
+    QVERIFY(failed.wait(10000));
+    QCOMPARE(progressed.size(), 2);
+    QCOMPARE(progressed.at(1).at(0).toString(), QString("screening effects"));
+    QCOMPARE(progressed.at(1).at(1).toDouble(), 0.5);
+    QCOMPARE(failed.first().first().toString(), QString("scene.json: is wrong"));
+  }
+
+  void aFinishedAnalysisOpensItsReportAndACancelledOneDoesNot() {
+    QTemporaryDir folder;
+    writeReport(sampleReport(), folder.filePath("report").toStdString());
+    const QString program = file(folder, "btr", "#!/bin/sh\nexit 0\n");
+    QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    GapPage page(program);
+    QSignalSpy opened(&page, &GapPage::reportOpened);
+    page.process().start({"scene.json", {"a.csv"}, {}, {}, {}, folder.filePath("report"), 0, 1});
+    QVERIFY(opened.wait(10000));
+    QVERIFY(page.view().report() != nullptr);
+
+    file(folder, "btr", "#!/bin/sh\necho 'calibrating 0.1' >&2\nexec tail -f /dev/null\n");
+    QSignalSpy progressed(&page.process(), &AnalysisProcess::progressed);
+    QSignalSpy cancelled(&page.process(), &AnalysisProcess::cancelled);
+    page.process().start({"scene.json", {"a.csv"}, {}, {}, {}, folder.filePath("other"), 0, 1});
+    QVERIFY(progressed.wait(10000));
+    page.process().cancel();
+    QVERIFY(cancelled.wait(10000));
+    QCOMPARE(opened.size(), 1);
+  }
+
+  void aProgramThatIsNotThereIsAMessage() {
+    AnalysisProcess process("/no/such/program");
+    QSignalSpy failed(&process, &AnalysisProcess::failed);
+    process.start({"scene.json", {"a.csv"}, {}, {}, {}, "out", 0, 1});
+    if (failed.isEmpty()) QVERIFY(failed.wait(10000));
+    QVERIFY(failed.first().first().toString().contains("cannot be started"));
+  }
+};
+
+QTEST_MAIN(TestGapPage)
+#include "test_gap_page.moc"

@@ -1,0 +1,313 @@
+#include "ui/gap/analysis_setup.h"
+
+#include <QComboBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "core/gap/recording.h"
+#include "core/sim/scene.h"
+#include "core/spec/error.h"
+#include "ui/common/resources.h"
+#include "ui/common/theme.h"
+#include "ui/gap/mapping_form.h"
+
+namespace btr::ui {
+namespace {
+
+enum Column { file, heldOut, mapped };
+
+/// Channels that a recording of this scene may have.
+QStringList channelsOf(const SceneSpec& scene, const ModelSet& models) {
+  QStringList names{"time_s"};
+  for (const RobotSpec& robot : scene.robots) {
+    const QString owner = QString::fromStdString(robot.name) + '.';
+    const auto model = models.find(robot.model);
+    if (model == models.end()) continue;
+    for (const Joint& joint : model->second->joints) {
+      if (joint.type == Joint::Type::fixed) continue;
+      const QString of = owner + QString::fromStdString(joint.name) + '.';
+      const bool slide = joint.type == Joint::Type::slide;
+      for (const char* quantity : {"position", "command"}) names << of + quantity + (slide ? "_m" : "_rad");
+      names << of + (slide ? "velocity_m_s" : "velocity_rad_s") << of + (slide ? "force_n" : "torque_nm")
+            << of + "voltage_v" << of + "current_a" << of + "duty" << of + "enabled";
+    }
+    if (robot.base != "fixed")
+      for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"}) names << owner + "base." + quantity;
+  }
+  for (const BallSpec& ball : scene.balls)
+    for (const char* quantity : {"x_m", "y_m", "z_m"}) names << QString::fromStdString(ball.name) + '.' + quantity;
+  return names;
+}
+
+QWidget* withButton(QLineEdit* edit, QPushButton* button) {
+  auto* both = new QWidget(edit->parentWidget());
+  auto* row = new QHBoxLayout(both);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(edit, 1);
+  row->addWidget(button);
+  both->setFocusProxy(edit);
+  return both;
+}
+
+}  // namespace
+
+AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new MappingForm(this)) {
+  auto* splitter = new QSplitter(Qt::Vertical, this);
+  splitter->addWidget(makeInputs());
+  splitter->addWidget(mapping_);
+  splitter->setChildrenCollapsible(false);
+  splitter->setStretchFactor(0, 1);
+  splitter->setStretchFactor(1, 1);
+  problem_ = new QLabel(this);
+  problem_->setWordWrap(true);
+  problem_->setObjectName("setupProblem");
+  progress_ = new QProgressBar(this);
+  progress_->setTextVisible(true);
+  progress_->setAccessibleName(tr("Progress of the analysis"));
+  start_ = new QPushButton(themeIcon("media-playback-start"), tr("Start the &analysis"), this);
+  start_->setObjectName("startAnalysis");
+  cancel_ = new QPushButton(themeIcon("media-playback-stop"), tr("&Cancel"), this);
+  cancel_->setObjectName("cancelAnalysis");
+  connect(start_, &QPushButton::clicked, this, &AnalysisSetup::startRequested);
+  connect(cancel_, &QPushButton::clicked, this, &AnalysisSetup::cancelRequested);
+  auto* bar = new QHBoxLayout;
+  bar->setContentsMargins(8, 4, 8, 8);
+  bar->addWidget(problem_, 1);
+  bar->addWidget(progress_, 1);
+  bar->addWidget(cancel_);
+  bar->addWidget(start_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(splitter, 1);
+  layout->addLayout(bar);
+  connect(mapping_, &MappingForm::failed, this, &AnalysisSetup::failed);
+  connect(mapping_, &MappingForm::saved, this, [this] { refresh(); });
+  setRunning(false);
+}
+
+QWidget* AnalysisSetup::makeInputs() {
+  auto* inputs = new QWidget(this);
+  scene_ = new QLineEdit(inputs);
+  scene_->setObjectName("scene");
+  scene_->setPlaceholderText(tr("The simulated world: SCENE.json with the numbers that may be calibrated"));
+  out_ = new QLineEdit(inputs);
+  out_->setObjectName("out");
+  out_->setPlaceholderText(tr("Folder for the report"));
+  seed_ = new QLineEdit("1", inputs);
+  seed_->setObjectName("seed");
+  seed_->setToolTip(tr("Same seed, same report"));
+  simulator_ = new QComboBox(inputs);
+  simulator_->setObjectName("simulator");
+  simulator_->setToolTip(tr("The simulator that is compared with the recordings"));
+  setSimulators({}, {});
+  recordings_ = new QTableWidget(0, 3, inputs);
+  recordings_->setObjectName("recordings");
+  recordings_->setAccessibleName(tr("Recordings"));
+  recordings_->setHorizontalHeaderLabels({tr("Recording"), tr("Held out"), tr("Mapping")});
+  recordings_->horizontalHeaderItem(heldOut)->setToolTip(tr("Never used in a fit: scores the result at the end"));
+  recordings_->verticalHeader()->hide();
+  recordings_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
+  recordings_->horizontalHeader()->setSectionResizeMode(file, QHeaderView::Stretch);
+  recordings_->horizontalHeader()->setSectionResizeMode(mapped, QHeaderView::ResizeToContents);
+  recordings_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  recordings_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  recordings_->setShowGrid(false);
+  recordings_->setAlternatingRowColors(true);
+
+  const auto button = [&](const char* icon, const QString& text, auto slot) {
+    auto* made = new QPushButton(themeIcon(icon), text, inputs);
+    connect(made, &QPushButton::clicked, this, slot);
+    return made;
+  };
+  auto* addButton = button("list-add", tr("Add &recordings…"), [this] { chooseRecordings(); });
+  auto* removeButton = button("list-remove", tr("Re&move"), [this] { removeRecording(); });
+  auto* storedButton = button("server-database", tr("From the data&base…"), [this] { emit storedRequested(); });
+  storedButton->setToolTip(tr("Recordings that are kept with the selected run's experiment"));
+  auto* keepButton =
+      button("document-save", tr("&Keep in the database"), [this] { emit keepRequested(files(false) + files(true)); });
+  keepButton->setToolTip(tr("Stores the files with their mappings and SHA-256; the same file is kept once"));
+  auto* form = new QFormLayout(inputs);
+  form->setContentsMargins(8, 8, 8, 4);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  form->addRow(tr("Sc&ene"), withButton(scene_, button("document-open", tr("Open…"), [this] { chooseScene(); })));
+  auto* buttons = new QVBoxLayout;
+  buttons->addWidget(addButton);
+  buttons->addWidget(removeButton);
+  buttons->addWidget(storedButton);
+  buttons->addWidget(keepButton);
+  buttons->addStretch(1);
+  auto* row = new QHBoxLayout;
+  row->addWidget(recordings_, 1);
+  row->addLayout(buttons);
+  form->addRow(tr("Recordings"), row);
+  form->addRow(tr("Simu&lator"), simulator_);
+  form->addRow(tr("Re&port in"), withButton(out_, button("folder-new", tr("Choose…"), [this] {
+                                              const QString chosen = QFileDialog::getExistingDirectory(
+                                                  this, tr("Folder for the report"), out_->text());
+                                              if (!chosen.isEmpty()) out_->setText(chosen);
+                                            })));
+  form->addRow(tr("See&d"), seed_);
+  connect(scene_, &QLineEdit::editingFinished, this, &AnalysisSetup::readScene);
+  for (QLineEdit* edit : {scene_, out_, seed_}) connect(edit, &QLineEdit::textChanged, this, [this] { refresh(); });
+  connect(recordings_, &QTableWidget::currentCellChanged, this, [this](int now, int, int before, int) {
+    if (now != before) openMapping();
+  });
+  return inputs;
+}
+
+void AnalysisSetup::setScene(const QString& path) {
+  scene_->setText(path);
+  readScene();
+}
+
+QString AnalysisSetup::scene() const { return scene_->text().trimmed(); }
+
+void AnalysisSetup::chooseScene() {
+  const QString start = scene().isEmpty() ? resourceDirectory() + "/scenes" : scene();
+  const QString chosen = QFileDialog::getOpenFileName(this, tr("Scene"), start, tr("Scenes (*.json);;All files (*)"));
+  if (!chosen.isEmpty()) setScene(chosen);
+}
+
+// The form offers the scene's own channels; a scene that cannot be read is said at once.
+void AnalysisSetup::readScene() {
+  if (scene().isEmpty()) return;
+  try {
+    const SceneSpec spec = loadScene(scene().toStdString());
+    mapping_->setChannels(channelsOf(spec, loadModels(spec)));
+    emit sceneChanged(scene());
+  } catch (const std::exception& error) {
+    emit failed(QString::fromUtf8(error.what()));
+  }
+  refresh();
+}
+
+void AnalysisSetup::chooseRecordings() {
+  addRecordings(QFileDialog::getOpenFileNames(this, tr("Recordings"), QFileInfo(scene()).path(),
+                                              tr("Recordings (*.csv);;All files (*)")));
+}
+
+void AnalysisSetup::addRecordings(const QStringList& paths) {
+  for (const QString& path : paths) {
+    if (files(true).contains(path) || files(false).contains(path)) continue;
+    const int row = recordings_->rowCount();
+    recordings_->insertRow(row);
+    auto* name = new QTableWidgetItem(QFileInfo(path).fileName());
+    name->setData(Qt::UserRole, path);
+    name->setToolTip(path);
+    recordings_->setItem(row, file, name);
+    auto* check = new QTableWidgetItem;
+    check->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+    check->setCheckState(Qt::Unchecked);
+    recordings_->setItem(row, heldOut, check);
+    recordings_->setItem(row, mapped, new QTableWidgetItem);
+  }
+  if (recordings_->currentRow() < 0 && recordings_->rowCount() > 0) recordings_->setCurrentCell(0, file);
+  if (out_->text().isEmpty() && recordings_->rowCount() > 0)
+    out_->setText(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).path() + "/gap-report");
+  refresh();
+}
+
+void AnalysisSetup::removeRecording() {
+  if (recordings_->currentRow() >= 0) recordings_->removeRow(recordings_->currentRow());
+  refresh();
+}
+
+void AnalysisSetup::setHeldOut(int row, bool on) {
+  recordings_->item(row, heldOut)->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+}
+
+void AnalysisSetup::setSimulators(const QStringList& names, const QStringList& paths) {
+  const QString before = simulator_->currentText();
+  simulator_->clear();
+  simulator_->addItem(tr("the scene as given"), QString());
+  for (qsizetype i = 0; i < std::min(names.size(), paths.size()); ++i) simulator_->addItem(names[i], paths[i]);
+  simulator_->setCurrentIndex(std::max(0, simulator_->findText(before)));
+}
+
+QStringList AnalysisSetup::files(bool held) const {
+  QStringList all;
+  for (int row = 0; row < recordings_->rowCount(); ++row)
+    if ((recordings_->item(row, heldOut)->checkState() == Qt::Checked) == held)
+      all << recordings_->item(row, file)->data(Qt::UserRole).toString();
+  return all;
+}
+
+AnalysisJob AnalysisSetup::job() const {
+  AnalysisJob job;
+  job.scene = scene();
+  job.recordings = files(false);
+  job.heldOut = files(true);
+  job.simulator = simulator_->currentData().toString();
+  job.out = out_->text().trimmed();
+  job.seed = seed_->text().trimmed().toULongLong();
+  return job;
+}
+
+QString AnalysisSetup::problem() const {
+  bool isSeed = false;
+  seed_->text().trimmed().toULongLong(&isSeed);
+  if (scene().isEmpty()) return tr("Choose the scene.");
+  if (!QFileInfo(scene()).isFile()) return tr("There is no scene %1.").arg(scene());
+  if (files(false).isEmpty()) return tr("Add at least one recording that is not held out.");
+  if (out_->text().trimmed().isEmpty()) return tr("Choose the report's folder.");
+  if (!isSeed) return tr("Seed: %1 is not allowed; a whole number from 0").arg(seed_->text());
+  if (!mapping_->recording().isEmpty() && mapping_->isChanged())
+    return tr("The mapping has changes that are not saved.");
+  return {};
+}
+
+void AnalysisSetup::openMapping() {
+  const int row = recordings_->currentRow();
+  if (row < 0 || !recordings_->item(row, file)) return;
+  const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
+  if (mapping_->recording() == path || (mapping_->isChanged() && !mapping_->recording().isEmpty())) return;
+  try {
+    // A mapping beside the scene is for all recordings that have none of their own.
+    QString beside = QString::fromStdString(findMapping(path.toStdString()).value_or(""));
+    const QString ofScene = QFileInfo(scene()).path() + '/' + QFileInfo(scene()).completeBaseName() + ".mapping.json";
+    if (beside.isEmpty() && !scene().isEmpty() && QFileInfo::exists(ofScene)) beside = ofScene;
+    mapping_->open(path, beside);
+  } catch (const std::exception& error) {
+    emit failed(QString::fromUtf8(error.what()));
+  }
+}
+
+void AnalysisSetup::showProgress(const QString& stage, double share) {
+  progress_->setRange(0, share < 0 ? 0 : 1000);
+  progress_->setValue(int(share * 1000));
+  progress_->setFormat(tr("%1 · %p %").arg(QString(stage).replace('%', "%%")));
+}
+
+void AnalysisSetup::setRunning(bool running) {
+  running_ = running;
+  progress_->setVisible(running);
+  cancel_->setEnabled(running);
+  cancel_->setVisible(running);
+  if (running) showProgress(tr("starting"), 0);
+  refresh();
+}
+
+void AnalysisSetup::refresh() {
+  for (int row = 0; row < recordings_->rowCount(); ++row) {
+    const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
+    const auto found = findMapping(path.toStdString());
+    recordings_->item(row, mapped)
+        ->setText(found ? QFileInfo(QString::fromStdString(*found)).fileName() : tr("none beside it"));
+  }
+  const QString missing = problem();
+  problem_->setText(missing);
+  problem_->setVisible(!running_);
+  start_->setEnabled(!running_ && missing.isEmpty());
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,69 @@
+#pragma once
+#include <QWidget>
+
+#include "ui/gap/analysis_process.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QPushButton;
+class QTableWidget;
+
+namespace btr::ui {
+class MappingForm;
+
+/// What is to be analysed: scene, recordings (training or held out) with their mappings, simulator, folder of the
+/// report. Starts nothing itself.
+class AnalysisSetup : public QWidget {
+  Q_OBJECT
+ public:
+  explicit AnalysisSetup(QWidget* parent = nullptr);
+
+  void setScene(const QString& path);
+  QString scene() const;
+  /// Files that are there already are not added twice.
+  void addRecordings(const QStringList& paths);
+  void removeRecording();
+  void setHeldOut(int row, bool heldOut);
+  /// A simulator to start from, by a name for people: versions of the selected run, or a file.
+  void setSimulators(const QStringList& names, const QStringList& files);
+
+  AnalysisJob job() const;
+  /// What is missing before it can be started; empty if nothing is.
+  QString problem() const;
+  void showProgress(const QString& stage, double share);
+  void setRunning(bool running);
+
+  MappingForm& mapping() { return *mapping_; }
+  QTableWidget& recordings() { return *recordings_; }
+
+ signals:
+  void startRequested();
+  void cancelRequested();
+  void failed(const QString& message);
+  void sceneChanged(const QString& path);
+  /// Recordings of the database are wanted; these files are to be kept in it.
+  void storedRequested();
+  void keepRequested(const QStringList& files);
+
+ private:
+  QWidget* makeInputs();
+  void chooseScene();
+  void chooseRecordings();
+  void readScene();
+  void openMapping();
+  void refresh();
+  QStringList files(bool heldOut) const;
+
+  QLineEdit *scene_, *out_, *seed_;
+  QComboBox* simulator_;
+  QTableWidget* recordings_;
+  MappingForm* mapping_;
+  QLabel* problem_;
+  QProgressBar* progress_;
+  QPushButton *start_, *cancel_;
+  bool running_ = false;
+};
+
+}  // namespace btr::ui

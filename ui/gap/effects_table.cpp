@@ -1,0 +1,121 @@
+#include "ui/gap/effects_table.h"
+
+#include <QHeaderView>
+
+#include "core/gap/report_figures.h"
+#include "ui/common/theme.h"
+
+namespace btr::ui {
+namespace {
+
+QString word(const std::string& text) { return QString::fromStdString(text); }
+
+void prepare(QTableWidget& table, const QStringList& headers) {
+  table.setColumnCount(int(headers.size()));
+  table.setHorizontalHeaderLabels(headers);
+  table.verticalHeader()->hide();
+  table.setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table.setSelectionBehavior(QAbstractItemView::SelectRows);
+  table.setSelectionMode(QAbstractItemView::SingleSelection);
+  table.setShowGrid(false);
+  table.setAlternatingRowColors(true);
+  table.setFrameShape(QFrame::NoFrame);
+  table.setWordWrap(false);
+  table.verticalHeader()->setDefaultSectionSize(table.fontMetrics().height() + 8);
+  table.horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table.horizontalHeader()->setHighlightSections(false);
+  table.horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+}
+
+QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& text, bool number = false) {
+  auto* item = new QTableWidgetItem(text);
+  if (number) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  item->setToolTip(text);
+  table.setItem(row, column, item);
+  return item;
+}
+
+QString numberText(const GapReport::Number& n) {
+  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + brief(n.ci95)) +
+         (n.atBound ? EffectsTable::tr(", at its bound") : QString()) +
+         (n.excited ? QString() : EffectsTable::tr(", not excited"));
+}
+
+}  // namespace
+
+EffectsTable::EffectsTable(QWidget* parent) : QTableWidget(parent) {
+  setAccessibleName(tr("Effects that were tried"));
+  setObjectName("effects");
+  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Parameters [95 %]"), tr("Held-out gain"), tr("p"),
+                  tr("Cannot be told from"), tr("Screening"), tr("Reason")});
+  horizontalHeaderItem(gain)->setToolTip(tr("1 − error with it / error without, on data that no fit has seen"));
+  horizontalHeaderItem(pValue)->setToolTip(tr("Paired test on the held-out error"));
+  horizontalHeaderItem(rank)->setToolTip(
+      tr("Rank in the screening, and the share of the excess error that its "
+         "sensitivity explains beyond the calibration"));
+  horizontalHeader()->setStretchLastSection(true);
+}
+
+void EffectsTable::setReport(const GapReport& report) {
+  setRowCount(0);
+  setRowCount(int(report.tried.size()));
+  const Tones tones = tonesOf(palette());
+  for (int row = 0; row < rowCount(); ++row) {
+    const GapReport::Effect& e = report.tried[std::size_t(row)];
+    put(*this, row, effect, word(inWords(e.effect)));
+    put(*this, row, at, word(e.at));
+    put(*this, row, verdict, e.accepted ? tr("accepted") : tr("rejected"));
+    QStringList numbers, others;
+    for (const GapReport::Number& n : e.parameters) numbers << numberText(n);
+    for (const GapReport::Rival& r : e.rivals)
+      others << tr("%1 at %2 (error × %3)").arg(word(inWords(r.effect)), word(r.at), word(brief(r.heldoutErrorRatio)));
+    put(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));
+    put(*this, row, gain, word(percent(e.heldoutErrorReduction)), true);
+    put(*this, row, pValue, word(brief(e.pValue)), true);
+    put(*this, row, rivals, others.join("; "));
+    put(*this, row, rank,
+        e.screenRank > 0 ? tr("%1 (%2)").arg(e.screenRank).arg(word(percent(e.screenShare))) : tr("–"), true);
+    put(*this, row, reason, word(e.reason));
+    for (int column = 0; column < columns; ++column) {
+      QTableWidgetItem* cell = item(row, column);
+      QFont font = cell->font();
+      font.setBold(e.accepted && column <= verdict);
+      cell->setFont(font);
+      if (!e.accepted) cell->setForeground(tones.muted);
+      if (e.accepted && column == verdict) cell->setForeground(tones.good);
+    }
+  }
+  // Long lists of numbers do not push the reason out of sight.
+  resizeColumnsToContents();
+  for (const int wide : {int(parameters), int(rivals)})
+    if (columnWidth(wide) > 280) {
+      horizontalHeader()->setSectionResizeMode(wide, QHeaderView::Interactive);
+      setColumnWidth(wide, 280);
+    }
+}
+
+CalibratedTable::CalibratedTable(QWidget* parent) : QTableWidget(parent) {
+  setAccessibleName(tr("Calibrated numbers"));
+  setObjectName("calibrated");
+  prepare(*this, {tr("Number"), tr("As given"), tr("Fitted"), tr("95 % interval"), tr("Unit"), tr("Remark")});
+  horizontalHeader()->setStretchLastSection(true);
+}
+
+void CalibratedTable::setReport(const GapReport& report) {
+  setRowCount(0);
+  setRowCount(int(report.calibrated.size()));
+  for (int row = 0; row < rowCount(); ++row) {
+    const GapReport::Number& n = report.calibrated[std::size_t(row)];
+    put(*this, row, name, word(n.name));
+    put(*this, row, before, word(brief(n.before)), true);
+    put(*this, row, after, word(brief(n.value)), true);
+    put(*this, row, interval, word(brief(n.ci95)), true);
+    put(*this, row, unit, word(n.unit));
+    put(*this, row, remark,
+        !n.excited  ? tr("the recordings do not tell it")
+        : n.atBound ? tr("at its bound")
+                    : QString());
+  }
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,26 @@
+#pragma once
+#include <QTableWidget>
+
+#include "core/gap/gap_report.h"
+
+namespace btr::ui {
+
+/// Every effect that was tried: accepted ones first and bold, rejected ones with the reason.
+class EffectsTable : public QTableWidget {
+  Q_OBJECT
+ public:
+  enum Column { effect, at, verdict, parameters, gain, pValue, rivals, rank, reason, columns };
+  explicit EffectsTable(QWidget* parent = nullptr);
+  void setReport(const GapReport& report);
+};
+
+/// The calibrated numbers: as given, fitted, interval, remark.
+class CalibratedTable : public QTableWidget {
+  Q_OBJECT
+ public:
+  enum Column { name, before, after, interval, unit, remark, columns };
+  explicit CalibratedTable(QWidget* parent = nullptr);
+  void setReport(const GapReport& report);
+};
+
+}  // namespace btr::ui

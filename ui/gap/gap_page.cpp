@@ -1,0 +1,166 @@
+#include "ui/gap/gap_page.h"
+
+#include <QAction>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QTabWidget>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+#include "core/gap/report_text.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "ui/common/theme.h"
+#include "ui/gap/analysis_setup.h"
+#include "ui/gap/report_view.h"
+
+namespace btr::ui {
+
+GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), process_(program) {
+  setup_ = new AnalysisSetup(this);
+  view_ = new ReportView(this);
+  run_ = new QLabel(this);
+  run_->setObjectName("adoptInto");
+  run_->setContentsMargins(8, 0, 8, 0);
+  run_->setTextFormat(Qt::PlainText);
+  tabs_ = new QTabWidget(this);
+  tabs_->setObjectName("gapTabs");
+  tabs_->addTab(setup_, tr("Anal&ysis"));
+  tabs_->addTab(view_, tr("Repor&t"));
+  makeActions();
+
+  auto* bar = new QToolBar(this);
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  bar->setIconSize({18, 18});
+  bar->addActions({open_, export_});
+  bar->addSeparator();
+  bar->addActions({adopt_, revert_});
+  bar->addWidget(run_);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(0);
+  layout->addWidget(bar);
+  layout->addWidget(tabs_, 1);
+
+  connect(setup_, &AnalysisSetup::startRequested, this, &GapPage::start);
+  connect(setup_, &AnalysisSetup::cancelRequested, &process_, &AnalysisProcess::cancel);
+  connect(setup_, &AnalysisSetup::failed, this, &GapPage::failed);
+  connect(&process_, &AnalysisProcess::started, this, [this] { setup_->setRunning(true); });
+  connect(&process_, &AnalysisProcess::progressed, setup_, &AnalysisSetup::showProgress);
+  connect(&process_, &AnalysisProcess::finished, this, [this](const QString& folder) {
+    setup_->setRunning(false);
+    openReport(folder);
+  });
+  connect(&process_, &AnalysisProcess::cancelled, this, [this] {
+    setup_->setRunning(false);
+    emit informed(tr("The analysis was cancelled; nothing was written."));
+  });
+  connect(&process_, &AnalysisProcess::failed, this, [this](const QString& message) {
+    setup_->setRunning(process_.isRunning());
+    emit failed(message);
+  });
+  connect(view_, &ReportView::timeChosen, this, &GapPage::timeChosen);
+  connect(view_, &ReportView::saveNextRequested, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save the commands"), folder_ + "/next_command.csv",
+                                                      tr("Tables (*.csv)"));
+    if (!file.isEmpty()) saveNext(file);
+  });
+  refresh();
+}
+
+void GapPage::makeActions() {
+  open_ = new QAction(themeIcon("document-open"), tr("Open report…"), this);
+  open_->setToolTip(tr("The folder of a report that is there already"));
+  export_ = new QAction(themeIcon("document-export"), tr("Export…"), this);
+  export_->setToolTip(tr("One page with everything (.html), or its numbers (.json)"));
+  adopt_ = new QAction(themeIcon("dialog-ok-apply"), tr("Adopt"), this);
+  adopt_->setObjectName("adopt");
+  revert_ = new QAction(themeIcon("edit-undo"), tr("Revert"), this);
+  revert_->setObjectName("revert");
+  connect(open_, &QAction::triggered, this, [this] {
+    const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder of a gap report"), folder_);
+    if (!chosen.isEmpty()) openReport(chosen);
+  });
+  connect(export_, &QAction::triggered, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(this, tr("Export the report"), folder_ + "/../gap-report.html",
+                                                      tr("Page (*.html);;Numbers (*.json)"));
+    if (!file.isEmpty()) exportTo(file);
+  });
+  connect(adopt_, &QAction::triggered, this,
+          [this] { emit adoptRequested(QDir(folder_).filePath("simulator.json"), folder_); });
+  connect(revert_, &QAction::triggered, this, &GapPage::revertRequested);
+}
+
+void GapPage::start() {
+  if (const QString missing = setup_->problem(); !missing.isEmpty()) return emit failed(missing);
+  process_.start(setup_->job());
+}
+
+bool GapPage::openReport(const QString& folder) {
+  try {
+    auto report = std::make_shared<const GapReport>(loadReport(folder.toStdString()));
+    folder_ = QDir(folder).absolutePath();
+    view_->setReport(std::move(report));
+  } catch (const std::exception& error) {
+    emit failed(QString::fromUtf8(error.what()));
+    return false;
+  }
+  tabs_->setCurrentWidget(view_);
+  refresh();
+  emit reportOpened(folder_);
+  return true;
+}
+
+void GapPage::setRun(const QString& name, const std::vector<SimulatorRecord>& versions, const QString& why) {
+  versions_ = int(versions.size());
+  blocked_ = name.isEmpty() ? tr("Select a run first.") : why;
+  run_->setText(name.isEmpty()     ? QString()
+                : versions.empty() ? name
+                                   : tr("%1, simulator version %2").arg(name).arg(versions.back().number));
+  refresh();
+}
+
+void GapPage::refresh() {
+  const bool open = view_->report() != nullptr;
+  export_->setEnabled(open);
+  adopt_->setEnabled(open && blocked_.isEmpty() && versions_ > 0);
+  revert_->setEnabled(blocked_.isEmpty() && versions_ > 1);
+  adopt_->setToolTip(
+      !open ? tr("Open a report first.")
+      : blocked_.isEmpty()
+          ? tr("The run goes on with the repaired simulator, as a new version; nothing is changed or deleted")
+          : blocked_);
+  revert_->setToolTip(!blocked_.isEmpty() ? blocked_
+                      : versions_ > 1 ? tr("The run goes on with the version before the newest one, as a new version")
+                                      : tr("The run has its first simulator still."));
+}
+
+bool GapPage::exportTo(const QString& file) {
+  if (!view_->report()) return false;
+  try {
+    const bool page = QFileInfo(file).suffix().toLower() != "json";
+    writeFile(file.toStdString(), page ? toHtml(*view_->report()) : toJsonText(*view_->report()));
+  } catch (const std::exception& error) {
+    emit failed(QString::fromUtf8(error.what()));
+    return false;
+  }
+  emit informed(tr("Written: %1").arg(file));
+  return true;
+}
+
+bool GapPage::saveNext(const QString& file) {
+  if (!view_->report() || view_->report()->next.columns.empty()) return false;
+  try {
+    const GapReport::NextRecording& next = view_->report()->next;
+    writeFile(file.toStdString(), toCsv(NumberTable{next.channels, next.columns}));
+  } catch (const std::exception& error) {
+    emit failed(QString::fromUtf8(error.what()));
+    return false;
+  }
+  emit informed(tr("Written: %1").arg(file));
+  return true;
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,150 @@
+#include "ui/gap/mapping_draft.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "core/gap/recording.h"
+#include "core/spec/csv.h"
+#include "core/spec/error.h"
+
+namespace btr::ui {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+QString tr(const char* text) { return QCoreApplication::translate("MappingForm", text); }
+
+bool isSpecial(const std::string& key) { return key == "settings" || key == "segments"; }
+
+bool isTime(const QString& column) {
+  const QString name = column.toLower();
+  for (const char* known : {"time_s", "time", "t", "timestamp", "t_s", "seconds", "t_ms", "time_ms"})
+    if (name == known) return true;
+  return false;
+}
+
+}  // namespace
+
+MappingDraft MappingDraft::guess(const QStringList& columns) {
+  MappingDraft draft;
+  bool hasTime = false;
+  for (const QString& column : columns) {
+    if (!hasTime && isTime(column)) {
+      draft.rows.insert(draft.rows.begin(), {"time_s", column, column.endsWith("_ms") ? "0.001" : "1", "0", false});
+      hasTime = true;
+    } else if (parseChannel(column.toStdString())) {
+      draft.rows.push_back({column, column, "1", "0", false});
+    }
+  }
+  if (!hasTime) draft.rows.insert(draft.rows.begin(), {"time_s", "", "1", "0", false});
+  return draft;
+}
+
+MappingDraft MappingDraft::fromJson(const std::string& text, const std::string& place) {
+  mappingFromJson(text, place);  // the program's own reader judges it
+  MappingDraft draft;
+  draft.base = text;
+  const auto document = json::parse(text);
+  for (const auto& [channel, entry] : document.items()) {
+    if (isSpecial(channel)) continue;
+    const double scale = entry.value("scale", 1.0);
+    draft.rows.push_back({QString::fromStdString(channel), QString::fromStdString(entry.value("column", std::string())),
+                          QString::fromStdString(toText(std::abs(scale))),
+                          QString::fromStdString(toText(entry.value("offset", 0.0))), scale < 0});
+  }
+  return draft;
+}
+
+std::string MappingDraft::toJson() const {
+  const auto old = json::parse(base);
+  json document = json::object();
+  for (const MappingRow& row : rows) {
+    const std::string channel = row.channel.trimmed().toStdString();
+    json entry = old.contains(channel) ? old.at(channel) : json::object();
+    entry["column"] = row.column.toStdString();
+    entry["scale"] = (row.flipped ? -1 : 1) * toNumber(row.scale.trimmed().toStdString()).value_or(1);
+    entry["offset"] = toNumber(row.offset.trimmed().toStdString()).value_or(0);
+    document[channel] = entry;
+  }
+  for (const auto& [key, value] : old.items())
+    if (isSpecial(key)) document[key] = value;
+  return document.dump(2) + "\n";
+}
+
+MappingProblems problemsOf(const MappingDraft& draft, const QStringList& columns) {
+  MappingProblems problems;
+  std::set<QString> taken;
+  bool hasTime = false;
+  for (int i = 0; i < int(draft.rows.size()); ++i) {
+    const MappingRow& row = draft.rows[std::size_t(i)];
+    const QString channel = row.channel.trimmed();
+    const auto wrong = [&](MappingField field, const QString& text) { problems[{i, field}] = text; };
+    hasTime = hasTime || channel == "time_s";
+    if (channel.isEmpty())
+      wrong(MappingField::channel, tr("A channel is needed, for example leg.knee.position_rad"));
+    else if (channel != "time_s" && !parseChannel(channel.toStdString()))
+      wrong(MappingField::channel,
+            tr("%1 is not allowed; time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY").arg(channel));
+    else if (!taken.insert(channel).second)
+      wrong(MappingField::channel, tr("%1 is there twice").arg(channel));
+    if (!columns.contains(row.column))
+      wrong(MappingField::column,
+            row.column.isEmpty() ? tr("Choose a column of the file") : tr("The file has no column %1").arg(row.column));
+    const auto scale = toNumber(row.scale.trimmed().toStdString()),
+               offset = toNumber(row.offset.trimmed().toStdString());
+    if (!scale || *scale <= 0 || *scale > 1e12)
+      wrong(MappingField::scale, tr("%1 is not allowed; a number above 0 (Flip turns the sign)").arg(row.scale));
+    else if (channel == "time_s" && row.flipped)
+      wrong(MappingField::scale, tr("Time cannot run backwards: Flip is not allowed here"));
+    if (!offset || std::abs(*offset) > 1e12)
+      wrong(MappingField::offset, tr("%1 is not allowed; a number in the channel's unit").arg(row.offset));
+  }
+  if (!hasTime) problems[{-1, MappingField::channel}] = tr("time_s is missing: it names the column of time");
+  return problems;
+}
+
+std::vector<std::pair<QString, double>> unitsFor(const QString& channel) {
+  using std::numbers::pi;
+  const auto ends = [&](const char* ending) { return channel.endsWith(QLatin1String(ending)); };
+  if (channel == "time_s") return {{"s", 1}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}};
+  if (ends("_rad_s")) return {{"rad/s", 1}, {"deg/s", pi / 180}, {"rev/min", pi / 30}, {"mrad/s", 1e-3}};
+  if (ends("_rad"))
+    return {{"rad", 1}, {"deg", pi / 180}, {"mrad", 1e-3}, {"turns", 2 * pi}, {"4096 steps", pi / 2048}};
+  if (ends("_m_s")) return {{"m/s", 1}, {"cm/s", 1e-2}, {"mm/s", 1e-3}};
+  if (ends("_nm")) return {{"N·m", 1}, {"mN·m", 1e-3}, {"kgf·cm", 0.0980665}};
+  if (ends("_m")) return {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
+  if (ends("_n")) return {{"N", 1}, {"mN", 1e-3}};
+  if (ends("_v")) return {{"V", 1}, {"mV", 1e-3}};
+  if (ends("_a")) return {{"A", 1}, {"mA", 1e-3}};
+  if (ends("duty")) return {{"1", 1}, {"%", 1e-2}};
+  return {{"1", 1}};
+}
+
+CsvPreview previewCsv(const QString& path) {
+  std::ifstream stream(path.toStdString(), std::ios::binary);
+  if (!stream) throw InputError(path.toStdString() + ": cannot be read");
+  CsvReader reader(stream, path.toStdString(), ',',
+                   {.bytes = std::size_t{1} << 30, .fieldBytes = 4096, .fields = 10'000});
+  std::vector<std::string> cells;
+  if (!reader.next(cells)) throw InputError(path.toStdString() + ": is empty; a header line is expected");
+  CsvPreview preview;
+  for (const std::string& cell : cells) preview.columns << QString::fromStdString(cell).trimmed();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  preview.ranges.assign(cells.size(), {none, none});
+  for (int row = 0; row < 5000 && reader.next(cells); ++row)
+    for (std::size_t i = 0; i < std::min(cells.size(), preview.ranges.size()); ++i)
+      if (const auto number = toNumber(cells[i])) {
+        auto& [low, high] = preview.ranges[i];
+        low = std::isnan(low) ? *number : std::min(low, *number);
+        high = std::isnan(high) ? *number : std::max(high, *number);
+      }
+  return preview;
+}
+
+}  // namespace btr::ui

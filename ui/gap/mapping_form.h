@@ -1,0 +1,63 @@
+#pragma once
+#include <QUndoStack>
+#include <QWidget>
+
+#include "ui/gap/mapping_draft.h"
+
+class QLabel;
+class QPushButton;
+class QTableWidget;
+
+namespace btr::ui {
+
+/// Which column of a recording is which channel: a line a channel with column, unit, scale, sign, offset, and the range
+/// that comes out. What is not allowed is marked and said; every change can be undone. Saved beside the data as
+/// NAME.mapping.json.
+class MappingForm : public QWidget {
+  Q_OBJECT
+ public:
+  enum Column { channel, column, unit, scale, flip, offset, range, columns };
+  explicit MappingForm(QWidget* parent = nullptr);
+
+  /// Opens a recording with its mapping: `mapping`, else the one beside it, else a guess from its column names. Throws
+  /// InputError and keeps what was there.
+  void open(const QString& recording, const QString& mapping = {});
+  /// Names that the scene has, offered in the channel's field.
+  void setChannels(const QStringList& channels);
+
+  const MappingDraft& draft() const { return draft_; }
+  MappingProblems problems() const { return problemsOf(draft_, preview_.columns); }
+  bool isValid() const { return problems().empty(); }
+  QString recording() const { return recording_; }
+  /// NAME.mapping.json beside the recording, or the file that was given.
+  QString file() const { return file_; }
+  bool isChanged() const { return !undo_.isClean(); }
+  /// Throws InputError if something is not allowed or the file cannot be written.
+  void save();
+
+  QTableWidget& table() { return *table_; }
+  QUndoStack& undoStack() { return undo_; }
+  void addRow();
+  void removeRow();
+
+ signals:
+  void saved(const QString& file);
+  void failed(const QString& message);
+
+ private:
+  void change(const QString& text, MappingDraft next);
+  void show();
+  void readCell(int row, int column);
+
+  MappingDraft draft_;
+  CsvPreview preview_;
+  QString recording_, file_;
+  QStringList channels_;
+  QUndoStack undo_;
+  bool showing_ = false;
+  QTableWidget* table_;
+  QLabel *title_, *problem_;
+  QPushButton *add_, *remove_, *save_;
+};
+
+}  // namespace btr::ui

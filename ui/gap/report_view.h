@@ -1,0 +1,67 @@
+#pragma once
+#include <QWidget>
+#include <memory>
+
+#include "core/gap/gap_report.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QTabWidget;
+
+namespace btr::ui {
+class CalibratedTable;
+class EffectsTable;
+class HeatMap;
+class PlotWidget;
+
+/// A gap report to look through: verdict, map of the error with the overlay of the chosen channel, error step by step,
+/// regimes, effects tried, calibrated numbers, remainder, next recording.
+class ReportView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ReportView(QWidget* parent = nullptr);
+
+  /// Null empties it.
+  void setReport(std::shared_ptr<const GapReport> report);
+  const std::shared_ptr<const GapReport>& report() const { return report_; }
+
+  HeatMap& map() { return *map_; }
+  PlotWidget& overlay() { return *overlay_; }
+  PlotWidget& ladder() { return *ladder_; }
+  PlotWidget& regimes() { return *regimes_; }
+  PlotWidget& remainder() { return *remainder_; }
+  PlotWidget& next() { return *next_; }
+  EffectsTable& effects() { return *effects_; }
+  QTabWidget& tabs() { return *tabs_; }
+  std::optional<double> cursor() const { return cursor_; }
+
+ signals:
+  /// A place in a trial was chosen: other views may go there.
+  void timeChosen(std::size_t trial, double time_s);
+  void saveNextRequested();
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  QWidget* makeWhere();
+  QWidget* makeRegimes();
+  QWidget* makeNext();
+  void showVerdict();
+  void showChannel(std::size_t trial, std::size_t series, std::optional<double> time_s);
+  void fillChoices();
+
+  std::shared_ptr<const GapReport> report_;
+  std::optional<double> cursor_;
+  QLabel *headline_, *sentence_, *notes_, *remainderText_, *nextText_;
+  QTabWidget* tabs_;
+  QComboBox *which_, *channel_, *located_;
+  HeatMap* map_;
+  PlotWidget *overlay_, *error_, *ladder_, *regimes_, *remainder_, *next_;
+  EffectsTable* effects_;
+  CalibratedTable* calibrated_;
+  QPushButton* saveNext_;
+};
+
+}  // namespace btr::ui

@@ -101,11 +101,14 @@ std::vector<double> plainResiduals(const FitProblem& problem) {
 /// A step that is coarser than the scene's where the integration's own error stays far below the noise: fits take
 /// hundreds of replays.
 void chooseStep(FitProblem& problem) {
-  constexpr double harmless = 0.1;  // noise floors
+  constexpr double leastHarmless = 0.1, ofError = 0.01;  // noise floors; of the error that there is to explain
   const double asGiven = problem.scene.step_s;
   const std::vector<double>& time = problem.trials[0].recording.columns[0];
   const double sample = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const std::vector<double> fine = plainResiduals(problem);
+  double error = 0;
+  for (const double residual : fine) error += residual * residual / static_cast<double>(fine.size());
+  const double harmless = std::max(leastHarmless, ofError * std::sqrt(error));
   for (const double factor : {8.0, 4.0, 2.0}) {
     if (factor * asGiven > 1.01 * std::max(sample, asGiven)) continue;
     problem.scene.step_s = factor * asGiven;

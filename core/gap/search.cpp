@@ -14,6 +14,7 @@ namespace {
 constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 constexpr double unexplainedExcess = 0.3;  // mean squared error above 1 at which pairs are tried
 constexpr std::size_t candidatesToFit = 8, candidatesInPairs = 4;  // half of them are fitted to the end and scored
+constexpr int firstIterations = 4, lastIterations = 15;
 
 std::vector<double> packed(const Fit& fit) {
   std::vector<double> numbers{fit.cost};
@@ -139,7 +140,7 @@ Scored Search::calibrate() const {
   std::vector<Fit> fits = fitAll({given}, {}, 15, "calibrating", 0.02, 0.05);
   // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
   if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
-    const std::vector<Fit> others = fitAll({starts[1], starts[2]}, {}, 15, "calibrating", 0.05, 0.08);
+    const std::vector<Fit> others = fitAll({starts[1], starts[2]}, {}, 10, "calibrating", 0.05, 0.08);
     fits.insert(fits.end(), others.begin(), others.end());
   }
   const auto best =
@@ -187,7 +188,8 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
       models.push_back(model);
       owner.push_back(k);
     }
-    const std::vector<Fit> fits = fitAll(models, base.shifts, 8, "fitting candidates" + stage, begin, end);
+    const std::vector<Fit> fits =
+        fitAll(models, base.shifts, firstIterations, "fitting candidates" + stage, begin, end);
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (fits[i].cost < tried[owner[i]].fit.cost) {
         tried[owner[i]].fit = fits[i];
@@ -213,7 +215,7 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
   const auto polished = parallel(
       options_.jobs, best.size(),
       [&](std::size_t i) {
-        return packed(fitModel(problem_, best[i].model, best[i].shifts, {15, Fold::all, false}));
+        return packed(fitModel(problem_, best[i].model, best[i].shifts, {lastIterations, Fold::all, false}));
       },
       reporter("confirming" + stage, best.size(), from + 2 * part, to - part / 2));
   for (std::size_t i = 0; i < best.size(); ++i) unpack(polished[i], problem_, best[i]);

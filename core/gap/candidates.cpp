@@ -82,15 +82,15 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
 
 }  // namespace
 
-std::vector<Candidate> candidatesFor(const FitProblem& problem, const FitModel& model,
-                                     const std::vector<std::string>& names) {
+std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
+                                           const std::vector<std::string>& names) {
   const Scene scene = problem.sceneOf(problem.given, 0);
   const auto taken = [&](const std::string& effect, const std::string& at) {
     const auto same = [&](const PlacedEffect& other) { return other.effect == effect && other.at == at; };
     return std::any_of(problem.given.effects.begin(), problem.given.effects.end(), same) ||
            std::any_of(model.effects.begin(), model.effects.end(), same);
   };
-  std::vector<Candidate> candidates;
+  std::vector<EffectCandidate> candidates;
   for (const std::string& name : names.empty() ? problem.library.names : names) {
     const auto effect = problem.library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
@@ -100,7 +100,7 @@ std::vector<Candidate> candidatesFor(const FitProblem& problem, const FitModel& 
   return candidates;
 }
 
-Values scaledVariant(const Candidate& candidate, const Values& variant, double step) {
+Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {
   Values values = variant;
   for (const Parameter& p : candidate.declared)
     if (p.neutral)

@@ -7,7 +7,7 @@
 namespace btr {
 
 /// An effect at a place where it can sit, and sizes at which it is tried.
-struct Candidate {
+struct EffectCandidate {
   std::string effect, at;
   std::vector<Parameter> declared;
   std::vector<Values> variants;  ///< all parameters; neutral but for one, at a finite, typical size
@@ -18,11 +18,11 @@ struct Candidate {
 
 /// All effects of the library (or of `names`, if it is not empty) at all places of the scene, without those that
 /// the simulator as given or `model` already has.
-std::vector<Candidate> candidatesFor(const FitProblem& problem, const FitModel& model,
-                                     const std::vector<std::string>& names);
+std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
+                                           const std::vector<std::string>& names);
 
 /// The variant moved along its own direction: neutral + step·(variant − neutral), within the bounds.
-Values scaledVariant(const Candidate& candidate, const Values& variant, double step);
+Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step);
 
 /// How one candidate would do: a score test. The excess residual is regressed on what the candidate changes, together
 /// with the sensitivities of the parameters that are fitted already and of the initial states.
@@ -39,7 +39,7 @@ struct Screened {
 };
 /// In the order of the candidates. Candidates of a model that cannot be simulated are not excited.
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                             const std::vector<Candidate>& candidates, int jobs,
+                             const std::vector<EffectCandidate>& candidates, int jobs,
                              const std::function<bool(std::size_t)>& goOn = {});
 
 }  // namespace btr

@@ -92,7 +92,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
   for (std::size_t i = 0; i < options.size(); ++i) {
     FitProblem with = problem;
     with.library = withLearnedForce(problem.library, options[i].force);
-    Candidate candidate{
+    EffectCandidate candidate{
         options[i].force.name(), options[i].at, with.library.make(options[i].force.name())->parameters(), {}};
     for (const Parameter& p : candidate.declared) {
       Values variant;

@@ -62,7 +62,7 @@ VectorXd nonNegative(const std::vector<const Try*>& tries, const VectorXd& targe
 
 /// One number list per candidate: norm, number of starts, then for each share, effect values, parameters.
 std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                              const Projector& projector, const VectorXd& rest, const Candidate& candidate) {
+                              const Projector& projector, const VectorXd& rest, const EffectCandidate& candidate) {
   std::vector<Try> tries;
   double felt = 0;
   for (const Values& variant : candidate.variants) {
@@ -139,7 +139,7 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
 }  // namespace
 
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                             const std::vector<Candidate>& candidates, int jobs,
+                             const std::vector<EffectCandidate>& candidates, int jobs,
                              const std::function<bool(std::size_t)>& goOn) {
   const Projector projector(linear.columns, fit.model);
   const VectorXd rest = projector.leftOf(linear.profiled);

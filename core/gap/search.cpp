@@ -150,7 +150,7 @@ Scored Search::calibrate() const {
 
 std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
                                                  const std::string& stage, double from, double to) {
-  const std::vector<Candidate> candidates = candidatesFor(problem_, base.model, options_.names);
+  const std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
   const double part = (to - from) / 3;
   const std::vector<Screened> screened = screen(problem_, base, linear, candidates, options_.jobs,
                                                 reporter("screening" + stage, candidates.size(), from, from + part));

@@ -18,7 +18,7 @@ struct SearchOptions {
 
 /// A candidate that was looked at, and what became of it.
 struct Attempt {
-  Candidate candidate;
+  EffectCandidate candidate;
   int rank = 0;      ///< in the screening, 1 the best
   double share = 0;  ///< of the excess that the screening promised
   bool excited = true;

@@ -1,0 +1,212 @@
+// Gap analysis on recordings that are made here, so that what is missing is known; and its statistics against
+// arithmetic.
+#include "core/gap/analysis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/gap/candidates.h"
+#include "core/gap/replay.h"
+#include "core/gap/score.h"
+#include "core/plugin/plugin_host.h"
+#include "core/spec/random.h"
+#include "tests/gap/scene_of.h"
+
+namespace btr {
+namespace {
+
+using testing::HasSubstr;
+using Verdict = GapReport::Verdict;
+
+const PluginHost& host() {
+  static const PluginHost plugins(PLUGIN_DIR);
+  return plugins;
+}
+EffectLibrary library() { return {host().effectFactory(), host().effects()}; }
+
+/// The rig's hinge with a servo; p and d are what the user does not trust. The rail stays where it is.
+SceneSpec hingeScene() {
+  const TemporaryFolder folder;
+  folder.write("rig.urdf", rigUrdf);
+  return sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.001, "control_period_s": 0.01, "robots": [
+    {"name": "rig", "model": "rig.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
+      "hinge": {"p": 6, "d": 0.3, "max_torque_nm": 3}, "rail": {"drive": "none"}}}],
+    "calibrate": [{"path": "robots.rig.servos.hinge.p", "min": 3, "max": 12},
+                  {"path": "robots.rig.servos.hinge.d", "min": 0.1, "max": 0.9}]})",
+                       "scene", folder.file("."));
+}
+
+constexpr double noise_rad = 0.0005;
+
+/// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise.
+GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6) {
+  GapProblem problem;
+  problem.scene = hingeScene();
+  const TemporaryFolder folder;
+  folder.write("rig.urdf", rigUrdf);
+  SceneSpec spec = problem.scene;
+  spec.directory = folder.file(".");
+  problem.models = loadModels(spec);
+  spec.step_s = 0.0001;
+  const Scene scene = makeScene(spec, problem.models, truth, library().make);
+  for (std::uint64_t trial = 0; trial < 3; ++trial) {
+    Random random = Random::forPurpose(5, "trial", trial);
+    const double f1 = random.uniform(0.3, 0.7), f2 = random.uniform(1, 2.5), phase = random.uniform(0, 6);
+    Recording recording;
+    recording.source = "trial_" + std::to_string(trial) + ".csv";
+    recording.channels = {"time_s", "rig.hinge.command_rad", "rig.hinge.position_rad"};
+    recording.columns.resize(3);
+    for (double t = 0; t < 4; t += 0.005) {
+      const double held = std::floor(t / 0.01) * 0.01;
+      const double step = held > 2.5 && held < 3.3 ? 0.3 : 0;
+      recording.columns[0].push_back(t);
+      recording.columns[1].push_back(held < 0.3 ? 0
+                                                : size_rad * (0.6 * std::sin(2 * M_PI * f1 * (held - 0.3)) + step +
+                                                              0.25 * (std::sin(2 * M_PI * f2 * held + phase) -
+                                                                      std::sin(2 * M_PI * f2 * 0.3 + phase))));
+      recording.columns[2].push_back(0);
+    }
+    const Binding binding = bind(scene, recording);
+    const auto replayed = replayRecording(scene, recording, binding, startState(scene, recording, binding));
+    EXPECT_EQ(replayed.fault, "");
+    for (std::size_t row = 0; row < recording.rows(); ++row)
+      recording.columns[2][row] = replayed.values[0][row] + noise_rad * random.normal();
+    problem.recordings.push_back(recording);
+  }
+  return problem;
+}
+
+std::vector<std::string> namesOf(const GapReport& report) {
+  std::vector<std::string> names;
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) names.push_back(effect.effect + " at " + effect.at);
+  return names;
+}
+
+TEST(Analysis, AHealthySimulatorHasNoMismatch) {
+  const GapReport report = analyse(recordedFrom({}), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::noMismatch) << report.sentence;
+  EXPECT_THAT(namesOf(report), testing::IsEmpty());
+  EXPECT_NEAR(report.ladder[0].error, 1, 0.1);
+}
+
+TEST(Analysis, WrongNumbersAreMerelyCalibrated) {
+  const GapReport report = analyse(
+      recordedFrom({{{"robots.rig.servos.hinge.p", 7}, {"robots.rig.servos.hinge.d", 0.25}}, {}}), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::parametersSuffice) << report.sentence;
+  EXPECT_THAT(namesOf(report), testing::IsEmpty());
+  ASSERT_EQ(report.calibrated.size(), 2u);
+  EXPECT_NEAR(report.calibrated[0].value, 7, 0.05);
+  EXPECT_NEAR(report.calibrated[1].value, 0.25, 0.005);
+  for (const GapReport::Number& number : report.calibrated) EXPECT_TRUE(number.excited);
+}
+
+TEST(Analysis, HiddenDryFrictionIsNamedPlacedAndMeasured) {
+  const SimulatorSpec truth{{{"robots.rig.servos.hinge.p", 5.4}},
+                            {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.05}}}}};
+  const GapReport report = analyse(recordedFrom(truth), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  ASSERT_THAT(namesOf(report), testing::ElementsAre("coulomb_friction at rig.hinge")) << toPlainText(report);
+  EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.05, 0.005);
+  EXPECT_LT(report.ladder.back().error, 1.2);
+  EXPECT_GT(report.ladder[1].error, 3);
+  ASSERT_FALSE(report.located.empty());
+  EXPECT_EQ(report.located[0].channel, "rig.hinge.position_rad");
+  EXPECT_THAT(report.sentence, HasSubstr("coulomb friction at rig.hinge"));
+}
+
+TEST(Analysis, ADelayIsNotTakenForFriction) {
+  const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
+  const GapReport report = analyse(recordedFrom(truth), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  ASSERT_THAT(namesOf(report), testing::ElementsAre("command_delay at rig.hinge")) << toPlainText(report);
+  EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.02, 0.002);
+}
+
+TEST(Analysis, ARecordingInWhichNothingMovesTellsNothing) {
+  const GapReport report = analyse(recordedFrom({}, 1e-4), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::notExcited) << report.sentence;
+  EXPECT_THAT(namesOf(report), testing::IsEmpty());
+}
+
+TEST(Analysis, TheNumberOfWorkersChangesNothing) {
+  const GapProblem problem =
+      recordedFrom({{}, {{"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 0.05}}}}}, 0.3);
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "command_delay", "force_offset"};
+  GapReport one = analyse(problem, library(), options);
+  options.jobs = 3;
+  GapReport three = analyse(problem, library(), options);
+  one.seconds = three.seconds = 0;
+  EXPECT_EQ(toJsonText(one), toJsonText(three));
+}
+
+TEST(Analysis, CanBeCancelledAtAnyStage) {
+  const GapProblem problem = recordedFrom({});
+  for (const int after : {0, 1, 3, 8}) {
+    int calls = 0;
+    const auto progress = [&](const std::string&, double share) {
+      EXPECT_GE(share, 0);
+      EXPECT_LE(share, 1);
+      return calls++ < after;
+    };
+    EXPECT_THROW(analyse(problem, library(), {}, progress), Cancelled);
+  }
+}
+
+TEST(Analysis, WithoutRecordingsItSaysWhatItNeeds) {
+  GapProblem problem = recordedFrom({});
+  problem.recordings.clear();
+  EXPECT_THROW(analyse(problem, library(), {}), InputError);
+}
+
+TEST(EffectCandidates, EveryEffectIsTriedAtEveryPlaceThatItFits) {
+  const GapProblem problem = recordedFrom({});
+  const FitProblem fit = makeFitProblem(problem, problem.recordings, library(), 0);
+  const auto candidates =
+      candidatesFor(fit, givenModel(fit), {"coulomb_friction", "payload", "gravity_tilt", "ground_slope"});
+  std::vector<std::string> texts;
+  for (const EffectCandidate& candidate : candidates) texts.push_back(candidate.text());
+  // No floor, so no slope; the wall never moves.
+  EXPECT_THAT(texts,
+              testing::UnorderedElementsAre("coulomb_friction at rig.hinge", "coulomb_friction at rig.rail",
+                                            "payload at rig.bob", "payload at rig.cart", "gravity_tilt at world"));
+}
+
+TEST(Comparison, IsStudentsPairedTest) {
+  // Differences of logarithms: with the resolution of 0.02 added, ln 2 ± 0: by construction all blocks fall by half.
+  std::vector<double> without, with;
+  for (const double x : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+    without.push_back(x);
+    with.push_back((x + 0.02) / 2 * (1 + 0.01 * (x - 3.5)) - 0.02);
+  }
+  const Comparison comparison = compare(without, with);
+  double mean = 0, square = 0;
+  std::vector<double> d;
+  for (std::size_t i = 0; i < with.size(); ++i) d.push_back(std::log((without[i] + 0.02) / (with[i] + 0.02)));
+  for (const double x : d) mean += x / 6;
+  for (const double x : d) square += (x - mean) * (x - mean);
+  EXPECT_NEAR(comparison.t, mean / std::sqrt(square / 5 / 6), 1e-9);
+  EXPECT_LT(comparison.pValue, 1e-4);
+  EXPECT_NEAR(comparison.gain, 1 - (with[0] + with[1] + with[2] + with[3] + with[4] + with[5]) / 21, 1e-12);
+}
+
+TEST(Comparison, OfEqualModelsDecidesNothing) {
+  Random random(3);
+  int decided = 0;
+  for (int repeat = 0; repeat < 400; ++repeat) {
+    std::vector<double> a, b;
+    for (int block = 0; block < 40; ++block) {
+      a.push_back(1 + 0.2 * random.normal());
+      b.push_back(1 + 0.2 * random.normal());
+    }
+    decided += compare(a, b).pValue < 0.01;
+  }
+  // The doubled p-value keeps its promise: at most 1 in 100, within three standard errors of a count of 400.
+  EXPECT_LE(decided, 4 + 6);
+}
+
+}  // namespace
+}  // namespace btr

@@ -94,6 +94,23 @@ TEST_P(TrueSimulator, ReproducesItsRecordingsAtTheNoiseFloor) {
     }
 }
 
+TEST(OtherEngine, AgreesOnARigThatHasNoContactsWithinATenthOfTheNoise) {
+  if (!hasMujoco()) GTEST_SKIP() << "MuJoCo is not installed";
+  const Plugins plugins;
+  for (const char* kind : {"nothing", "one"}) {
+    const BlindCase blind = caseOf(plugins, "pendulum", kind, 2);  // "one": Coulomb friction
+    Scene scene = makeScene(blind.world.scene, blind.world.models, blind.simulator, withOutside(plugins.library.make));
+    scene.step_s = blind.world.fineStep_s;
+    const TrialPlan& plan = blind.world.trials[0];
+    const Truth ours = simulateOde(scene, plan, blind.world.columns);
+    const Truth theirs = simulateMujoco(scene, plan, blind.world.columns);
+    double squares = 0;
+    for (std::size_t row = 0; row < plan.rows; ++row)
+      squares += std::pow((ours.values[0][row] - theirs.values[0][row]) / blind.world.columns[0].floor(), 2);
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(plan.rows)), 0.1) << kind;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueSimulator, testing::ValuesIn(sceneKinds()),
                          [](const auto& test) { return test.param; });
 

@@ -39,7 +39,8 @@ void writeShapes(std::ostream& out, const Link& link) {
   }
 }
 
-void writeLink(std::ostream& out, const SceneRobot& robot, std::size_t index, const Isometry3d& place) {
+/// `h` is the step: dry friction that is as stiff as it allows, else a joint at rest creeps.
+void writeLink(std::ostream& out, const SceneRobot& robot, std::size_t index, const Isometry3d& place, double h) {
   const RobotModel& model = robot.model;
   const Link& link = model.links[index];
   out << "<body name=\"" << link.name << "\" " << pose(place) << ">";
@@ -48,8 +49,9 @@ void writeLink(std::ostream& out, const SceneRobot& robot, std::size_t index, co
     const Joint& joint = model.joints[index - 1];
     const bool limited = joint.upper < 1e6;
     out << "<joint name=\"" << joint.name << "\" axis=\"" << text(joint.axis) << "\" armature=\""
-        << toText(robot.drives[index - 1].rotorInertia_kg_m2) << "\" frictionloss=\"1e-9\" limited=\""
-        << (limited ? "true" : "false") << "\"";
+        << toText(robot.drives[index - 1].rotorInertia_kg_m2)
+        << "\" frictionloss=\"1e-9\" solimpfriction=\"0.999 0.999 0.001\" solreffriction=\"" << toText(2 * h)
+        << " 1\" limited=\"" << (limited ? "true" : "false") << "\"";
     if (limited) out << " range=\"" << toText(joint.lower - 0.0873) << " " << toText(joint.upper + 0.0873) << "\"";
     out << "/>";
   }
@@ -59,7 +61,7 @@ void writeLink(std::ostream& out, const SceneRobot& robot, std::size_t index, co
       << " " << toText(inertia(0, 1)) << " " << toText(inertia(0, 2)) << " " << toText(inertia(1, 2)) << "\"/>";
   if (robot.collision != "none") writeShapes(out, link);
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    if (model.joints[j].parentLink == static_cast<int>(index)) writeLink(out, robot, j + 1, model.joints[j].origin);
+    if (model.joints[j].parentLink == static_cast<int>(index)) writeLink(out, robot, j + 1, model.joints[j].origin, h);
   out << "</body>";
 }
 
@@ -70,7 +72,7 @@ std::string modelText(const Scene& scene) {
       << "\" cone=\"elliptic\" impratio=\"10\" integrator=\"implicit\" timestep=\"" << toText(scene.step_s)
       << "\"/><default><geom solref=\"0.005 1\" friction=\"" << toText(friction) << " 0 0\"/></default><worldbody>";
   if (scene.floor) out << "<geom type=\"plane\" size=\"50 50 1\" contype=\"0\" conaffinity=\"3\"/>";
-  writeLink(out, scene.robots[0], 0, scene.robots[0].start);
+  writeLink(out, scene.robots[0], 0, scene.robots[0].start, scene.step_s);
   out << "</worldbody></mujoco>";
   return out.str();
 }

@@ -15,6 +15,9 @@ class QDockWidget;
 class QLabel;
 class QMenu;
 
+namespace btr {
+struct GapReport;
+}
 namespace btr::ui {
 class Alarm;
 class ExperimentForm;
@@ -129,6 +132,7 @@ class MainWindow : public QMainWindow {
   void makeGapPage();
   void connectGap();
   void showAdoption();
+  void showGhosts(std::size_t trial, double time_s);
   void keepRecordings(const QStringList& files);
   void takeStoredRecordings();
 
@@ -159,7 +163,8 @@ class MainWindow : public QMainWindow {
   GapChart* gap_ = nullptr;
   GapPage* gapPage_ = nullptr;
   QAction* gapAction_ = nullptr;
-  QByteArray runsLayout_;  ///< of the docks while the gap page has the window
+  QByteArray runsLayout_;                                            ///< of the docks while the gap page has the window
+  std::pair<std::shared_ptr<const GapReport>, std::size_t> ghosts_;  ///< report and trial that the 3D view shows
   bool runActive_ = false;
   SimulatorsPage* versions_ = nullptr;
   IndividualsTable* individuals_ = nullptr;

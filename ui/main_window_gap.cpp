@@ -9,6 +9,7 @@
 #include "ui/experiment/run_text.h"
 #include "ui/gap/analysis_setup.h"
 #include "ui/gap/gap_page.h"
+#include "ui/gap/ghost_replay.h"
 #include "ui/gap/report_view.h"
 #include "ui/main_window.h"
 #include "ui/scene3d/replay_panel.h"
@@ -36,7 +37,7 @@ void MainWindow::connectGap() {
   });
   connect(&launcher_, &RunLauncher::recordingsKept, this,
           [this](int files) { inform(tr("%1 recordings are kept in the database.").arg(files)); });
-  connect(gapPage_, &GapPage::timeChosen, this, [this](std::size_t, double time_s) { replay_->showTime(time_s); });
+  connect(gapPage_, &GapPage::timeChosen, this, &MainWindow::showGhosts);
   connect(&gapPage_->setup(), &AnalysisSetup::keepRequested, this, &MainWindow::keepRecordings);
   connect(&gapPage_->setup(), &AnalysisSetup::storedRequested, this, &MainWindow::takeStoredRecordings);
   showAdoption();
@@ -77,6 +78,21 @@ void MainWindow::showGapPage(bool on) {
 bool MainWindow::openReport(const QString& folder) {
   showGapPage(true);
   return gapPage_->openReport(folder);
+}
+
+// The chosen trial in 3D where its scene is known, else whatever replay is there, at that time.
+void MainWindow::showGhosts(std::size_t trial, double time_s) {
+  const AnalysisSetup& setup = gapPage_->setup();
+  if (const std::pair wanted(gapPage_->view().report(), trial); ghosts_ != wanted) {
+    guard([&] {
+      const auto shown = ghostTrial(*wanted.first, trial, setup.sceneSpec(), setup.models());
+      if (!shown) return;
+      replay_->setReplay(shown->recorded);
+      replay_->setGhosts(shown->ghosts);
+      ghosts_ = wanted;
+    });
+  }
+  replay_->showTime(time_s);
 }
 
 void MainWindow::keepRecordings(const QStringList& files) {

@@ -138,6 +138,7 @@ void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool
 void MainWindow::replayIndividual(Id individual) {
   if (!watcher_.isOpen() || run_.id == 0) return;
   raiseDock(replayDock_);
+  ghosts_ = {};
   individuals_->select(individual);
   replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_] {
     const Database database = Database::open(path, Database::Mode::readOnly);

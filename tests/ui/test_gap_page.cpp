@@ -20,6 +20,7 @@
 #include "ui/gap/effects_table.h"
 #include "ui/gap/gap_page.h"
 #include "ui/gap/gap_plots.h"
+#include "ui/gap/ghost_replay.h"
 #include "ui/gap/heat_map.h"
 #include "ui/gap/mapping_form.h"
 #include "ui/gap/report_view.h"
@@ -209,6 +210,29 @@ class TestGapPage : public QObject {
     QSignalSpy failed(&bench.page, &GapPage::failed);
     QVERIFY(!bench.page.exportTo(bench.folder.filePath("none/out.html")));
     QCOMPARE(failed.size(), 1);
+  }
+
+  void aTrialIsShownAsRecordedWithTwoGhosts() {
+    SceneSpec scene;
+    scene.robots.emplace_back();
+    scene.robots[0].name = "leg";
+    scene.robots[0].position_m = {0, 0, 0.5};
+    const GapReport report = sampleReport();
+    const auto shown = ghostTrial(report, 1, scene, {});
+    QVERIFY(shown.has_value());
+    QCOMPARE(shown->recorded.trace.rows(), std::size_t(500));
+    const int knee = shown->recorded.trace.column("leg.knee.position_rad");
+    QVERIFY(knee > 0);
+    QCOMPARE(shown->recorded.trace.at(9, std::size_t(knee)), report.trials[1].series[0].recorded[9]);
+    QCOMPARE(shown->recorded.fixedBase.translation().z(), 0.5);
+    QCOMPARE(shown->ghosts.size(), std::size_t(2));
+    QCOMPARE(shown->ghosts[0].data.trace.at(9, std::size_t(knee)), report.trials[1].series[0].asGiven[9]);
+    // The first three repaired values are not known: the first recorded one stands there.
+    QCOMPARE(shown->ghosts[1].data.trace.at(2, std::size_t(knee)), report.trials[1].series[0].recorded[0]);
+    QVERIFY(shown->ghosts[0].colour != shown->ghosts[1].colour);
+    QVERIFY(!ghostTrial(report, 9, scene, {}));
+    scene.robots[0].name = "other";
+    QVERIFY(!ghostTrial(report, 1, scene, {}));
   }
 
   void aMappingSurvivesBeingReadAndWritten() {

@@ -182,8 +182,11 @@ void AnalysisSetup::chooseScene() {
 void AnalysisSetup::readScene() {
   if (scene().isEmpty()) return;
   try {
-    const SceneSpec spec = loadScene(scene().toStdString());
-    mapping_->setChannels(channelsOf(spec, loadModels(spec)));
+    SceneSpec spec = loadScene(scene().toStdString());
+    ModelSet models = loadModels(spec);
+    spec_ = std::move(spec);
+    models_ = std::move(models);
+    mapping_->setChannels(channelsOf(spec_, models_));
     emit sceneChanged(scene());
   } catch (const std::exception& error) {
     emit failed(QString::fromUtf8(error.what()));

@@ -1,6 +1,7 @@
 #pragma once
 #include <QWidget>
 
+#include "core/sim/scene.h"
 #include "ui/gap/analysis_process.h"
 
 class QComboBox;
@@ -22,6 +23,9 @@ class AnalysisSetup : public QWidget {
 
   void setScene(const QString& path);
   QString scene() const;
+  /// What was read of it last; no robots and balls if nothing was.
+  const SceneSpec& sceneSpec() const { return spec_; }
+  const ModelSet& models() const { return models_; }
   /// Files that are there already are not added twice.
   void addRecordings(const QStringList& paths);
   void removeRecording();
@@ -63,6 +67,8 @@ class AnalysisSetup : public QWidget {
   QLabel* problem_;
   QProgressBar* progress_;
   QPushButton *start_, *cancel_;
+  SceneSpec spec_;
+  ModelSet models_;
   bool running_ = false;
 };
 

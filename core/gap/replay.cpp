@@ -153,6 +153,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     for (int axis = 0; axis < 3; ++axis) {
       start.position_m[axis] = ball.position_m[static_cast<std::size_t>(axis)];
       start.velocity_m_s[axis] = ball.velocity_m_s[static_cast<std::size_t>(axis)];
+      start.spin_rad_s[axis] = ball.spin_rad_s[static_cast<std::size_t>(axis)];
     }
     start.radius_m = ball.radius_m;
     start.mass_kg = ball.mass_kg;
@@ -197,7 +198,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     state.robots[i].spin_rad_s = start.spin_rad_s;
   }
   for (BallState& ball : state.balls) {
-    // Spin is not recorded: a ball on the floor rolls.
+    // Spin is not recorded: a ball on the floor rolls, one in the air has the scene's.
     ball.onFloor = scene.floor && ball.position_m.z() < 1.1 * ball.radius_m;
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
   }

@@ -72,6 +72,7 @@ bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
     s.mode |= dContactSlip1 | dContactSlip2;
     s.slip1 = surface.slip1_m_s_n;
     s.slip2 = surface.slip2_m_s_n;
+    wanted = surface.slip1Along;
   } else {
     const Vector3d sliding = velocity + approach * point.normal;
     if (sliding.squaredNorm() > 1e-6) wanted = sliding;

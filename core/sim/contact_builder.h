@@ -17,7 +17,8 @@ struct ContactSurface {
   double friction = 0.3;
   double restitution = 0;
   double stiffness_n_m = 2e4, damping_n_s_m = 100;
-  double slip1_m_s_n = 0, slip2_m_s_n = 0;  ///< along the world's x and y
+  double slip1_m_s_n = 0, slip2_m_s_n = 0;                ///< along the direction below and across
+  Eigen::Vector3d slip1Along = Eigen::Vector3d::UnitX();  ///< world
 };
 
 /// A ball and a robot's shell, both smooth plastic.
@@ -31,9 +32,9 @@ class ContactBuilder {
   void begin(double step, double gravity_m_s2);
   /// Contact of `first` (the normal points to it) with `second` (nullptr: what never moves). Force on the first body:
   ///   normal    max(0, k·depth − d·v)  implicit: ERP = hk/(hk+d), CFM = 1/(hk+d);  a hit with restitution e: v' = −e·v
-  ///   exactly friction  at most μ times the normal force along each of two directions. With slip both are the world's
-  ///   x and y and the
-  ///             surface creeps by slip·force; without slip the first one is the direction of sliding (isotropic).
+  ///   exactly friction  at most μ times the normal force along each of two directions. With slip both are those
+  ///   of slip and the surface creeps by slip·force; without slip the first one is the direction of sliding
+  ///   (isotropic).
   /// A point that is still apart but will touch within the step takes part: it may approach until it touches, not
   /// further, so that fast parts do not dive in by a step's way. Returns true if the point touches or will.
   bool add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);

@@ -85,9 +85,18 @@ DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInpu
 
 }  // namespace
 
+double backEmfDamping(const Drive& drive, const JointInput& input) {
+  const double shorted = drive.torqueConstant_nm_a * drive.torqueConstant_nm_a / drive.resistance_ohm;
+  return input.enabled ? shorted : drive.offBraking * shorted;
+}
+
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
                   const StepOf& step) {
-  if (!input.enabled) return {};
+  if (!input.enabled) {
+    DriveRow row;
+    if (drive.kind == Drive::Kind::dcMotor) step.add(row, 0, backEmfDamping(drive, input), state.rate);
+    return row;
+  }
   switch (drive.kind) {
     case Drive::Kind::servo:
       return servoRow(drive, state, integral, step);
@@ -107,7 +116,7 @@ double largestTorque(const Drive& drive, double rate) {
 }
 
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input) {
-  if (!input.enabled) return 0;
+  if (!input.enabled) return drive.kind == Drive::Kind::dcMotor ? -backEmfDamping(drive, input) * state.rate : 0;
   const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
   switch (drive.kind) {
     case Drive::Kind::servo:
@@ -153,7 +162,10 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
                              const JointInput& input, const StepOf& step) {
   // Torque of law and effects as a function of position and rate, the effects' states held; and of the law alone.
   const auto at = [&](double position, double rate) {
-    return JointState{state.time, state.position + position, state.rate + rate, state.command, state.drive};
+    JointState moved = state;
+    moved.position += position;
+    moved.rate += rate;
+    return moved;
   };
   const auto lawAt = [&](const JointState& moved) { return driveTorque(drive, moved, integral, input); };
   const auto allAt = [&](const JointState& moved) { return throughEffects(lawAt(moved), moved, step.h, false); };

@@ -43,13 +43,17 @@ struct StepOf {
 ///   DC motor  kt·u/R − kt²·rate/R,  u = supply·(duty as given, or clamp(gain·(command − q)/nominal
 ///             supply, ±maxDuty))
 ///   torque    clamp(command, ±max)
-/// A drive that is switched off gives nothing (a DC motor: open circuit, no braking by its own voltage).
+/// A drive that is switched off gives nothing; a DC motor whose winding is then shorted brakes, −offBraking·kt²·rate/R
+/// (0, an open circuit, does not).
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
                   const StepOf& step);
 
 /// The largest torque that a servo's motor gives towards positive positions at this rate; towards negative ones it is
 /// −largestTorque(drive, −rate).
 double largestTorque(const Drive& drive, double rate);
+
+/// What a DC motor's own voltage brakes [N·m·s/rad or N·s/m]: kt²/R, times offBraking when it is switched off.
+double backEmfDamping(const Drive& drive, const JointInput& input);
 
 /// The same law at this instant, as a number.
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input);

@@ -19,6 +19,10 @@ struct JointState {
   double command = 0;           ///< what the servo law follows now (after command effects)
   double drive = 0;             ///< torque of the drive in the last step [N·m or N]
   bool followsPosition = true;  ///< the command is a position (servo, DC motor), not a torque
+  double limit = 1e9;           ///< largest torque of the drive [N·m or N]
+  double load = 0;  ///< moment of the weight of all that the joint carries, about its axis [N·m or N]; contacts and
+                    ///< accelerations are not in it
+  double allDrives = 0;  ///< sum of |torque| of all drives of the robot in the last step
 };
 
 /// A ball at one instant, world frame.
@@ -46,6 +50,8 @@ class Effect {
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }
+  /// An effect of the world whose joint hooks act at every joint of every robot.
+  virtual bool onEveryJoint() const { return false; }
 
   /// Changes masses, gravity, floor, servo numbers … before the world is built.
   virtual void changeScene(Scene&, const std::string& /*at*/, std::span<const double> /*values*/) const {}

@@ -27,9 +27,12 @@ struct Drive {
   double firmwareGain_v_rad = 0;  ///< DC motor: volts per rad of error at supply_v, that is gain/supply_v in duty;
                                   ///< the duty is clamped to ±maxDuty and applied to the supply of the moment
   double supply_v = 0, torqueConstant_nm_a = 0, resistance_ohm = 1, maxDuty = 1;
+  double offBraking = 0;          ///< DC motor, switched off: share of its own voltage's braking, 0 open … 1 shorted
   double rotorInertia_kg_m2 = 0;  ///< at the joint, behind the gear
   double coulombFriction = 0;     ///< N·m or N
   double viscousFriction = 0;     ///< N·m·s/rad or N·s/m
+  double gearCompliance = 0;      ///< of a spring between rotor and joint [rad/(N·m) or m/N], 0 rigid; effects set it
+  double gearDamping = 0;         ///< beside that spring [N·m·s/rad or N·s/m]
 };
 
 struct SceneRobot {

@@ -106,6 +106,7 @@ double* driveNumber(Drive& drive, const Joint& joint, const std::string& number)
   if (number == "p") return &drive.p;
   if (number == "i") return &drive.i;
   if (number == "d") return &drive.d;
+  if (number == "off_braking") return &drive.offBraking;
   if (is("max_torque_nm", "max_force_n")) return &drive.maxTorque;
   if (is("no_load_speed_rad_s", "no_load_speed_m_s")) return &drive.noLoadSpeed_rad_s;
   if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m")) return &drive.firmwareGain_v_rad;

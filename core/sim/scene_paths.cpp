@@ -100,7 +100,10 @@ Target ballNumber(Scene& scene, const std::string& path, std::string rest) {
                   {"mass_kg", 1e-6, 1000, &ball->mass_kg},
                   {"inertia_factor", 0.01, 2.0 / 3.0, &ball->inertiaFactor},
                   {"rolling_deceleration_m_s2", 0, 100, &ball->rollingDeceleration_m_s2},
-                  {"restitution", 0, 1, &ball->restitution}},
+                  {"restitution", 0, 1, &ball->restitution},
+                  {"spin_x_rad_s", -500, 500, &ball->spin_rad_s[0]},
+                  {"spin_y_rad_s", -500, 500, &ball->spin_rad_s[1]},
+                  {"spin_z_rad_s", -500, 500, &ball->spin_rad_s[2]}},
                  number, path);
 }
 

@@ -24,7 +24,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
       }
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       robot.drives[j].command = robot.body->joints[j].position;
-      robot.drives[j].rate = robot.body->joints[j].rate;
+      robot.drives[j].rate = robot.drives[j].motorRate = robot.body->joints[j].rate;
     }
     robots.push_back(std::move(robot));
   }
@@ -36,7 +36,8 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     dMass mass;
     dMassSetParameters(&mass, spec.mass_kg, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
     dBodySetMass(ball.id, &mass);
-    if (spec.rollingDeceleration_m_s2 > 0 && scene.floor) {
+    const bool resists = spec.rollingDeceleration_m_s2 > 0 || spec.directedRolling_m_s2 != std::array<double, 3>{};
+    if (resists && scene.floor) {
       ball.rolling = dJointCreateAMotor(world, nullptr);
       dJointAttach(ball.rolling, ball.id, nullptr);
       dJointSetAMotorMode(ball.rolling, dAMotorUser);
@@ -45,6 +46,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     BallState start;
     start.position_m << spec.position_m[0], spec.position_m[1], spec.position_m[2];
     start.velocity_m_s << spec.velocity_m_s[0], spec.velocity_m_s[1], spec.velocity_m_s[2];
+    start.spin_rad_s << spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2];
     placeBall(ball, start);
     balls.push_back(std::move(ball));
   }
@@ -54,8 +56,11 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     for (auto& robot : robots)
       for (std::size_t j = 0; j < robot.drives.size(); ++j) {
         const auto model = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
-        if (effect.at == robot.scene->name + "." + robot.scene->model.joints[model].name)
+        if (effect.effect->onEveryJoint() ||
+            effect.at == robot.scene->name + "." + robot.scene->model.joints[model].name) {
           robot.drives[j].effects.add(effect);
+          robot.hasEffects = true;
+        }
       }
     for (auto& ball : balls)
       if (effect.at == ball.spec->name || effect.at == "floor" || effect.at == "world") ball.effects.push_back(&effect);
@@ -103,6 +108,8 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
         dBodyAddForce(body.id, force.x(), force.y(), force.z());
       }
   }
+  for (auto& robot : robots)
+    if (robot.hasEffects) weighLoads(robot);
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
@@ -123,10 +130,13 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
     robot.body->updateRings();
+    robot.allDrives = 0;
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       const RobotJoint& joint = robot.body->joints[j];
       JointDrive& drive = robot.drives[j];
       drive.torque = drive.row.torqueAt(joint.solvedRate);
+      if (drive.gear.elastic()) drive.torque = drive.gear.turn(drive.motorAhead, drive.motorRate, joint.solvedRate);
+      robot.allDrives += std::abs(drive.torque);
       drive.rate = joint.rate;
       if (!robot.body->fixedBase()) continue;
       // From the step's middle to its end, unless that would turn the motion round.
@@ -156,12 +166,14 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
     drive.effects.reset();
-    drive.integral = drive.torque = 0;
+    drive.integral = drive.torque = drive.motorAhead = 0;
     drive.dryRow = drive.passiveRow = robot.body->joints[j].extra != nullptr;
     drive.command = robot.body->joints[j].position;
-    drive.rate = robot.body->joints[j].rate;
+    drive.rate = drive.motorRate = robot.body->joints[j].rate;
+    drive.gear = {};
     drive.fresh = true;
   }
+  robot.allDrives = 0;
   robot.first = true;
   impl_->sense(robot, 0);
   impl_->checkFault();

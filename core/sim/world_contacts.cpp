@@ -1,4 +1,5 @@
 // Who touches whom, and what balls feel beside contact forces.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,19 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
-  return {floor.friction, restitution, floor.stiffness_n_m, floor.damping_n_s_m, floor.slip1_m_s_n, floor.slip2_m_s_n};
+  ContactSurface surface{floor.friction,      restitution + (1 - restitution) * floor.bounce,
+                         floor.stiffness_n_m, floor.damping_n_s_m,
+                         floor.slip1_m_s_n,   floor.slip2_m_s_n};
+  if (floor.slipXY_m_s_n != 0) {
+    // The axes in which slip is two numbers.
+    Eigen::Matrix2d slip;
+    slip << floor.slip1_m_s_n, floor.slipXY_m_s_n, floor.slipXY_m_s_n, floor.slip2_m_s_n;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(slip);
+    surface.slip1_m_s_n = std::max(0.0, axes.eigenvalues()[1]);
+    surface.slip2_m_s_n = std::max(0.0, axes.eigenvalues()[0]);
+    surface.slip1Along << axes.eigenvectors().col(1), 0;
+  }
+  return surface;
 }
 
 }  // namespace
@@ -87,19 +100,43 @@ void World::Impl::makeContacts(double h) {
   for (std::size_t i = 0; i < balls.size(); ++i) touchOthers(i, h);
 }
 
-void World::Impl::driveBall(WorldBall& ball, double now, double h) {
-  // Rolling resistance: a moment M against horizontal spin. A ball that rolls freely (I = f·m·r²) loses a =
-  // M/((1+f)·m·r).
-  const double most = ball.spec->rollingDeceleration_m_s2 * (1 + ball.spec->inertiaFactor) * ball.spec->mass_kg *
-                      ball.spec->radius_m * (ball.state.onFloor ? 1 : 0);
-  if (ball.rolling) {
-    Vector3d along(ball.state.spin_rad_s.x(), ball.state.spin_rad_s.y(), 0);
-    along = along.squaredNorm() > 1e-18 ? along.normalized() : Vector3d::UnitX();
-    dJointSetAMotorAxis(ball.rolling, 0, 0, along.x(), along.y(), 0);
-    dJointSetAMotorAxis(ball.rolling, 1, 0, -along.y(), along.x(), 0);
-    dJointSetAMotorParam(ball.rolling, dParamFMax, most);
-    dJointSetAMotorParam(ball.rolling, dParamFMax2, most);
+// Rolling resistance: a moment M against horizontal spin. A ball that rolls freely (I = f·m·r²) loses a =
+// M/((1+f)·m·r).
+void World::Impl::brakeRolling(WorldBall& ball, double h) {
+  const BallSpec& spec = *ball.spec;
+  const double perDeceleration = ball.state.onFloor ? (1 + spec.inertiaFactor) * spec.mass_kg * spec.radius_m : 0;
+  double most = spec.rollingDeceleration_m_s2 * perDeceleration;
+  Vector3d along(ball.state.spin_rad_s.x(), ball.state.spin_rad_s.y(), 0);
+  const double spin = along.norm();
+  along = spin > 1e-9 ? Vector3d(along / spin) : Vector3d::UnitX();
+  double across = most;
+  if (const auto& [xx, xy, yy] = spec.directedRolling_m_s2; xx != 0 || xy != 0 || yy != 0) {
+    // The ball rolls along v = spin × up; the moment that slows it by A²·v/|A·v| has a part across its spin.
+    Eigen::Matrix2d matrix;
+    matrix << xx, xy, xy, yy;
+    matrix += spec.rollingDeceleration_m_s2 * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d rolling(along.y(), -along.x());
+    const Eigen::Vector2d pulled = matrix * rolling;
+    const double strength = pulled.norm();
+    const Eigen::Vector2d deceleration = strength > 0 ? Eigen::Vector2d(matrix * pulled / strength) : pulled;
+    most = across = deceleration.dot(rolling) * perDeceleration;
+    // A ball that stops within a few steps is simply held.
+    const double inertia = (1 + spec.inertiaFactor) * spec.mass_kg * spec.radius_m * spec.radius_m;
+    if (spin * inertia > 3 * h * most) {
+      across = 0;
+      const Eigen::Vector2d aside = (deceleration - deceleration.dot(rolling) * rolling) * -perDeceleration;
+      // A moment M turns the spin; the velocity changes along M × up.
+      dBodyAddTorque(ball.id, -aside.y(), aside.x(), 0);
+    }
   }
+  dJointSetAMotorAxis(ball.rolling, 0, 0, along.x(), along.y(), 0);
+  dJointSetAMotorAxis(ball.rolling, 1, 0, -along.y(), along.x(), 0);
+  dJointSetAMotorParam(ball.rolling, dParamFMax, most);
+  dJointSetAMotorParam(ball.rolling, dParamFMax2, across);
+}
+
+void World::Impl::driveBall(WorldBall& ball, double now, double h) {
+  if (ball.rolling) brakeRolling(ball, h);
   if (ball.effects.empty()) return;
 
   BallState state = ball.state;

@@ -2,6 +2,7 @@
 #include "core/sim/articulation.h"
 #include "core/sim/contact_builder.h"
 #include "core/sim/drive_law.h"
+#include "core/sim/elastic_gear.h"
 #include "core/sim/ode_session.h"
 #include "core/sim/world.h"
 
@@ -21,6 +22,10 @@ struct JointDrive {
   double measured = 0;    ///< position through the sensor's effects
   bool dryRow = false;    ///< the extra row for dry friction is on
   bool passiveRow = false;
+  double load = 0;        ///< moment of the carried weight, where effects ask
+  double motorAhead = 0;  ///< rotor behind an elastic gear: its angle relative to the joint, and its rate
+  double motorRate = 0;
+  GearRow gear;  ///< of the last step
 };
 
 struct WorldRobot {
@@ -31,6 +36,8 @@ struct WorldRobot {
   double kick = 1;                 ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
   bool first = true;               ///< no step since its state was set
   bool touches = false;            ///< anything, in the last step
+  bool hasEffects = false;         ///< at any joint
+  double allDrives = 0;            ///< sum of |torque| of all drives in the last step
   int accelerometerLink = -1;
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
   Eigen::Vector3d accelerometerVelocity_m_s = Eigen::Vector3d::Zero();
@@ -70,6 +77,7 @@ struct World::Impl {
 
   // world_joints.cpp
   void driveJoint(WorldRobot& robot, std::size_t joint, const JointInput& input, double now, double h);
+  void weighLoads(WorldRobot& robot) const;
   void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
   // world_contacts.cpp
   void makeContacts(double h);
@@ -77,6 +85,7 @@ struct World::Impl {
   void touchBalls(WorldRobot& robot, const RobotBody* body, double h);
   void touchOthers(std::size_t ball, double h);
   void driveBall(WorldBall& ball, double now, double h);
+  void brakeRolling(WorldBall& ball, double h);
   void readBall(WorldBall& ball, double now);
   void placeBall(WorldBall& ball, const BallState& state);
   // world_sense.cpp

@@ -39,9 +39,37 @@ void setExtraRow(const RobotJoint& joint, int row, double velocity, double softn
 JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, double now) const {
   const RobotJoint& moving = robot.body->joints[joint];
   const JointDrive& drive = robot.drives[joint];
-  const Drive::Kind kind = robot.scene->drives[static_cast<std::size_t>(moving.modelJoint)].kind;
-  const bool followsPosition = kind == Drive::Kind::servo || kind == Drive::Kind::dcMotor;
-  return {now, moving.position, moving.rate, drive.command, drive.torque, followsPosition};
+  const Drive& spec = robot.scene->drives[static_cast<std::size_t>(moving.modelJoint)];
+  const bool followsPosition = spec.kind == Drive::Kind::servo || spec.kind == Drive::Kind::dcMotor;
+  return {now,        moving.position, moving.rate, drive.command, drive.torque, followsPosition, spec.maxTorque,
+          drive.load, robot.allDrives};
+}
+
+// What each joint carries is the tree of bodies beyond it: a body comes after the one that carries it.
+void World::Impl::weighLoads(WorldRobot& robot) const {
+  struct Carried {
+    double mass_kg = 0;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< mass times place
+    int by = -1;
+  };
+  const auto& bodies = robot.body->bodies;
+  std::vector<Carried> carried(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    carried[i] = {bodies[i].mass_kg, bodies[i].mass_kg * bodies[i].pose.translation(), -1};
+  for (const RobotJoint& joint : robot.body->joints) carried[static_cast<std::size_t>(joint.child)].by = joint.parent;
+  for (std::size_t i = bodies.size(); i-- > 0;)
+    if (carried[i].by >= 0) {
+      carried[static_cast<std::size_t>(carried[i].by)].mass_kg += carried[i].mass_kg;
+      carried[static_cast<std::size_t>(carried[i].by)].moment += carried[i].moment;
+    }
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    const RobotJoint& joint = robot.body->joints[j];
+    const Carried& all = carried[static_cast<std::size_t>(joint.child)];
+    const Eigen::Vector3d anchor = robot.body->poseOf(joint.child) * joint.anchorInChild;
+    const Eigen::Vector3d arm = all.moment - all.mass_kg * anchor;
+    robot.drives[j].load = joint.axis.dot(joint.slides ? Eigen::Vector3d(all.mass_kg * scene.gravity_m_s2)
+                                                       : arm.cross(scene.gravity_m_s2));
+  }
 }
 
 // A stop is a spring that has yielded by the end of the step, with a damper against being pushed in further.
@@ -94,9 +122,24 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   // The very first kick from a given state covers half a step only.
   for (double* force : {&row.p, &row.d, &row.limit, &passive.p, &passive.d, &dry}) *force *= robot.kick;
 
-  // The rotor behind its gear: kinetic energy ½·J·rate², the limit of a large gear ratio (the rotor's own share in the
-  // spin of its body is left out).
-  if (spec.rotorInertia_kg_m2 > 0) {
+  // A rotor behind an elastic gear moves on its own; what reaches the joint comes through the gear's spring.
+  drive.gear = {};
+  if (spec.gearCompliance > 0) {
+    // The back electromotive force is the rotor's, not the joint's.
+    double b = spec.kind == Drive::Kind::dcMotor ? backEmfDamping(spec, acting) : 0;
+    DriveRow atJoint;
+    step.add(atJoint, 0, b, joint.rate);
+    if (row.d < atJoint.d) b = 0;  // an effect has let go of the motor
+    const double share = robot.kick * (switched ? 0.5 : 1);
+    if (b > 0) row = {row.p - atJoint.p * share, row.d - atJoint.d * share, row.limit};
+    drive.gear = GearRow(spec, drive.motorAhead, drive.motorRate, joint.rate, row, b * share, joint.heldInertia, h);
+    row = drive.gear.driven();
+    passive.p += drive.gear.held().p;
+    passive.d += drive.gear.held().d;
+  }
+  // The rotor behind a rigid gear: kinetic energy ½·J·rate², the limit of a large gear ratio (the rotor's own share in
+  // the spin of its body is left out).
+  if (spec.rotorInertia_kg_m2 > 0 && spec.gearCompliance == 0) {
     passive.d += spec.rotorInertia_kg_m2 / h;
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }

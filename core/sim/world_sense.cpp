@@ -119,9 +119,14 @@ double World::energy() const {
       sum += body.mass_kg * (body.velocity_m_s.squaredNorm() / 2 - gravity.dot(body.pose.translation())) +
              spin.dot(body.inertia_kg_m2 * spin) / 2 + body.ringInertia_kg_m2 * ring * ring / 2;
     }
-    for (const auto& joint : robot.body->joints)
-      sum += robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)].rotorInertia_kg_m2 * joint.rate *
-             joint.rate / 2;
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+      const RobotJoint& joint = robot.body->joints[j];
+      const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+      const bool elastic = spec.gearCompliance > 0;
+      const double rate = elastic ? robot.drives[j].motorRate : joint.rate, ahead = robot.drives[j].motorAhead;
+      sum += spec.rotorInertia_kg_m2 * rate * rate / 2;
+      if (elastic) sum += ahead * ahead / spec.gearCompliance / 2;
+    }
   }
   for (const auto& ball : impl_->balls) {
     const double m = ball.spec->mass_kg, r = ball.spec->radius_m;

@@ -101,6 +101,7 @@ BallSpec ballFrom(JsonReader& reader, std::set<std::string>& taken) {
   ball.restitution = reader.number("restitution", 0, 1, ball.restitution);
   ball.position_m = vectorOf<3>(reader, "position_m", farthest_m, {0, 0, ball.radius_m});
   ball.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, ball.velocity_m_s);
+  ball.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, ball.spin_rad_s);
   reader.finish();
   return ball;
 }
@@ -195,7 +196,8 @@ std::string toJsonText(const SceneSpec& scene) {
                                  {"rolling_deceleration_m_s2", ball.rollingDeceleration_m_s2},
                                  {"restitution", ball.restitution},
                                  {"position_m", ball.position_m},
-                                 {"velocity_m_s", ball.velocity_m_s}});
+                                 {"velocity_m_s", ball.velocity_m_s},
+                                 {"spin_rad_s", ball.spin_rad_s}});
   for (const CalibratePath& path : scene.calibrate)
     document["calibrate"].push_back({{"path", path.path}, {"min", path.minimum}, {"max", path.maximum}});
   return document.dump(2) + "\n";
@@ -217,6 +219,7 @@ const std::vector<Parameter>& servoNumbers() {
       {"force_constant_n_per_a", "N/A", "force at a slide joint per current", 0, 1e6, 1},
       {"resistance_ohm", "Ω", "resistance of the motor's winding", 1e-6, 1e6, 1},
       {"max_duty", "", "largest share of the supply voltage", 0, 1, 1},
+      {"off_braking", "", "share of the motor's own braking when switched off: 0 open winding, 1 shorted", 0, 1, 0},
       {"rotor_inertia_kg_m2", "kg·m²", "inertia of the rotor, seen at the joint", 0, 1e6, 0},
       {"rotor_inertia_kg", "kg", "inertia of the rotor, seen at a slide joint", 0, 1e6, 0},
   };

@@ -43,6 +43,10 @@ struct BallSpec {
   double restitution = 0.0;             ///< against robots and floor
   std::array<double, 3> position_m{0, 0, 0.0425};
   std::array<double, 3> velocity_m_s{0, 0, 0};
+  std::array<double, 3> spin_rad_s{0, 0, 0};
+  /// Rolling deceleration that depends on the direction, xx, xy, yy of a symmetric matrix A added to that above:
+  /// v' = −A²·v/|A·v|. Only effects set it.
+  std::array<double, 3> directedRolling_m_s2{0, 0, 0};
   bool operator==(const BallSpec&) const = default;
 };
 
@@ -55,6 +59,8 @@ struct FloorSpec {
   double slip2_m_s_n = 0;
   double stiffness_n_m = 2e4;
   double damping_n_s_m = 100;
+  double slipXY_m_s_n = 0;  ///< slip is the matrix (slip1, slipXY; slipXY, slip2); only effects set it
+  double bounce = 0;        ///< raises every restitution e on this floor to e + (1 − e)·bounce; only effects set it
   bool operator==(const FloorSpec&) const = default;
 };
 

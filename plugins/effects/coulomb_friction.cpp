@@ -10,7 +10,7 @@ namespace {
 
 class CoulombFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"torque_nm", "N·m", "dry friction, N on a slide joint", 0, 1, 0.03, 0.0}};
+    return {{"torque_nm", "N·m", "dry friction, N on a slide joint", 0, 200, 0.03, 0.0}};
   }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }

@@ -8,7 +8,7 @@ namespace {
 
 class ForceOffset final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"torque_nm", "N·m", "constant torque, N on a slide joint", -1, 1, 0, 0.0}};
+    return {{"torque_nm", "N·m", "constant torque, N on a slide joint", -200, 200, 0.05, 0.0}};
   }
   Place place() const override { return Place::joint; }
   double torque(const btr::JointState&, std::span<const double> values) const override { return values[0]; }

@@ -10,8 +10,8 @@ namespace {
 
 class GravityTilt final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"about_x_rad", "rad", "turn of gravity about x", -0.5, 0.5, 0, 0.0},
-            {"about_y_rad", "rad", "turn of gravity about y", -0.5, 0.5, 0, 0.0}};
+    return {{"about_x_rad", "rad", "turn of gravity about x", -0.5, 0.5, 0.03, 0.0},
+            {"about_y_rad", "rad", "turn of gravity about y", -0.5, 0.5, 0.03, 0.0}};
   }
   Place place() const override { return Place::world; }
 

@@ -9,8 +9,8 @@ namespace {
 
 class GroundSlope final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"about_x_rad", "rad", "tilt of the floor about x", -0.3, 0.3, 0, 0.0},
-            {"about_y_rad", "rad", "tilt of the floor about y, positive falls forward", -0.3, 0.3, 0, 0.0}};
+    return {{"about_x_rad", "rad", "tilt of the floor about x", -0.3, 0.3, 0.03, 0.0},
+            {"about_y_rad", "rad", "tilt of the floor about y, positive falls forward", -0.3, 0.3, 0.03, 0.0}};
   }
   Place place() const override { return Place::floor; }
 

@@ -9,7 +9,7 @@ namespace {
 
 class PositionOffset final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0, 0.0}};
+    return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0.03, 0.0}};
   }
   Place place() const override { return Place::joint; }
 

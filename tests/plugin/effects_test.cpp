@@ -58,6 +58,9 @@ std::vector<JointState> life(std::uint64_t seed) {
     state.rate = step % 5 == 0 ? 0 : random.normal() * 10;
     state.command = command;
     state.drive = random.uniform(-1, 1);
+    state.limit = 1.2;
+    state.load = random.uniform(-0.5, 0.5);
+    state.allDrives = std::abs(state.drive) + random.uniform(0, 2);
     states.push_back(state);
   }
   return states;
@@ -138,10 +141,11 @@ std::vector<double> numbersOf(const Scene& scene) {
   std::vector<double> numbers(scene.gravity_m_s2.begin(), scene.gravity_m_s2.end());
   const FloorSpec& floor = *scene.floor;
   numbers.insert(numbers.end(), {floor.friction, floor.restitution, floor.slip1_m_s_n, floor.slip2_m_s_n,
-                                 floor.stiffness_n_m, floor.damping_n_s_m});
+                                 floor.stiffness_n_m, floor.damping_n_s_m, floor.slipXY_m_s_n, floor.bounce});
   const BallSpec& ball = scene.balls[0];
   numbers.insert(numbers.end(), {ball.radius_m, ball.mass_kg, ball.inertiaFactor, ball.rollingDeceleration_m_s2,
                                  ball.restitution, ball.position_m[2]});
+  numbers.insert(numbers.end(), ball.directedRolling_m_s2.begin(), ball.directedRolling_m_s2.end());
   for (const Link& link : scene.robots[0].model.links) {
     numbers.push_back(link.inertial.mass_kg);
     const Eigen::Vector3d& centre = link.inertial.centreOfMass_m;
@@ -152,7 +156,8 @@ std::vector<double> numbersOf(const Scene& scene) {
   const Drive& drive = scene.robots[0].drives[0];
   numbers.insert(numbers.end(), {drive.p, drive.i, drive.d, drive.maxTorque, drive.firmwareGain_v_rad, drive.supply_v,
                                  drive.torqueConstant_nm_a, drive.resistance_ohm, drive.maxDuty,
-                                 drive.rotorInertia_kg_m2, drive.coulombFriction, drive.viscousFriction});
+                                 drive.rotorInertia_kg_m2, drive.coulombFriction, drive.viscousFriction,
+                                 drive.offBraking, drive.gearCompliance, drive.gearDamping});
   return numbers;
 }
 

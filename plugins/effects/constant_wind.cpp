@@ -1,0 +1,32 @@
+/// A steady wind u pushes balls: the drag of the air relative to them, less what they would feel in still air (that is
+/// the effect air_drag's business):
+///   F = D(u − v) − D(−v),   D(w) = ½·ρ·c·π·r²·|w|·w      ρ = 1.2 kg/m³, c = 0.47 (smooth sphere)
+/// Together with air_drag at 0.47 it is exactly the drag in the wind. Robots feel none. Neutral: u = 0.
+#include <memory>
+#include <numbers>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class ConstantWind final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"x_m_s", "m/s", "speed of the wind along x", -20, 20, 2, 0.0},
+            {"y_m_s", "m/s", "speed of the wind along y", -20, 20, 2, 0.0}};
+  }
+  Place place() const override { return Place::world; }
+
+  Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
+    constexpr double air_kg_m3 = 1.2, dragNumber = 0.47;
+    const Eigen::Vector3d wind(values[0], values[1], 0);
+    if (wind.isZero(0)) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d relative = wind - ball.velocity_m_s;
+    const double area = std::numbers::pi * ball.radius_m * ball.radius_m;
+    return 0.5 * air_kg_m3 * dragNumber * area *
+           (relative.norm() * relative + ball.velocity_m_s.norm() * ball.velocity_m_s);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(ConstantWind, "constant_wind")

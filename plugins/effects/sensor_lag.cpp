@@ -1,0 +1,47 @@
+/// The position sensor is slow (a filtered potentiometer, firmware that averages): it says y instead of q,
+///   T·ẏ = q − y      y = q at the start; T in s
+/// exact for a position that moves evenly within a step. The log has y, and the servo's law acts on it: c − y in place
+/// of c − q, by moving its command (its damping keeps the true rate). Neutral: T = 0. State: whether it has begun, y,
+/// the q that y belongs to, the step.
+#include <cmath>
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class SensorLag final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}};
+  }
+  Place place() const override { return Place::joint; }
+  int stateSize() const override { return 4; }
+
+  double command(double command, const btr::JointState& joint, std::span<const double> values, std::span<double> state,
+                 double dt) const override {
+    if (values[0] == 0) return command;
+    const double lagged = follow(joint.position, values[0], state);
+    state[0] = 1;
+    state[1] = lagged;
+    state[2] = joint.position;
+    state[3] = dt;
+    return joint.followsPosition ? command + joint.position - lagged : command;
+  }
+  double measured(double position, const btr::JointState& joint, std::span<const double> values,
+                  std::span<double> state, double) const override {
+    if (values[0] == 0) return position;
+    // Other effects may have changed what is measured; the lag is the joint's.
+    return position + follow(joint.position, values[0], state) - joint.position;
+  }
+
+  /// y a step after that in the state.
+  static double follow(double position, double lag, std::span<const double> state) {
+    if (state[0] == 0 || state[3] <= 0) return position;
+    const double rate = (position - state[2]) / state[3];
+    return position - lag * rate + (state[1] - state[2] + lag * rate) * std::exp(-state[3] / lag);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(SensorLag, "sensor_lag")

@@ -1,0 +1,30 @@
+/// Dry friction of a joint that is highest at rest and fades as the joint starts to move (Stribeck 1902; in this form
+/// Bo and Pavelescu 1982):
+///   T(ω) = Tc + Ts·exp(−(ω/ωs)²)      |τ| ≤ T(0) at rest, τ = −T(ω)·sign(ω) in motion; N·m (N), rad/s (m/s)
+/// Shows up as sticking and jumping at slow reversals. Neutral: Tc = Ts = 0; with Ts = 0 it is Coulomb's friction, and
+/// ωs then says nothing.
+#include <cmath>
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class StribeckFriction final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {
+        {"sliding_nm", "N·m", "friction in fast motion, N on a slide joint", 0, 200, 0.03, 0.0},
+        {"extra_at_rest_nm", "N·m", "added at rest, N on a slide joint", 0, 200, 0.03, 0.0},
+        {"fading_rad_s", "rad/s", "speed at which the extra has fallen to 1/e, m/s on a slide joint", 0.001, 20, 0.3}};
+  }
+  Place place() const override { return Place::joint; }
+  bool dissipative() const override { return true; }
+  double frictionLimit(const btr::JointState& joint, std::span<const double> values) const override {
+    const double speed = joint.rate / values[2];
+    return values[0] + values[1] * std::exp(-speed * speed);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(StribeckFriction, "stribeck_friction")

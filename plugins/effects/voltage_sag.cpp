@@ -1,0 +1,28 @@
+/// All drives of a robot hang on one battery, whose voltage falls with what they draw together; a drive's torque falls
+/// with the voltage:
+///   τ' = τ/(1 + s·Σ|τ_j|)      Σ over the robot's drives in the last step [N·m]; s in 1/(N·m)
+/// which is V = V0 − R·I with a current in proportion to the torques and V/V0 = 1/(1 + s·Σ) as its fixed point for
+/// drives whose torque is proportional to the voltage. No more than a step late. Neutral: s = 0.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class VoltageSag final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    return {{"per_torque_1_nm", "1/(N·m)", "loss of voltage per torque of all drives together", 0, 5, 0.1, 0.0}};
+  }
+  Place place() const override { return Place::world; }
+  bool onEveryJoint() const override { return true; }
+  bool dissipative() const override { return true; }
+
+  double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values, std::span<double>,
+                     double) const override {
+    return torque / (1 + values[0] * joint.allDrives);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(VoltageSag, "voltage_sag")

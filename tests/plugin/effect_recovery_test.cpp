@@ -1,0 +1,180 @@
+// Every effect in whole trials: silent at neutral, finite at its bounds, no energy from what calls itself dissipative,
+// and its own parameters found again in a recording that it made.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <map>
+
+#include "tests/plugin/effect_worlds.h"
+
+namespace btr {
+namespace {
+
+using test::Recorded;
+using test::Trial;
+
+PluginHost& host() {
+  static PluginHost plugins(PLUGIN_DIR);
+  return plugins;
+}
+
+/// What these worlds cannot show, and why.
+const std::map<std::string, std::string> notIdentifiable{
+    {"torque_ripple.per_turn", "a whole number; its error is full of side minima, it is searched and not fitted"},
+    {"payload.y_m", "lies along the only axis that the arm turns about"},
+};
+
+/// What is known to jump at neutral, and why.
+const std::map<std::string, std::string> jumpsAtNeutral{
+    {"backlash", "its motor cannot follow a joint that runs faster than an unloaded motor, however narrow the gap"},
+    {"restitution", "a hit that bounces at all is an impact at an instant, one that does not is a soft contact"},
+};
+
+/// Where a default is 0, a size that can be told from nothing.
+const std::map<std::string, double> sizes{{"joint_spring.rest_rad", 0.5},
+                                          {"torque_ripple.phase_rad", 0.6},
+                                          {"payload.x_m", 0.03},
+                                          {"payload.z_m", -0.04},
+                                          {"anisotropic_rolling_resistance.pile_rad", 0.5},
+                                          {"anisotropic_slip.direction_rad", 0.5}};
+
+class EffectTrials : public testing::TestWithParam<std::string> {
+ protected:
+  std::string name = GetParam();
+  std::shared_ptr<const Effect> effect = host().effect(name);
+  std::vector<Parameter> parameters = effect->parameters();
+
+  std::vector<double> record(const std::vector<double>& values) const {
+    return test::recordingOf(effect, name, values);
+  }
+
+  std::vector<double> defaults() const {
+    std::vector<double> values;
+    for (const Parameter& p : parameters) {
+      const auto size = sizes.find(name + "." + p.name);
+      values.push_back(size != sizes.end() ? size->second : p.byDefault);
+    }
+    return values;
+  }
+};
+
+TEST_P(EffectTrials, AreTheSameBitsWithTheEffectAtNeutral) {
+  std::vector<double> neutral;
+  for (const Parameter& p : parameters) neutral.push_back(p.neutral.value_or(p.byDefault));
+  for (const Trial& trial : test::trialsFor(effect->place(), name)) {
+    const Recorded plain = test::run(trial.scene, trial);
+    EXPECT_EQ("", plain.fault);
+    EXPECT_EQ(plain.values, test::run(test::withEffect(trial.scene, effect, name, neutral), trial).values);
+  }
+}
+
+TEST_P(EffectTrials, ChangeLittleNearNeutral) {
+  if (jumpsAtNeutral.contains(name)) GTEST_SKIP() << jumpsAtNeutral.at(name);
+  // A millionth of the usual size: what is left is far below what the usual size does.
+  std::vector<double> neutral, near;
+  for (const Parameter& p : parameters) {
+    neutral.push_back(p.neutral.value_or(p.byDefault));
+    near.push_back(p.neutral ? *p.neutral + 1e-6 * (p.byDefault - *p.neutral) : p.byDefault);
+  }
+  if (name == "torque_ripple") neutral[1] = near[1] = parameters[1].byDefault;
+  const auto none = record(neutral), little = record(near), usual = record(defaults());
+  ASSERT_EQ(none.size(), little.size());
+  ASSERT_EQ(none.size(), usual.size());
+  double ofLittle = 0, ofUsual = 0;
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    ofLittle += std::pow(little[i] - none[i], 2);
+    ofUsual += std::pow(usual[i] - none[i], 2);
+  }
+  EXPECT_LT(std::sqrt(ofLittle), 0.02 * std::sqrt(ofUsual));
+}
+
+TEST_P(EffectTrials, StayFiniteAtTheBounds) {
+  for (std::size_t corner = 0; corner < std::size_t{1} << parameters.size(); ++corner) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      values.push_back(corner >> i & 1 ? parameters[i].maximum : parameters[i].minimum);
+    for (const Trial& trial : test::trialsFor(effect->place(), name)) {
+      const Recorded recorded = test::run(test::withEffect(trial.scene, effect, name, values), trial);
+      for (const double value : recorded.values) ASSERT_TRUE(std::isfinite(value));
+      if (effect->dissipative()) {
+        EXPECT_EQ("", recorded.fault);
+      }
+    }
+  }
+}
+
+TEST_P(EffectTrials, TakeEnergyFromWhatSwingsAndRollsIfTheySaySo) {
+  if (!effect->dissipative()) return;
+  for (const Trial& trial : test::trialsFor(effect->place(), name)) {
+    if (trial.driven && !trial.scene.robots.empty() && !trial.scene.robots[0].freeBase) continue;
+    const Recorded plain = test::run(trial.scene, trial);
+    const Recorded recorded = test::run(test::withEffect(trial.scene, effect, name, defaults()), trial);
+    EXPECT_EQ("", recorded.fault);
+    if (effect->place() == Effect::Place::floor) continue;  // a slope's gravity does work on what creeps further
+    EXPECT_LE(recorded.energy.back(), plain.energy.back() + 1e-9);
+  }
+}
+
+TEST_P(EffectTrials, FindTheirOwnParametersAgain) {
+  const std::vector<double> truth = defaults();
+  const auto recording = record(truth);
+  std::vector<std::size_t> free;
+  std::vector<double> scale, values = truth;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (notIdentifiable.contains(name + "." + parameters[i].name)) continue;
+    free.push_back(i);
+    scale.push_back(std::abs(truth[i] - parameters[i].neutral.value_or(0)));
+    ASSERT_GT(scale.back(), 0) << parameters[i].name;
+    values[i] = parameters[i].neutral.value_or(0) + 0.5 * (truth[i] - parameters[i].neutral.value_or(0));
+  }
+
+  // Levenberg and Marquardt's least squares, with central differences, in units of the scales.
+  const auto residual = [&](const std::vector<double>& at) {
+    const auto simulated = record(at);
+    Eigen::VectorXd difference = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(recording.size()), 1e3);
+    for (std::size_t i = 0; i < std::min(simulated.size(), recording.size()); ++i)
+      difference[static_cast<Eigen::Index>(i)] = simulated[i] - recording[i];
+    return difference;
+  };
+  const auto bounded = [&](std::size_t k, double value) {
+    return std::clamp(value, parameters[free[k]].minimum, parameters[free[k]].maximum);
+  };
+  Eigen::VectorXd error = residual(values);
+  const double before = error.norm();
+  ASSERT_GT(before, 1e-3) << "half of the effect is not seen";
+  double caution = 1e-3;
+  for (int round = 0; round < 40 && error.norm() > 1e-7 * before && caution < 1e8; ++round) {
+    Eigen::MatrixXd slope(error.size(), static_cast<Eigen::Index>(free.size()));
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      auto up = values, down = values;
+      up[free[k]] = bounded(k, up[free[k]] + 1e-3 * scale[k]);
+      down[free[k]] = bounded(k, down[free[k]] - 1e-3 * scale[k]);
+      slope.col(static_cast<Eigen::Index>(k)) =
+          (residual(up) - residual(down)) / ((up[free[k]] - down[free[k]]) / scale[k]);
+    }
+    const Eigen::MatrixXd normal = slope.transpose() * slope;
+    for (; caution < 1e8; caution *= 8) {
+      Eigen::MatrixXd damped = normal;
+      damped.diagonal() += caution * normal.diagonal();
+      const Eigen::VectorXd step = damped.ldlt().solve(-slope.transpose() * error);
+      auto next = values;
+      for (std::size_t k = 0; k < free.size(); ++k)
+        next[free[k]] = bounded(k, next[free[k]] + scale[k] * step[static_cast<Eigen::Index>(k)]);
+      const Eigen::VectorXd nextError = residual(next);
+      if (!(nextError.norm() < error.norm())) continue;
+      values = next;
+      error = nextError;
+      caution /= 10;
+      break;
+    }
+  }
+  for (std::size_t k = 0; k < free.size(); ++k)
+    EXPECT_NEAR(truth[free[k]], values[free[k]], 0.03 * scale[k])
+        << parameters[free[k]].name << ", error " << before << " -> " << error.norm();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EffectTrials, testing::ValuesIn(host().effects()),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace
+}  // namespace btr

@@ -13,10 +13,10 @@ namespace {
 
 class GearElasticity final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"compliance_rad_nm", "rad/(N·m)", "turn per torque, m/N on a slide joint", 0, 2, 0.1, 0.0},
+    return {{"compliance_rad_nm", "rad/(N·m)", "turn per torque, m/N on a slide joint", 0, 2, 0.05, 0.0},
             {"rotor_inertia_kg_m2", "kg·m²", "inertia of the rotor seen at the joint, kg on a slide joint", 0, 200,
              1e-3, 0.0},
-            {"damping_nm_s_rad", "N·m·s/rad", "torque per speed of the spring, N·s/m on a slide joint", 0, 2000, 0.02}};
+            {"damping_nm_s_rad", "N·m·s/rad", "torque per speed of the spring, N·s/m on a slide joint", 0, 2000, 0.05}};
   }
   Place place() const override { return Place::joint; }
 

@@ -23,7 +23,6 @@ const std::map<std::string, std::string> notIdentifiable{
     {"torque_ripple.per_turn", "a whole number; its error is full of side minima, it is searched and not fitted"},
     {"backlash.width_rad", "a servo with play hunts: a local fit from half the width stops in a side minimum"},
     {"backlash.free_speed_rad_s_nm", "the same"},
-    {"gear_elasticity.damping_nm_s_rad", "the gear rings: a local fit from half the damping stops in a side minimum"},
     {"payload.y_m", "lies along the only axis that the arm turns about"},
 };
 

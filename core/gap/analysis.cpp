@@ -269,6 +269,13 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     found = searchEffects(problem, search);
   }
 
+  if (found.step_s < problem.scene.step_s) {
+    problem.scene.step_s = found.step_s;
+    if (found.step_s < given.scene.step_s)
+      problem.notes.push_back("what was found needs a step of " + toText(found.step_s) +
+                              " s: set step_s so where this simulator is used");
+  }
+
   GapReport report;
   report.seed = options.seed;
   report.version = UCHILSIM_VERSION;

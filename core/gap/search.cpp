@@ -14,7 +14,8 @@ namespace {
 constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 constexpr double unexplainedExcess = 0.3;  // mean squared error above 1 at which pairs are tried
 constexpr std::size_t candidatesToFit = 8, candidatesInPairs = 4;  // half of them are fitted to the end and scored
-constexpr int firstIterations = 4, lastIterations = 15;
+constexpr int firstIterations = 4, lastIterations = 15, againIterations = 5;
+constexpr double hopeless = 2;
 
 std::vector<double> packed(const Fit& fit) {
   std::vector<double> numbers{fit.cost};
@@ -40,7 +41,8 @@ bool unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
 
 class Search {
  public:
-  Search(const FitProblem& problem, const SearchOptions& options) : problem_(problem), options_(options) {}
+  Search(const FitProblem& problem, const SearchOptions& options)
+      : problem_(problem), options_(options), finest_s_(std::max(problem.scene.step_s / 16, 5e-5)) {}
 
   SearchResult run();
 
@@ -75,12 +77,18 @@ class Search {
   }
   void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
+  bool contains(const EffectCandidate& candidate, const PlacedEffect& effect) const;
   void findRivals(SearchResult& result);
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;
 
-  const FitProblem& problem_;
+  bool needsFinerStep(const Fit& fit) const;
+  std::vector<Fit> polish(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                          double to) const;
+
+  FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
+  double finest_s_;
   std::vector<Tried> firstStage_;
 };
 
@@ -148,6 +156,31 @@ Scored Search::calibrate() const {
   return scoreAll({*best}, "calibrating", 0.08, 0.1)[0];
 }
 
+/// True if half the step changes the replay by more than what hides in the noise.
+bool Search::needsFinerStep(const Fit& fit) const {
+  constexpr double hidden = 0.12;  // noise floors
+  FitProblem finer = problem_;
+  finer.scene.step_s /= 2;
+  const Eigen::VectorXd here = residualsOf(problem_, fit.model, fit.shifts);
+  const Eigen::VectorXd change = here - residualsOf(finer, fit.model, fit.shifts);
+  const auto count = static_cast<double>(std::max<Eigen::Index>(1, change.size()));
+  // Where much is unexplained anyway, the step is not what matters.
+  return std::sqrt(change.squaredNorm() / count) > std::max(hidden, 0.05 * std::sqrt(here.squaredNorm() / count));
+}
+
+std::vector<Fit> Search::polish(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                                double to) const {
+  const auto numbers = parallel(
+      options_.jobs, fits.size(),
+      [&](std::size_t i) {
+        return packed(fitModel(problem_, fits[i].model, fits[i].shifts, {iterations, Fold::all, false}));
+      },
+      reporter("confirming" + stage, fits.size(), from, to));
+  std::vector<Fit> polished = fits;
+  for (std::size_t i = 0; i < fits.size(); ++i) unpack(numbers[i], problem_, polished[i]);
+  return polished;
+}
+
 std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
                                                  const std::string& stage, double from, double to) {
   const std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
@@ -211,14 +244,16 @@ std::vector<Search::Tried> Search::tryCandidates(const Fit& base, const Linearis
   // The best are fitted to the end, then judged on what they were not fitted to.
   std::vector<Fit> best;
   for (std::size_t k = 0; k < std::min(toFit / 2, tried.size()); ++k)
-    if (tried[k].attempt.fitted) best.push_back(tried[k].fit);
-  const auto polished = parallel(
-      options_.jobs, best.size(),
-      [&](std::size_t i) {
-        return packed(fitModel(problem_, best[i].model, best[i].shifts, {lastIterations, Fold::all, false}));
-      },
-      reporter("confirming" + stage, best.size(), from + 2 * part, to - part / 2));
-  for (std::size_t i = 0; i < best.size(); ++i) unpack(polished[i], problem_, best[i]);
+    // What fits far worse than the best after the first iterations is no rival.
+    if (tried[k].attempt.fitted && tried[k].fit.cost <= hopeless * tried[0].fit.cost) best.push_back(tried[k].fit);
+  best = polish(best, lastIterations, stage, from + 2 * part, to - part / 2);
+  // Effects may need finer steps than the simulator without them: friction at reversals, play.
+  while (!best.empty() && problem_.scene.step_s > finest_s_ &&
+         std::any_of(best.begin(), best.begin() + std::min<std::ptrdiff_t>(2, std::ssize(best)),
+                     [&](const Fit& fit) { return needsFinerStep(fit); })) {
+    problem_.scene.step_s /= 2;
+    best = polish(best, againIterations, stage, to - part / 2, to - part / 2);
+  }
   const std::vector<Scored> scored = scoreAll(best, "confirming" + stage, to - part / 2, to);
   for (std::size_t i = 0; i < scored.size(); ++i) {
     tried[i].fit = best[i];
@@ -382,6 +417,12 @@ std::size_t sizeOf(const FitModel& model, std::size_t effect) {
                                                 [&](const auto& p) { return p.effect == static_cast<int>(effect); }));
 }
 
+/// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
+bool Search::contains(const EffectCandidate& candidate, const PlacedEffect& effect) const {
+  const std::vector<std::string> simpler = problem_.library.make(candidate.effect)->contains();
+  return candidate.at == effect.at && std::find(simpler.begin(), simpler.end(), effect.effect) != simpler.end();
+}
+
 void Search::findRivals(SearchResult& result) {
   result.rivalModels.clear();
   for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i) {
@@ -413,10 +454,6 @@ void Search::findRivals(SearchResult& result) {
       if (alreadyThere) continue;
       if ((simpler && !worse) || clearlyBetter) {
         // The simpler of equals, or simply the better one, takes the place.
-        Found taken{other.fit.model.simulator(problem_).effects.back(), compare(without.blocks, other.scored.blocks),
-                    found.rivals};
-        if (!simpler || ratio > 0.995) taken.rivals.push_back({own.effect, own.at, 1 / ratio});
-        if (simpler) taken.rivals.pop_back();
         for (Attempt& attempt : result.attempts) {
           if (attempt.candidate.text() == ownText) {
             attempt.accepted = false;
@@ -431,7 +468,7 @@ void Search::findRivals(SearchResult& result) {
         result.final = other.scored;
         return findRivals(result);
       }
-      if (!worse) {
+      if (!worse && !contains(other.attempt.candidate, own)) {
         found.rivals.push_back({other.attempt.candidate.effect, other.attempt.candidate.at, ratio});
         if (i == 0) result.rivalModels.push_back(other.fit.model);
       }
@@ -474,9 +511,11 @@ SearchResult Search::run() {
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
+    const double step_s = problem_.scene.step_s;
     auto tried = tryCandidates(result.final.fit, linear, candidatesToFit,
                                stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to);
     if (stage == 0) firstStage_ = tried;
+    if (problem_.scene.step_s < step_s) result.final = scoreAll({result.final.fit}, "confirming", to, to)[0];
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {
       if (!tried[k].attempt.scored) continue;
@@ -513,6 +552,7 @@ SearchResult Search::run() {
   }
   prune(result);
   findRivals(result);
+  result.step_s = problem_.scene.step_s;
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
   return result;

@@ -44,6 +44,7 @@ struct SearchResult {
   Uncertainty calibratedUncertainty, finalUncertainty;
   /// Fitted rivals of the first accepted effect, for the next recording: the best alternative model, if any.
   std::vector<FitModel> rivalModels;
+  double step_s = 0;      ///< of the final fits [s]
   bool unstable = false;  ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 

@@ -32,7 +32,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 1;
+inline constexpr int pluginApiVersion = 2;
 
 }  // namespace btr
 

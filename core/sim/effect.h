@@ -47,6 +47,8 @@ class Effect {
   /// Name, unit, meaning, bounds, default and neutral value of each parameter; `values` below follow this order.
   virtual std::vector<Parameter> parameters() const = 0;
   virtual Place place() const = 0;
+  /// Names of simpler effects that this one becomes for some of its values: never its rivals.
+  virtual std::vector<std::string> contains() const { return {}; }
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }

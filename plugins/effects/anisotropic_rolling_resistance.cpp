@@ -17,6 +17,7 @@ class AnisotropicRollingResistance final : public btr::Effect {
             {"pile_rad", "rad", "turn of the pile about z", -1.5708, 1.5708, 0}};
   }
   Place place() const override { return Place::ball; }
+  std::vector<std::string> contains() const override { return {"rolling_resistance"}; }
   bool dissipative() const override { return true; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

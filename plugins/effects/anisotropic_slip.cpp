@@ -15,6 +15,7 @@ class AnisotropicSlip final : public btr::Effect {
             {"direction_rad", "rad", "turn of the direction about z from x", -1.5708, 1.5708, 0}};
   }
   Place place() const override { return Place::floor; }
+  std::vector<std::string> contains() const override { return {"slip"}; }
   bool dissipative() const override { return true; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

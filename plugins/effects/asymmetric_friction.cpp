@@ -16,6 +16,7 @@ class AsymmetricFriction final : public btr::Effect {
             {"viscous_negative_nm_s_rad", "N·m·s/rad", "friction per negative speed", 0, 2000, 0.01, 0.0}};
   }
   Place place() const override { return Place::joint; }
+  std::vector<std::string> contains() const override { return {"coulomb_friction", "viscous_friction"}; }
   double torque(const btr::JointState&, std::span<const double> values) const override {
     return (values[1] - values[0]) / 2;
   }

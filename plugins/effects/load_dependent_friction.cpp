@@ -19,6 +19,7 @@ class LoadDependentFriction final : public btr::Effect {
             {"per_load_torque", "", "friction per moment of the carried weight", 0, 2, 0.1, 0.0}};
   }
   Place place() const override { return Place::joint; }
+  std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   bool dissipative() const override { return true; }
   double frictionLimit(const btr::JointState& joint, std::span<const double> values) const override {
     return values[0] + std::abs(values[1] * joint.drive - values[2] * joint.load);

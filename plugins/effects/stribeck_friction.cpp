@@ -18,6 +18,7 @@ class StribeckFriction final : public btr::Effect {
         {"fading_rad_s", "rad/s", "speed at which the extra has fallen to 1/e, m/s on a slide joint", 0.001, 20, 0.3}};
   }
   Place place() const override { return Place::joint; }
+  std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   bool dissipative() const override { return true; }
   double frictionLimit(const btr::JointState& joint, std::span<const double> values) const override {
     const double speed = joint.rate / values[2];

@@ -115,10 +115,9 @@ TEST(KickTrial, EffectsAtTheirNeutralValuesLeaveTheTraceBitForBit) {
     SimulatorSpec simulator;
     simulator.effects.push_back(placed);
     EXPECT_EQ(plain, trial(kickExperiment(0, simulator), sweep, true).trace.sha256()) << name;
-    // And with its usual size it is noticed.
+    // And with a strong one it is noticed. (A usual torque-speed line lies outside the one that the dog has already.)
     for (const Parameter& p : effect->parameters())
-      placed.parameters[p.name] =
-          p.byDefault == p.neutral ? p.byDefault + 0.1 * (p.maximum - p.byDefault) : p.byDefault;
+      placed.parameters[p.name] = p.neutral && !p.integer ? p.byDefault + 0.2 * (p.maximum - p.byDefault) : p.byDefault;
     simulator.effects = {placed};
     EXPECT_NE(plain, trial(kickExperiment(0, simulator), sweep, true).trace.sha256()) << name;
   }

@@ -16,6 +16,7 @@ constexpr double unexplainedExcess = 0.3;  // mean squared error above 1 at whic
 constexpr std::size_t candidatesToFit = 8, candidatesInPairs = 4;  // half of them are fitted to the end and scored
 constexpr int firstIterations = 4, lastIterations = 15, againIterations = 5;
 constexpr double hopeless = 2;
+constexpr double nothingLeft = 1.03;  // mean squared error at which there is nothing left to explain
 
 std::vector<double> packed(const Fit& fit) {
   std::vector<double> numbers{fit.cost};
@@ -510,6 +511,7 @@ SearchResult Search::run() {
 
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
+    if (result.final.mean() < nothingLeft) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
     const double step_s = problem_.scene.step_s;
     auto tried = tryCandidates(result.final.fit, linear, candidatesToFit,

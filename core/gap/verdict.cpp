@@ -118,8 +118,9 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
                       floors + ": nothing is missing that they could show. ";
   } else {
     report.verdict = Verdict::parametersSuffice;
-    report.sentence =
-        error + "Other numbers for what is calibrated suffice; no missing effect improves the held-out error. ";
+    report.sentence = error + "Other numbers for what is calibrated suffice; " +
+                      (report.tried.empty() ? "nothing is left for a missing effect to explain. "
+                                            : "no missing effect improves the held-out error. ");
   }
   if (!report.remainder.on.empty())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +

@@ -340,6 +340,26 @@ class TestGapPage : public QObject {
     QVERIFY(setup.problem().contains("-1 is not allowed"));
   }
 
+  void aVersionOfTheRunCanBeWhatIsAnalysed() {
+    QTemporaryDir folder;
+    const QString program = file(folder, "btr", "#!/bin/sh\necho \"$@\" >&2\nexit 1\n");
+    QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    GapPage page(program);
+    page.setup().setScene(SOURCE_DIR "/resources/scenes/xl330.json");
+    page.setup().addRecordings({SOURCE_DIR "/tests/data/bam_xl330/lift_and_drop_kp200_2026-01-15_10h28m49.csv"});
+    page.setup().findChild<QLineEdit*>("out")->setText(folder.filePath("report"));
+    auto all = versions(2);
+    all[1].simulator.values = {{"friction", 0.5}};
+    page.setRun("run 3", all, {});
+    page.findChild<QComboBox*>("simulator")->setCurrentIndex(1);  // the newest
+    QSignalSpy failed(&page, &GapPage::failed);
+    page.findChild<QPushButton*>("startAnalysis")->click();
+    QVERIFY(failed.count() == 1 || failed.wait(10000));
+    const QString kept = folder.filePath("report/simulator_before.json");
+    QVERIFY(failed.first().first().toString().contains("--simulator " + kept));
+    QVERIFY(loadSimulator(kept.toStdString()) == all[1].simulator);
+  }
+
   void progressIsReadFromTheProcess() {
     QTemporaryDir folder;
     const QString program = file(folder, "btr",

@@ -229,13 +229,20 @@ void AnalysisSetup::setHeldOut(int row, bool on) {
   recordings_->item(row, heldOut)->setCheckState(on ? Qt::Checked : Qt::Unchecked);
 }
 
-void AnalysisSetup::setSimulators(const QStringList& names, const QStringList& paths) {
+void AnalysisSetup::setSimulators(const QStringList& names, const QStringList& texts) {
+  // Told again and again while a run works: an open list is left alone.
+  bool same = simulator_->count() == int(names.size()) + 1;
+  for (int i = 1; same && i < simulator_->count(); ++i)
+    same = simulator_->itemText(i) == names[i - 1] && simulator_->itemData(i).toString() == texts[i - 1];
+  if (same) return;
   const QString before = simulator_->currentText();
   simulator_->clear();
   simulator_->addItem(tr("the scene as given"), QString());
-  for (qsizetype i = 0; i < std::min(names.size(), paths.size()); ++i) simulator_->addItem(names[i], paths[i]);
+  for (qsizetype i = 0; i < std::min(names.size(), texts.size()); ++i) simulator_->addItem(names[i], texts[i]);
   simulator_->setCurrentIndex(std::max(0, simulator_->findText(before)));
 }
+
+QString AnalysisSetup::simulatorText() const { return simulator_->currentData().toString(); }
 
 QStringList AnalysisSetup::files(bool held) const {
   QStringList all;
@@ -250,7 +257,6 @@ AnalysisJob AnalysisSetup::job() const {
   job.scene = scene();
   job.recordings = files(false);
   job.heldOut = files(true);
-  job.simulator = simulator_->currentData().toString();
   job.out = out_->text().trimmed();
   job.seed = seed_->text().trimmed().toULongLong();
   return job;
@@ -269,17 +275,21 @@ QString AnalysisSetup::problem() const {
   return {};
 }
 
+// A mapping beside the scene is for all recordings that have none of their own.
+QString AnalysisSetup::mappingOf(const QString& recording) const {
+  if (const auto beside = findMapping(recording.toStdString())) return QString::fromStdString(*beside);
+  if (scene().isEmpty()) return {};
+  const QString ofScene = QFileInfo(scene()).path() + '/' + QFileInfo(scene()).completeBaseName() + ".mapping.json";
+  return QFileInfo::exists(ofScene) ? ofScene : QString();
+}
+
 void AnalysisSetup::openMapping() {
   const int row = recordings_->currentRow();
   if (row < 0 || !recordings_->item(row, file)) return;
   const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
   if (mapping_->recording() == path || (mapping_->isChanged() && !mapping_->recording().isEmpty())) return;
   try {
-    // A mapping beside the scene is for all recordings that have none of their own.
-    QString beside = QString::fromStdString(findMapping(path.toStdString()).value_or(""));
-    const QString ofScene = QFileInfo(scene()).path() + '/' + QFileInfo(scene()).completeBaseName() + ".mapping.json";
-    if (beside.isEmpty() && !scene().isEmpty() && QFileInfo::exists(ofScene)) beside = ofScene;
-    mapping_->open(path, beside);
+    mapping_->open(path, mappingOf(path));
   } catch (const std::exception& error) {
     emit failed(QString::fromUtf8(error.what()));
   }
@@ -303,9 +313,9 @@ void AnalysisSetup::setRunning(bool running) {
 void AnalysisSetup::refresh() {
   for (int row = 0; row < recordings_->rowCount(); ++row) {
     const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
-    const auto found = findMapping(path.toStdString());
-    recordings_->item(row, mapped)
-        ->setText(found ? QFileInfo(QString::fromStdString(*found)).fileName() : tr("none beside it"));
+    const QString found = mappingOf(path);
+    recordings_->item(row, mapped)->setText(found.isEmpty() ? tr("none") : QFileInfo(found).fileName());
+    recordings_->item(row, mapped)->setToolTip(found);
   }
   const QString missing = problem();
   problem_->setText(missing);

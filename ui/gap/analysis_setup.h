@@ -30,10 +30,11 @@ class AnalysisSetup : public QWidget {
   void addRecordings(const QStringList& paths);
   void removeRecording();
   void setHeldOut(int row, bool heldOut);
-  /// A simulator to start from, by a name for people: versions of the selected run, or a file.
-  void setSimulators(const QStringList& names, const QStringList& files);
+  /// Simulators to start from beside the scene as given: names for people and their texts (simulator.json).
+  void setSimulators(const QStringList& names, const QStringList& texts);
+  QString simulatorText() const;  ///< of the chosen one; empty: the scene as given
 
-  AnalysisJob job() const;
+  AnalysisJob job() const;  ///< without a simulator
   /// What is missing before it can be started; empty if nothing is.
   QString problem() const;
   void showProgress(const QString& stage, double share);
@@ -57,6 +58,7 @@ class AnalysisSetup : public QWidget {
   void chooseRecordings();
   void readScene();
   void openMapping();
+  QString mappingOf(const QString& recording) const;
   void refresh();
   QStringList files(bool heldOut) const;
 

@@ -46,8 +46,8 @@ QString numberText(const GapReport::Number& n) {
 EffectsTable::EffectsTable(QWidget* parent) : QTableWidget(parent) {
   setAccessibleName(tr("Effects that were tried"));
   setObjectName("effects");
-  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Parameters [95 %]"), tr("Held-out gain"), tr("p"),
-                  tr("Cannot be told from"), tr("Screening"), tr("Reason")});
+  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Reason"), tr("Held-out gain"), tr("p"), tr("Screening"),
+                  tr("Cannot be told from"), tr("Parameters [95 %]")});
   horizontalHeaderItem(gain)->setToolTip(tr("1 − error with it / error without, on data that no fit has seen"));
   horizontalHeaderItem(pValue)->setToolTip(tr("Paired test on the held-out error"));
   horizontalHeaderItem(rank)->setToolTip(
@@ -87,7 +87,7 @@ void EffectsTable::setReport(const GapReport& report) {
   }
   // Long lists of numbers do not push the reason out of sight.
   resizeColumnsToContents();
-  for (const int wide : {int(parameters), int(rivals)})
+  for (const int wide : {int(reason), int(rivals)})
     if (columnWidth(wide) > 280) {
       horizontalHeader()->setSectionResizeMode(wide, QHeaderView::Interactive);
       setColumnWidth(wide, 280);

@@ -95,7 +95,18 @@ void GapPage::makeActions() {
 
 void GapPage::start() {
   if (const QString missing = setup_->problem(); !missing.isEmpty()) return emit failed(missing);
-  process_.start(setup_->job());
+  AnalysisJob job = setup_->job();
+  try {
+    if (const QString text = setup_->simulatorText(); !text.isEmpty()) {
+      // Kept beside the report: it says what "as given" was.
+      job.simulator = QDir(job.out).filePath("simulator_before.json");
+      QDir().mkpath(job.out);
+      writeFile(job.simulator.toStdString(), text.toStdString());
+    }
+  } catch (const std::exception& error) {
+    return emit failed(QString::fromUtf8(error.what()));
+  }
+  process_.start(job);
 }
 
 bool GapPage::openReport(const QString& folder) {
@@ -115,6 +126,12 @@ bool GapPage::openReport(const QString& folder) {
 
 void GapPage::setRun(const QString& name, const std::vector<SimulatorRecord>& versions, const QString& why) {
   versions_ = int(versions.size());
+  QStringList names, texts;
+  for (auto version = versions.rbegin(); version != versions.rend(); ++version) {
+    names << tr("%1, version %2 by %3").arg(name).arg(version->number).arg(QString::fromStdString(version->madeBy));
+    texts << QString::fromStdString(toJsonText(version->simulator));
+  }
+  setup_->setSimulators(names, texts);
   blocked_ = name.isEmpty() ? tr("Select a run first.") : why;
   run_->setText(name.isEmpty()     ? QString()
                 : versions.empty() ? name

@@ -75,7 +75,7 @@ PlotData errorPlot(const GapReport& report, std::size_t trial, std::size_t serie
   PlotData plot;
   plot.xTitle = tr("time (s)");
   plot.xColumn = "time_s";
-  plot.yTitle = tr("error (noise floors)");
+  plot.yTitle = tr("noise floors");
   plot.yColumn = "error_noise_floors";
   plot.empty = QString();
   if (!has(report, trial, series)) return plot;

@@ -32,6 +32,7 @@ nlohmann::json toJson(const BenchResult& result) {
                      {"near_substeps", s.nearSubsteps},
                      {"outcome_m", s.outcome_m},
                      {"deviation", s.deviation},
+                     {"rms_deviation", s.rmsDeviation},
                      {"cpu_per_simulated", s.cpuPerSimulated},
                      {"trials_per_second", s.trialsPerSecond}});
   return {{"task", result.name},

@@ -65,6 +65,20 @@ std::string stepText(const BenchStep& step) {
 
 }  // namespace
 
+Deviation deviationOf(const std::vector<double>& outcomes, const std::vector<double>& converged) {
+  std::vector<double> off;
+  double squares = 0;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    off.push_back(std::abs(outcomes[i] / converged[i] - 1));
+    squares += off.back() * off.back();
+  }
+  if (off.empty() || std::isnan(squares)) return {NAN, NAN};
+  std::sort(off.begin(), off.end());
+  const std::size_t half = off.size() / 2;
+  return {off.size() % 2 ? off[half] : (off[half - 1] + off[half]) / 2,
+          std::sqrt(squares / static_cast<double>(off.size()))};
+}
+
 BenchResult benchmark(const BenchTask& task, int repeats, const std::function<void(const std::string&)>& progress) {
   BenchResult result;
   result.name = task.name;
@@ -82,9 +96,9 @@ BenchResult benchmark(const BenchTask& task, int repeats, const std::function<vo
   for (const auto& [step, near] : tried) {
     BenchStep at{.step_s = step, .nearSubsteps = near};
     const auto outcomes = measure(task, at, repeats);
-    double sum = 0;
-    for (std::size_t i = 0; i < outcomes.size(); ++i) sum += std::pow(outcomes[i] / converged[i] - 1, 2);
-    at.deviation = std::sqrt(sum / static_cast<double>(outcomes.size()));
+    const Deviation off = deviationOf(outcomes, converged);
+    at.deviation = off.median;
+    at.rmsDeviation = off.rms;
     result.steps.push_back(at);
     const bool good = at.deviation <= allowed;  // false for a trial that failed (not a number)
     const auto better = [&](const BenchStep& other) { return at.cpuPerSimulated < other.cpuPerSimulated; };
@@ -97,12 +111,12 @@ BenchResult benchmark(const BenchTask& task, int repeats, const std::function<vo
 
 std::string benchTable(const std::vector<BenchResult>& results) {
   std::string table =
-      "task   step                     CPU ms per simulated s   simulated s per s   trials per s   outcome m   off "
-      "by\n";
+      "task   step                     CPU ms per simulated s   simulated s per s   trials per s   outcome m   off by "
+      "  (r.m.s.)\n";
   const auto line = [&](const std::string& name, const BenchStep& at, const char* mark) {
-    table += text("%-6s %-24s %22.2f %19.0f %14.1f %11.3f %7.1f%%%s\n", name.c_str(), stepText(at).c_str(),
+    table += text("%-6s %-24s %22.2f %19.0f %14.1f %11.3f %7.1f%% %9.1f%%%s\n", name.c_str(), stepText(at).c_str(),
                   1e3 * at.cpuPerSimulated, 1 / at.cpuPerSimulated, at.trialsPerSecond, at.outcome_m,
-                  1e2 * at.deviation, mark);
+                  1e2 * at.deviation, 1e2 * at.rmsDeviation, mark);
   };
   for (const auto& result : results) {
     if (result.chosen >= 0)
@@ -111,7 +125,9 @@ std::string benchTable(const std::vector<BenchResult>& results) {
       if (static_cast<int>(i) != result.chosen) line("", result.steps[i], "");
     line("", result.converged, "  converged");
   }
-  return table + "One core, thread CPU time, set-up of each trial included.\n";
+  return table +
+         "One core, thread CPU time, set-up of each trial included. Off by: median over the motions; r.m.s. beside "
+         "it.\n";
 }
 
 }  // namespace btr

@@ -22,7 +22,8 @@ struct BenchStep {
   double step_s = 0;
   int nearSubsteps = 1;
   double outcome_m = 0;        ///< mean over the motions: way of the ball, or of the robot where there is no ball
-  double deviation = 0;        ///< root mean square over the motions of (outcome/converged − 1)
+  double deviation = 0;        ///< median over the motions of |outcome/converged − 1|
+  double rmsDeviation = 0;     ///< root mean square of the same: a motion that depends on every hair shows here
   double cpuPerSimulated = 0;  ///< CPU seconds per simulated second
   double trialsPerSecond = 0;  ///< per core, set-up included
 };
@@ -33,6 +34,12 @@ struct BenchResult {
   std::vector<BenchStep> steps;  ///< from the largest
   int chosen = -1;               ///< the fastest of `steps` whose deviation is at most 5 %, −1 none
 };
+
+/// Median and root mean square over the motions of |outcome/converged − 1|; not a number if a motion failed.
+struct Deviation {
+  double median = 0, rms = 0;
+};
+Deviation deviationOf(const std::vector<double>& outcomes, const std::vector<double>& converged);
 
 /// Measures one task in this thread: thread CPU time, best of `repeats`. `progress` gets a line now and then.
 BenchResult benchmark(const BenchTask& task, int repeats = 3,

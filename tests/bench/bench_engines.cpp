@@ -79,12 +79,8 @@ Rival cheapest(Rival converged, std::vector<Rival> steps) {
     const double begin = cpuSeconds();
     const auto outcomes = rival.run(simulated);
     rival.cpu = (cpuSeconds() - begin) / simulated;
-    double sum = 0;
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      sum += std::pow(outcomes[i] / reference[i] - 1, 2);
-      rival.outcome += outcomes[i] / static_cast<double>(outcomes.size());
-    }
-    rival.deviation = std::sqrt(sum / static_cast<double>(outcomes.size()));
+    for (const double outcome : outcomes) rival.outcome += outcome / static_cast<double>(outcomes.size());
+    rival.deviation = deviationOf(outcomes, reference).median;
     std::printf("    %-22s %-16s %8.2f ms/s, off by %.1f%%\n", rival.name.c_str(), rival.step.c_str(), 1e3 * rival.cpu,
                 1e2 * rival.deviation);
     if (rival.deviation <= 0.05 && rival.cpu < best.cpu) best = rival;

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/sim/drive_law.h"
+
 namespace btr::bench {
 namespace {
 using Eigen::Isometry3d;
@@ -136,10 +138,20 @@ struct MujocoEngine::Impl {
       const Drive& d = drives[j];
       const double pull = d.p * (inputs[j].command - data->qpos[position[j]]);
       const double torque = pull - d.d * data->qvel[velocity[j]];
-      const bool within = std::abs(torque) <= d.maxTorque;
-      const bool implicit = way.implicitServo && within;
-      model->dof_damping[velocity[j]] = implicit ? d.d + h * d.p / 2 : 0;
-      data->qfrc_applied[velocity[j]] = implicit ? pull : std::clamp(torque, -d.maxTorque, d.maxTorque);
+      // The motor's torque-speed line, as our own drive law has it.
+      const double rate = data->qvel[velocity[j]];
+      const double high = largestTorque(d, rate), low = -largestTorque(d, -rate);
+      const bool within = torque <= high && torque >= low;
+      double damping = 0, applied = std::clamp(torque, low, high);
+      if (way.implicitServo && within) {
+        damping = d.d + h * d.p / 2;
+        applied = pull;
+      } else if (way.implicitServo && d.noLoadSpeed_rad_s > 0 && torque * rate > 0) {
+        damping = d.maxTorque / d.noLoadSpeed_rad_s;
+        applied = std::copysign(d.maxTorque, torque);
+      }
+      model->dof_damping[velocity[j]] = damping;
+      data->qfrc_applied[velocity[j]] = applied;
     }
     mj_step(model, data);
   }

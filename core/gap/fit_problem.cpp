@@ -142,6 +142,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
                           const EffectLibrary& library, double window_s) {
   FitProblem ready;
   ready.scene = problem.scene;
+  ready.givenStep_s = problem.scene.step_s;
   ready.models = problem.models;
   ready.given = problem.simulator;
   ready.library = library;

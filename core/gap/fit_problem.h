@@ -56,6 +56,7 @@ struct FitProblem {
   int blocks = 0;           ///< number of scoring blocks over all trials
   double block_s = 0.5;     ///< their length
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
+  double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   std::vector<std::string> notes;
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 constexpr double unexplainedExcess = 0.3;  // mean squared error above 1 at which pairs are tried
 constexpr std::size_t candidatesToFit = 8, candidatesInPairs = 4;  // half of them are fitted to the end and scored
-constexpr int firstIterations = 4, lastIterations = 15, againIterations = 5;
+constexpr int firstIterations = 4, lastIterations = 15, againIterations = 3;
 constexpr double hopeless = 2;
 constexpr double nothingLeft = 1.03;  // mean squared error at which there is nothing left to explain
 
@@ -43,7 +43,7 @@ bool unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
 class Search {
  public:
   Search(const FitProblem& problem, const SearchOptions& options)
-      : problem_(problem), options_(options), finest_s_(std::max(problem.scene.step_s / 16, 5e-5)) {}
+      : problem_(problem), options_(options), finest_s_(0.51 * problem.givenStep_s) {}
 
   SearchResult run();
 

@@ -116,7 +116,6 @@ struct GapReport {
   SimulatorSpec before, after;     ///< as given; calibrated with the accepted effects
   std::uint64_t seed = 1;
   double seconds = 0;       ///< wall time; not part of what must be reproducible
-  std::size_t replays = 0;  ///< of one whole set of recordings
   std::string version;
 };
 

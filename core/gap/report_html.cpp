@@ -177,8 +177,8 @@ std::string locatedSection(const GapReport& report) {
 
 std::string provenance(const GapReport& report) {
   std::string html = "<p>UCHILSIM " + escaped(report.version) + ", seed " + std::to_string(report.seed) + ", " +
-                     std::to_string(report.replays) + " replays of all recordings in " + brief(report.seconds) +
-                     " s.</p>\n<div class=\"wide\"><table>" + headerRow({"recording", "used for", "SHA-256"}, 3);
+                     brief(report.seconds) + " s.</p>\n<div class=\"wide\"><table>" +
+                     headerRow({"recording", "used for", "SHA-256"}, 3);
   for (const GapReport::Trial& t : report.trials)
     html += "<tr>" + cell(t.name) + cell(t.heldOut ? "scoring alone" : "fitting and cross-validation") + "<td><code>" +
             escaped(t.sha256) + "</code></td></tr>\n";

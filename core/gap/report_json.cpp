@@ -155,7 +155,6 @@ std::string toJsonText(const GapReport& report) {
   document["provenance"] = {{"seed", report.seed},
                             {"version", report.version},
                             {"recordings_sha256", json::array()},
-                            {"replays", report.replays},
                             {"wall_time_s", finite(report.seconds)}};
   for (const GapReport::Trial& trial : report.trials)
     document["provenance"]["recordings_sha256"].push_back(trial.sha256);

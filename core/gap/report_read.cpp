@@ -222,7 +222,6 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
   report.seed = provenance.seed("seed", 1);
   report.version = provenance.text("version");
   provenance.texts("recordings_sha256");
-  report.replays = static_cast<std::size_t>(provenance.integer("replays", 0, 1'000'000'000'000'000, 0));
   report.seconds = numberOf(provenance, "wall_time_s");
   provenance.finish();
 

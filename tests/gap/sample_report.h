@@ -115,7 +115,6 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
   r.after.effects = {{"backlash", knee, {{"width_rad", 0.051}, {"damping_nm_s_rad", 0.01}}}};
   r.seed = 18446744073709551615u;
   r.seconds = 41.5;
-  r.replays = 2310;
   r.version = "0.1.0";
   return r;
 }

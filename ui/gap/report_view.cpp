@@ -189,11 +189,8 @@ void ReportView::setReport(std::shared_ptr<const GapReport> report) {
   for (const GapReport::Trial& trial : shown.trials)
     notes << tr("• %1: SHA-256 %2").arg(trialName(trial), word(trial.sha256));
   if (report_)
-    notes << tr("• UCHILSIM %1, seed %2, %3 replays, %4 s")
-                 .arg(word(shown.version))
-                 .arg(shown.seed)
-                 .arg(shown.replays)
-                 .arg(word(brief(shown.seconds)));
+    notes
+        << tr("• UCHILSIM %1, seed %2, %3 s").arg(word(shown.version)).arg(shown.seed).arg(word(brief(shown.seconds)));
   notes_->setText(notes.join('\n'));
   showVerdict();
   if (report_) {

@@ -6,23 +6,38 @@
 
 #include "app/btr_commands.h"
 #include "core/gap/analysis.h"
+#include "core/gap/inverse.h"
 #include "core/gap/residual.h"
 #include "core/sim/worker_pool.h"
 
 namespace btr::cli {
 namespace {
 
-void residualCommand(const ResidualRequest& request, Shell& shell) {
+struct ResidualArguments {
+  ResidualRequest request;
+  bool inverse = false;
+  InverseOptions filters;
+};
+
+void residualCommand(const ResidualArguments& arguments, Shell& shell) {
   const bool show = isatty(STDERR_FILENO);
   bool stopped = false;
-  const ResidualReport report =
-      runResidual(request, shell.plugins().effectFactory(), [&](std::size_t done, std::size_t all) {
-        if (show) std::fprintf(stderr, "\rreplayed %zu of %zu recordings \x1b[K", done, all);
-        stopped = *shell.stop;
-        return !stopped;
-      });
+  const auto progress = [&](std::size_t done, std::size_t all) {
+    if (show) std::fprintf(stderr, "\rreplayed %zu of %zu recordings \x1b[K", done, all);
+    stopped = *shell.stop;
+    return !stopped;
+  };
+  const EffectFactory effects = shell.plugins().effectFactory();
+  std::string text;
+  if (arguments.inverse) {
+    const InverseReport report = runInverse(arguments.request, effects, arguments.filters, progress);
+    text = shell.json ? toJsonText(report) : inverseTable(report);
+  } else {
+    const ResidualReport report = runResidual(arguments.request, effects, progress);
+    text = shell.json ? toJsonText(report) : residualTable(report);
+  }
   if (show) std::fprintf(stderr, "\n");
-  std::cout << (shell.json ? toJsonText(report) : residualTable(report));
+  std::cout << text;
   if (stopped) shell.exitCode = stoppedEarly;
 }
 
@@ -90,7 +105,8 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   gap->require_subcommand(1);
   addGapStoreCommands(*gap, shell);
   addGapProveCommand(*gap, shell);
-  auto request = std::make_shared<ResidualRequest>();
+  auto arguments = std::make_shared<ResidualArguments>();
+  ResidualRequest* request = &arguments->request;
   CLI::App* residual = gap->add_subcommand("residual", "simulate the recorded commands, report the mismatch");
   residual->add_option("SCENE.json", request->scene, "scene file")->required();
   residual->add_option("--recording", request->recordings, "recorded trial (.csv), several are several trials")
@@ -99,7 +115,15 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   residual->add_option("--mapping", request->mapping, "which column is which channel, for all recordings");
   residual->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
   residual->add_option("--out", request->out, "folder for tables and overlay plots");
-  residual->callback([request, &shell] { residualCommand(*request, shell); });
+  CLI::Option* inverse = residual->add_flag("--inverse", arguments->inverse,
+                                            "follow the recorded motion and compare the torque that it takes");
+  residual->add_option("--lowpass", arguments->filters.lowpass_hz, "of the positions that are followed [Hz]")
+      ->needs(inverse)
+      ->capture_default_str();
+  residual->add_option("--every", arguments->filters.every, "torques are filtered and compared at every n-th sample")
+      ->needs(inverse)
+      ->capture_default_str();
+  residual->callback([arguments, &shell] { residualCommand(*arguments, shell); });
   addAnalyse(*gap, shell);
 }
 

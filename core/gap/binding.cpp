@@ -109,10 +109,12 @@ class Binder {
     };
 
     // Measurements.
-    if (const auto column = take(columns, "position_rad", "position_m", slides))
-      binding_.measured.push_back({Measured::What::position, robot, joint, *column});
-    if (const auto column = take(columns, "velocity_rad_s", "velocity_m_s", slides))
-      binding_.measured.push_back({Measured::What::rate, robot, joint, *column});
+    const auto position = take(columns, "position_rad", "position_m", slides);
+    const auto rate = take(columns, "velocity_rad_s", "velocity_m_s", slides);
+    if (drive.kind != Drive::Kind::motion) {
+      if (position) binding_.measured.push_back({Measured::What::position, robot, joint, *position});
+      if (rate) binding_.measured.push_back({Measured::What::rate, robot, joint, *rate});
+    }
 
     // What drives the joint: depends on the kind of its drive.
     const auto command = take(columns, "command_rad", "command_m", slides);
@@ -145,6 +147,12 @@ class Binder {
         binding_.notes.push_back(name + ": no command, duty or voltage_v column drives its motor; duty 0");
       }
       columns.erase("voltage_v");
+    } else if (drive.kind == Drive::Kind::motion) {
+      driven = command || position;
+      if (driven) input(Input::What::motion, position ? *position : *command);
+      if (!torque) torque = forceCommand;
+      if (!driven)
+        binding_.notes.push_back(name + ": no position or command column moves it; it holds where it starts");
     } else if (drive.kind == Drive::Kind::servo) {
       driven = command.has_value();
       if (driven) input(Input::What::command, *command);

@@ -44,7 +44,7 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
   if (!reader.node().is_object())
     throw InputError(place, "not an object", "{\"CHANNEL\": {\"column\": \"NAME\"}, ...}");
 
-  // Trial settings stand beside the channels; no channel is called like that.
+  // What is said of the whole file stands beside the channels; no channel is called like that.
   reader.array("settings", [&](JsonReader entry) {
     TrialSetting setting{entry.text("file_contains"), entry.anyValues("values")};
     if (setting.fileContains.empty()) entry.refuse("file_contains", "a part of the file's name");
@@ -57,9 +57,15 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     segments->finish();
   }
 
+  if (auto resample = reader.objectIfAny("resample")) {
+    mapping.period_s = resample->number("period_s", 1e-6, 1e6, 0);
+    mapping.lowpass_hz = resample->number("lowpass_hz", 1e-6, 1e6, 0);
+    resample->finish();
+  }
+
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
-    if (channel == "settings" || channel == "segments") continue;
+    if (channel == "settings" || channel == "segments" || channel == "resample") continue;
     if (channel != "time_s" && !parseChannel(channel))
       throw InputError(place, "channel \"" + channel + "\"",
                        "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "

@@ -54,11 +54,13 @@ struct Mapping {
   std::string source;
   std::vector<MappedColumn> columns;
   std::vector<TrialSetting> settings;
-  std::string segmentColumn;  ///< whenever its number changes a new trial begins; "": the file is one trial
+  double period_s = 0, lowpass_hz = 0;  ///< see Resampling; both 0: the samples as they are
+  std::string segmentColumn;            ///< whenever its number changes a new trial begins; "": the file is one trial
 };
 
 /// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
-/// "segments": {"column": "piece"}}. Throws InputError for what is not a channel, a channel or a key that nobody knows.
+/// "segments": {"column": "piece"}, "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws InputError for what is
+/// not a channel, a channel or a key that nobody knows.
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is

@@ -61,6 +61,7 @@ void setInputs(const Recording& recording, const Binding& binding, std::size_t r
     JointInput& joint = inputs[input.robot][input.joint];
     switch (input.what) {
       case Input::What::command:
+      case Input::What::motion:
         joint.command = value;
         break;
       case Input::What::enabled:
@@ -128,12 +129,74 @@ std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const Sta
     inputs.emplace_back(scene.robots[robot].model.joints.size());
     for (std::size_t joint = 0; joint < inputs[robot].size(); ++joint) {
       const Drive::Kind kind = scene.robots[robot].drives[joint].kind;
-      if (kind == Drive::Kind::servo) inputs[robot][joint].command = start.robots[robot].positions[joint];
+      if (kind == Drive::Kind::servo || kind == Drive::Kind::motion)
+        inputs[robot][joint].command = start.robots[robot].positions[joint];
       if (kind == Drive::Kind::dcMotor) inputs[robot][joint].duty = 0;
     }
   }
   return inputs;
 }
+
+/// Joints whose motion is prescribed, in a replay of rows `first` … `last` − 1.
+class Prescribed {
+ public:
+  Prescribed(const Recording& recording, const Binding& binding, std::size_t first, std::size_t last)
+      : recording_(recording), first_(first), last_(last) {
+    for (const Input& input : binding.inputs)
+      if (input.what == Input::What::motion) inputs_.push_back(input);
+    for (std::size_t i = 0; i < binding.measured.size(); ++i)
+      for (const Input& input : inputs_)
+        if (binding.measured[i].what == Measured::What::torque && binding.measured[i].object == input.robot &&
+            binding.measured[i].part == input.joint)
+          torques_.push_back(i);
+  }
+  bool any() const { return !inputs_.empty(); }
+
+  /// A step that covers every interval of the recording.
+  double step() const {
+    const auto& time = recording_.columns[0];
+    double longest = 0;
+    for (std::size_t row = first_; row + 1 < last_; ++row) longest = std::max(longest, time[row + 1] - time[row]);
+    return longest;
+  }
+
+  void start(StartState& state) const {
+    const auto& time = recording_.columns[0];
+    for (const Input& input : inputs_) {
+      const auto& path = recording_.columns[input.column];
+      const auto slope = [&](std::size_t a, std::size_t b) { return (path[b] - path[a]) / (time[b] - time[a]); };
+      state.robots[input.robot].positions[input.joint] = path[first_];
+      double rate = 0;
+      if (first_ > 0 && first_ + 1 < path.size())
+        rate = slope(first_ - 1, first_ + 1);
+      else if (first_ + 2 < path.size())
+        rate = 2 * slope(first_, first_ + 1) - slope(first_, first_ + 2);
+      state.robots[input.robot].rates[input.joint] = rate;
+    }
+  }
+
+  /// A prescribed joint is told where it must be by the next row.
+  void aim(std::size_t nextRow, std::vector<std::vector<JointInput>>& inputs) const {
+    for (const Input& input : inputs_) {
+      const double value = recording_.columns[input.column][nextRow];
+      if (std::isfinite(value)) inputs[input.robot][input.joint].command = value;
+    }
+  }
+
+  /// A torque that was read at the end of a step acted at its beginning.
+  void align(std::vector<std::vector<double>>& values) const {
+    for (const std::size_t i : torques_)
+      for (std::size_t row = first_; row + 1 < last_; ++row) {
+        values[i][row] = values[i][row + 1];
+      }
+  }
+
+ private:
+  const Recording& recording_;
+  std::size_t first_, last_;
+  std::vector<Input> inputs_;
+  std::vector<std::size_t> torques_;
+};
 
 }  // namespace
 
@@ -205,14 +268,22 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
   return state;
 }
 
-ReplayedRecording replayRecording(const Scene& scene, const Recording& recording, const Binding& binding,
-                                  const StartState& start, std::size_t first, std::size_t last) {
+ReplayedRecording replayRecording(const Scene& given, const Recording& recording, const Binding& binding,
+                                  const StartState& from, std::size_t first, std::size_t last) {
   constexpr std::uint64_t seed = 1;  // nothing in a replay is drawn by chance
   const std::size_t rows = recording.rows();
   last = std::min(last, rows);
   assert(first < last);
   ReplayedRecording replayed;
   replayed.values.assign(binding.measured.size(), std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
+
+  const Prescribed prescribed(recording, binding, first, last);
+  Scene scene = given;
+  StartState start = from;
+  if (prescribed.any()) {
+    scene.step_s = prescribed.step();
+    prescribed.start(start);
+  }
 
   World world(scene, seed);
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
@@ -233,6 +304,7 @@ ReplayedRecording replayRecording(const Scene& scene, const Recording& recording
     readMeasured(world, scene, recording, binding, row, replayed.values);
     setInputs(recording, binding, row, inputs);
     if (row + 1 == last) break;
+    prescribed.aim(row + 1, inputs);
     world.advance(inputs, time[row + 1] - time[row]);
     replayed.fault = world.fault();
     if (!replayed.fault.empty()) {
@@ -240,6 +312,7 @@ ReplayedRecording replayRecording(const Scene& scene, const Recording& recording
       break;
     }
   }
+  prescribed.align(replayed.values);
   return replayed;
 }
 

@@ -11,7 +11,7 @@ namespace btr {
 /// Which columns of a recording drive a scene, and which can be compared with it.
 struct Binding {
   struct Input {
-    enum class What { command, enabled, supply, duty, volts };
+    enum class What { command, enabled, supply, duty, volts, motion };
     What what = What::command;
     std::size_t robot = 0, joint = 0;
     std::size_t column = 0;
@@ -58,6 +58,9 @@ struct ReplayedRecording {
 /// the last one), changes happen exactly at the recorded times, the state is read at the recorded times. Steps are the
 /// scene's step_s or, between samples, equal and slightly smaller. Rows `first` … `last` − 1; a pure function of its
 /// arguments.
+/// Joints whose motion is prescribed start where the recording has them, with the central difference as their rate; one
+/// step then covers the time between two samples, so that the torque of a row is that of the path's second difference
+/// there. (In the last row there is none: that of the row before.)
 ReplayedRecording replayRecording(const Scene& scene, const Recording& recording, const Binding& binding,
                                   const StartState& start, std::size_t first = 0,
                                   std::size_t last = std::numeric_limits<std::size_t>::max());

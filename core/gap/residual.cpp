@@ -8,6 +8,7 @@
 #include "core/gap/doctor.h"
 #include "core/gap/noise_floor.h"
 #include "core/gap/replay.h"
+#include "core/gap/residual_parts.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -22,26 +23,7 @@ ChannelError compare(const Recording& recording, std::size_t column, const std::
   error.time_s = recording.columns[0];
   error.recorded = recording.columns[column];
   error.simulated = simulated;
-  error.resolution = resolution(error.recorded);
-  double sum = 0, absolute = 0, squares = 0, steps = 0;
-  for (std::size_t i = 0; i < simulated.size(); ++i) {
-    const double difference = simulated[i] - error.recorded[i];
-    if (!std::isfinite(difference)) continue;
-    ++error.samples;
-    sum += difference;
-    absolute += std::abs(difference);
-    squares += difference * difference;
-    error.maximum = std::max(error.maximum, std::abs(difference));
-    // The error of a first-order step is twice what halving it changes.
-    if (std::isfinite(finer[i])) steps += 4 * (simulated[i] - finer[i]) * (simulated[i] - finer[i]);
-  }
-  if (error.samples > 0) {
-    const auto count = static_cast<double>(error.samples);
-    error.bias = sum / count;
-    error.meanAbsolute = absolute / count;
-    error.rootMeanSquare = std::sqrt(squares / count);
-    error.stepError = std::sqrt(steps / count);
-  }
+  fillErrors(error, finer);
   return error;
 }
 
@@ -77,33 +59,6 @@ void addRecording(const Scene& scene, const Recording& recording, ResidualReport
   }
 }
 
-/// The same note of many recordings is said once: "first.csv and 11 more: text".
-void joinNotes(std::vector<std::string>& notes) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> byText;
-  for (const std::string& note : notes) {
-    const std::size_t colon = note.find(": ");
-    const std::string name = note.substr(0, colon), text = note.substr(colon);
-    const auto known =
-        std::find_if(byText.begin(), byText.end(), [&](const auto& entry) { return entry.first == text; });
-    if (known == byText.end()) {
-      byText.push_back({text, {name}});
-    } else {
-      known->second.push_back(name);
-    }
-  }
-  notes.clear();
-  for (const auto& [text, names] : byText)
-    notes.push_back(names[0] + (names.size() > 1 ? " and " + std::to_string(names.size() - 1) + " more" : "") + text);
-}
-
-/// "DIR/sin_sin.leg.knee.position_rad.svg", a number added where two recordings have the same name.
-std::string freeName(const ChannelError& error, std::set<std::string>& taken) {
-  const std::string stem = std::filesystem::path(error.recording).stem().string() + "." + error.channel;
-  std::string name = stem;
-  for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);
-  return name + ".svg";
-}
-
 }  // namespace
 
 ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings) {
@@ -134,12 +89,7 @@ ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& 
 
   if (!request.out.empty()) {
     const std::filesystem::path folder(request.out);
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (!std::filesystem::is_directory(folder)) throw InputError(request.out + ": the folder cannot be made");
-    std::set<std::string> taken;
-    for (const ChannelError& error : report.channels)
-      writeFile((folder / freeName(error, taken)).string(), overlaySvg(error));
+    writeOverlays(request.out, report.channels);
     writeFile((folder / "residual.json").string(), toJsonText(report));
     writeFile((folder / "residual.txt").string(), residualTable(report));
   }

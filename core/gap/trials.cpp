@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/gap/resample.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -54,7 +55,10 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
       mapping = &beside;
     }
   }
-  return divide(readRecording(path, mapping, limit), mapping);
+  std::vector<Recording> trials = divide(readRecording(path, mapping, limit), mapping);
+  if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))
+    for (Recording& trial : trials) trial = resampled(trial, {mapping->period_s, mapping->lowpass_hz});
+  return trials;
 }
 
 Recording loadRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {

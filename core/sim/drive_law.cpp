@@ -83,6 +83,16 @@ DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInpu
   return row;
 }
 
+/// What remains between the wanted and the made rate is a millionth of the change of rate, and is made good one step
+/// later.
+DriveRow motionRow(const JointState& state, const StepOf& step) {
+  constexpr double stiff = 1e6;
+  DriveRow row;
+  row.d = stiff * step.inertia / step.h;
+  row.p = row.d * (state.command - state.position) / step.left;
+  return row;
+}
+
 }  // namespace
 
 double backEmfDamping(const Drive& drive, const JointInput& input) {
@@ -104,6 +114,8 @@ DriveRow driveRow(const Drive& drive, const JointState& state, double integral, 
       return dcMotorRow(drive, state, input, step);
     case Drive::Kind::torque:
       return {std::clamp(state.command, -drive.maxTorque, drive.maxTorque), 0};
+    case Drive::Kind::motion:
+      return motionRow(state, step);
     case Drive::Kind::none:
       break;
   }
@@ -126,6 +138,7 @@ double driveTorque(const Drive& drive, const JointState& state, double integral,
       return perVolt * (motorVolts(drive, state, input).given - drive.torqueConstant_nm_a * state.rate);
     case Drive::Kind::torque:
       return std::clamp(state.command, -drive.maxTorque, drive.maxTorque);
+    case Drive::Kind::motion:
     case Drive::Kind::none:
       break;
   }

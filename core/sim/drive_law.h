@@ -26,6 +26,7 @@ struct DriveRow {
 struct StepOf {
   double h = 0;        ///< length [s]
   double inertia = 1;  ///< that the joint turns or pushes, roughly [kg·m² or kg]
+  double left = 0;     ///< time until the command must be reached, at least h (prescribed motion) [s]
 
   /// Adds a spring of stiffness k ≥ 0 and a damper c ≥ 0 whose torque at this position and rate is already part of the
   /// row as p (spring, anything else) and NOT yet in it (damper). Second order in h where h resolves them, stable for
@@ -43,6 +44,7 @@ struct StepOf {
 ///   DC motor  kt·u/R − kt²·rate/R,  u = supply·(duty as given, or clamp(gain·(command − q)/nominal
 ///             supply, ±maxDuty))
 ///   torque    clamp(command, ±max)
+///   motion    D·((command − q)/time left − rate'), D a million times what the inertia needs
 /// A drive that is switched off gives nothing; a DC motor whose winding is then shorted brakes, −offBraking·kt²·rate/R
 /// (0, an open circuit, does not).
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,

@@ -18,7 +18,9 @@ struct Hull;
 
 /// How one joint is driven, all numbers known. SI units.
 struct Drive {
-  enum class Kind { servo, dcMotor, torque, none };  ///< torque also means force on a slide joint
+  /// torque also means force on a slide joint. motion: the joint is where its command says at the end of each
+  /// World::advance, whatever torque that takes; the drive's torque says how much.
+  enum class Kind { servo, dcMotor, torque, motion, none };
   Kind kind = Kind::servo;
   double p = 0, i = 0, d = 0;  ///< servo: torque = p·(command − q) + i·∫ − d·q̇, clamped to ±maxTorque
   double maxTorque = 1e9;

@@ -33,11 +33,12 @@ Drive::Kind kindOf(const ServoSpec& servo, const Joint& joint, const std::string
   const bool slides = joint.type == Joint::Type::slide;
   if (servo.drive == "servo") return Drive::Kind::servo;
   if (servo.drive == "dc_motor") return Drive::Kind::dcMotor;
+  if (servo.drive == "motion") return Drive::Kind::motion;
   if (servo.drive == "none") return Drive::Kind::none;
   if (servo.drive == (slides ? "force" : "torque")) return Drive::Kind::torque;
-  throw InputError(
-      place + ".drive", servo.drive,
-      slides ? "servo, dc_motor, force or none on a slide joint" : "servo, dc_motor, torque or none on a rotary joint");
+  throw InputError(place + ".drive", servo.drive,
+                   slides ? "servo, dc_motor, force, motion or none on a slide joint"
+                          : "servo, dc_motor, torque, motion or none on a rotary joint");
 }
 
 int jointOf(const SceneRobot& robot, const std::string& name, const std::string& place) {

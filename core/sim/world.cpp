@@ -76,6 +76,7 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
       throw std::logic_error("World::advance: an input for each joint of the model");
   if (!(duration > 0) || duration > 1e6) throw std::logic_error("World::advance: a positive duration");
   if (!fault.empty()) return;
+  until = time() + duration;
 
   // The scene's steps where a whole number of them fits, else equal steps that are a little smaller.
   long count = std::lround(duration / scene.step_s);

@@ -65,6 +65,7 @@ struct World::Impl {
   std::vector<ContactPoint> points;  ///< scratch
   double start_s = 0;                ///< time at which `steps` was zero
   long steps = 0;
+  double until = 0;  ///< end of the present advance [s]
   std::string fault;
 
   double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }

@@ -88,7 +88,8 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
   const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
-  const StepOf step{h, joint.heldInertia + spec.rotorInertia_kg_m2};
+  const StepOf step{h, joint.heldInertia + spec.rotorInertia_kg_m2, std::max(h, until - now)};
+  const bool prescribed = spec.kind == Drive::Kind::motion;
 
   // Command, servo law, drive torque. A kick acts for half a step before and after its instant: where the command
   // changes just then it follows the mean of old and new.
@@ -101,12 +102,12 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   drive.enabled = input.enabled;
   drive.fresh = false;
   JointState state = stateOf(robot, index, now);
-  state.command = drive.effects.empty() ? mean : drive.effects.command(mean, state, h);
+  state.command = prescribed ? input.command : drive.effects.empty() ? mean : drive.effects.command(mean, state, h);
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
   DriveRow row = driveRow(spec, state, drive.integral, acting, step);
-  if (!drive.effects.empty() && acting.enabled && spec.kind != Drive::Kind::none)
+  if (!drive.effects.empty() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
     row = drive.effects.drive(row, spec, state, drive.integral, acting, step);
-  if (switched)
+  if (switched && !prescribed)
     for (double* force : {&row.p, &row.d, &row.limit}) *force /= 2;
   drive.row = row;
 

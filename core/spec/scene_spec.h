@@ -11,7 +11,7 @@ namespace btr {
 
 /// How a joint is driven, as the contract's scene says. Every number is optional: what is absent comes from the model.
 struct ServoSpec {
-  std::string drive = "servo";  ///< "servo", "dc_motor", "torque", "force", "none" (a free joint)
+  std::string drive = "servo";  ///< "servo", "dc_motor", "torque", "force", "motion", "none" (a free joint)
   /// p, i, d, max_torque_nm (max_force_n on slide joints), firmware_gain_v_per_rad, voltage_v,
   /// torque_constant_nm_per_a, resistance_ohm, max_duty, rotor_inertia_kg_m2, … : the names in servoNumbers().
   Values numbers;

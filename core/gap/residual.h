@@ -14,6 +14,7 @@ struct ChannelError {
   std::size_t samples = 0;  ///< rows where both are finite
   double meanAbsolute = 0, rootMeanSquare = 0, maximum = 0, bias = 0;
   double resolution = 0;  ///< what the recording cannot tell: its noise floor or rounding (noise_floor.h)
+  double last = 0;        ///< at the last sample where both are finite
   double stepError = 0;   ///< root mean square error of the integration itself, from a replay with half the step
   std::vector<double> time_s, recorded, simulated;
 };

@@ -29,6 +29,7 @@ void fillErrors(ChannelError& error, const std::vector<double>& finer) {
     const double difference = error.simulated[i] - error.recorded[i];
     if (!std::isfinite(difference)) continue;
     ++error.samples;
+    error.last = difference;
     sum += difference;
     absolute += std::abs(difference);
     squares += difference * difference;

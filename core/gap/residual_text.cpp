@@ -49,12 +49,14 @@ std::vector<ChannelError> means(const ResidualReport& report) {
     mean.rootMeanSquare += error.rootMeanSquare;
     mean.maximum = std::max(mean.maximum, error.maximum);
     mean.bias += error.bias;
+    mean.last += error.last;
     mean.resolution += error.resolution;
     mean.stepError += error.stepError;
   }
   for (ChannelError& mean : result) {
     const double count = std::max(1.0, places[mean.channel].second);
-    for (double* value : {&mean.meanAbsolute, &mean.rootMeanSquare, &mean.bias, &mean.resolution, &mean.stepError})
+    for (double* value :
+         {&mean.meanAbsolute, &mean.rootMeanSquare, &mean.bias, &mean.last, &mean.resolution, &mean.stepError})
       *value /= count;
     mean.recording = "mean of " + digits(places[mean.channel].second);
   }
@@ -79,6 +81,7 @@ nlohmann::json toJson(const ChannelError& error) {
   put("root_mean_square_error", error.rootMeanSquare);
   put("maximum_error", error.maximum);
   put("bias", error.bias);
+  put("last_error", error.last);
   put("noise_floor", error.resolution);
   put("step_error", error.stepError);
   return object;

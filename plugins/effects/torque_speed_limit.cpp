@@ -13,7 +13,7 @@ namespace {
 class TorqueSpeedLimit final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"inverse_stall_torque_1_nm", "1/(N·m)", "one over the torque at standstill, 1/N on a slide joint", 0, 20,
-             1, 0.0},
+             2.5, 0.0},
             {"inverse_free_speed_s_rad", "s/rad", "one over the speed without load, s/m on a slide joint", 0, 10, 0.1,
              0.0}};
   }

@@ -15,6 +15,8 @@ namespace {
 
 /// The torque's filter where every n-th sample is kept: steep, nothing left of what thinning would fold.
 constexpr int torqueOrder = 8;
+/// So many compared samples at either end are left out, which both filters know too little of.
+constexpr int ends = 10;
 
 /// The scene with every joint whose position was recorded moved by it.
 Scene prescribed(Scene scene, const Recording& recording) {
@@ -27,14 +29,14 @@ Scene prescribed(Scene scene, const Recording& recording) {
   return scene;
 }
 
-/// Filtered and thinned; a span of the filter's own length at either end is left out, where it knows too little.
+/// Filtered and thinned, without the ends.
 std::vector<double> thinned(const std::vector<double>& values, double rate_hz, int every) {
   if (every == 1) return values;
   const std::vector<double> smooth =
       LowPass(torqueOrder, 0.45 * rate_hz / static_cast<double>(every), rate_hz).zeroPhase(values);
   std::vector<double> kept;
   const auto step = static_cast<std::size_t>(every);
-  for (std::size_t i = 5 * step; i + 5 * step < smooth.size(); i += step) kept.push_back(smooth[i]);
+  for (std::size_t i = ends * step; i + ends * step < smooth.size(); i += step) kept.push_back(smooth[i]);
   return kept;
 }
 
@@ -43,9 +45,9 @@ void addRecording(const Scene& given, const Recording& raw, const InverseOptions
   if (!(options.lowpass_hz > 0) || options.lowpass_hz >= rate / 2)
     throw InputError(raw.source + " --lowpass", toText(options.lowpass_hz),
                      "more than 0 and less than half the sampling rate of " + toText(rate) + " Hz");
-  if (options.every < 1 || raw.rows() < 20 * static_cast<std::size_t>(options.every))
+  if (options.every < 1 || raw.rows() < 4 * ends * static_cast<std::size_t>(options.every))
     throw InputError(raw.source + " --every", std::to_string(options.every),
-                     "1 to a twentieth of the " + std::to_string(raw.rows()) + " rows");
+                     "1 to a fortieth of the " + std::to_string(raw.rows()) + " rows");
   Recording recording = resampled(raw, {});
   const Scene scene = prescribed(given, recording);
   const Binding binding = bind(scene, recording);
@@ -73,7 +75,7 @@ void addRecording(const Scene& given, const Recording& raw, const InverseOptions
     joint.error.channel = recording.channels[measured.column];
     joint.error.recorded = thinned(recording.columns[measured.column], rate, options.every);
     joint.error.simulated = thinned(replayed.values[i], rate, options.every);
-    const double offset = options.every == 1 ? 0 : 5 * options.every;
+    const double offset = options.every == 1 ? 0 : ends * options.every;
     for (std::size_t k = 0; k < joint.error.recorded.size(); ++k)
       joint.error.time_s.push_back(recording.columns[0][0] + (offset + static_cast<double>(k) * options.every) / rate);
     fillErrors(joint.error, {});

@@ -125,7 +125,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
 
   // A rotor behind an elastic gear moves on its own; what reaches the joint comes through the gear's spring.
   drive.gear = {};
-  if (spec.gearCompliance > 0) {
+  if (spec.gearCompliance > 0 && !prescribed) {
     // The back electromotive force is the rotor's, not the joint's.
     double b = spec.kind == Drive::Kind::dcMotor ? backEmfDamping(spec, acting) : 0;
     DriveRow atJoint;

@@ -140,7 +140,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   }
   // The rotor behind a rigid gear: kinetic energy ½·J·rate², the limit of a large gear ratio (the rotor's own share in
   // the spin of its body is left out).
-  if (spec.rotorInertia_kg_m2 > 0 && spec.gearCompliance == 0) {
+  if (spec.rotorInertia_kg_m2 > 0 && (spec.gearCompliance == 0 || prescribed)) {
     passive.d += spec.rotorInertia_kg_m2 / h;
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }

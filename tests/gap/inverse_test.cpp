@@ -101,6 +101,17 @@ TEST(Inverse, ForceIsMassTimesAccelerationInEveryRow) {
   for (std::size_t row = 0; row < 200; ++row) EXPECT_NEAR(replayed.values[0][row], 6, 1e-4) << row;
 }
 
+TEST(Inverse, ARotorFollowsThePrescribedJointEvenBehindAnElasticGear) {
+  Scene scene = rigScene(R"("rail": {"drive": "motion"}, "hinge": {"drive": "none"})");
+  Drive& drive = scene.robots[0].drives[1];
+  drive.rotorInertia_kg_m2 = 1;
+  drive.gearCompliance = 1e-3;
+  const Recording recording = accelerated(3, 200);
+  const Binding binding = bind(scene, recording);
+  const ReplayedRecording replayed = replayRecording(scene, recording, binding, startState(scene, recording, binding));
+  for (std::size_t row = 0; row < 200; ++row) EXPECT_NEAR(replayed.values[0][row], (2 + 1) * 3, 1e-4) << row;
+}
+
 TEST(Inverse, AWindowThatBeginsInTheMiddleHasTheSameForces) {
   const Scene scene = rigScene(R"("rail": {"drive": "motion"}, "hinge": {"drive": "none"})");
   const Recording recording = accelerated(3, 200);

@@ -49,6 +49,24 @@ class TestPlotWidget : public QObject {
   Q_OBJECT
 
  private slots:
+  void tinyNumbersAfterLargeOnesNeedFewLabels() {
+    // Fitness 0, then 1e-12, then 1: labels of one range on the axis of another would fill the memory.
+    PlotWidget plot;
+    plot.resize(600, 400);
+    plot.show();
+    double last = 2;
+    for (const double top : {0.0, 1.4e-12, 1.0, 1e12, 1e-300, 0.0}) {
+      PlotData data;
+      PlotSeries series;
+      series.name = "fitness";
+      series.points = {{1, 0}, {last *= 31, top}};  // the x axis changes its labels' width too
+      data.series = {series};
+      plot.setData(data);
+      QVERIFY(plot.visibleRange().bottom() >= top);
+      plot.grab();
+    }
+  }
+
   void decimationKeepsEveryColumnsExtremes() {
     // A long sine with one spike up and one down, each a single sample wide.
     std::vector<QPointF> points;

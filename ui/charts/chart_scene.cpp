@@ -146,13 +146,24 @@ void ChartScene::setRange(const QRectF& range) {
     const double top = range.bottom() > 0 ? range.bottom() : 1;
     range_ = QRectF(QPointF(range.left(), range.top() > 0 ? range.top() : top * 1e-3), QPointF(range.right(), top));
   }
-  refreshTicks();
+  // The interval of one range must never meet the other: 1e-12 of new fitness on an old axis to 1 would be 10¹² labels.
+  const auto loosen = [](QAbstractAxis* axis, double span) {
+    if (auto* values = qobject_cast<QValueAxis*>(axis); values && axis->type() == QAbstractAxis::AxisTypeValue)
+      values->setTickInterval(std::max({span, values->max() - values->min(), values->tickInterval()}));
+  };
+  changingRange_ = true;
+  loosen(xAxis_, range_.width());
+  loosen(yAxis_, range_.height());
   xAxis_->setRange(range_.left(), range_.right());
   yAxis_->setRange(range_.top(), range_.bottom());
+  changingRange_ = false;
+  refreshTicks();
   refresh();
 }
 
 void ChartScene::refreshTicks() {
+  // A range of more figures moves the plot's edges, which asks for ticks before the other axis has its range.
+  if (changingRange_) return;
   const QRectF area = chart_->plotArea();
   if (auto* axis = qobject_cast<QValueAxis*>(xAxis_); axis && axis->type() == QAbstractAxis::AxisTypeValue) {
     const double step = niceStep(range_.width(), std::clamp(static_cast<int>(area.width() / 70), 2, 12), data_.wholeX);

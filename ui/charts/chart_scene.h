@@ -76,7 +76,7 @@ class ChartScene : public QObject {
   PlotColours colours_;
   QFont font_;
   QRectF range_{0, 0, 1, 1};
-  bool logarithmic_ = false;
+  bool logarithmic_ = false, changingRange_ = false;
   std::set<QString> hidden_, met_;   ///< met: names whose hiddenAtFirst has been obeyed
   std::vector<QXYSeries*> series_;   ///< as data_.series
   std::vector<QAreaSeries*> bands_;  ///< as data_.bands

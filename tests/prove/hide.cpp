@@ -34,7 +34,8 @@ double drawShape(Random& random, const Parameter& parameter) {
   const double drawn = by > 0 && parameter.minimum >= 0
                            ? drawLog(random, by / 2, by * 2)
                            : by + 0.15 * (parameter.maximum - parameter.minimum) * random.uniform(-1, 1);
-  return std::clamp(drawn, parameter.minimum, parameter.maximum);
+  const double within = std::clamp(drawn, parameter.minimum, parameter.maximum);
+  return parameter.integer ? std::round(within) : within;
 }
 
 /// Directions in which the sizes grow from neutral: share of the way to a bound, signed.

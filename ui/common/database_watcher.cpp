@@ -87,15 +87,17 @@ bool DatabaseWatcher::readActive() {
 void DatabaseWatcher::readAll() {
   emit runsChanged(database_->experiments(), runs_);
   for (const RunRecord& run : runs_) {
-    if (const auto told = stages_.find(run.id); told == stages_.end() || told->second != run.stage) {
+    const auto told = stages_.find(run.id);
+    const bool stageTold = told == stages_.end() || told->second != run.stage;
+    if (stageTold) {
       stages_[run.id] = run.stage;
       emit versionsChanged(run.id, database_->simulators(run.id));
     }
-    if (run.id == run_) readRun(run);
+    if (run.id == run_) readRun(run, stageTold);
   }
 }
 
-void DatabaseWatcher::readRun(const RunRecord& run) {
+void DatabaseWatcher::readRun(const RunRecord& run, bool stageTold) {
   const bool all = fresh_;
   fresh_ = false;
   emit runChanged(run, progressFromJson(run.progressJson), active_.count(run.id) > 0);
@@ -105,8 +107,8 @@ void DatabaseWatcher::readRun(const RunRecord& run) {
   if (all || simulators.size() != simulators_) {
     simulators_ = simulators.size();
     emit simulatorsChanged(run.id, simulators);
-    // One that was adopted between two stages.
-    if (!all) emit versionsChanged(run.id, simulators);
+    // One that was adopted between two stages. (A stage that ended has told already.)
+    if (!all && !stageTold) emit versionsChanged(run.id, simulators);
   }
   const auto generations = database_->generations(run.id, all ? 0 : lastGeneration_);
   if (all) lastGeneration_ = 0;

@@ -54,7 +54,7 @@ class DatabaseWatcher : public QObject {
 
  private:
   void readAll();
-  void readRun(const RunRecord& run);
+  void readRun(const RunRecord& run, bool stageTold = false);
   bool readActive();
 
   ActiveTest isActive_;

@@ -5,97 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/segment_cost.h"
+
 namespace btr {
 namespace {
 
-constexpr double differenceStep = 1e-2;  // of a parameter's scale, or of an initial state's standard error
 constexpr double flatPrior = 10;         // ranges of a parameter: holds what the recordings do not tell, nothing else
-
-/// Huber's loss as a residual of its own.
-double tamed(double r, double limit) {
-  return std::abs(r) <= limit ? r : std::copysign(std::sqrt(limit * (2 * std::abs(r) - limit)), r);
-}
-double tamedSlope(double r, double limit) {
-  return std::abs(r) <= limit ? 1 : limit / std::sqrt(limit * (2 * std::abs(r) - limit));
-}
-
-bool takesPart(const Segment& segment, std::size_t k, Fold fold) {
-  return fold == Fold::all || segment.fold[k] == static_cast<char>(fold);
-}
-
-/// A step that stays inside the bounds.
-double stepOf(const FitParameter& parameter, double value) {
-  const double step = differenceStep * parameter.scale;
-  return value + step > parameter.maximum ? -step : step;
-}
-
-/// Residuals of one segment by the scaled parameters and the shifts of its initial state.
-class SegmentCost final : public ceres::CostFunction {
- public:
-  SegmentCost(const FitProblem& problem, const FitModel& model, const Segment& segment, SceneCache& scenes, Fold fold,
-              double limit)
-      : problem_(problem), model_(model), segment_(segment), scenes_(scenes), fold_(fold), limit_(limit) {
-    if (!model.parameters.empty())
-      mutable_parameter_block_sizes()->push_back(static_cast<int>(model.parameters.size()));
-    if (!segment.nuisances.empty())
-      mutable_parameter_block_sizes()->push_back(static_cast<int>(segment.nuisances.size()));
-    set_num_residuals(static_cast<int>(segment.row.size()));
-  }
-
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const bool hasParameters = !model_.parameters.empty();
-    std::vector<double> numbers(model_.parameters.size()), shift(segment_.nuisances.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = blocks[0][i] * model_.parameters[i].scale;
-    for (std::size_t i = 0; i < shift.size(); ++i) shift[i] = blocks[hasParameters ? 1 : 0][i];
-    // Ceres asks for the residuals first, then for the same with their derivatives.
-    std::vector<double> key = numbers;
-    key.insert(key.end(), shift.begin(), shift.end());
-    if (key != last_ || here_.empty()) {
-      here_ = simulate(numbers, shift);
-      last_ = key;
-    }
-    const std::vector<double>& here = here_;
-    for (std::size_t k = 0; k < here.size(); ++k)
-      residuals[k] = takesPart(segment_, k, fold_) ? tamed(here[k], limit_) : 0;
-    if (!jacobians) return true;
-
-    const auto column = [&](double* jacobian, std::size_t width, std::size_t i, const std::vector<double>& there,
-                            double step) {
-      for (std::size_t k = 0; k < here.size(); ++k)
-        jacobian[k * width + i] =
-            takesPart(segment_, k, fold_) ? tamedSlope(here[k], limit_) * (there[k] - here[k]) / step : 0;
-    };
-    if (double* jacobian = hasParameters ? jacobians[0] : nullptr)
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const double step = stepOf(model_.parameters[i], numbers[i]);
-        std::vector<double> moved = numbers;
-        moved[i] += step;
-        column(jacobian, numbers.size(), i, simulate(moved, shift), step / model_.parameters[i].scale);
-      }
-    if (double* jacobian = shift.empty() ? nullptr : jacobians[hasParameters ? 1 : 0])
-      for (std::size_t i = 0; i < shift.size(); ++i) {
-        std::vector<double> moved = shift;
-        moved[i] += startStep;
-        column(jacobian, shift.size(), i, simulate(numbers, moved), startStep);
-      }
-    return true;
-  }
-
-  static constexpr double startStep = 0.1;
-
- private:
-  std::vector<double> simulate(const std::vector<double>& numbers, const std::vector<double>& shift) const {
-    return residualsOf(problem_, segment_, scenes_.scene(numbers, segment_.trial), shift);
-  }
-
-  const FitProblem& problem_;
-  const FitModel& model_;
-  const Segment& segment_;
-  SceneCache& scenes_;
-  Fold fold_;
-  double limit_;
-  mutable std::vector<double> last_, here_;  ///< where it was asked for last, and what it was
-};
 
 /// weight·(x − x0): keeps what the recordings do not tell where it was.
 class Prior final : public ceres::CostFunction {
@@ -116,6 +31,26 @@ class Prior final : public ceres::CostFunction {
 
  private:
   std::vector<double> centre_, weight_;
+};
+
+/// Says after each iteration whether the next Jacobian is differenced; ends a solve whose Jacobian was only updated as
+/// soon as a step fails.
+class AgeingJacobian final : public ceres::IterationCallback {
+ public:
+  explicit AgeingJacobian(JacobianPolicy& policy) : policy_(policy) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (summary.iteration == 0) {
+      policy_.difference = false;
+      return ceres::SOLVER_CONTINUE;
+    }
+    if (!summary.step_is_successful) return policy_.age > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    policy_.age = policy_.difference ? 0 : policy_.age + 1;
+    policy_.difference = policy_.age >= JacobianPolicy::oldest;
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  JacobianPolicy& policy_;
 };
 
 std::vector<double> priorWeights(const FitModel& model) {
@@ -150,6 +85,8 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
              const FitOptions& options) {
   Fit fit{model, shifts.empty() ? zeroShifts(problem) : shifts, 0};
   SceneCache scenes(problem, model);
+  JacobianPolicy policy;
+  policy.inherited = options.inherited;
 
   // Far outliers: beyond six times what residuals are at the start.
   const Eigen::VectorXd start = residualsOf(problem, model, fit.shifts);
@@ -169,7 +106,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     if (!fit.shifts[s].empty()) blocks.push_back(fit.shifts[s].data());
     if (blocks.empty()) continue;
     // Ceres takes ownership.
-    auto cost = std::make_unique<SegmentCost>(problem, model, problem.segments[s], scenes, options.fold, limit);
+    auto cost = std::make_unique<SegmentCost>(problem, model, s, scenes, policy, options.fold, limit);
     least.AddResidualBlock(cost.release(), nullptr, blocks);
     if (fit.shifts[s].empty()) continue;
     const std::size_t count = fit.shifts[s].size();
@@ -196,15 +133,27 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   }
 
   ceres::Solver::Options solver;
-  solver.max_num_iterations = options.iterations;
   solver.function_tolerance = 3e-4;
   solver.parameter_tolerance = 1e-6;
   solver.initial_trust_region_radius = 10;
   solver.linear_solver_type = problem.segments.size() > 8 ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
+  AgeingJacobian ageing(policy);
+  solver.callbacks.push_back(&ageing);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver, &least, &summary);
+  // What updated Jacobians cannot improve any more is tried again with new differences.
+  for (int left = options.iterations; left > 0;) {
+    solver.max_num_iterations = left;
+    policy.difference = true;
+    policy.age = policy.inherited ? 1 : 0;
+    ceres::Solve(solver, &least, &summary);
+    left -= std::max(1, static_cast<int>(summary.iterations.size()) - 1);
+    const bool stale = policy.age > 0;
+    policy.inherited = nullptr;
+    if (!stale || summary.termination_type == ceres::NO_CONVERGENCE || summary.termination_type == ceres::FAILURE) break;
+    solver.initial_trust_region_radius = std::max(1.0, summary.iterations.back().trust_region_radius);
+  }
   fit.cost = summary.final_cost;
   for (std::size_t i = 0; i < scaled.size(); ++i)
     fit.model.values[i] =

@@ -10,10 +10,14 @@ namespace btr {
 /// Which residuals take part in a fit.
 enum class Fold { all = -1, first = 0, second = 1 };
 
+struct Linearised;
+
 struct FitOptions {
   int iterations = 20;
   Fold fold = Fold::all;
   bool startsOnly = false;  ///< the parameters stay; only initial states are fitted
+  /// Of a fit whose parameters this model begins with, near where it starts: saves the first differences.
+  const Linearised* inherited = nullptr;
 };
 
 /// A model fitted to the recordings.
@@ -39,6 +43,9 @@ struct Linearised {
   Eigen::VectorXd profiled;             ///< initial states taken out
   Eigen::MatrixXd columns;              ///< by residual and parameter, initial states taken out
   std::vector<Eigen::MatrixXd> starts;  ///< by segment: orthonormal columns of what its initial state explains
+  Eigen::MatrixXd raw;                     ///< by residual and parameter, as they are
+  std::vector<Eigen::MatrixXd> rawStarts;  ///< by segment: by residual and initial state, as they are
+  std::vector<Eigen::Index> first;         ///< by segment: its first residual
   /// Takes what initial states explain out of a column.
   Eigen::VectorXd profile(const FitProblem& problem, const Eigen::VectorXd& column) const;
 };

@@ -58,6 +58,8 @@ struct FitProblem {
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
   double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
+  /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
+  double differenceStep = 1e-2;
   std::vector<std::string> notes;
 
   /// The scene of a trial in a simulator, its own settings over it.

@@ -7,7 +7,7 @@
 namespace btr {
 
 namespace {
-constexpr double differenceStep = 1e-2, startStep = 0.1;
+constexpr double startStep = 0.1;
 }
 
 Eigen::VectorXd Linearised::profile(const FitProblem& problem, const Eigen::VectorXd& column) const {
@@ -31,7 +31,8 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
   Linearised result;
   const auto total = static_cast<Eigen::Index>(problem.residuals());
   result.residuals.resize(total);
-  Eigen::MatrixXd raw(total, static_cast<Eigen::Index>(model.parameters.size()));
+  Eigen::MatrixXd& raw = result.raw;
+  raw.resize(total, static_cast<Eigen::Index>(model.parameters.size()));
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
     const Segment& segment = problem.segments[s];
@@ -45,7 +46,8 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     for (std::size_t i = 0; i < model.parameters.size(); ++i) {
       const FitParameter& parameter = model.parameters[i];
       std::vector<double> moved = model.values;
-      const double step = differenceStep * (moved[i] + differenceStep * parameter.scale > parameter.maximum ? -1 : 1);
+      const double size = problem.differenceStep;
+      const double step = size * (moved[i] + size * parameter.scale > parameter.maximum ? -1 : 1);
       moved[i] += step * parameter.scale;
       raw.block(at, static_cast<Eigen::Index>(i), count, 1) = (simulate(moved, fit.shifts[s]) - here) / step;
     }
@@ -55,6 +57,8 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
       moved[i] += startStep;
       starts.col(static_cast<Eigen::Index>(i)) = (simulate(model.values, moved) - here) / startStep;
     }
+    result.first.push_back(at);
+    result.rawStarts.push_back(starts);
     if (starts.cols() > 0) {
       // With their prior of one standard error: an orthonormal basis B of what they explain, shrunk by λ/√(1+λ²).
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(starts, Eigen::ComputeThinU);

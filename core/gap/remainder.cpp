@@ -86,10 +86,7 @@ struct Learned {
 /// The option whose knots would take most away by the score test, fitted to the end.
 std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const Linearised& linear, int jobs) {
   const std::vector<Option> options = optionsOf(problem, problem.sceneOf(base.model.simulator(problem), 0));
-  std::optional<Learned> best;
-  double most = 0;
-  std::size_t chosen = options.size();
-  for (std::size_t i = 0; i < options.size(); ++i) {
+  const auto shareOf = [&](std::size_t i) -> std::vector<double> {
     FitProblem with = problem;
     with.library = withLearnedForce(problem.library, options[i].force);
     EffectCandidate candidate{
@@ -102,12 +99,16 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
       variant[p.name] = -p.byDefault;
       candidate.variants.push_back(variant);
     }
-    const Screened screened = screen(with, base, linear, {candidate}, jobs)[0];
-    if (screened.share > most) {
-      most = screened.share;
+    return {screen(with, base, linear, {candidate}, 1)[0].share};
+  };
+  const auto shares = parallel(jobs, options.size(), shareOf);
+  double most = 0;
+  std::size_t chosen = options.size();
+  for (std::size_t i = 0; i < options.size(); ++i)
+    if (!shares[i].empty() && shares[i][0] > most) {
+      most = shares[i][0];
       chosen = i;
     }
-  }
   if (chosen == options.size()) return std::nullopt;
   FitProblem with = problem;
   with.library = withLearnedForce(problem.library, options[chosen].force);
@@ -117,8 +118,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
   const Fit fit = fitModel(with, model, base.shifts, {12, Fold::all, false});
   Learned learned{options[chosen], crossValidate(with, fit), {}};
   learned.uncertainty = uncertaintyOf(with, fit, linearise(with, fit));
-  best = std::move(learned);
-  return best;
+  return learned;
 }
 
 }  // namespace

@@ -47,12 +47,24 @@ std::vector<double> withoutOther(const Fit& fit, const Linearised& linear, const
   return values;
 }
 
+std::vector<double> sizesInErrors(const FitModel& model, const Uncertainty& uncertainty) {
+  std::vector<double> sizes(model.effects.size(), 0);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect < 0 || !p.hasNeutral || !(uncertainty.standardError[i] > 0)) continue;
+    double& most = sizes[static_cast<std::size_t>(p.effect)];
+    most = std::max(most, std::abs(model.values[i] - p.given) / uncertainty.standardError[i]);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 Scored crossValidate(const FitProblem& problem, const Fit& fit) {
   Scored scored{fit, std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
-                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals()))};
+                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())), {}};
   const Linearised linear = linearise(problem, fit);
+  scored.sizes = sizesInErrors(fit.model, uncertaintyOf(problem, fit, linear));
   for (const Fold trained : {Fold::first, Fold::second}) {
     const Fold other = trained == Fold::first ? Fold::second : Fold::first;
     Eigen::VectorXd train(linear.residuals.size());

@@ -136,25 +136,105 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   return numbers;
 }
 
+/// Squared change of all residuals at a typical size that counts as felt.
+double leastFelt(const Linearised& linear) {
+  return std::min(0.01 * static_cast<double>(linear.residuals.size()), 25.0);
+}
+
+/// The segments where most is unexplained, a third of all, and what belongs to them.
+struct Part {
+  FitProblem problem;
+  Fit fit;
+  Linearised linear;
+};
+
+Part worstThird(const FitProblem& problem, const Fit& fit, const Linearised& linear) {
+  std::vector<std::size_t> order;
+  std::vector<double> error;
+  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
+    const auto rows = static_cast<Eigen::Index>(problem.segments[s].row.size());
+    error.push_back(linear.profiled.segment(linear.first[s], rows).squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows)));
+    order.push_back(s);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return error[a] > error[b]; });
+  order.resize((order.size() + 2) / 3);
+  std::sort(order.begin(), order.end());
+
+  Part part{problem, {fit.model, {}, fit.cost}, {}};
+  part.problem.segments.clear();
+  std::vector<Eigen::Index> rows;
+  for (const std::size_t s : order) {
+    part.problem.segments.push_back(problem.segments[s]);
+    part.fit.shifts.push_back(fit.shifts[s]);
+    part.linear.starts.push_back(linear.starts[s]);
+    for (std::size_t k = 0; k < problem.segments[s].row.size(); ++k)
+      rows.push_back(linear.first[s] + static_cast<Eigen::Index>(k));
+  }
+  part.linear.residuals = linear.residuals(rows);
+  part.linear.profiled = linear.profiled(rows);
+  part.linear.columns = linear.columns(rows, Eigen::all);
+  return part;
+}
+
+constexpr std::size_t many = 60, worthMore = 40;
+
+/// Of many candidates, those that a first look at a third of the segments, with one size in either direction, finds
+/// promising. The others' share is that of this look.
+std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Linearised& linear,
+                            const std::vector<EffectCandidate>& candidates, int jobs,
+                            const std::function<bool(std::size_t)>& goOn, std::vector<Screened>& result) {
+  const Part part = worstThird(problem, fit, linear);
+  const Projector projector(part.linear.columns, fit.model);
+  const VectorXd rest = projector.leftOf(part.linear.profiled);
+  const auto numbers = parallel(
+      jobs, candidates.size(),
+      [&](std::size_t i) {
+        EffectCandidate few = candidates[i];
+        few.variants.resize(std::min<std::size_t>(2, few.variants.size()));
+        return screenOne(part.problem, part.fit, part.linear, projector, rest, few);
+      },
+      goOn);
+  std::vector<std::size_t> order;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    result[c].share = numbers[c].size() > 2 ? numbers[c][2] : 0;
+    result[c].excited = !numbers[c].empty() && numbers[c][0] > leastFelt(part.linear);
+    order.push_back(c);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return result[a].share > result[b].share; });
+  std::vector<char> promising(candidates.size(), 0);
+  for (std::size_t k = 0; k < std::min(worthMore, order.size()); ++k) promising[order[k]] = 1;
+  return promising;
+}
+
 }  // namespace
 
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                              const std::vector<EffectCandidate>& candidates, int jobs,
                              const std::function<bool(std::size_t)>& goOn) {
+  std::vector<Screened> result(candidates.size());
+  for (std::size_t c = 0; c < candidates.size(); ++c) result[c].candidate = c;
+  std::vector<char> promising(candidates.size(), 1);
+  if (candidates.size() > many && problem.segments.size() > 2)
+    promising = firstLook(problem, fit, linear, candidates, jobs, goOn, result);
+  std::vector<std::size_t> chosen;
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    if (promising[c]) chosen.push_back(c);
+
   const Projector projector(linear.columns, fit.model);
   const VectorXd rest = projector.leftOf(linear.profiled);
   const auto numbers = parallel(
-      jobs, candidates.size(),
-      [&](std::size_t i) { return screenOne(problem, fit, linear, projector, rest, candidates[i]); }, goOn);
+      jobs, chosen.size(),
+      [&](std::size_t i) { return screenOne(problem, fit, linear, projector, rest, candidates[chosen[i]]); }, goOn);
 
-  std::vector<Screened> result;
-  const double enough = 0.01 * static_cast<double>(linear.residuals.size());
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    Screened screened;
-    screened.candidate = c;
-    const auto& list = numbers[c];
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const std::size_t c = chosen[k];
+    Screened& screened = result[c];
+    screened.excited = false;
+    screened.share = 0;
+    const auto& list = numbers[k];
     if (!list.empty()) {
-      screened.excited = list[0] > std::min(enough, 25.0);
+      screened.excited = list[0] > leastFelt(linear);
       const auto starts = static_cast<std::size_t>(list[1]);
       std::size_t at = 2;
       for (std::size_t s = 0; s < starts; ++s) {
@@ -166,7 +246,6 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
       }
       if (!screened.starts.empty()) screened.share = screened.starts[0].share;
     }
-    result.push_back(std::move(screened));
   }
   return result;
 }

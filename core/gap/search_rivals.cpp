@@ -1,0 +1,131 @@
+// What else would explain the recordings as well, and what is of no use beside the others.
+#include <algorithm>
+#include <cmath>
+
+#include "core/gap/search_run.h"
+
+namespace btr {
+namespace {
+
+constexpr std::size_t candidatesAsRivals = 6;  // half of them are fitted to the end and scored
+
+/// How many numbers an effect brings.
+std::size_t sizeOf(const FitModel& model, std::size_t effect) {
+  return static_cast<std::size_t>(std::count_if(model.parameters.begin(), model.parameters.end(),
+                                                [&](const auto& p) { return p.effect == static_cast<int>(effect); }));
+}
+
+bool contains(const FitModel& model, const EffectCandidate& candidate) {
+  return std::any_of(model.effects.begin(), model.effects.end(), [&](const PlacedEffect& e) {
+    return e.effect == candidate.effect && e.at == candidate.at;
+  });
+}
+
+/// Of a comparison with the final model.
+bool isWorse(const Comparison& lost) { return lost.t >= 2 && lost.gain > 0.01; }
+
+}  // namespace
+
+void SearchRun::prune(SearchResult& result) {
+  for (bool changed = true; changed && result.final.fit.model.effects.size() > 1;) {
+    changed = false;
+    std::vector<FitModel> models;
+    for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i)
+      models.push_back(result.final.fit.model.without(i));
+    const auto fits = fitAll(models, result.final.fit.shifts, 12, "dropping each in turn", 0.8, 0.83);
+    const auto scored = scoreAll(fits, "dropping each in turn", 0.83, 0.86);
+    for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
+      const Comparison comparison = compare(scored[i].blocks, result.final.blocks);
+      if (comparison.t >= 2 && comparison.gain >= leastGain) continue;
+      const PlacedEffect& dropped = result.final.fit.model.effects[i];
+      result.ladder.push_back(step("− " + dropped.effect + " at " + dropped.at, scored[i]));
+      for (Attempt& attempt : result.attempts)
+        if (attempt.candidate.effect == dropped.effect && attempt.candidate.at == dropped.at) {
+          attempt.accepted = false;
+          attempt.reason = "useless once the others were there";
+        }
+      result.final = scored[i];
+      changed = true;
+    }
+  }
+}
+
+/// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
+bool SearchRun::isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const {
+  const std::vector<std::string> simpler = problem_.library.make(candidate.effect)->contains();
+  return candidate.at == effect.at && std::find(simpler.begin(), simpler.end(), effect.effect) != simpler.end();
+}
+
+/// Fits of other effects in the place of the final model's effect `i`, and the final model without it.
+std::vector<SearchRun::Tried> SearchRun::inPlaceOf(std::size_t i, const SearchResult& result, Scored& without) {
+  const FitModel& model = result.final.fit.model;
+  if (model.effects.size() == 1) {
+    without = result.calibrated;
+    return firstStage_;
+  }
+  without = scoreAll(fitAll({model.without(i)}, result.final.fit.shifts, 12, "rivals", 0.86, 0.87), "rivals", 0.87,
+                     0.88)[0];
+  return tryCandidates(without.fit, linearise(problem_, without.fit), candidatesAsRivals, ", rivals", 0.88, 0.95);
+}
+
+/// True if another effect took the place of effect `i`: the simpler of equals, or simply a better one.
+bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const {
+  const FitModel& model = result.final.fit.model;
+  const PlacedEffect own = model.effects[i];
+  const std::string ownText = own.effect + " at " + own.at;
+  for (const Tried& other : others) {
+    const std::string text = other.attempt.candidate.text();
+    if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
+    const Comparison lost = compare(other.scored.blocks, result.final.blocks);
+    const bool simpler = sizeOf(other.fit.model, other.fit.model.effects.size() - 1) < sizeOf(model, i);
+    const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
+    if (!clearlyBetter && !(simpler && !isWorse(lost))) continue;
+    for (Attempt& attempt : result.attempts) {
+      if (attempt.candidate.text() == ownText) {
+        attempt.accepted = false;
+        attempt.reason = text + (simpler ? " is simpler and does as well" : " does better");
+      }
+      if (attempt.candidate.text() == text) {
+        attempt.accepted = true;
+        attempt.reason = simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText;
+      }
+    }
+    result.final = other.scored;
+    return true;
+  }
+  return false;
+}
+
+void SearchRun::findRivals(SearchResult& result) {
+  result.effects.clear();
+  // What replaces an effect stands last in the model; the others move up.
+  for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
+    Scored without;
+    const std::vector<Tried> others = inPlaceOf(i, result, without);
+    // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
+    const std::size_t place = replace(i, others, result) ? result.final.fit.model.effects.size() - 1 : i++;
+    const FitModel& model = result.final.fit.model;
+    const PlacedEffect own = model.effects[place];
+    Found found{own, compare(without.blocks, result.final.blocks), {}};
+    for (const Tried& other : others) {
+      const EffectCandidate& candidate = other.attempt.candidate;
+      if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
+      if (isWorse(compare(other.scored.blocks, result.final.blocks))) continue;
+      found.rivals.push_back({candidate.effect, candidate.at,
+                              std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
+      if (result.effects.empty()) result.rivalModels.push_back(other.fit.model);
+    }
+    result.effects.push_back(found);
+  }
+  // In the order of the final model.
+  const auto& effects = result.final.fit.model.effects;
+  const auto placeOf = [&](const Found& found) {
+    return std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
+             return e.effect == found.effect.effect && e.at == found.effect.at;
+           }) - effects.begin();
+  };
+  std::stable_sort(result.effects.begin(), result.effects.end(),
+                   [&](const Found& a, const Found& b) { return placeOf(a) < placeOf(b); });
+}
+
+}  // namespace btr

@@ -1,0 +1,72 @@
+// Structure search, inside: see search.h.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/gap/search.h"
+
+namespace btr {
+
+// What counts as an effect. From the prototype's experience (1 % of everything, 8 % of the excess, t of 2.5, six
+// standard errors), kept: fewer conditions let false effects in.
+inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
+
+/// One search from calibration to rivals.
+class SearchRun {
+ public:
+  SearchRun(const FitProblem& problem, const SearchOptions& options)
+      : problem_(problem), options_(options), finest_s_(0.51 * problem.givenStep_s) {}
+
+  SearchResult run();
+
+ private:
+  struct Tried {
+    Attempt attempt;
+    Fit fit;
+    Scored scored;
+  };
+
+  std::function<bool(std::size_t)> reporter(const std::string& stage, std::size_t count, double from, double to) const {
+    if (!options_.progress) return {};
+    return [this, stage, count, from, to](std::size_t done) {
+      const double share = count > 0 ? static_cast<double>(done) / static_cast<double>(count) : 1;
+      return options_.progress(stage, from + (to - from) * share);
+    };
+  }
+
+  std::vector<Fit> fitAll(const std::vector<FitModel>& models, const std::vector<std::vector<double>>& shifts,
+                          int iterations, const std::string& stage, double from, double to,
+                          const Linearised* inherited = nullptr) const;
+  std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
+  Scored calibrate() const;
+  std::vector<Tried> tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
+                                   const std::string& stage, double from, double to);
+  bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
+              std::string& reason) const;
+  /// Two effects that need each other still show a little alone.
+  static bool promisesAPair(const std::vector<Tried>& tried);
+  bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  void holdUntold(SearchResult& result) const;
+  void prune(SearchResult& result);
+  bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;
+  std::vector<Tried> inPlaceOf(std::size_t i, const SearchResult& result, Scored& without);
+  bool replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const;
+  void findRivals(SearchResult& result);
+  void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
+  GapReport::Step step(const std::string& what, const Scored& scored) const;
+
+  /// Mean squared change of the replay with half the step [noise floors²].
+  double stepError(const Fit& fit) const;
+  /// True if half the step changes the replay by more than what hides in the noise.
+  bool needsFinerStep(const Fit& fit) const;
+  std::vector<Fit> polish(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                          double to) const;
+
+  FitProblem problem_;  ///< its step may become finer on the way
+  const SearchOptions& options_;
+  double finest_s_;
+  std::vector<Tried> firstStage_;
+};
+
+}  // namespace btr

@@ -1,0 +1,47 @@
+#pragma once
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/gap/fit.h"
+
+namespace btr {
+
+/// When the costs of one fit take differences for their Jacobians (a replay a column) and when they only bring the last
+/// one up to date with what the step just taken showed (Broyden, Math. Comp. 19 (1965) 577: the least change that
+/// agrees with it; no replay).
+struct JacobianPolicy {
+  bool difference = true;                ///< the next one
+  int age = 0;                           ///< updates since the last differences
+  const Linearised* inherited = nullptr; ///< of a model that this one's first parameters and starts come from
+  static constexpr int oldest = 6;
+};
+
+/// Residuals of one segment by the scaled parameters (first block, if there are any) and the shifts of its initial
+/// state (next block, if there are any). Residuals beyond `limit` count in proportion to their size only (Huber).
+class SegmentCost final : public ceres::CostFunction {
+ public:
+  /// Keeps references to all but `fold` and `limit`.
+  SegmentCost(const FitProblem& problem, const FitModel& model, std::size_t segment, SceneCache& scenes,
+              const JacobianPolicy& policy, Fold fold, double limit);
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
+
+ private:
+  Eigen::VectorXd simulate(const Eigen::VectorXd& x) const;
+  void differences(const Eigen::VectorXd& x) const;
+
+  const FitProblem& problem_;
+  const FitModel& model_;
+  const Segment& segment_;
+  SceneCache& scenes_;
+  const JacobianPolicy& policy_;
+  std::size_t index_;
+  Fold fold_;
+  double limit_;
+  mutable Eigen::VectorXd last_, here_;       ///< where it was asked for last, and what it was
+  mutable Eigen::VectorXd base_, residuals_;  ///< where the Jacobian belongs
+  mutable Eigen::MatrixXd jacobian_;          ///< of the residuals as they are, by scaled parameters, then shifts
+};
+
+}  // namespace btr

@@ -3,10 +3,12 @@
 
 #include <cstdio>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
 #include "core/gap/analysis.h"
 #include "core/gap/inverse.h"
+#include "core/gap/predict.h"
 #include "core/gap/residual.h"
 #include "core/sim/worker_pool.h"
 
@@ -98,6 +100,30 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
   analyse->callback([request, lines, &shell] { analyseCommand(*request, *lines, shell); });
 }
 
+void predictCommand(const PredictRequest& request, Shell& shell) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const Recording& predicted : runPredict(request, shell.plugins().effectFactory())) {
+    all.push_back({{"file", predicted.source}, {"rows", predicted.rows()}, {"notes", predicted.notes}});
+    if (shell.json) continue;
+    std::cout << predicted.source << ": " << predicted.rows() << " rows, " << predicted.channels.size() - 1
+              << " channels\n";
+    for (const std::string& note : predicted.notes) std::cout << "  note: " << note << '\n';
+  }
+  if (shell.json) std::cout << all.dump(1) << '\n';
+}
+
+void addPredict(CLI::App& gap, Shell& shell) {
+  auto request = std::make_shared<PredictRequest>();
+  CLI::App* predict = gap.add_subcommand("predict", "what would be recorded under a recording's commands");
+  predict->add_option("SCENE.json", request->scene, "scene file")->required();
+  predict->add_option("--recording", request->recording, "whose times, commands and first samples are used (.csv)")
+      ->required();
+  predict->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
+  predict->add_option("--mapping", request->mapping, "which column is which channel");
+  predict->add_option("--out", request->out, "file to write (.csv)")->required();
+  predict->callback([request, &shell] { predictCommand(*request, shell); });
+}
+
 }  // namespace
 
 void addGapCommands(CLI::App& app, Shell& shell) {
@@ -125,6 +151,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
       ->capture_default_str();
   residual->callback([arguments, &shell] { residualCommand(*arguments, shell); });
   addAnalyse(*gap, shell);
+  addPredict(*gap, shell);
 }
 
 }  // namespace btr::cli

@@ -1,0 +1,84 @@
+#include "core/gap/predict.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "core/gap/replay.h"
+#include "core/gap/report_text.h"
+#include "core/sim/scene_build.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+/// What a recording of everything in the scene would be called.
+std::vector<std::string> channelsOf(const Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < scene.robots.size(); ++r) {
+    const SceneRobot& robot = scene.robots[r];
+    for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
+      const Joint& joint = robot.model.joints[j];
+      // What is moved by the recording itself is no prediction.
+      if (joint.type == Joint::Type::fixed || robot.drives[j].kind == Drive::Kind::motion) continue;
+      names.push_back(robot.name + "." + joint.name +
+                      (joint.type == Joint::Type::slide ? ".position_m" : ".position_rad"));
+    }
+    if (robot.freeBase)
+      for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
+        names.push_back(robot.name + ".base." + quantity);
+  }
+  for (const BallSpec& ball : scene.balls)
+    for (const char* quantity : {"x_m", "y_m", "z_m"}) names.push_back(ball.name + "." + quantity);
+  return names;
+}
+
+}  // namespace
+
+Recording predict(const Scene& scene, const Recording& recording) {
+  Recording whole = recording;
+  for (const std::string& name : channelsOf(scene)) {
+    if (whole.column(name) >= 0) continue;
+    whole.channels.push_back(name);
+    whole.columns.emplace_back(whole.rows(), std::numeric_limits<double>::quiet_NaN());
+  }
+  const Binding binding = bind(scene, whole);
+  const ReplayedRecording replayed = replayRecording(scene, whole, binding, startState(scene, whole, binding));
+
+  Recording predicted;
+  predicted.source = recording.source;
+  predicted.notes = binding.notes;
+  if (!replayed.fault.empty()) predicted.notes.push_back("the simulation was ended: " + replayed.fault);
+  const auto add = [&](std::size_t column, const std::vector<double>& values) {
+    predicted.channels.push_back(whole.channels[column]);
+    predicted.columns.push_back(values);
+  };
+  add(0, whole.columns[0]);
+  for (const Binding::Input& input : binding.inputs) add(input.column, whole.columns[input.column]);
+  for (std::size_t i = 0; i < binding.measured.size(); ++i)
+    if (predicted.column(whole.channels[binding.measured[i].column]) < 0)
+      add(binding.measured[i].column, replayed.values[i]);
+  return predicted;
+}
+
+std::vector<Recording> runPredict(const PredictRequest& request, const EffectFactory& effects) {
+  const SceneSpec spec = loadScene(request.scene);
+  const ModelSet models = loadModels(spec);
+  const SimulatorSpec simulator = request.simulator.empty() ? SimulatorSpec{} : loadSimulator(request.simulator);
+  const std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
+  std::vector<Recording> written;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    SimulatorSpec own = simulator;
+    for (const auto& [path, value] : trials[i].settings) own.values[path] = value;
+    Recording predicted = predict(makeScene(spec, models, own, effects), trials[i]);
+    std::filesystem::path out(request.out);
+    if (trials.size() > 1)
+      out.replace_filename(out.stem().string() + "-" + std::to_string(i + 1) + out.extension().string());
+    writeFile(out.string(), toCsv(NumberTable{predicted.channels, predicted.columns}));
+    predicted.source = out.string();
+    written.push_back(std::move(predicted));
+  }
+  return written;
+}
+
+}  // namespace btr

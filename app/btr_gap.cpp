@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/progress_line.h"
 #include "core/gap/analysis.h"
 #include "core/gap/inverse.h"
 #include "core/gap/predict.h"
@@ -42,26 +43,6 @@ void residualCommand(const ResidualArguments& arguments, Shell& shell) {
   std::cout << text;
   if (stopped) shell.exitCode = stoppedEarly;
 }
-
-/// What the terminal sees; with --progress one line "STAGE SHARE" for the window.
-class ProgressLine {
- public:
-  ProgressLine(Shell& shell, bool lines) : shell_(shell), lines_(lines), show_(isatty(STDERR_FILENO)) {}
-  bool operator()(const std::string& stage, double share) const {
-    if (lines_)
-      std::fprintf(stderr, "%s %.3f\n", stage.c_str(), share);
-    else if (show_)
-      std::fprintf(stderr, "\r%3.0f %% %s \x1b[K", 100 * share, stage.c_str());
-    return !*shell_.stop;
-  }
-  void end() const {
-    if (show_ && !lines_) std::fprintf(stderr, "\n");
-  }
-
- private:
-  Shell& shell_;
-  bool lines_, show_;
-};
 
 void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
   const ProgressLine progress(shell, lines);

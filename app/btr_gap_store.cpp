@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/progress_line.h"
 #include "core/run/adoption.h"
+#include "core/run/fitness_clues.h"
 #include "core/run/stored_recordings.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -104,9 +106,57 @@ void exportThem(const StoreArguments& a) {
   for (const Id recording : a.recordings) std::cout << exportRecording(db, recording, a.out) << '\n';
 }
 
+struct ClueArguments {
+  std::string database;
+  Id run = 0;
+  bool lines = false;
+  FitnessCluesOptions options;
+};
+
+void clues(const ClueArguments& a, Shell& shell) {
+  const Database db = Database::open(a.database, Database::Mode::readOnly);
+  const ProgressLine progress(shell, a.lines);
+  FitnessCluesOptions options = a.options;
+  options.progress = progress;
+  try {
+    const FitnessClues found = fitnessClues(db, shell.plugins(), a.run, options);
+    progress.end();
+    if (shell.json) {
+      std::cout << toJsonText(found) << '\n';
+      return;
+    }
+    std::cout << found.sentence << "\n\n";
+    std::vector<std::vector<std::string>> rows;
+    for (const FitnessClue& clue : found.clues) {
+      if (rows.size() == 20) break;
+      std::string sizes;
+      for (const auto& [name, value] : clue.effect.parameters) sizes += (sizes.empty() ? "" : ", ") + name + " " + brief(value);
+      rows.push_back({clue.effect.effect, clue.effect.at, brief(100 * clue.share) + " %", brief(clue.pValue), sizes});
+    }
+    writeOut("", table({"effect", "at", "takes away", "p by chance", "size"}, rows));
+  } catch (const Cancelled&) {
+    progress.end();
+    std::fprintf(stderr, "stopped\n");
+    shell.exitCode = stoppedEarly;
+  }
+}
+
+void addClues(CLI::App& gap, Shell& shell) {
+  auto a = std::make_shared<ClueArguments>();
+  CLI::App* app = gap.add_subcommand("clues", "what measured fitness alone says of missing physics");
+  app->add_option("--db", a->database, "experiment database")->required();
+  app->add_option("--run", a->run, "number of the run")->required()->check(CLI::PositiveNumber);
+  app->add_option("--effects", a->options.names, "consider these alone")->take_all();
+  app->add_option("--jobs", a->options.workers, "worker processes")->check(CLI::Range(1, 256));
+  app->add_option("--seed", a->options.seed, "of the differences dealt out at random")->capture_default_str();
+  app->add_flag("--progress", a->lines, "a line STAGE SHARE on standard error at every step");
+  app->callback([a, &shell] { clues(*a, shell); });
+}
+
 }  // namespace
 
 void addGapStoreCommands(CLI::App& gap, Shell& shell) {
+  addClues(gap, shell);
   auto a = std::make_shared<StoreArguments>();
   const auto database = [&](CLI::App* command) {
     command->add_option("--db", a->database, "experiment database")->required();

@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QMessageBox>
+#include <algorithm>
 
 #include "core/run/stored_recordings.h"
 #include "core/spec/json_reader.h"
@@ -45,7 +46,15 @@ void MainWindow::connectGap() {
 
 // A run takes another simulator while no process works on it and it is not finished.
 void MainWindow::showAdoption() {
-  if (!watcher_.isOpen() || run_.id == 0) return gapPage_->setRun({}, {}, {});
+  if (!watcher_.isOpen() || run_.id == 0) {
+    gapPage_->setMeasured({}, 0, 0);
+    return gapPage_->setRun({}, {}, {});
+  }
+  guard([this] {
+    const auto counts = watcher_.database().measurementCounts(run_.id);
+    const auto measured = std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.second > 0; });
+    gapPage_->setMeasured(databasePath(), run_.id, int(measured));
+  });
   QString why;
   if (runActive_ || watcher_.activeRuns().count(run_.id))
     why = tr("A process works on the run: another simulator is taken while it waits for measurements or is stopped.");

@@ -82,22 +82,26 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
 
 }  // namespace
 
-std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
+std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
+                                           const std::vector<PlacedEffect>& there,
                                            const std::vector<std::string>& names) {
-  const Scene scene = problem.sceneOf(problem.given, 0);
-  const auto taken = [&](const std::string& effect, const std::string& at) {
-    const auto same = [&](const PlacedEffect& other) { return other.effect == effect && other.at == at; };
-    return std::any_of(problem.given.effects.begin(), problem.given.effects.end(), same) ||
-           std::any_of(model.effects.begin(), model.effects.end(), same);
-  };
   std::vector<EffectCandidate> candidates;
-  for (const std::string& name : names.empty() ? problem.library.names : names) {
-    const auto effect = problem.library.make(name);
+  for (const std::string& name : names.empty() ? library.names : names) {
+    const auto effect = library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
     for (const std::string& at : placesFor(effect->place(), scene))
-      if (!taken(name, at)) candidates.push_back({name, at, declared, variantsOf(declared)});
+      if (std::none_of(there.begin(), there.end(),
+                       [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
+        candidates.push_back({name, at, declared, variantsOf(declared)});
   }
   return candidates;
+}
+
+std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
+                                           const std::vector<std::string>& names) {
+  std::vector<PlacedEffect> there = problem.given.effects;
+  there.insert(there.end(), model.effects.begin(), model.effects.end());
+  return candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names);
 }
 
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {

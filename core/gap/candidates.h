@@ -16,8 +16,12 @@ struct EffectCandidate {
   std::string text() const { return effect + " at " + at; }
 };
 
-/// All effects of the library (or of `names`, if it is not empty) at all places of the scene, without those that
-/// the simulator as given or `model` already has.
+/// All effects of the library (or of `names`, if it is not empty) at all places of a scene, without those that are
+/// `there` already.
+std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
+                                           const std::vector<PlacedEffect>& there,
+                                           const std::vector<std::string>& names);
+/// The same for a fit: without those that the simulator as given or `model` already has.
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
                                            const std::vector<std::string>& names);
 

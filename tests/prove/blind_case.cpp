@@ -48,8 +48,8 @@ std::string drawSalt(Random random) {
   return text;
 }
 
-/// Hidden effects, each large enough to be worth hiding.
-void hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& names, const Hideable& library,
+/// Hidden effects, each large enough to be worth hiding; false if there are none in this world.
+bool hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& names, const Hideable& library,
           Random random) {
   const EffectFactory effects = withOutside(library.make);
   constexpr double least = 1.2;  // error in noise floors without it: below, nobody could miss it
@@ -66,9 +66,10 @@ void hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& 
       blind.answer.hidden.push_back(hidden);
     }
   }
-  if (blind.simulator.effects.size() < wanted) throw std::runtime_error("no effect acts in this scene");
+  if (blind.simulator.effects.size() < wanted) return false;
   for (std::size_t i = 0; i + 1 < blind.answer.hidden.size(); ++i)
     priceRemoval(blind.answer.hidden[i], i, blind.world, blind.simulator, library, effects);
+  return true;
 }
 
 double measure(double value, const MeasuredColumn& column, Random& random) {
@@ -100,14 +101,20 @@ BlindCase drawCase(const CaseRequest& request, const Hideable& library) {
     throw InputError("--engine", request.engine, "ode or mujoco");
   if (request.engine == "mujoco" && (answer.scene == "carpet" || answer.scene == "flight"))
     throw InputError("--scene", answer.scene, "pendulum, leg or walk with MuJoCo");
-  blind.world = drawWorld(answer.scene, bodies);
-  blind.simulator.values = blind.world.truth;
-  answer.truth = blind.world.truth;
+  const std::size_t wanted = answer.kind == "two" ? 2 : answer.kind == "one" || answer.kind == "outside" ? 1 : 0;
+  const std::vector<std::string>& names = answer.kind == "outside" ? outsideNames() : library.names;
+  constexpr int worlds = 20;
+  for (int world = 1;; ++world) {
+    blind.world = drawWorld(answer.scene, bodies);
+    blind.simulator = {};
+    blind.simulator.values = blind.world.truth;
+    answer.truth = blind.world.truth;
+    answer.hidden.clear();
+    if (hide(blind, wanted, names, library, purpose("hidden"))) break;
+    // A ball that hardly moves shows nothing: another world.
+    if (world == worlds) throw std::runtime_error("no effect acts in any of " + std::to_string(worlds) + " worlds");
+  }
   for (const MeasuredColumn& column : blind.world.columns) answer.noise[column.name] = column.floor();
-
-  if (answer.kind == "one") hide(blind, 1, library.names, library, purpose("hidden"));
-  if (answer.kind == "two") hide(blind, 2, library.names, library, purpose("hidden"));
-  if (answer.kind == "outside") hide(blind, 1, outsideNames(), library, purpose("hidden"));
 
   // What the scene's author got wrong.
   const bool wrong = answer.kind == "parameters" || (answer.kind != "nothing" && errors.chance(0.7));

@@ -64,6 +64,14 @@ TEST(Cases, TheSameOneIsTheSameBytesAndAnotherDiffers) {
   EXPECT_NE(caseOf(plugins, "flight", "nothing", 3).answer.salt, caseOf(plugins, "flight", "nothing", 4).answer.salt);
 }
 
+TEST(Cases, AWorldInWhichNothingActsIsDrawnAnew) {
+  const Plugins plugins;
+  // No effect moves the ball of this case's first world by a noise floor.
+  const BlindCase blind = drawCase({.seed = 20261123, .number = 105, .scene = "flight", .kind = {}}, plugins.library);
+  ASSERT_FALSE(blind.answer.hidden.empty());
+  for (const auto& hidden : blind.answer.hidden) EXPECT_GE(hidden.cost, 1);
+}
+
 TEST(Cases, NothingWrongMeansTheTrueNumbersAndParametersMeansUpToAFifthAway) {
   const Plugins plugins;
   const auto numbers = [&](const char* kind) {

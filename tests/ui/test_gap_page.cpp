@@ -17,6 +17,7 @@
 #include "tests/gap/sample_report.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/gap/analysis_setup.h"
+#include "ui/gap/clues_view.h"
 #include "ui/gap/effects_table.h"
 #include "ui/gap/gap_page.h"
 #include "ui/gap/gap_plots.h"
@@ -395,6 +396,45 @@ class TestGapPage : public QObject {
     page.process().cancel();
     QVERIFY(cancelled.wait(10000));
     QCOMPARE(opened.size(), 1);
+  }
+
+  void fitnessAloneIsAskedWhereEnoughIsMeasured() {
+    QTemporaryDir folder;
+    FitnessClues clues;
+    clues.run = 4;
+    clues.sentence = "Six individuals were measured.";
+    clues.alike = 1;
+    clues.clues = {{{"voltage_sag", "world", {{"per_torque_1_nm", 0.25}}}, 0.8, 0.01, {}},
+                   {{"backlash", "ers7.LF_J1", {}}, 0.3, 0.6, {}}};
+    writeFile(folder.filePath("answer.json").toStdString(), toJsonText(clues));
+    const QString program = file(folder, "btr",
+                                 "#!/bin/sh\necho \"$@\" > '" + folder.filePath("asked").toStdString() +
+                                     "'\necho 'simulating with each effect 0.5' >&2\ncat '" +
+                                     folder.filePath("answer.json").toStdString() + "'\n");
+    QFile::setPermissions(program, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    GapPage page(program);
+    auto* ask = page.clues().findChild<QPushButton*>("ask");
+    auto* table = page.clues().findChild<QTableWidget*>("clues");
+    auto* sentence = page.clues().findChild<QLabel*>("cluesSentence");
+    QVERIFY(!ask->isEnabled());  // no run
+    page.setMeasured("a.db", 4, 2);
+    QVERIFY(!ask->isEnabled());
+    QVERIFY(page.clues().findChild<QLabel*>("state")->text().contains("2 of this run's individuals"));
+    page.setMeasured("a.db", 4, 6);
+    QVERIFY(ask->isEnabled());
+    QSignalSpy done(&page.clues().process(), &ProgramProcess::done);
+    ask->click();
+    QVERIFY(done.wait(10000));
+    QCOMPARE(QString::fromStdString(readFile(folder.filePath("asked").toStdString())).trimmed(),
+             QString("--json gap clues --db a.db --run 4 --progress"));
+    QCOMPARE(sentence->text(), QString("Six individuals were measured."));
+    QCOMPARE(table->rowCount(), 2);
+    QCOMPARE(table->item(0, CluesView::effect)->text(), QString("voltage sag"));
+    QVERIFY(table->item(0, CluesView::effect)->font().bold());
+    QVERIFY(!table->item(1, CluesView::effect)->font().bold());
+    page.setMeasured("a.db", 5, 6);  // another run: the answer was not about it
+    QCOMPARE(table->rowCount(), 0);
+    QVERIFY(sentence->text().isEmpty());
   }
 
   void aProgramThatIsNotThereIsAMessage() {

@@ -14,6 +14,7 @@
 #include "core/spec/json_reader.h"
 #include "ui/common/theme.h"
 #include "ui/gap/analysis_setup.h"
+#include "ui/gap/clues_view.h"
 #include "ui/gap/report_view.h"
 
 namespace btr::ui {
@@ -21,6 +22,7 @@ namespace btr::ui {
 GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), process_(program) {
   setup_ = new AnalysisSetup(this);
   view_ = new ReportView(this);
+  clues_ = new CluesView(program, this);
   run_ = new QLabel(this);
   run_->setObjectName("adoptInto");
   run_->setContentsMargins(8, 0, 8, 0);
@@ -29,6 +31,8 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   tabs_->setObjectName("gapTabs");
   tabs_->addTab(setup_, tr("Anal&ysis"));
   tabs_->addTab(view_, tr("Repor&t"));
+  tabs_->addTab(clues_, tr("&Fitness alone"));
+  tabs_->setTabToolTip(2, tr("What the measured fitness of a run says without any recording"));
   makeActions();
 
   auto* bar = new QToolBar(this);
@@ -61,6 +65,7 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
     setup_->setRunning(process_.isRunning());
     emit failed(message);
   });
+  connect(clues_, &CluesView::failed, this, &GapPage::failed);
   connect(view_, &ReportView::timeChosen, this, &GapPage::timeChosen);
   connect(view_, &ReportView::saveNextRequested, this, [this] {
     const QString file = QFileDialog::getSaveFileName(this, tr("Save the commands"), folder_ + "/next_command.csv",
@@ -138,6 +143,8 @@ void GapPage::setRun(const QString& name, const std::vector<SimulatorRecord>& ve
                                    : tr("%1, simulator version %2").arg(name).arg(versions.back().number));
   refresh();
 }
+
+void GapPage::setMeasured(const QString& database, Id run, int measured) { clues_->setRun(database, run, measured); }
 
 void GapPage::refresh() {
   const bool open = view_->report() != nullptr;

@@ -12,6 +12,7 @@ class QTabWidget;
 
 namespace btr::ui {
 class AnalysisSetup;
+class CluesView;
 class ReportView;
 
 /// The gap analysis page: set up and start an analysis, look through its report, adopt what it found, go back.
@@ -28,6 +29,10 @@ class GapPage : public QWidget {
   /// The run that adoption is for; `why` it is not possible now, empty if it is.
   void setRun(const QString& name, const std::vector<SimulatorRecord>& versions, const QString& why);
 
+  /// Where the run's measured fitness stands; empty: no run.
+  void setMeasured(const QString& database, Id run, int measured);
+
+  CluesView& clues() { return *clues_; }
   AnalysisSetup& setup() { return *setup_; }
   ReportView& view() { return *view_; }
   AnalysisProcess& process() { return process_; }
@@ -57,6 +62,7 @@ class GapPage : public QWidget {
   QTabWidget* tabs_;
   AnalysisSetup* setup_;
   ReportView* view_;
+  CluesView* clues_;
   QLabel* run_;
   QAction *open_, *export_, *adopt_, *revert_;
 };

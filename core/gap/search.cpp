@@ -21,9 +21,13 @@ bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
   return std::any_of(tried.begin(), tried.end(), [](const Tried& each) { return each.attempt.share > least; });
 }
 
-Scored SearchRun::calibrate() const {
+Scored SearchRun::calibrate() {
   const FitModel given = givenModel(problem_);
-  if (given.parameters.empty()) return scoreAsIs(problem_, {given, {}, 0});
+  if (given.parameters.empty()) {
+    Fit asIs = scoreAsIs(problem_, {given, {}, 0}).fit;
+    while (problem_.scene.step_s > finest_s_ && needsFinerStep(asIs)) problem_.scene.step_s /= 2;
+    return scoreAsIs(problem_, asIs);
+  }
   // From the numbers as given, and from two drawn around them.
   std::vector<FitModel> starts{given, given, given};
   Random random = Random::forPurpose(options_.seed, "calibration starts");
@@ -38,9 +42,14 @@ Scored SearchRun::calibrate() const {
     const std::vector<Fit> others = fitAll({starts[1], starts[2]}, {}, 10, "calibrating", 0.05, 0.08);
     fits.insert(fits.end(), others.begin(), others.end());
   }
-  const auto best =
-      std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
-  return scoreAll({*best}, "calibrating", 0.08, 0.1)[0];
+  Fit best =
+      *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+  // A step that was harmless beside the error as given may not be so beside what is left of it.
+  while (problem_.scene.step_s > finest_s_ && needsFinerStep(best)) {
+    problem_.scene.step_s /= 2;
+    best = polish({best}, againIterations, "", 0.08, 0.08)[0];
+  }
+  return scoreAll({best}, "calibrating", 0.08, 0.1)[0];
 }
 
 GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {
@@ -100,7 +109,12 @@ SearchResult SearchRun::run() {
   if (options_.progress && !options_.progress("replaying as given", 0)) throw Cancelled{};
   result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
   result.ladder.push_back(step("as given", result.given));
+  const double givenStep_s = problem_.scene.step_s;
   result.calibrated = calibrate();
+  if (problem_.scene.step_s < givenStep_s) {
+    result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
+    result.ladder.back() = step("as given", result.given);
+  }
   const std::vector<double> inside = blockScores(
       problem_, residualsOf(problem_, result.calibrated.fit.model, result.calibrated.fit.shifts), Fold::all);
   double fitted = 0, blocks = 0;
@@ -122,11 +136,10 @@ SearchResult SearchRun::run() {
   result.final = result.calibrated;
   holdUntold(result);
 
-  // What the integration itself is wrong by is not physics that was left out.
-  const double enough = nothingLeft + stepError(result.final.fit);
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
-    if (result.final.mean() < enough) break;
+    // What the integration itself is wrong by is not physics that was left out.
+    if (result.final.mean() < nothingLeft + stepError(result.final.fit)) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
     const double step_s = problem_.scene.step_s;
     auto tried = tryCandidates(result.final.fit, linear, candidatesToFit,
@@ -170,6 +183,7 @@ SearchResult SearchRun::run() {
   prune(result);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
+  result.stepError = stepError(result.final.fit);
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
   return result;

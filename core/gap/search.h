@@ -45,6 +45,7 @@ struct SearchResult {
   /// Fitted rivals of the first accepted effect, for the next recording: the best alternative model, if any.
   std::vector<FitModel> rivalModels;
   double step_s = 0;      ///< of the final fits [s]
+  double stepError = 0;   ///< mean squared change of the final simulator's replay with half that step [noise floors²]
   bool unstable = false;  ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 

@@ -7,7 +7,7 @@
 namespace btr {
 namespace {
 
-constexpr int firstIterations = 4, lastIterations = 15, againIterations = 3;
+constexpr int firstIterations = 4, lastIterations = 15;
 constexpr double hopeless = 2;
 constexpr std::size_t candidatesInPairs = 4;
 

@@ -12,11 +12,13 @@ namespace btr {
 // standard errors), kept: fewer conditions let false effects in.
 inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 
+inline constexpr int againIterations = 3;  // after the step was halved
+
 /// One search from calibration to rivals.
 class SearchRun {
  public:
   SearchRun(const FitProblem& problem, const SearchOptions& options)
-      : problem_(problem), options_(options), finest_s_(0.51 * problem.givenStep_s) {}
+      : problem_(problem), options_(options), finest_s_(0.126 * problem.givenStep_s) {}
 
   SearchResult run();
 
@@ -39,7 +41,7 @@ class SearchRun {
                           int iterations, const std::string& stage, double from, double to,
                           const Linearised* inherited = nullptr) const;
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
-  Scored calibrate() const;
+  Scored calibrate();
   std::vector<Tried> tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
                                    const std::string& stage, double from, double to);
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
@@ -65,7 +67,7 @@ class SearchRun {
 
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
-  double finest_s_;
+  double finest_s_;  ///< an eighth of the scene's step: a servo in and out of saturation needs it
   std::vector<Tried> firstStage_;
 };
 

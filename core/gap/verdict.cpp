@@ -77,6 +77,8 @@ std::string rivalsText(const GapReport::Effect& effect) {
 void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter) {
   const double given = found.given.mean(), calibrated = found.calibrated.mean(), final = found.final.mean();
   const double excess = std::max(0.0, calibrated - 1), left = std::max(0.0, final - 1);
+  // What the integration itself is wrong by is not physics that was left out.
+  const double beyondStep = final - found.stepError, leftBeyondStep = std::max(0.0, beyondStep - 1);
   report.remainder.explainedShare = excess > 0 ? std::clamp(1 - left / excess, 0.0, 1.0) : 1;
   const std::string floors = " noise floors";
   const std::string error = "The held-out error falls from " + rounded(std::sqrt(given)) + floors + " as given over " +
@@ -86,7 +88,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
       compare(found.given.blocks, found.calibrated.blocks).t > 2.5 && given - calibrated > std::max(0.02 * given, 0.02);
   const bool named = !found.effects.empty();
   const bool tooMuchLeft =
-      named ? final > stillNoise && (curveIsBetter || left > unexplainedShare * excess) : final > unexplained;
+      named ? beyondStep > stillNoise && (curveIsBetter || leftBeyondStep > unexplainedShare * excess)
+            : beyondStep > unexplained;
 
   if (!moves) {
     report.verdict = Verdict::notExcited;

@@ -1,6 +1,6 @@
-// The true simulator must reproduce its own recordings at the noise floor, at the finest step that an analysis uses
-// (half of the one that the scene's author chose, who knows nothing of what is concealed): else an analyst would have to
-// find physics in what is the integrator's own error.
+// The true simulator must reproduce its own recordings at the noise floor, at half the step that the scene's author
+// chose, who knows nothing of what is concealed (an analysis goes down to an eighth where it needs to): else an analyst
+// would have to find physics in what is the integrator's own error.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -31,7 +31,7 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   tabs_->setObjectName("gapTabs");
   tabs_->addTab(setup_, tr("Anal&ysis"));
   tabs_->addTab(view_, tr("Repor&t"));
-  tabs_->addTab(clues_, tr("&Fitness alone"));
+  tabs_->addTab(clues_, tr("Fitness alo&ne"));
   tabs_->setTabToolTip(2, tr("What the measured fitness of a run says without any recording"));
   makeActions();
 

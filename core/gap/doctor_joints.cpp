@@ -5,9 +5,9 @@
 
 #include "core/gap/doctor.h"
 #include "core/gap/encoder_offset.h"
-#include "core/gap/even_grid.h"
 #include "core/gap/following.h"
 #include "core/gap/joint_series.h"
+#include "core/gap/resample.h"
 
 namespace btr {
 namespace {
@@ -166,11 +166,9 @@ class JointDoctor {
 /// Time in milliseconds, places in millimetres.
 void lookAtScales(const Recording& recording, const Binding& binding, std::vector<std::string>& findings) {
   constexpr double slowest_s = 0.9, farthest_m = 50;
-  const std::vector<double>& time = recording.columns.at(0);
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  if (median(steps) > slowest_s)
-    findings.push_back("time_s: a sample every " + digits(median(steps)) +
+  const double period_s = rhythm(recording);
+  if (period_s > slowest_s)
+    findings.push_back("time_s: a sample every " + digits(period_s) +
                        " s, too slow for a servo's log: milliseconds, it seems; give it the \"scale\" 0.001 in the " +
                        "mapping");
   for (const Binding::Measured& measured : binding.measured) {

@@ -5,6 +5,7 @@
 
 #include "core/gap/even_grid.h"
 #include "core/gap/following.h"
+#include "core/gap/resample.h"
 
 namespace btr {
 namespace {
@@ -47,10 +48,8 @@ std::vector<JointSeries> jointSeries(const Scene& scene, const Recording& record
   std::vector<JointSeries> all;
   const std::vector<double>& time = recording.columns.at(0);
   if (time.size() < 50) return all;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   const double length = time.back() - time.front();
-  period_s = std::max(median(steps), length / static_cast<double>(mostPoints));
+  period_s = std::max(rhythm(recording), length / static_cast<double>(mostPoints));
   const auto count = static_cast<std::size_t>(length / period_s) + 1;
   if (count < 50) return all;
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "core/gap/even_grid.h"
 
 namespace btr {
 
@@ -25,10 +28,7 @@ double noiseFloor(std::span<const double> values) {
       count = 0;
     }
   }
-  if (levels.empty()) return 0;
-  const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
-  std::nth_element(levels.begin(), middle, levels.end());
-  return *middle;
+  return median(std::move(levels));
 }
 
 double quantisationStep(std::span<const double> values) {

@@ -1,9 +1,9 @@
 #include "core/gap/resample.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <utility>
 
+#include "core/gap/even_grid.h"
 #include "core/gap/lowpass.h"
 #include "core/spec/error.h"
 
@@ -48,12 +48,9 @@ std::vector<double> grid(double from, double to, double period) {
 
 double rhythm(const Recording& recording) {
   const std::vector<double>& time = recording.columns[0];
-  assert(time.size() > 1);
   std::vector<double> steps;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
 }
 
 Recording resampled(const Recording& recording, const Resampling& how) {

@@ -16,7 +16,7 @@ struct Resampling {
 /// period that the recording cannot carry.
 Recording resampled(const Recording& recording, const Resampling& how);
 
-/// The median time between rows; at least two rows (asserted).
+/// The median time between rows, 0 where there are fewer than two.
 double rhythm(const Recording& recording);
 
 }  // namespace btr

@@ -54,7 +54,7 @@ class DatabaseWatcher : public QObject {
 
  private:
   void readAll();
-  void readRun(const RunRecord& run, bool stageTold = false);
+  void readRun(const RunRecord& run, bool stageTold);
   bool readActive();
 
   ActiveTest isActive_;

@@ -7,6 +7,7 @@
 
 #include "core/gap/doctor.h"
 #include "core/gap/noise_floor.h"
+#include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -127,9 +128,7 @@ void chooseStep(FitProblem& problem) {
 }  // namespace
 
 Scene FitProblem::sceneOf(const SimulatorSpec& simulator, std::size_t trial) const {
-  SimulatorSpec own = simulator;
-  for (const auto& [path, value] : trials[trial].recording.settings) own.values[path] = value;
-  return makeScene(scene, models, own, library.make);
+  return makeScene(scene, models, withSettings(simulator, trials[trial].recording), library.make);
 }
 
 std::size_t FitProblem::residuals() const {

@@ -7,6 +7,7 @@
 #include "core/gap/replay.h"
 #include "core/gap/resample.h"
 #include "core/gap/residual_parts.h"
+#include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -102,19 +103,11 @@ InverseReport inverse(const Scene& scene, const std::vector<Recording>& recordin
 
 InverseReport runInverse(const ResidualRequest& request, const EffectFactory& effects, const InverseOptions& options,
                          const std::function<bool(std::size_t, std::size_t)>& progress) {
-  const SceneSpec spec = loadScene(request.scene);
-  const ModelSet models = loadModels(spec);
-  const SimulatorSpec simulator = request.simulator.empty() ? SimulatorSpec{} : loadSimulator(request.simulator);
-
   InverseReport report;
-  for (std::size_t i = 0; i < request.recordings.size(); ++i) {
-    if (progress && !progress(i, request.recordings.size())) return report;
-    for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene)) {
-      SimulatorSpec own = simulator;
-      for (const auto& [path, value] : trial.settings) own.values[path] = value;
-      addRecording(makeScene(spec, models, own, effects), trial, options, report);
-    }
-  }
+  const bool all = forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial) {
+    addRecording(scene, trial, options, report);
+  });
+  if (!all) return report;
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;
 
   if (!request.out.empty()) {

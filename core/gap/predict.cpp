@@ -6,6 +6,7 @@
 
 #include "core/gap/replay.h"
 #include "core/gap/report_text.h"
+#include "core/gap/trial_scenes.h"
 #include "core/sim/scene_build.h"
 #include "core/spec/json_reader.h"
 
@@ -62,15 +63,11 @@ Recording predict(const Scene& scene, const Recording& recording) {
 }
 
 std::vector<Recording> runPredict(const PredictRequest& request, const EffectFactory& effects) {
-  const SceneSpec spec = loadScene(request.scene);
-  const ModelSet models = loadModels(spec);
-  const SimulatorSpec simulator = request.simulator.empty() ? SimulatorSpec{} : loadSimulator(request.simulator);
+  const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
   const std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
   std::vector<Recording> written;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    SimulatorSpec own = simulator;
-    for (const auto& [path, value] : trials[i].settings) own.values[path] = value;
-    Recording predicted = predict(makeScene(spec, models, own, effects), trials[i]);
+    Recording predicted = predict(scenes.of(trials[i], effects), trials[i]);
     std::filesystem::path out(request.out);
     if (trials.size() > 1)
       out.replace_filename(out.stem().string() + "-" + std::to_string(i + 1) + out.extension().string());

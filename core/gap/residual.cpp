@@ -9,6 +9,7 @@
 #include "core/gap/noise_floor.h"
 #include "core/gap/replay.h"
 #include "core/gap/residual_parts.h"
+#include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -70,20 +71,11 @@ ResidualReport residual(const Scene& scene, const std::vector<Recording>& record
 
 ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& effects,
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
-  const SceneSpec spec = loadScene(request.scene);
-  const ModelSet models = loadModels(spec);
-  const SimulatorSpec simulator = request.simulator.empty() ? SimulatorSpec{} : loadSimulator(request.simulator);
-
   ResidualReport report;
-  for (std::size_t i = 0; i < request.recordings.size(); ++i) {
-    if (progress && !progress(i, request.recordings.size())) return report;
-    for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene)) {
-      // What is known of a trial goes before what was fitted.
-      SimulatorSpec own = simulator;
-      for (const auto& [path, value] : trial.settings) own.values[path] = value;
-      addRecording(makeScene(spec, models, own, effects), trial, report);
-    }
-  }
+  const bool all = forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial) {
+    addRecording(scene, trial, report);
+  });
+  if (!all) return report;
   joinNotes(report.notes);
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;
 

@@ -1,24 +1,18 @@
 // What a comparison of commands and measured positions says about the mapping.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/gap/doctor.h"
 #include "core/gap/encoder_offset.h"
 #include "core/gap/following.h"
 #include "core/gap/joint_series.h"
+#include "core/gap/report_figures.h"
 #include "core/gap/resample.h"
 
 namespace btr {
 namespace {
 
 constexpr double degree = M_PI / 180;
-
-std::string digits(double value, int count = 3) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", count, value);
-  return text;
-}
 
 class JointDoctor {
  public:

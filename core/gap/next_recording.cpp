@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/report_figures.h"
 #include "core/spec/random.h"
 
 namespace btr {
@@ -139,10 +140,9 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
   if (next.separation <= 0) return next;
   const Found& effect = found.effects[0];
   const GapReport::Rival& other = effect.rivals[0];
-  char numbers[64];
-  std::snprintf(numbers, sizeof numbers, "%.2g", next.separation);
   next.why = "separates " + effect.effect.effect + " at " + effect.effect.at + " from " + other.effect + " at " +
-             other.at + " by " + numbers + " noise floors (" + shapeName + ", " + toText(length_s) + " s)";
+             other.at + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " + toText(length_s) +
+             " s)";
   return next;
 }
 

@@ -69,6 +69,12 @@ std::string brief(double value) {
   return text.data();
 }
 
+std::string digits(double value, int count) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", count, value);
+  return text.data();
+}
+
 std::string percent(double share) {
   if (!std::isfinite(share)) return "–";
   std::array<char, 32> text{};
@@ -76,6 +82,8 @@ std::string percent(double share) {
   std::snprintf(text.data(), text.size(), std::abs(value) < 9.95 && value != 0 ? "%.1f %%" : "%.0f %%", value);
   return text.data();
 }
+
+std::string wholePercent(double share) { return toText(std::round(100 * share)) + " %"; }
 
 std::string brief(const GapReport::Interval& interval) {
   const auto side = [](double value) { return std::isfinite(value) ? brief(value) : std::string("…"); };

@@ -32,8 +32,12 @@ HeatColour heatColour(double error);
 std::string inWords(std::string name);
 /// Three or four digits that matter; "–" if it is not finite.
 std::string brief(double value);
+/// So many digits that matter: "0.0512", "1.2e+03".
+std::string digits(double value, int count = 3);
 /// "0.7 %", "83 %".
 std::string percent(double share);
+/// "1 %", "83 %": for sentences.
+std::string wholePercent(double share);
 /// "[0.047, 0.055]"; an open side is "…".
 std::string brief(const GapReport::Interval& interval);
 /// What the verdict means, a few words.

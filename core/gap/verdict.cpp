@@ -1,9 +1,9 @@
 #include "core/gap/verdict.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "core/gap/report_figures.h"
 
 namespace btr {
 namespace {
@@ -13,17 +13,6 @@ using Verdict = GapReport::Verdict;
 // Mean squared errors in noise floors²: what is at the noise, and what is too much to stay without a name.
 constexpr double atNoise = 1.3, stillNoise = 1.15, unexplained = 1.5, unexplainedShare = 0.2;
 constexpr double leastMotion = 10;  // noise floors that something must move
-
-std::string percent(double share) { return toText(std::round(100 * share)) + " %"; }
-std::string rounded(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 /// Largest movement of any compared channel about its mean, in noise floors.
 double motionOf(const FitProblem& problem) {
@@ -44,11 +33,11 @@ double motionOf(const FitProblem& problem) {
 }
 
 std::string effectText(const GapReport::Effect& effect) {
-  std::string text = words(effect.effect) + " at " + effect.at;
+  std::string text = inWords(effect.effect) + " at " + effect.at;
   std::string numbers;
   for (const GapReport::Number& p : effect.parameters)
-    numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + rounded(p.value) +
-               (p.ci95.high > p.ci95.low ? " [" + rounded(p.ci95.low) + " … " + rounded(p.ci95.high) + "]" : "") +
+    numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) +
+               (p.ci95.high > p.ci95.low ? " [" + digits(p.ci95.low) + " … " + digits(p.ci95.high) + "]" : "") +
                (p.atBound ? " (at its bound)" : "");
   return text + (numbers.empty() ? "" : " (" + numbers + ")");
 }
@@ -58,9 +47,9 @@ std::string whereText(const GapReport& report) {
   const GapReport::Located& first = report.located[0];
   for (const GapReport::Regime& regime : first.regimes)
     if (regime.name == first.when)
-      return "At " + first.channel + " " + percent(regime.shareOfExcess) +
-             " of the error that calibration leaves lies at " + words(regime.name) + " (" +
-             percent(regime.shareOfTime) + " of the time). ";
+      return "At " + first.channel + " " + wholePercent(regime.shareOfExcess) +
+             " of the error that calibration leaves lies at " + inWords(regime.name) + " (" +
+             wholePercent(regime.shareOfTime) + " of the time). ";
   return "";
 }
 
@@ -68,7 +57,7 @@ std::string rivalsText(const GapReport::Effect& effect) {
   if (effect.rivals.empty()) return "";
   std::string text;
   for (const GapReport::Rival& rival : effect.rivals)
-    text += (text.empty() ? "" : ", ") + words(rival.effect) + " at " + rival.at;
+    text += (text.empty() ? "" : ", ") + inWords(rival.effect) + " at " + rival.at;
   return "These recordings cannot tell it from " + text + ". ";
 }
 
@@ -81,8 +70,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   const double beyondStep = final - found.stepError, leftBeyondStep = std::max(0.0, beyondStep - 1);
   report.remainder.explainedShare = excess > 0 ? std::clamp(1 - left / excess, 0.0, 1.0) : 1;
   const std::string floors = " noise floors";
-  const std::string error = "The held-out error falls from " + rounded(std::sqrt(given)) + floors + " as given over " +
-                            rounded(std::sqrt(calibrated)) + " calibrated to " + rounded(std::sqrt(final)) + ". ";
+  const std::string error = "The held-out error falls from " + digits(std::sqrt(given)) + floors + " as given over " +
+                            digits(std::sqrt(calibrated)) + " calibrated to " + digits(std::sqrt(final)) + ". ";
   const bool moves = motionOf(problem) >= leastMotion;
   const bool calibrationHelps =
       compare(found.given.blocks, found.calibrated.blocks).t > 2.5 && given - calibrated > std::max(0.02 * given, 0.02);
@@ -117,7 +106,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
         (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
   } else if (!calibrationHelps && given <= atNoise) {
     report.verdict = Verdict::noMismatch;
-    report.sentence = "The simulator as given agrees with these recordings within " + rounded(std::sqrt(given)) +
+    report.sentence = "The simulator as given agrees with these recordings within " + digits(std::sqrt(given)) +
                       floors + ": nothing is missing that they could show. ";
   } else {
     report.verdict = Verdict::parametersSuffice;
@@ -127,7 +116,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   }
   if (!report.remainder.on.empty())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +
-                       " would take " + percent(report.remainder.shareOfRest) +
+                       " would take " + wholePercent(report.remainder.shareOfRest) +
                        " of the rest; its curve is in the report. ";
   std::string untold;
   for (const GapReport::Number& number : report.calibrated)

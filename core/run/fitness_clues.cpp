@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/gap/report_figures.h"
 #include "core/gap/residual.h"
 #include "core/run/evaluator.h"
 #include "core/run/reality_gap.h"
@@ -85,7 +85,8 @@ class Clues {
     for (std::size_t i = 0; i < parameters_.size(); ++i)
       jobs.push_back({simulator, parameters_[i], seeds_[i], wantTrace});
   }
-  std::vector<TrialReply> evaluate(const std::vector<TrialJob>& jobs, const std::string& stage, double from, double to) {
+  std::vector<TrialReply> evaluate(const std::vector<TrialJob>& jobs, const std::string& stage, double from,
+                                   double to) {
     report(stage, from);
     std::atomic<bool> stop{false};
     const auto replies = evaluator_.evaluate(jobs, stop, [&](std::size_t done) {
@@ -206,43 +207,34 @@ class Clues {
     return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : 0;
   }
 
-  static std::string rounded(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-  }
-  static std::string nameOf(const FitnessClue& clue) {
-    std::string name = clue.effect.effect + " at " + clue.effect.at;
-    std::replace(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(clue.effect.effect.size()), '_', ' ');
-    return name;
-  }
+  static std::string nameOf(const FitnessClue& clue) { return inWords(clue.effect.effect) + " at " + clue.effect.at; }
 
   void say() {
     std::string& text = result_.sentence;
     text = std::to_string(result_.individuals.size()) + " individuals were measured in stage " +
            std::to_string(result_.stage) + "; their real fitness differs from that of simulator version " +
-           std::to_string(result_.version) + " by " + rounded(result_.gap) + " " + result_.unit + " on average. ";
+           std::to_string(result_.version) + " by " + digits(result_.gap) + " " + result_.unit + " on average. ";
     if (result_.clues.empty()) {
       text += "No effect of the library at a usual size takes any of that away.";
       return;
     }
     const FitnessClue& best = result_.clues[0];
-    const auto percent = [](double share) { return std::to_string(static_cast<int>(std::lround(100 * share))) + " %"; };
-    text += "Of " + std::to_string(result_.tried) + " effects and places, " + nameOf(best) + " would take away most: " +
-            percent(best.share) + " of the squared differences. ";
+    text += "Of " + std::to_string(result_.tried) + " effects and places, " + nameOf(best) +
+            " would take away most: " + wholePercent(best.share) + " of the squared differences. ";
     constexpr double usual = 0.05;
     if (best.pValue > usual)
       text += "The best of so many takes as much from the same differences dealt out at random in " +
-              percent(best.pValue) + " of the deals: these numbers alone are no evidence for it. ";
+              wholePercent(best.pValue) + " of the deals: these numbers alone are no evidence for it. ";
     else
-      text += "Dealt out at random, the same differences would let the best do so in only " + percent(best.pValue) +
-              " of the deals: a hint, not a proof. ";
+      text += "Dealt out at random, the same differences would let the best do so in only " +
+              wholePercent(best.pValue) + " of the deals: a hint, not a proof. ";
     if (result_.alike > 1)
       text += std::to_string(result_.alike - 1) + " other" + (result_.alike > 2 ? "s do" : " does") +
               " nearly as well, so fitness alone cannot tell them apart. ";
     if (result_.recordIndividual != 0)
-      text += "Record individual " + std::to_string(result_.recordIndividual) + ": the best explanations differ most in " +
-              result_.recordChannel + ", by " + rounded(result_.recordSpread) + " " + result_.recordUnit +
+      text += "Record individual " + std::to_string(result_.recordIndividual) +
+              ": the best explanations differ most in " + result_.recordChannel + ", by " +
+              digits(result_.recordSpread) + " " + result_.recordUnit +
               " on average; gap analysis of that recording would settle it.";
     while (!text.empty() && text.back() == ' ') text.pop_back();
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ui/common/format.h"
+#include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/parameter_text.h"
 
@@ -15,20 +16,10 @@ namespace btr::ui {
 namespace {
 
 QTableWidget* makeTable(const QString& name, const QStringList& headers, QWidget* parent) {
-  auto* table = new QTableWidget(0, int(headers.size()), parent);
+  auto* table = new QTableWidget(parent);
   table->setObjectName(name);
-  table->setHorizontalHeaderLabels(headers);
-  table->verticalHeader()->hide();
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setSelectionMode(QAbstractItemView::SingleSelection);
-  table->setShowGrid(false);
-  table->setAlternatingRowColors(true);
-  table->setFrameShape(QFrame::NoFrame);
-  table->verticalHeader()->setDefaultSectionSize(table->fontMetrics().height() + 8);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  setUpForReading(*table, headers);
   table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
-  table->horizontalHeader()->setHighlightSections(false);
   table->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   return table;
 }

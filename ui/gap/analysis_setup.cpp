@@ -17,6 +17,7 @@
 #include "core/gap/recording.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"
+#include "ui/common/progress.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
 #include "ui/gap/mapping_form.h"
@@ -295,11 +296,7 @@ void AnalysisSetup::openMapping() {
   }
 }
 
-void AnalysisSetup::showProgress(const QString& stage, double share) {
-  progress_->setRange(0, share < 0 ? 0 : 1000);
-  progress_->setValue(int(share * 1000));
-  progress_->setFormat(tr("%1 · %p %").arg(QString(stage).replace('%', "%%")));
-}
+void AnalysisSetup::showProgress(const QString& stage, double share) { ui::showProgress(*progress_, stage, share); }
 
 void AnalysisSetup::setRunning(bool running) {
   running_ = running;

@@ -9,6 +9,8 @@
 #include <QVBoxLayout>
 
 #include "core/gap/report_figures.h"
+#include "ui/common/progress.h"
+#include "ui/common/reading_table.h"
 
 namespace btr::ui {
 namespace {
@@ -20,11 +22,12 @@ QString word(const std::string& text) { return QString::fromStdString(text); }
 }  // namespace
 
 CluesView::CluesView(const QString& program, QWidget* parent) : QWidget(parent), process_(program) {
-  auto* what = new QLabel(
-      tr("Without a recording the real fitness of the measured individuals is all there is. Each effect of the library is put into the newest "
-         "simulator at each place, at a usual size, and the individuals are simulated again: the table says how much of "
-         "the differences it would take away, and how easily the best of so many does that by chance."),
-      this);
+  auto* what =
+      new QLabel(tr("Without a recording the real fitness of the measured individuals is all there is. Each effect of "
+                    "the library is put into the newest simulator at each place, at a usual size, and the individuals "
+                    "are simulated again: the table says how much of the differences it would take away, and how "
+                    "easily the best of so many does that by chance."),
+                 this);
   what->setWordWrap(true);
   state_ = new QLabel(this);
   state_->setObjectName("state");
@@ -41,20 +44,15 @@ CluesView::CluesView(const QString& program, QWidget* parent) : QWidget(parent),
   QFont larger = font();
   larger.setPointSizeF(larger.pointSizeF() * 1.1);
   sentence_->setFont(larger);
-  table_ = new QTableWidget(0, columns, this);
+  table_ = new QTableWidget(this);
   table_->setObjectName("clues");
   table_->setAccessibleName(tr("Effects that would explain the differences"));
-  table_->setHorizontalHeaderLabels({tr("Effect"), tr("At"), tr("Takes away"), tr("p by chance"), tr("At this size")});
-  table_->horizontalHeaderItem(share)->setToolTip(tr("Of the sum of squared differences between real and simulated fitness"));
+  setUpForReading(*table_, {tr("Effect"), tr("At"), tr("Takes away"), tr("p by chance"), tr("At this size")});
+  table_->horizontalHeaderItem(share)->setToolTip(
+      tr("Of the sum of squared differences between real and simulated fitness"));
   table_->horizontalHeaderItem(pValue)->setToolTip(
-      tr("How often the best of all effects takes as much from the same differences dealt out at random among the individuals"));
-  table_->verticalHeader()->hide();
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setShowGrid(false);
-  table_->setAlternatingRowColors(true);
-  table_->setFrameShape(QFrame::NoFrame);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+      tr("How often the best of all effects takes as much from the same differences dealt out at random among the "
+         "individuals"));
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
 
@@ -75,11 +73,8 @@ CluesView::CluesView(const QString& program, QWidget* parent) : QWidget(parent),
     progress_->setRange(0, 0);
     refresh();
   });
-  connect(&process_, &ProgramProcess::progressed, this, [this](const QString& stage, double part) {
-    progress_->setRange(0, 1000);
-    progress_->setValue(int(part * 1000));
-    progress_->setFormat(tr("%1 · %p %").arg(QString(stage).replace('%', "%%")));
-  });
+  connect(&process_, &ProgramProcess::progressed, this,
+          [this](const QString& stage, double part) { showProgress(*progress_, stage, part); });
   connect(&process_, &ProgramProcess::done, this, [this](const QByteArray& output) {
     try {
       const FitnessClues clues = fitnessCluesFromJson(output.toStdString());

@@ -3,6 +3,7 @@
 #include <QHeaderView>
 
 #include "core/gap/report_figures.h"
+#include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
@@ -11,19 +12,8 @@ namespace {
 QString word(const std::string& text) { return QString::fromStdString(text); }
 
 void prepare(QTableWidget& table, const QStringList& headers) {
-  table.setColumnCount(int(headers.size()));
-  table.setHorizontalHeaderLabels(headers);
-  table.verticalHeader()->hide();
-  table.setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table.setSelectionBehavior(QAbstractItemView::SelectRows);
-  table.setSelectionMode(QAbstractItemView::SingleSelection);
-  table.setShowGrid(false);
-  table.setAlternatingRowColors(true);
-  table.setFrameShape(QFrame::NoFrame);
+  setUpForReading(table, headers);
   table.setWordWrap(false);
-  table.verticalHeader()->setDefaultSectionSize(table.fontMetrics().height() + 8);
-  table.horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table.horizontalHeader()->setHighlightSections(false);
   table.horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
 }
 

@@ -3,7 +3,6 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QMessageBox>
-#include <algorithm>
 
 #include "core/run/stored_recordings.h"
 #include "core/spec/json_reader.h"
@@ -50,11 +49,6 @@ void MainWindow::showAdoption() {
     gapPage_->setMeasured({}, 0, 0);
     return gapPage_->setRun({}, {}, {});
   }
-  guard([this] {
-    const auto counts = watcher_.database().measurementCounts(run_.id);
-    const auto measured = std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.second > 0; });
-    gapPage_->setMeasured(databasePath(), run_.id, int(measured));
-  });
   QString why;
   if (runActive_ || watcher_.activeRuns().count(run_.id))
     why = tr("A process works on the run: another simulator is taken while it waits for measurements or is stopped.");

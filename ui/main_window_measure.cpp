@@ -6,6 +6,7 @@
 #include "ui/charts/fitness_chart.h"
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/run_panel.h"
+#include "ui/gap/gap_page.h"
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
@@ -37,6 +38,10 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
   sheet_->setMeasurements(measurements);
   individuals_->setMeasurements(measurements);
   panel_->setMeasuring(countMeasured(run_, tasks, measurements));
+  std::set<Id> withFitness;
+  for (const MeasurementRecord& measurement : measurements)
+    if (!measurement.isVoid) withFitness.insert(measurement.individual);
+  gapPage_->setMeasured(databasePath(), run_.id, int(withFitness.size()));
   guard([&] {
     std::vector<IndividualRecord> measured;
     std::set<Id> seen;

@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,7 +77,6 @@ class Database {
   void setMeasurementVoid(Id measurement, bool isVoid, const std::string& note);
   std::vector<MeasurementRecord> measurements(Id run) const;  ///< in the order of entry, void ones too
   MeasurementRecord measurement(Id id) const;
-  std::map<Id, int> measurementCounts(Id run) const;  ///< values that are not void, by individual
 
   // ---- L3
   void addAdaptation(const AdaptationRecord& adaptation);  ///< refuses a stage or number that is not the next

@@ -108,20 +108,4 @@ MeasurementRecord Database::measurement(Id id) const {
   });
 }
 
-std::map<Id, int> Database::measurementCounts(Id run) const {
-  return connection_->read([&] {
-    std::map<Id, int> counts;
-    Query row(*connection_,
-              "SELECT individual_id, count(*) FROM measurement WHERE run_id = ? AND NOT is_void GROUP BY individual_id",
-              run);
-    while (row.next()) {
-      Id individual = 0;
-      int count = 0;
-      row.get(individual, count);
-      counts[individual] = count;
-    }
-    return counts;
-  });
-}
-
 }  // namespace btr

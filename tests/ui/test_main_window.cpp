@@ -20,6 +20,7 @@
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
+#include "ui/gap/clues_view.h"
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
@@ -296,6 +297,24 @@ class TestMainWindow : public QObject {
     stored.database.setRunState(run, RunState::stopped, "");
     program.end();
     QTRY_VERIFY(window->watcher().activeRuns().empty());
+  }
+
+  void theCluesCountIndividualsWithAValueThatIsNotVoid() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const auto* state = window->findChild<CluesView*>()->findChild<QLabel*>("state");
+    QVERIFY(state->text().startsWith("2 of this run's individuals"));
+    const auto values = stored.database.measurements(run);
+    stored.measure(run, values[0].individual, 0.5);
+    stored.database.setMeasurementVoid(values[0].id, true, "fell over");
+    stored.database.setMeasurementVoid(values[1].id, true, "slipped");
+    QTRY_VERIFY(state->text().startsWith("1 of this run's individuals"));
+    // A run that nobody has measured.
+    const Id other = stored.addRun(stored.addExperiment("Other"));
+    emit window->findChild<ExperimentTree*>()->runSelected(other);
+    QVERIFY(state->text().startsWith("0 of this run's individuals"));
   }
 
   void aStandInRunRingsNoAlarm() {

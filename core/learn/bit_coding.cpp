@@ -42,6 +42,22 @@ std::vector<double> BitCoding::decode(std::string_view chromosome) const {
   return parameters;
 }
 
+std::string BitCoding::encode(std::span<const double> parameters) const {
+  assert(parameters.size() == genotype_.size());
+  const double largest = std::exp2(static_cast<double>(bits_)) - 1;
+  std::string chromosome;
+  chromosome.reserve(length());
+  for (std::size_t i = 0; i < genotype_.size(); ++i) {
+    const Parameter& p = genotype_[i];
+    const double range = p.maximum - p.minimum;
+    const double share = range > 0 ? std::clamp((parameters[i] - p.minimum) / range, 0.0, 1.0) : 0;
+    auto number = static_cast<std::uint32_t>(std::lround(share * largest));
+    if (kind_ == Kind::gray) number ^= number >> 1;
+    for (std::size_t bit = bits_; bit-- > 0;) chromosome += (number >> bit & 1u) != 0 ? '1' : '0';
+  }
+  return chromosome;
+}
+
 std::string BitCoding::draw(Random& random) const {
   std::string chromosome(length(), '0');
   for (char& bit : chromosome) bit = random.next() >> 63 ? '1' : '0';

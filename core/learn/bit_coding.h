@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ class BitCoding {
   bool fits(std::string_view text) const;
   /// The parameters, each within its bounds. `chromosome` must fit.
   std::vector<double> decode(std::string_view chromosome) const;
+  /// The chromosome that decodes nearest to `parameters`, one for each of the genotype; what is out of bounds counts as
+  /// the bound.
+  std::string encode(std::span<const double> parameters) const;
   /// A chromosome of independent fair bits.
   std::string draw(Random& random) const;
 

@@ -5,6 +5,7 @@
 
 #include "core/learn/bit_coding.h"
 #include "core/learn/learner.h"
+#include "core/learn/policy_gradient.h"
 #include "core/learn/selection.h"
 #include "core/learn/variation.h"
 #include "core/model/kinematics.h"
@@ -32,7 +33,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 2;
+inline constexpr int pluginApiVersion = 3;
 
 }  // namespace btr
 

@@ -9,6 +9,7 @@
 ///
 /// Where a fitness is not finite it counts as the worst finite one; negative fitness is shifted; a converged population
 /// selects uniformly.
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,15 @@ class GeneticAlgorithm final : public btr::Learner {
     for (std::string& chromosome : population_) chromosome = coding_.draw(random);
     fitness_.clear();
     generation_ = 1;
+  }
+
+  void beginAt(std::span<const double> at, const btr::Permutations& permutations, btr::Random& random) override {
+    const std::string origin = coding_.encode(at);
+    const double copies = std::ceil(permutations.share * static_cast<double>(population_.size()));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(copies); ++i) {
+      population_[i] = origin;
+      if (i > 0) btr::mutate(population_[i], permutations.flip, random);
+    }
   }
 
   std::vector<btr::Candidate> ask(btr::Random& random) override {

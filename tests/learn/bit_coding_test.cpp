@@ -95,5 +95,23 @@ TEST(BitCoding, DrawnBitsAreFairAndIndependent) {
   }
 }
 
+TEST(BitCoding, EncodesToTheNearestChromosomeInBothCodings) {
+  for (const auto kind : {BitCoding::Kind::binary, BitCoding::Kind::gray}) {
+    const BitCoding coding({{"a", "", "", -2, 2, 0}, {"b", "", "", 0, 255, 0}, {"c", "", "", 1, 9, 1, {}, true}}, 8,
+                           kind);
+    Random random(5);
+    for (int i = 0; i < 100; ++i) {
+      const std::vector<double> at{random.uniform(-2, 2), random.uniform(0, 255), std::floor(random.uniform(1, 10))};
+      const std::string chromosome = coding.encode(at);
+      const std::vector<double> decoded = coding.decode(chromosome);
+      EXPECT_LE(std::abs(decoded[0] - at[0]), 0.5 * 4 / 255 + 1e-12);
+      EXPECT_LE(std::abs(decoded[1] - at[1]), 0.5 + 1e-12);
+      EXPECT_EQ(at[2], decoded[2]);
+      EXPECT_EQ(decoded, coding.decode(coding.encode(decoded)));
+    }
+    EXPECT_EQ((std::vector<double>{2, 0, 9}), coding.decode(coding.encode(std::vector<double>{7, -7, 90})));
+  }
+}
+
 }  // namespace
 }  // namespace btr

@@ -244,5 +244,31 @@ TEST_F(Ga, RefusesAForeignState) {
   EXPECT_THROW(learner->tell(std::vector<double>{1, 2, 3}), InputError);
 }
 
+TEST_F(Ga, BeginsWithPermutationsOfAVector) {
+  Random random(6);
+  learner->start(genotype(5), {{"population", 200}}, random);
+  const std::vector<double> at{0.3, -0.7, 1, 0, -1};
+  const auto drawn = learner->ask(random);
+  learner->beginAt(at, {0.8, 0.05}, random);
+  const auto mixed = learner->ask(random);
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_NEAR(at[n], mixed[0].parameters[n], 0.5 * 2 / 255 + 1e-12);
+  long flipped = 0;
+  for (std::size_t i = 1; i < 160; ++i)
+    for (std::size_t bit = 0; bit < 40; ++bit) flipped += mixed[i].chromosome[bit] != mixed[0].chromosome[bit];
+  // 159 copies of 40 bits, 5 % of which flip: 318 ± 5 standard deviations of 17.4.
+  EXPECT_NEAR(318, static_cast<double>(flipped), 87);
+  for (std::size_t i = 160; i < 200; ++i) EXPECT_EQ(drawn[i].chromosome, mixed[i].chromosome);
+}
+
+TEST_F(Ga, NoShareOfPermutationsIsTheRandomPopulationAndDrawsNothing) {
+  Random random(6);
+  const auto drawn = startAndAsk(random, {});
+  const std::string state = random.state();
+  learner->beginAt(std::vector<double>(5, 0.5), {0, 0.05}, random);
+  EXPECT_EQ(state, random.state());
+  const auto same = learner->ask(random);
+  for (std::size_t i = 0; i < drawn.size(); ++i) EXPECT_EQ(drawn[i].chromosome, same[i].chromosome);
+}
+
 }  // namespace
 }  // namespace btr

@@ -4,18 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 namespace {
 
 using Numbers = std::vector<double>;
 
-std::shared_ptr<const Effect> effect(const std::string& name) {
-  static PluginHost host(PLUGIN_DIR);
-  return host.effect(name);
-}
+using test::effect;
 
 TEST(CoulombFriction, LimitsByItsTorqueAtAnySpeed) {
   EXPECT_EQ(0.07, effect("coulomb_friction")->frictionLimit({.rate = -3}, Numbers{0.07}));

@@ -11,10 +11,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-std::shared_ptr<const Effect> effect(const std::string& name) {
-  static PluginHost host(PLUGIN_DIR);
-  return host.effect(name);
-}
+using test::effect;
 
 TEST(StribeckFriction, FadesFromRestToSliding) {
   const auto friction = effect("stribeck_friction");

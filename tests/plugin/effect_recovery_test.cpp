@@ -13,10 +13,7 @@ namespace {
 using test::Recorded;
 using test::Trial;
 
-PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 /// What a local fit from half the size does not find in these worlds, and why.
 const std::map<std::string, std::string> notIdentifiable{

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/plugin/plugin_host.h"
 #include "core/sim/world.h"
+#include "tests/plugin/built_plugins.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -67,25 +67,9 @@ inline std::vector<Trial> trialsFor(Effect::Place place, const std::string& name
   return {rolling(0.8, 0.4), rolling(0.3, -0.9), flying()};
 }
 
-inline std::string placeIn(const Effect& effect) {
-  switch (effect.place()) {
-    case Effect::Place::joint:
-      return "rig.hinge";
-    case Effect::Place::link:
-      return "rig.arm";
-    case Effect::Place::ball:
-      return "ball";
-    case Effect::Place::floor:
-      return "floor";
-    case Effect::Place::world:
-      return "world";
-  }
-  return "";
-}
-
 inline Scene withEffect(Scene scene, std::shared_ptr<const Effect> effect, const std::string& name,
                         const std::vector<double>& values) {
-  const std::string at = placeIn(*effect);
+  const std::string at = placeFor(effect->place(), "rig.hinge", "rig.arm");
   effect->changeScene(scene, at, values);
   scene.effects.push_back({std::move(effect), name, at, values});
   return scene;

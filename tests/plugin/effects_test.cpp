@@ -6,15 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "core/plugin/plugin_host.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 namespace {
 
-PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 class Effects : public testing::TestWithParam<std::string> {
  protected:
@@ -120,21 +117,7 @@ Scene smallScene() {
   return scene;
 }
 
-std::string placeOf(const Effect& effect) {
-  switch (effect.place()) {
-    case Effect::Place::joint:
-      return "leg.knee";
-    case Effect::Place::link:
-      return "leg.lower";
-    case Effect::Place::ball:
-      return "ball";
-    case Effect::Place::floor:
-      return "floor";
-    case Effect::Place::world:
-      return "world";
-  }
-  return "";
-}
+std::string placeOf(const Effect& effect) { return test::placeFor(effect.place(), "leg.knee", "leg.lower"); }
 
 /// Every number of a scene that an effect may change.
 std::vector<double> numbersOf(const Scene& scene) {

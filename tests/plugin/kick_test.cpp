@@ -6,16 +6,13 @@
 
 #include "core/model/kinematics.h"
 #include "core/model/load_model.h"
-#include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 namespace {
 
-const PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 const RobotModel& dog() {
   static const RobotModel model = loadModel(SOURCE_DIR "/resources/robots/ers7.wrl");

@@ -3,16 +3,13 @@
 
 #include <cmath>
 
-#include "core/plugin/plugin_host.h"
 #include "core/run/prepared_experiment.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 namespace {
 
-const PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 PreparedExperiment kickExperiment(double bearing = 0, const SimulatorSpec& simulator = {}) {
   ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick.json");

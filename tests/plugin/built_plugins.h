@@ -1,0 +1,34 @@
+#pragma once
+// The plugins that were built, and where their effects sit in a small scene.
+#include <memory>
+#include <string>
+
+#include "core/plugin/plugin_host.h"
+
+namespace btr::test {
+
+inline const PluginHost& host() {
+  static const PluginHost plugins(PLUGIN_DIR);
+  return plugins;
+}
+
+inline std::shared_ptr<const Effect> effect(const std::string& name) { return host().effect(name); }
+
+/// Where an effect can sit in a scene with this joint and link.
+inline std::string placeFor(Effect::Place place, const std::string& joint, const std::string& link) {
+  switch (place) {
+    case Effect::Place::joint:
+      return joint;
+    case Effect::Place::link:
+      return link;
+    case Effect::Place::ball:
+      return "ball";
+    case Effect::Place::floor:
+      return "floor";
+    case Effect::Place::world:
+      return "world";
+  }
+  return "";
+}
+
+}  // namespace btr::test

@@ -6,13 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/run/back_to_reality.h"
 #include "core/run/run_lock.h"
 #include "core/spec/error.h"
-#include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/runs/small_kick_run.h"
 
 namespace btr {
 namespace {
@@ -20,26 +18,14 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A kick run of a person's: two measured individuals after each generation of four.
-class Adoption : public testing::Test {
+class Adoption : public testing::Test, protected test::SmallKickRun {
  protected:
-  Adoption() : host_(PLUGIN_DIR), database_(Database::open(folder_.file("a.db"), Database::Mode::create)) {
-    const std::string examples = SOURCE_DIR "/resources/experiments";
-    nlohmann::json text = nlohmann::json::parse(readFile(examples + "/kick-short.json"));
-    text["learner"]["settings"]["population"] = 4;
-    text["adaptation"]["learner"]["settings"]["population"] = 2;
-    text["adaptation"]["settings"]["generations"] = 1;
-    text["stages"] = {
-        {"first_generations", 1}, {"next_generations", 1}, {"total_generations", 2}, {"measured_individuals", 2}};
-    text["reality"] = "person";
-    run_ = startRun(database_, host_, experimentFromJson(text.dump(), "kick", examples), 7);
-  }
+  Adoption()
+      : SmallKickRun(4, 2, [](nlohmann::json& experiment) {
+          experiment["adaptation"]["learner"]["settings"]["population"] = 2;
+          experiment["adaptation"]["settings"]["generations"] = 1;
+        }) {}
 
-  RunEnd goOn(Database& database) {
-    RunOptions options;
-    options.jobs = 1;
-    return continueRun(database, host_, run_, StopFlag{false}, options);
-  }
-  RunEnd goOn() { return goOn(database_); }
   static void measure(Database& database, Id run, int stage) {
     for (const MeasurementTask& task : database.measurementTasks(run, stage)) {
       MeasurementRecord value;
@@ -60,11 +46,6 @@ class Adoption : public testing::Test {
     }
     return "accepted";
   }
-
-  TemporaryFolder folder_;
-  PluginHost host_;
-  Database database_;
-  Id run_ = 0;
 };
 
 TEST_F(Adoption, WhileARunWaitsItAdaptsAndLearnsOnFromTheAdoptedSimulator) {

@@ -3,14 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "core/run/back_to_reality.h"
 #include "core/run/evaluator.h"
 #include "core/spec/error.h"
-#include "core/spec/experiment_spec.h"
-#include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/runs/small_kick_run.h"
 
 namespace btr {
 namespace {
@@ -32,20 +27,9 @@ TEST(BestShare, IsTheLeastSquaresSize) {
 }
 
 /// A kick run of eight individuals, six of whom are measured after one generation.
-class FitnessCluesTest : public testing::Test {
+class FitnessCluesTest : public testing::Test, protected test::SmallKickRun {
  protected:
-  FitnessCluesTest() : host_(PLUGIN_DIR), database_(Database::open(folder_.file("a.db"), Database::Mode::create)) {
-    const std::string examples = SOURCE_DIR "/resources/experiments";
-    nlohmann::json text = nlohmann::json::parse(readFile(examples + "/kick-short.json"));
-    text["learner"]["settings"]["population"] = 8;
-    text["stages"] = {
-        {"first_generations", 1}, {"next_generations", 1}, {"total_generations", 2}, {"measured_individuals", 6}};
-    text["reality"] = "person";
-    run_ = startRun(database_, host_, experimentFromJson(text.dump(), "kick", examples), 7);
-    RunOptions options;
-    options.jobs = 1;
-    EXPECT_EQ(RunEnd::waiting, continueRun(database_, host_, run_, StopFlag{false}, options));
-  }
+  FitnessCluesTest() : SmallKickRun(8, 6) { EXPECT_EQ(RunEnd::waiting, goOn()); }
 
   /// Reality: our own simulator with an effect more.
   void measureWith(const PlacedEffect& hidden) {
@@ -61,11 +45,6 @@ class FitnessCluesTest : public testing::Test {
       database_.addMeasurement(value);
     }
   }
-
-  TemporaryFolder folder_;
-  PluginHost host_;
-  Database database_;
-  Id run_ = 0;
 };
 
 TEST_F(FitnessCluesTest, AnEffectOfUsualSizeTakesAllOfItsOwnDifferencesAway) {

@@ -1,6 +1,7 @@
 #include "core/sim/drive_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -122,6 +123,33 @@ DriveRow driveRow(const Drive& drive, const JointState& state, double integral, 
   return {};
 }
 
+DriveRow driveRow(const Drive& drive, const JointState& state, const CommandAround& command, double integral,
+                  const JointInput& input, const StepOf& step) {
+  const auto rowOf = [&](double followed) {
+    JointState following = state;
+    following.command = followed;
+    return driveRow(drive, following, integral, input, step);
+  };
+  const DriveRow mean = rowOf(command.mean());
+  if (command.before == command.after) return mean;
+  const std::array<DriveRow, 2> rows{rowOf(command.before), rowOf(command.after)};
+  // Alike on both sides: linear, or at the same limit.
+  const auto side = [&](const DriveRow& row) {
+    const double torque = row.p - row.d * state.rate;
+    return row.limited() && std::abs(torque) >= row.limit ? std::copysign(1.0, torque) : 0.0;
+  };
+  if (side(rows[0]) == side(rows[1]) && rows[0].d == rows[1].d) return mean;
+  DriveRow row;
+  for (const DriveRow& each : rows) {
+    const double held = side(each);
+    row.p += (held != 0 ? held * each.limit : each.p) / 2;
+    row.d += (held != 0 ? 0 : each.d) / 2;
+    // As cautious as the more cautious of both.
+    row.limit = std::min(row.limit, each.limit);
+  }
+  return row;
+}
+
 double largestTorque(const Drive& drive, double rate) {
   if (!(drive.noLoadSpeed_rad_s > 0)) return drive.maxTorque;
   return drive.maxTorque * std::clamp(1 - rate / drive.noLoadSpeed_rad_s, -1.0, 1.0);
@@ -154,25 +182,31 @@ void JointEffects::reset() {
   for (auto& placed : placed_) std::fill(placed.state.begin(), placed.state.end(), 0.0);
 }
 
-double JointEffects::command(double command, const JointState& state, double dt) {
+CommandAround JointEffects::command(CommandAround command, const JointState& state, double dt) {
   for (auto& placed : placed_) command = placed.effect->command(command, state, *placed.values, placed.state, dt);
   return command;
 }
 
-double JointEffects::throughEffects(double torque, const JointState& state, double h, bool keepState) {
+double JointEffects::throughEffects(Torques torques, const JointState& state, double h, bool keepState) {
   for (auto& placed : placed_) {
-    if (keepState) {
-      torque = placed.effect->driveTorque(torque, state, *placed.values, placed.state, h);
+    if (!keepState) scratch_ = placed.state;
+    std::vector<double>& memory = keepState ? placed.state : scratch_;
+    const auto through = [&](double torque) {
+      return placed.effect->driveTorque(torque, state, *placed.values, memory, h);
+    };
+    if (!memory.empty() || torques.before == torques.after) {
+      const double torque = through(torques.mean());
+      torques = {torque, torque};
     } else {
-      scratch_ = placed.state;
-      torque = placed.effect->driveTorque(torque, state, *placed.values, scratch_, h);
+      torques = {through(torques.before), through(torques.after)};
     }
   }
-  return torque;
+  return torques.mean();
 }
 
-DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const JointState& state, double integral,
-                             const JointInput& input, const StepOf& step) {
+DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const JointState& state,
+                             const CommandAround& command, double integral, const JointInput& input,
+                             const StepOf& step) {
   // Torque of law and effects as a function of position and rate, the effects' states held; and of the law alone.
   const auto at = [&](double position, double rate) {
     JointState moved = state;
@@ -180,21 +214,27 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
     moved.rate += rate;
     return moved;
   };
-  const auto lawAt = [&](const JointState& moved) { return driveTorque(drive, moved, integral, input); };
+  const auto lawAt = [&](JointState moved) {
+    moved.command = command.before;
+    const double earlier = driveTorque(drive, moved, integral, input);
+    if (command.before == command.after) return Torques{earlier, earlier};
+    moved.command = command.after;
+    return Torques{earlier, driveTorque(drive, moved, integral, input)};
+  };
   const auto allAt = [&](const JointState& moved) { return throughEffects(lawAt(moved), moved, step.h, false); };
   constexpr double small = 1e-6;  // rad, rad/s, m or m/s
   const double byRate = (allAt(at(0, small)) - allAt(at(0, -small))) / (2 * small);
   const double byPosition = (allAt(at(small, 0)) - allAt(at(-small, 0))) / (2 * small);
-  const double lawByRate = (lawAt(at(0, small)) - lawAt(at(0, -small))) / (2 * small);
-  const double lawByPosition = (lawAt(at(small, 0)) - lawAt(at(-small, 0))) / (2 * small);
+  const double lawByRate = (lawAt(at(0, small)).mean() - lawAt(at(0, -small)).mean()) / (2 * small);
+  const double lawByPosition = (lawAt(at(small, 0)).mean() - lawAt(at(-small, 0)).mean()) / (2 * small);
 
-  const double before = lawAt(state);
-  const double after = throughEffects(before, state, step.h, true);
+  const Torques given = lawAt(state);
+  const double torque = throughEffects(given, state, step.h, true);
   // Effects that leave the torque alone leave the exact law alone.
-  if (after == before && byRate == lawByRate && byPosition == lawByPosition) return law;
+  if (torque == given.mean() && byRate == lawByRate && byPosition == lawByPosition) return law;
   const double damping = std::max(0.0, -byRate);
   DriveRow row;
-  row.p = after + damping * state.rate;
+  row.p = torque + damping * state.rate;
   step.add(row, std::max(0.0, -byPosition), damping, state.rate);
   return row;
 }

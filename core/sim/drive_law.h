@@ -50,6 +50,12 @@ struct StepOf {
 DriveRow driveRow(const Drive& drive, const JointState& state, double integral, const JointInput& input,
                   const StepOf& step);
 
+/// The mean of both commands' laws: of a step whose kick lies half before and half after the instant at which the
+/// command jumps from `before` to `after`. A servo at its limit, or a motor at its full duty, does not follow the mean
+/// command.
+DriveRow driveRow(const Drive& drive, const JointState& state, const CommandAround& command, double integral,
+                  const JointInput& input, const StepOf& step);
+
 /// The largest torque that a servo's motor gives towards positive positions at this rate; towards negative ones it is
 /// −largestTorque(drive, −rate).
 double largestTorque(const Drive& drive, double rate);
@@ -68,11 +74,11 @@ class JointEffects {
   /// Back to the start of a trial: all states zero.
   void reset();
 
-  double command(double command, const JointState& state, double dt);
+  CommandAround command(CommandAround command, const JointState& state, double dt);
   /// The drive's row after the effects on drive torque. An effect that changes the torque is linearised about this
   /// instant.
-  DriveRow drive(const DriveRow& law, const Drive& drive, const JointState& state, double integral,
-                 const JointInput& input, const StepOf& step);
+  DriveRow drive(const DriveRow& law, const Drive& drive, const JointState& state, const CommandAround& command,
+                 double integral, const JointInput& input, const StepOf& step);
   /// Adds torque() and damping() to a row. A torque that opposes motion of a dissipative effect fades with the rate at
   /// the end of the step (secant), so that it cannot reverse it; other torques are linearised in position.
   void addPassive(DriveRow& row, const JointState& state, const StepOf& step) const;
@@ -85,7 +91,12 @@ class JointEffects {
     const std::vector<double>* values;
     std::vector<double> state;
   };
-  double throughEffects(double torque, const JointState& state, double h, bool keepState);
+  /// Torques before and after a jump of the command. Effects with a memory see their mean.
+  struct Torques {
+    double before, after;
+    double mean() const { return (before + after) / 2; }
+  };
+  double throughEffects(Torques torques, const JointState& state, double h, bool keepState);
 
   std::vector<Placed> placed_;
   std::vector<double> scratch_;

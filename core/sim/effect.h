@@ -35,6 +35,13 @@ struct BallState {
   bool onFloor = false;
 };
 
+/// A command on both sides of an instant: held over the half step before it, and over the half step after it [rad or
+/// m].
+struct CommandAround {
+  double before = 0, after = 0;
+  double mean() const { return (before + after) / 2; }
+};
+
 /// A piece of physics that a simulator may have or lack. One class is both the hypothesis that is fitted to recordings
 /// and the term that then runs in the simulator. Each hook is empty unless the effect fills it. Hooks are functions of
 /// their arguments; whatever must be remembered lies in `state` (stateSize() numbers, zero at the start of a trial), so
@@ -57,9 +64,9 @@ class Effect {
 
   /// Changes masses, gravity, floor, servo numbers … before the world is built.
   virtual void changeScene(Scene&, const std::string& /*at*/, std::span<const double> /*values*/) const {}
-  /// Command that the servo follows, from the one it was given [rad or m]. Called once a step of `dt` seconds.
-  virtual double command(double command, const JointState&, std::span<const double> /*values*/,
-                         std::span<double> /*state*/, double /*dt*/) const {
+  /// Command that the servo follows, from the one it was given. Called once a step of `dt` seconds.
+  virtual CommandAround command(CommandAround command, const JointState&, std::span<const double> /*values*/,
+                                std::span<double> /*state*/, double /*dt*/) const {
     return command;
   }
   /// Drive torque after the servo law and its limit [N·m or N].

@@ -10,11 +10,13 @@ namespace btr {
 class Fitness {
  public:
   virtual ~Fitness() = default;
-  virtual std::string unit() const = 0;     ///< "m", "m/s"
-  virtual std::string meaning() const = 0;  ///< what the number measures, and from where; one sentence for the measurement sheet
+  virtual std::string unit() const = 0;  ///< "m", "m/s"
+  virtual std::string meaning()
+      const = 0;  ///< what the number measures, and from where; one sentence for the measurement sheet
   virtual std::vector<Parameter> settings() const = 0;
   /// `controllerSettings` say what the task was: all of the controller's settings, defaults filled in.
-  virtual double evaluate(const TrialResult& result, const Values& settings, const Values& controllerSettings) const = 0;
+  virtual double evaluate(const TrialResult& result, const Values& settings,
+                          const Values& controllerSettings) const = 0;
   /// What a failed trial is worth.
   virtual double ofFailure() const { return 0; }
 };

@@ -92,21 +92,28 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   const bool prescribed = spec.kind == Drive::Kind::motion;
 
   // Command, servo law, drive torque. A kick acts for half a step before and after its instant: where the command
-  // changes just then it follows the mean of old and new.
-  const double mean = drive.fresh ? input.command : (drive.command + input.command) / 2;
-  // Switched on or off just then: half of the kick, for the same reason.
+  // changes just then, half of it follows the old one.
+  CommandAround command{drive.fresh ? input.command : drive.command, input.command};
+  // Switched on or off just then: half of the kick, for the same reason, under the command of that half.
   const bool switched = !drive.fresh && drive.enabled != input.enabled;
+  if (switched && input.enabled) command.before = command.after;
   JointInput acting = input;
   acting.enabled = input.enabled || switched;
   drive.command = input.command;
   drive.enabled = input.enabled;
   drive.fresh = false;
   JointState state = stateOf(robot, index, now);
-  state.command = prescribed ? input.command : drive.effects.empty() ? mean : drive.effects.command(mean, state, h);
+  if (prescribed) {
+    command.before = command.after;
+  } else if (!drive.effects.empty()) {
+    command = drive.effects.command(command, state, h);
+  }
+  if (switched && !input.enabled) command.after = command.before;
+  state.command = command.mean();
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
-  DriveRow row = driveRow(spec, state, drive.integral, acting, step);
+  DriveRow row = driveRow(spec, state, command, drive.integral, acting, step);
   if (!drive.effects.empty() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
-    row = drive.effects.drive(row, spec, state, drive.integral, acting, step);
+    row = drive.effects.drive(row, spec, state, command, drive.integral, acting, step);
   if (switched && !prescribed)
     for (double* force : {&row.p, &row.d, &row.limit}) *force /= 2;
   drive.row = row;

@@ -1,12 +1,17 @@
 /// Play between motor and joint: a gap of width w. Motor torque reaches the joint only while the tooth lies on the
 /// flank that the torque pushes; otherwise the motor first runs through the gap.
-///   −w/2 ≤ φ ≤ w/2      φ: motor ahead of joint [rad]
-///   φ' = τ·s − ω        in the gap: an unloaded motor with negligible inertia turns at s per torque [rad/(s·N·m)]
-///   τ_joint = τ         while φ = ±w/2 on the side of τ's sign, else 0
-/// In a step in which the gap closes, τ acts for the rest of the step, so the torque is continuous in w. Neutral: w =
-/// 0. The position sensor sits on the joint, as an AIBO's potentiometers do. After Nordin and Gutman 2002 (Controlling
-/// mechanical systems with backlash: a survey), without elastic flanks. State: φ, in the middle of the gap at the
-/// start.
+///   −w/2 ≤ φ ≤ w/2            φ: motor ahead of joint [rad]
+///   φ' = τ·s − min(ω·σ, 0)·σ  in the gap, σ = sign of τ, s in rad/(s·N·m)
+///   τ_joint = τ               while φ = ±w/2 on the side of τ's sign, else 0
+///
+/// A motor of negligible inertia turns at s per torque. A joint that comes towards it closes the gap sooner; with one
+/// that runs ahead it has moved along until then, and gains on it at s per torque. (Were its speed s·τ against the
+/// ground, a gap of no width at all would let fast joints go.) In a step in which the gap closes, τ acts for the rest
+/// of the step, so the torque is continuous in w.
+///
+/// Neutral: w = 0. The position sensor sits on the joint, as an AIBO's potentiometers do. After Nordin and Gutman 2002
+/// (Controlling mechanical systems with backlash: a survey), without elastic flanks. State: φ, in the middle of the gap
+/// at the start.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -29,12 +34,13 @@ class Backlash final : public btr::Effect {
     const double half = values[0] / 2;
     if (half == 0) return torque;
     double& ahead = state[0];
-    const double travel = (torque * values[1] - joint.rate) * dt;
+    const double closing = torque * joint.rate < 0 ? joint.rate : 0;
+    const double travel = (torque * values[1] - closing) * dt;
     const double wall = std::copysign(half, torque);
     const double distance = wall - ahead;
     ahead = std::clamp(ahead + travel, -half, half);
     // The flank is not reached, or only after a part of the step.
-    if (std::abs(ahead) < half || std::signbit(ahead) != std::signbit(wall)) return 0;
+    if (ahead != wall) return 0;
     return distance == 0 ? torque : torque * (1 - distance / travel);
   }
 };

@@ -1,8 +1,8 @@
 /// The drive follows a command that is T seconds old: bus, firmware frames, double buffers (three to six 8 ms frames on
 /// the AIBO; Stronger and Stone 2004).
-///   c'(t) = mean of c over [t − T, t − T + h]        h: the simulator's step [s]
-/// Commands are held between changes, so the mean is a linear interpolation between them: the delay is continuous, any
-/// number of seconds, not a count of steps. Before the first command the first command counts. Neutral: T = 0.
+///   c'(t ∓ h/4) = mean of c over the half step before and after t − T        h: the simulator's step [s]
+/// Commands are held between changes, so the means are linear interpolations between them: the delay is continuous,
+/// any number of seconds, not a count of steps. Before the first command the first command counts. Neutral: T = 0.
 ///
 /// State: a ring of the last changes (time, value). Changes closer together than a 256th of the largest delay are
 /// merged.
@@ -26,7 +26,7 @@ class Changes {
   double& time(std::size_t age) const { return state_[2 + place(age)]; }
   double& value(std::size_t age) const { return state_[2 + capacity + place(age)]; }
 
-  void add(double now, double command) {
+  void add(double now, double command) const {
     if (count() > 0 && value(0) == command) return;
     if (count() > 1 && now - time(0) < longest_s / capacity) {
       value(0) = command;
@@ -36,6 +36,20 @@ class Changes {
     state_[0] = static_cast<double>(std::min(count() + 1, capacity));
     time(0) = now;
     value(0) = command;
+  }
+
+  /// Each change counts for the part of the window in which it was the latest; the oldest one reaches back for ever.
+  double mean(double begin, double end) const {
+    double sum = 0, until = end;
+    for (std::size_t age = 0; age < count() && until > begin; ++age) {
+      const bool oldest = age + 1 == count();
+      const double since = oldest ? begin : std::max(begin, time(age));
+      if (since >= until) continue;
+      if (since == begin && until == end) return value(age);
+      sum += value(age) * (until - since);
+      until = since;
+    }
+    return sum / (end - begin);
   }
 
  private:
@@ -50,23 +64,14 @@ class CommandDelay final : public btr::Effect {
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 2 + 2 * static_cast<int>(capacity); }
 
-  double command(double command, const btr::JointState& joint, std::span<const double> values, std::span<double> state,
-                 double dt) const override {
+  btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
+                             std::span<double> state, double dt) const override {
     if (values[0] == 0 || dt <= 0) return command;
-    Changes changes(state);
-    changes.add(joint.time, command);
-    // Each change counts for the part of the window in which it was the latest; the oldest one reaches back for ever.
-    const double begin = joint.time - values[0], end = begin + dt;
-    double sum = 0, until = end;
-    for (std::size_t age = 0; age < changes.count() && until > begin; ++age) {
-      const bool oldest = age + 1 == changes.count();
-      const double since = oldest ? begin : std::max(begin, changes.time(age));
-      if (since >= until) continue;
-      if (since == begin && until == end) return changes.value(age);
-      sum += changes.value(age) * (until - since);
-      until = since;
-    }
-    return sum / (end - begin);
+    const Changes changes(state);
+    if (changes.count() == 0) changes.add(joint.time - dt / 2, command.before);
+    changes.add(joint.time, command.after);
+    const double then = joint.time - values[0];
+    return {changes.mean(then - dt / 2, then), changes.mean(then, then + dt / 2)};
   }
 };
 

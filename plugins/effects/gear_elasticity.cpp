@@ -19,6 +19,7 @@ class GearElasticity final : public btr::Effect {
             {"damping_nm_s_rad", "N·m·s/rad", "torque per speed of the spring, N·s/m on a slide joint", 0, 2000, 0.05}};
   }
   Place place() const override { return Place::joint; }
+  std::vector<std::string> contains() const override { return {"rotor_inertia"}; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {
     for (btr::SceneRobot& robot : scene.robots)

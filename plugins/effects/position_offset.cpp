@@ -13,9 +13,10 @@ class PositionOffset final : public btr::Effect {
   }
   Place place() const override { return Place::joint; }
 
-  double command(double command, const btr::JointState& joint, std::span<const double> values, std::span<double>,
-                 double) const override {
-    return joint.followsPosition ? command - values[0] : command;
+  btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
+                             std::span<double>, double) const override {
+    if (!joint.followsPosition) return command;
+    return {command.before - values[0], command.after - values[0]};
   }
   double measured(double position, const btr::JointState&, std::span<const double> values, std::span<double>,
                   double) const override {

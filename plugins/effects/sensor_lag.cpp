@@ -17,15 +17,17 @@ class SensorLag final : public btr::Effect {
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 4; }
 
-  double command(double command, const btr::JointState& joint, std::span<const double> values, std::span<double> state,
-                 double dt) const override {
+  btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
+                             std::span<double> state, double dt) const override {
     if (values[0] == 0) return command;
     const double lagged = follow(joint.position, values[0], state);
     state[0] = 1;
     state[1] = lagged;
     state[2] = joint.position;
     state[3] = dt;
-    return joint.followsPosition ? command + joint.position - lagged : command;
+    if (!joint.followsPosition) return command;
+    const double behind = joint.position - lagged;
+    return {command.before + behind, command.after + behind};
   }
   double measured(double position, const btr::JointState& joint, std::span<const double> values,
                   std::span<double> state, double) const override {

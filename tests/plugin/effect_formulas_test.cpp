@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/spec/error.h"
@@ -35,21 +36,27 @@ TEST(ForceOffset, IsConstant) {
 TEST(PositionOffset, IsMeasuredAndSettlesTheJointBelowItsCommand) {
   const auto offset = effect("position_offset");
   EXPECT_EQ(1.25, offset->measured(1, {}, Numbers{0.25}, {}, 0.008));
-  EXPECT_EQ(0.75, offset->command(1, {}, Numbers{0.25}, {}, 0.001));
+  const CommandAround followed = offset->command({1, 3}, {}, Numbers{0.25}, {}, 0.001);
+  EXPECT_EQ(0.75, followed.before);
+  EXPECT_EQ(2.75, followed.after);
 }
 
 TEST(PositionOffset, LeavesATorqueCommandAlone) {
-  EXPECT_EQ(1, effect("position_offset")->command(1, {.followsPosition = false}, Numbers{0.25}, {}, 0.001));
+  EXPECT_EQ(1, effect("position_offset")->command({1, 1}, {.followsPosition = false}, Numbers{0.25}, {}, 0.001).mean());
 }
 
-/// What a delay makes of a ramp that rises by 1 every 8 ms from t = 0, sampled each step.
-Numbers delayedStairs(double delay_s, double step_s, int steps) {
+/// What a delay makes of a ramp that rises by 1 every 8 ms from t = 0, on both sides of each step's instant.
+std::vector<CommandAround> delayedStairs(double delay_s, double step_s, int steps) {
   const auto delay = effect("command_delay");
-  Numbers state(static_cast<std::size_t>(delay->stateSize())), result;
+  Numbers state(static_cast<std::size_t>(delay->stateSize()));
+  std::vector<CommandAround> result;
+  double before = 0;
   for (int i = 0; i < steps; ++i) {
     const double time = i * step_s;
     const double command = std::floor(time / 0.008 + 1e-9);
-    result.push_back(delay->command(command, {.time = time, .command = command}, Numbers{delay_s}, state, step_s));
+    result.push_back(
+        delay->command({before, command}, {.time = time, .command = command}, Numbers{delay_s}, state, step_s));
+    before = command;
   }
   return result;
 }
@@ -57,25 +64,30 @@ Numbers delayedStairs(double delay_s, double step_s, int steps) {
 TEST(CommandDelay, OfWholeStepsShiftsTheCommandsByThem) {
   for (const int late : {1, 8, 24, 80}) {
     const auto commands = delayedStairs(late * 1e-3, 1e-3, 400);
-    for (int i = 0; i < 400; ++i)
-      EXPECT_NEAR(std::floor(std::max(0, i - late) / 8.0), commands[static_cast<std::size_t>(i)], 1e-9)
-          << late << " " << i;
+    for (int i = 0; i < 400; ++i) {
+      const CommandAround& followed = commands[static_cast<std::size_t>(i)];
+      EXPECT_NEAR(std::floor(std::max(0, i - late) / 8.0), followed.after, 1e-9) << late << " " << i;
+      EXPECT_NEAR(std::floor(std::max(0, i - late - 1) / 8.0), followed.before, 1e-9) << late << " " << i;
+    }
   }
 }
 
-TEST(CommandDelay, BetweenWholeStepsInterpolatesLinearly) {
+TEST(CommandDelay, BetweenHalfStepsInterpolatesLinearly) {
   const auto at = [](double delay) { return delayedStairs(delay, 1e-3, 200); };
-  const auto shorter = at(0.012), longer = at(0.013), between = at(0.0123);
-  for (std::size_t i = 0; i < between.size(); ++i) EXPECT_NEAR(0.7 * shorter[i] + 0.3 * longer[i], between[i], 1e-9);
+  const auto shorter = at(0.012), longer = at(0.0125), between = at(0.0123);
+  for (std::size_t i = 0; i < between.size(); ++i) {
+    EXPECT_NEAR(0.4 * shorter[i].before + 0.6 * longer[i].before, between[i].before, 1e-9);
+    EXPECT_NEAR(0.4 * shorter[i].after + 0.6 * longer[i].after, between[i].after, 1e-9);
+  }
 }
 
 TEST(CommandDelay, DoesNotDependOnTheStep) {
-  // The mean over a coarse step is the mean over the fine steps in it.
-  const auto coarse = delayedStairs(0.0217, 4e-3, 60), fine = delayedStairs(0.0217, 0.5e-3, 480);
+  // The mean over half a coarse step is the mean over the halves of fine steps in it.
+  const auto coarse = delayedStairs(0.0217, 4e-3, 60), fine = delayedStairs(0.0217, 0.5e-3, 481);
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     double mean = 0;
-    for (std::size_t k = 0; k < 8; ++k) mean += fine[8 * i + k] / 8;
-    EXPECT_NEAR(coarse[i], mean, 1e-9);
+    for (std::size_t k = 0; k < 4; ++k) mean += (fine[8 * i + k].after + fine[8 * i + k + 1].before) / 8;
+    EXPECT_NEAR(coarse[i].after, mean, 1e-9);
   }
 }
 
@@ -85,7 +97,7 @@ TEST(CommandDelay, KeepsACommandThatChangesAtEveryStepOfATenthOfAMillisecond) {
   const double late = 0.08, step = 1e-4;
   for (int i = 0; i < 4000; ++i) {
     const double time = i * step, command = std::sin(5 * time);
-    const double followed = delay->command(command, {.time = time}, Numbers{late}, state, step);
+    const double followed = delay->command({command, command}, {.time = time}, Numbers{late}, state, step).mean();
     // Merged changes may be early by a 256th of the largest delay, at a slope of 5 per second.
     if (time > late) {
       EXPECT_NEAR(std::sin(5 * (time - late)), followed, 5 * (0.08 / 256 + 2 * step));
@@ -112,11 +124,27 @@ TEST(Backlash, AReversalRunsThroughTheWholeGap) {
   EXPECT_EQ(-0.01, state[0]);
 }
 
-TEST(Backlash, AJointThatRunsAheadIsLetGo) {
+TEST(Backlash, AJointThatComesTowardsTheMotorClosesTheGapSoonerOneThatRunsAheadIsCaughtAllTheSame) {
   const auto backlash = effect("backlash");
-  Numbers state{0.01};
-  EXPECT_EQ(0, backlash->driveTorque(0.5, {.rate = 5}, Numbers{0.02, 6}, state, 1e-3));
-  EXPECT_NEAR(0.01 + (3 - 5) * 1e-3, state[0], 1e-15);
+  const std::map<double, double> speeds{{-5, 3 + 5}, {0, 3}, {5, 3}};
+  for (const auto& [rate, closing] : speeds) {
+    Numbers state{-0.01};
+    EXPECT_EQ(0, backlash->driveTorque(0.5, {.rate = rate}, Numbers{0.02, 6}, state, 1e-3));
+    EXPECT_NEAR(-0.01 + closing * 1e-3, state[0], 1e-15);
+  }
+}
+
+TEST(Backlash, OfVanishingWidthIsNone) {
+  // Impulse lost at a reversal: the torque for the time that the gap takes.
+  const auto backlash = effect("backlash");
+  for (const double rate : {-9.0, 0.0, 9.0})
+    for (const double width : {1e-3, 1e-5, 1e-7}) {
+      Numbers state{-width / 2};
+      double impulse = 0;
+      for (int i = 0; i < 1000; ++i)
+        impulse += 1e-3 * backlash->driveTorque(0.5, {.rate = rate}, Numbers{width, 6}, state, 1e-3);
+      EXPECT_NEAR(0.5 - 0.5 * width / (3 - std::min(rate, 0.0)), impulse, 1e-12);
+    }
 }
 
 TEST(Backlash, NeverTurnsOrRaisesTheTorque) {

@@ -103,7 +103,7 @@ TEST(SensorLag, FollowsARampItsTimeConstantLate) {
     const JointState joint{.time = time, .position = slope * time};
     // y = slope·(t − T·(1 − e^(−t/T))), and the command moves by what the sensor is behind.
     const double behind = slope * late * (1 - std::exp(-time / late));
-    EXPECT_NEAR(1 + behind, lag->command(1, joint, Numbers{late}, state, h), 1e-12);
+    EXPECT_NEAR(1 + behind, lag->command({1, 1}, joint, Numbers{late}, state, h).mean(), 1e-12);
     JointState next = joint;
     next.position += slope * h;
     EXPECT_NEAR(next.position - slope * late * (1 - std::exp(-(time + h) / late)),

@@ -18,14 +18,11 @@ using test::host;
 /// What a local fit from half the size does not find in these worlds, and why.
 const std::map<std::string, std::string> notIdentifiable{
     {"torque_ripple.per_turn", "a whole number; its error is full of side minima, it is searched and not fitted"},
-    {"backlash.width_rad", "a servo with play hunts: a local fit from half the width stops in a side minimum"},
-    {"backlash.free_speed_rad_s_nm", "the same"},
     {"payload.y_m", "lies along the only axis that the arm turns about"},
 };
 
 /// What is known to jump at neutral, and why.
 const std::map<std::string, std::string> jumpsAtNeutral{
-    {"backlash", "its motor cannot follow a joint that runs faster than an unloaded motor, however narrow the gap"},
     {"restitution", "a hit that bounces at all is an impact at an instant, one that does not is a soft contact"},
 };
 

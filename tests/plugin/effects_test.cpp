@@ -79,7 +79,8 @@ BallState ballAt(Random& random) {
 std::vector<double> answers(const Effect& effect, const std::vector<double>& values, std::vector<double> state) {
   std::vector<double> answers;
   for (const JointState& joint : life(7)) {
-    answers.push_back(effect.command(joint.command, joint, values, state, 1e-3));
+    const CommandAround followed = effect.command({joint.command, joint.command}, joint, values, state, 1e-3);
+    answers.insert(answers.end(), {followed.before, followed.after});
     answers.push_back(effect.driveTorque(joint.drive, joint, values, state, 1e-3));
     answers.push_back(effect.torque(joint, values));
     answers.push_back(effect.frictionLimit(joint, values));
@@ -167,7 +168,7 @@ TEST_P(Effects, AreSilentAtTheirNeutralValues) {
   const auto values = neutral();
   auto state = freshState();
   for (const JointState& joint : life(3)) {
-    EXPECT_EQ(joint.command, effect->command(joint.command, joint, values, state, 1e-3));
+    EXPECT_EQ(joint.command, effect->command({joint.command, joint.command}, joint, values, state, 1e-3).mean());
     EXPECT_EQ(joint.drive, effect->driveTorque(joint.drive, joint, values, state, 1e-3));
     EXPECT_EQ(0, effect->torque(joint, values));
     EXPECT_EQ(0, effect->frictionLimit(joint, values));
@@ -233,7 +234,7 @@ TEST_P(Effects, AddNoEnergyIfTheySaySo) {
     for (const JointState& joint : life(6)) {
       EXPECT_LE(effect->torque(joint, values) * joint.rate, 0);
       // The drive's power may only fall, its command not change.
-      EXPECT_EQ(joint.command, effect->command(joint.command, joint, values, state, 1e-3));
+      EXPECT_EQ(joint.command, effect->command({joint.command, joint.command}, joint, values, state, 1e-3).mean());
       EXPECT_LE(std::abs(effect->driveTorque(joint.drive, joint, values, state, 1e-3)), std::abs(joint.drive));
     }
     Random random(9);

@@ -24,11 +24,11 @@ TrialResult trial(const PreparedExperiment& experiment, const std::vector<double
 
 /// Learnt in 50 generations from nothing at the robot's own joint speeds: all four legs take part.
 /// LF, RF, LR, RR: J1, J2, J3 each.
-const std::vector<double> sweep{1.3655,  0.4678,  1.6655, -0.8976, 0.8580,  -0.2918,
-                                0.7067,  0.4782,  1.8588, 0.5341,  0.7000,  1.2494,  // accumulation
-                                -0.4769, 0.2916,  1.8910, -0.0902, -0.0819, 1.2867,
-                                -0.2682, -0.0267, 0.8788, 0.0510,  0.5772,  0.5247,  // release
-                                11};
+const std::vector<double> sweep{1.1039,  0.4007,  0.9710, 0.0008,  -0.1322, -0.1745,
+                                -0.0525, -0.1427, 0.7141, -1.0275, 0.0791,  1.8506,  // accumulation
+                                -0.6816, -0.1155, 0.1412, 1.0243,  0.4258,  1.5663,
+                                0.6290,  0.4714,  0.6400, 0.2580,  0.1985,  0.9365,  // release
+                                13};
 
 /// Left and right exchanged.
 std::vector<double> mirrored(const std::vector<double>& kick) {

@@ -170,7 +170,7 @@ class Rival {
     const Drive& spec = robot_.drives[j];
     joint.command = input.command;
     JointState state = stateOf(j);
-    if (!joint.effects.empty()) state.command = joint.effects.command(input.command, state, h);
+    if (!joint.effects.empty()) state.command = joint.effects.command({input.command, input.command}, state, h).mean();
     if (spec.i > 0) joint.integral = input.enabled ? joint.integral + (state.command - state.position) * h : 0;
     const double inertia = 1e9;  // the laws' own corrections for large steps are not wanted here
     const StepOf step{h, inertia};
@@ -179,7 +179,7 @@ class Rival {
     DriveRow passive;
     double dry = spec.coulombFriction;
     if (!joint.effects.empty()) {
-      row = joint.effects.drive(row, spec, state, joint.integral, input, step);
+      row = joint.effects.drive(row, spec, state, {state.command, state.command}, joint.integral, input, step);
       joint.effects.addPassive(passive, state, step);
       dry += joint.effects.frictionLimit(state);
     }

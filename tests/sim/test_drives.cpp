@@ -16,8 +16,8 @@ constexpr double inertia = 0.0015;  // kg·m², about that of a leg
 // Position of the same wheel under the contract's law, stepped in 2 µs: the truth.
 struct Truth {
   double q = 0, rate = 0, integral = 0, torque = 0;
+  double dt = 2e-6;  ///< [s]
   void run(const std::function<double(double)>& command, double duration, const Drive& d, double& time) {
-    const double dt = 2e-6;
     for (long i = 0; i < std::lround(duration / dt); ++i) {
       const double error = command(time) - q;
       integral += error * dt;
@@ -56,6 +56,30 @@ TEST(Servo, ItsErrorVanishesWithTheStep) {
   const Drive drive{.p = 7.5, .i = 3, .d = 0.05, .maxTorque = 0.4};
   const double coarse = servoError(drive, 0.001, 0.3), fine = servoError(drive, 0.000125, 0.3);
   EXPECT_LT(fine, coarse / 5);
+}
+
+TEST(Servo, IsOfSecondOrderInTheStepThoughCommandsThrowItInAndOutOfItsLimit) {
+  const Drive drive{.p = 2.2, .d = 0.1, .maxTorque = 0.3};
+  // Every 8 ms another command: most differences are beyond the limit, on either side, some are not.
+  const auto commandOf = [](int frame) { return 0.5 * std::sin(0.9 * frame) * (frame % 3); };
+  const auto errorOf = [&](double step) {
+    Scene scene = weightless(sceneOf(robot(wheelModel(inertia), false, drive), step));
+    World world(scene, 1);
+    world.setRobot(0, scene.robots[0].start, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), std::vector{0.0},
+                   std::vector{0.0});
+    Truth truth;
+    truth.dt = 1e-7;
+    double time = 0, worst = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      world.advance(commands(scene, commandOf(frame)), 0.008);
+      truth.run([&](double) { return commandOf(frame); }, 0.008, drive, time);
+      worst = std::max(worst, std::abs(world.robot(0).position[0] - truth.q));
+    }
+    return worst;
+  };
+  const double coarse = errorOf(0.001), half = errorOf(0.0005), quarter = errorOf(0.00025);
+  EXPECT_LT(half, coarse / 3);
+  EXPECT_LT(quarter, half / 3);
 }
 
 TEST(Servo, SwitchedOffAndOnActsForExactlyItsTime) {

@@ -144,10 +144,10 @@ SceneEffect placed(std::shared_ptr<const Effect> effect, const std::string& at, 
 /// Command, drive torque and measurement are each changed; the state counts the calls.
 struct Chain final : TestEffect {
   int stateSize() const override { return 2; }
-  double command(double command, const JointState&, std::span<const double> v, std::span<double> state,
-                 double) const override {
+  CommandAround command(CommandAround command, const JointState&, std::span<const double> v, std::span<double> state,
+                        double) const override {
     state[0] += 1;
-    return command + v[0];
+    return {command.before + v[0], command.after + v[0]};
   }
   double driveTorque(double torque, const JointState& joint, std::span<const double>, std::span<double>,
                      double) const override {

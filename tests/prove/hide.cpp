@@ -74,17 +74,6 @@ void setSize(PlacedEffect& placed, const std::vector<Parameter>& parameters,
   }
 }
 
-/// Simpler effects of the library that a richer one turns into when a part of it is left out.
-const std::map<std::string, std::vector<std::string>>& relatives() {
-  static const std::map<std::string, std::vector<std::string>> simpler{
-      {"stribeck_friction", {"coulomb_friction"}},
-      {"load_dependent_friction", {"coulomb_friction"}},
-      {"asymmetric_friction", {"coulomb_friction"}},
-      {"anisotropic_rolling_resistance", {"rolling_resistance"}},
-      {"anisotropic_slip", {"slip"}}};
-  return simpler;
-}
-
 }  // namespace
 
 std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, const SimulatorSpec& before,
@@ -157,12 +146,7 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
   hidden.costUnfitted = std::isfinite(unfitted) ? withNoise(unfitted) : 1e6;
   double left = leftAfterRefit(world, without, effects, recorded);
 
-  const auto simpler = relatives().find(hidden.placed.effect);
-  if (simpler == relatives().end()) {
-    hidden.cost = withNoise(left);
-    return;
-  }
-  for (const std::string& name : simpler->second) {
+  for (const std::string& name : effects(hidden.placed.effect)->contains()) {
     if (std::find(library.names.begin(), library.names.end(), name) == library.names.end()) continue;
     for (const double share : {0.1, 1.0, 4.0}) {
       SimulatorSpec other = without;

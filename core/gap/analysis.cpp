@@ -45,9 +45,7 @@ std::vector<std::vector<std::vector<double>>> simulateAll(const FitProblem& prob
 }
 
 /// The model with its numbers fixed, for other recordings.
-Fit carriedOver(const FitProblem& problem, const FitModel& model) {
-  return fitModel(problem, model, {}, {4, Fold::all, true});
-}
+Fit carriedOver(const FitProblem& problem, const FitModel& model) { return fitModel(problem, model, {}, {4, true}); }
 
 struct Errors {
   double square = 0, absolute = 0, count = 0;
@@ -235,11 +233,7 @@ void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty
 
 /// The integration's own error in the final simulator: against half the step.
 void addStepErrors(GapReport& report, const FitProblem& problem, const SearchResult& found) {
-  FitProblem finer = problem;
-  finer.scene.step_s /= 2;
-  const Fit& fit = found.final.fit;
-  const Eigen::VectorXd difference =
-      4.0 / 3.0 * (residualsOf(problem, fit.model, fit.shifts) - residualsOf(finer, fit.model, fit.shifts));
+  const Eigen::VectorXd difference = 4.0 / 3.0 * found.stepChange;
   addErrors(report, problem, difference, &GapReport::Channel::stepError, &GapReport::Channel::stepError);
   for (const GapReport::Channel& channel : report.channels)
     if (channel.stepError > channel.noiseFloor)

@@ -58,15 +58,18 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
         std::abs(p.byDefault - *p.neutral) > 0 ? std::abs(p.byDefault - *p.neutral) : 0.1 * (p.maximum - p.minimum);
     Values values = others;
     values[p.name] = std::clamp(*p.neutral + sign * share * typical, p.minimum, p.maximum);
-    if (values[p.name] != *p.neutral) variants.push_back(values);
+    if (values[p.name] != *p.neutral && std::find(variants.begin(), variants.end(), values) == variants.end())
+      variants.push_back(values);
   };
   for (const Parameter& p : declared) {
     if (!p.neutral) continue;
     const bool up = *p.neutral<p.maximum, down = *p.neutral> p.minimum;
-    // A linear effect needs one size and sign only, but few are linear: a typical size, a small one, both signs.
+    // A linear effect needs one size and sign only, but few are linear: a typical size, both signs, a small one, large
+    // ones.
     if (up) sized(p, 1, 1, base);
     if (down) sized(p, 1, -1, base);
     sized(p, 0.2, up ? 1 : -1, base);
+    for (const double much : {4.0, 16.0}) sized(p, much, up ? 1 : -1, base);
     for (const Parameter& other : declared) {
       if (other.neutral) continue;
       for (const double value : triesOf(other)) {

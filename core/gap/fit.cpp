@@ -10,7 +10,7 @@
 namespace btr {
 namespace {
 
-constexpr double flatPrior = 10;         // ranges of a parameter: holds what the recordings do not tell, nothing else
+constexpr double flatPrior = 10;  // ranges of a parameter: holds what the recordings do not tell, nothing else
 
 /// weight·(x − x0): keeps what the recordings do not tell where it was.
 class Prior final : public ceres::CostFunction {
@@ -43,7 +43,8 @@ class AgeingJacobian final : public ceres::IterationCallback {
       policy_.difference = false;
       return ceres::SOLVER_CONTINUE;
     }
-    if (!summary.step_is_successful) return policy_.age > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    if (!summary.step_is_successful)
+      return policy_.age > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
     policy_.age = policy_.difference ? 0 : policy_.age + 1;
     policy_.difference = policy_.age >= JacobianPolicy::oldest;
     return ceres::SOLVER_CONTINUE;
@@ -106,7 +107,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     if (!fit.shifts[s].empty()) blocks.push_back(fit.shifts[s].data());
     if (blocks.empty()) continue;
     // Ceres takes ownership.
-    auto cost = std::make_unique<SegmentCost>(problem, model, s, scenes, policy, options.fold, limit);
+    auto cost = std::make_unique<SegmentCost>(problem, model, s, scenes, policy, limit);
     least.AddResidualBlock(cost.release(), nullptr, blocks);
     if (fit.shifts[s].empty()) continue;
     const std::size_t count = fit.shifts[s].size();
@@ -151,7 +152,8 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     left -= std::max(1, static_cast<int>(summary.iterations.size()) - 1);
     const bool stale = policy.age > 0;
     policy.inherited = nullptr;
-    if (!stale || summary.termination_type == ceres::NO_CONVERGENCE || summary.termination_type == ceres::FAILURE) break;
+    if (!stale || summary.termination_type == ceres::NO_CONVERGENCE || summary.termination_type == ceres::FAILURE)
+      break;
     solver.initial_trust_region_radius = std::max(1.0, summary.iterations.back().trust_region_radius);
   }
   fit.cost = summary.final_cost;

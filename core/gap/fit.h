@@ -7,14 +7,13 @@
 
 namespace btr {
 
-/// Which residuals take part in a fit.
+/// Which half of the residuals.
 enum class Fold { all = -1, first = 0, second = 1 };
 
 struct Linearised;
 
 struct FitOptions {
   int iterations = 20;
-  Fold fold = Fold::all;
   bool startsOnly = false;  ///< the parameters stay; only initial states are fitted
   /// Of a fit whose parameters this model begins with, near where it starts: saves the first differences.
   const Linearised* inherited = nullptr;
@@ -24,13 +23,18 @@ struct FitOptions {
 struct Fit {
   FitModel model;
   std::vector<std::vector<double>> shifts;  ///< of the initial states, by segment and nuisance
-  double cost = 0;                          ///< ½ sum of squared residuals that took part, and of the shifts
+  double cost = 0;                          ///< ½ sum of squared residuals, and of the shifts
 };
 
 /// Bounded least squares (Levenberg–Marquardt, Ceres) over the model's parameters and each segment's initial state. Far
 /// outliers count in proportion to their size only (Huber). Starts from model.values; `shifts` may be empty: zero.
 Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
              const FitOptions& options);
+
+/// Steps of differences: of a parameter, in its scale, the way that stays inside its bounds (`scaled`: its value in
+/// scales); of an initial state, in its standard error.
+double parameterStep(const FitProblem& problem, const FitParameter& parameter, double scaled);
+inline constexpr double startStep = 0.1;
 
 /// All residuals of a fitted model, one segment after the other.
 Eigen::VectorXd residualsOf(const FitProblem& problem, const FitModel& model,
@@ -39,10 +43,10 @@ Eigen::VectorXd residualsOf(const FitProblem& problem, const FitModel& model,
 /// Residuals and how they change with the parameters, what initial states explain taken out of both: least squares over
 /// the columns is then least squares over parameters and initial states. Columns are per `scale` of their parameter.
 struct Linearised {
-  Eigen::VectorXd residuals;            ///< as they are
-  Eigen::VectorXd profiled;             ///< initial states taken out
-  Eigen::MatrixXd columns;              ///< by residual and parameter, initial states taken out
-  std::vector<Eigen::MatrixXd> starts;  ///< by segment: orthonormal columns of what its initial state explains
+  Eigen::VectorXd residuals;               ///< as they are
+  Eigen::VectorXd profiled;                ///< initial states taken out
+  Eigen::MatrixXd columns;                 ///< by residual and parameter, initial states taken out
+  std::vector<Eigen::MatrixXd> starts;     ///< by segment: orthonormal columns of what its initial state explains
   Eigen::MatrixXd raw;                     ///< by residual and parameter, as they are
   std::vector<Eigen::MatrixXd> rawStarts;  ///< by segment: by residual and initial state, as they are
   std::vector<Eigen::Index> first;         ///< by segment: its first residual

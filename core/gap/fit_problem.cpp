@@ -54,11 +54,10 @@ bool compared(const Binding& binding, const Measured& measured) {
   });
 }
 
-/// True if something is not held by a servo and no trial could forget how it began.
+/// True if something of a fixed rig is not held by a servo and no trial could forget how it began.
 bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
     const SceneRobot& robot = scene.robots[r];
-    if (robot.freeBase) return true;
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       if (robot.model.joints[j].type == Joint::Type::fixed) continue;
       const Drive::Kind kind = robot.drives[j].kind;
@@ -173,21 +172,22 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   if (window_s < 0) {
     window_s = 0;
     const Scene scene = ready.sceneOf(ready.given, 0);
-    const bool freeBase =
-        std::any_of(scene.robots.begin(), scene.robots.end(), [](const SceneRobot& robot) { return robot.freeBase; });
-    if (!freeBase && swingsFreely(scene, ready.trials[0])) {
-      window_s = 1;
-    } else if (!freeBase) {
-      cutSegments(ready, 0);
-      double most = 0;
-      for (const Segment& segment : ready.segments) most = std::max(most, nonlinearity(ready, segment));
-      if (most > 0.3) window_s = 1;
+    if (std::any_of(scene.robots.begin(), scene.robots.end(), [](const SceneRobot& robot) { return robot.freeBase; })) {
+      // Runs freely, from where it stood or was let go: in the middle of a walk nothing recorded tells its contacts
+      // well enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start,
+      // and 5 to 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
+      ready.differenceStep = 0.5;
+    } else {
+      ready.mayCoarsen = true;
+      if (swingsFreely(scene, ready.trials[0])) {
+        window_s = 1;
+      } else {
+        cutSegments(ready, 0);
+        double most = 0;
+        for (const Segment& segment : ready.segments) most = std::max(most, nonlinearity(ready, segment));
+        if (most > 0.3) window_s = 1;
+      }
     }
-    // A free robot runs freely as well, from where it stood or was let go: in the middle of a walk nothing recorded
-    // tells its contacts well enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors²
-    // from the start, and 5 to 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
-    ready.mayCoarsen = !freeBase;
-    if (freeBase) ready.differenceStep = 0.5;
     if (window_s > 0)
       ready.notes.push_back("trials are simulated in windows of " + toText(window_s) +
                             " s from the recorded state: free runs would show where errors have drifted to");

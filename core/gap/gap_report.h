@@ -115,7 +115,7 @@ struct GapReport {
   std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
   SimulatorSpec before, after;     ///< as given; calibrated with the accepted effects
   std::uint64_t seed = 1;
-  double seconds = 0;       ///< wall time; not part of what must be reproducible
+  double seconds = 0;  ///< wall time; not part of what must be reproducible
   std::string version;
 };
 

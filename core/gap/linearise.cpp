@@ -6,8 +6,9 @@
 
 namespace btr {
 
-namespace {
-constexpr double startStep = 0.1;
+double parameterStep(const FitProblem& problem, const FitParameter& parameter, double scaled) {
+  const double size = problem.differenceStep;
+  return (scaled + size) * parameter.scale > parameter.maximum ? -size : size;
 }
 
 Eigen::VectorXd Linearised::profile(const FitProblem& problem, const Eigen::VectorXd& column) const {
@@ -46,8 +47,7 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     for (std::size_t i = 0; i < model.parameters.size(); ++i) {
       const FitParameter& parameter = model.parameters[i];
       std::vector<double> moved = model.values;
-      const double size = problem.differenceStep;
-      const double step = size * (moved[i] + size * parameter.scale > parameter.maximum ? -1 : 1);
+      const double step = parameterStep(problem, parameter, moved[i] / parameter.scale);
       moved[i] += step * parameter.scale;
       raw.block(at, static_cast<Eigen::Index>(i), count, 1) = (simulate(moved, fit.shifts[s]) - here) / step;
     }

@@ -273,13 +273,13 @@ std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProb
   const auto& time = problem.trials[0].recording.columns[0];
   const double sample = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   cutSegments(windows, std::max(0.2, 20 * sample));
-  const Fit fit = fitModel(windows, calibrated, {}, {3, Fold::all, true});
+  const Fit fit = fitModel(windows, calibrated, {}, {3, true});
   Eigen::VectorXd residuals = residualsOf(windows, fit.model, fit.shifts);
   const FitProblem* used = &windows;
   if (residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size())) {
     // Too short to feel it: the fit's own segments then.
     used = &problem;
-    const Fit whole = fitModel(problem, calibrated, {}, {3, Fold::all, true});
+    const Fit whole = fitModel(problem, calibrated, {}, {3, true});
     residuals = residualsOf(problem, whole.model, whole.shifts);
   }
 

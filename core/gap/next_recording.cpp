@@ -100,9 +100,11 @@ Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial&
 
 GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed) {
   GapReport::NextRecording next;
-  if (found.rivalModels.empty() || found.effects.empty()) return next;
+  const auto doubted = std::find_if(found.effects.begin(), found.effects.end(),
+                                    [](const Found& effect) { return !effect.rivals.empty(); });
+  if (doubted == found.effects.end()) return next;
   const FitTrial& like = problem.trials[0];
-  const FitModel &first = found.final.fit.model, &rival = found.rivalModels[0];
+  const FitModel &first = found.final.fit.model, &rival = doubted->rivalModels[0];
   const Scene sceneA = problem.sceneOf(first.simulator(problem), 0),
               sceneB = problem.sceneOf(rival.simulator(problem), 0);
   const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA);
@@ -138,9 +140,8 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
     shapeName = name;
   }
   if (next.separation <= 0) return next;
-  const Found& effect = found.effects[0];
-  const GapReport::Rival& other = effect.rivals[0];
-  next.why = "separates " + effect.effect.effect + " at " + effect.effect.at + " from " + other.effect + " at " +
+  const GapReport::Rival& other = doubted->rivals[0];
+  next.why = "separates " + doubted->effect.effect + " at " + doubted->effect.at + " from " + other.effect + " at " +
              other.at + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " + toText(length_s) +
              " s)";
   return next;

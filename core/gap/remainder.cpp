@@ -115,7 +115,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
   FitModel model = base.model.with(with, {options[chosen].force.name(), options[chosen].at, {}});
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     if (model.parameters[i].effect == static_cast<int>(model.effects.size()) - 1) model.values[i] = 0;
-  const Fit fit = fitModel(with, model, base.shifts, {12, Fold::all, false});
+  const Fit fit = fitModel(with, model, base.shifts, {12});
   Learned learned{options[chosen], crossValidate(with, fit), {}};
   learned.uncertainty = uncertaintyOf(with, fit, linearise(with, fit));
   return learned;
@@ -156,7 +156,7 @@ bool aCurveDoesBetter(const FitProblem& problem, const SearchResult& found, int 
   Fit base = found.calibrated.fit;
   base.model = found.final.fit.model;
   while (!base.model.effects.empty()) base.model = base.model.without(base.model.effects.size() - 1);
-  base = fitModel(problem, base.model, found.calibrated.fit.shifts, {8, Fold::all, false});
+  base = fitModel(problem, base.model, found.calibrated.fit.shifts, {8});
   const auto learned = learn(problem, base, linearise(problem, base), jobs);
   return learned && learned->scored.mean() < muchBetter * found.final.mean() &&
          compare(found.final.blocks, learned->scored.blocks).t > leastT;

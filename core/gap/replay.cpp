@@ -268,6 +268,25 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
   return state;
 }
 
+namespace {
+
+/// A start is what the sensors said: where an effect puts a sensor off, the joint itself stands elsewhere.
+void standAsMeasured(World& world, const Binding& binding, const StartState& start) {
+  for (std::size_t i = 0; i < start.robots.size(); ++i) {
+    const StartState::Robot& robot = start.robots[i];
+    const std::vector<double> said = world.robot(i).position;
+    std::vector<double> positions = robot.positions;
+    for (const auto* list : {&binding.measured, &binding.startOnly})
+      for (const Measured& measured : *list)
+        if (measured.what == Measured::What::position && measured.object == i)
+          positions[measured.part] = 2 * robot.positions[measured.part] - said[measured.part];
+    if (positions != robot.positions)
+      world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, positions, robot.rates);
+  }
+}
+
+}  // namespace
+
 ReplayedRecording replayRecording(const Scene& given, const Recording& recording, const Binding& binding,
                                   const StartState& from, std::size_t first, std::size_t last) {
   constexpr std::uint64_t seed = 1;  // nothing in a replay is drawn by chance
@@ -290,6 +309,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     const StartState::Robot& robot = start.robots[i];
     world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
   }
+  if (!prescribed.any()) standAsMeasured(world, binding, start);
   for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
 
   auto inputs = restingInputs(scene, start);

@@ -61,8 +61,10 @@ std::vector<double> sizesInErrors(const FitModel& model, const Uncertainty& unce
 }  // namespace
 
 Scored crossValidate(const FitProblem& problem, const Fit& fit) {
-  Scored scored{fit, std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
-                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())), {}};
+  Scored scored{fit,
+                std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
+                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())),
+                {}};
   const Linearised linear = linearise(problem, fit);
   scored.sizes = sizesInErrors(fit.model, uncertaintyOf(problem, fit, linear));
   for (const Fold trained : {Fold::first, Fold::second}) {

@@ -10,7 +10,7 @@ struct Scored {
   Fit fit;  ///< to everything
   std::vector<double>
       blocks;  ///< mean squared error of each block [noise floors²] by the fit to the other fold; −1: none
-  Eigen::VectorXd heldOut;  ///< residuals of the same, all samples
+  Eigen::VectorXd heldOut;    ///< residuals of the same, all samples
   std::vector<double> sizes;  ///< by effect: its furthest parameter from neutral, in standard errors
 
   double mean() const;  ///< over the blocks

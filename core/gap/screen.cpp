@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/gap/candidates.h"
 #include "core/spec/error.h"
@@ -38,11 +39,14 @@ class Projector {
   Eigen::LDLT<MatrixXd> solver_;
 };
 
+constexpr double worthLooking = 0.005;  // share of the squared error that a candidate must promise
+
 struct Try {
   Values effect;
-  VectorXd change;  ///< of the residuals, initial states taken out
-  VectorXd left;    ///< fitted parameters taken out too
-  double step = 0, gain = 0;
+  VectorXd change;            ///< of the residuals, initial states taken out
+  VectorXd left;              ///< fitted parameters taken out too
+  double step = 0, gain = 0;  ///< of its own size that would do best if all were linear, and what that would take
+  double gainAsIs = 0;        ///< what it takes at its own size
 };
 
 /// Non-negative least squares on a few columns by coordinate descent.
@@ -60,19 +64,28 @@ VectorXd nonNegative(const std::vector<const Try*>& tries, const VectorXd& targe
   return steps;
 }
 
-/// One number list per candidate: norm, number of starts, then for each share, effect values, parameters.
+/// One number list per candidate: norm, best promised share, number of starts, then for each share, effect values,
+/// parameters.
 std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                               const Projector& projector, const VectorXd& rest, const EffectCandidate& candidate) {
+  /// Nothing where the scene cannot be: a mass below zero, say.
+  const auto changeBy = [&](const Values& values) -> std::optional<VectorXd> {
+    try {
+      const VectorXd with = residualsOf(problem, fit.model.with(problem, candidate.placed(values)), fit.shifts);
+      return linear.profile(problem, with - linear.residuals);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  };
+  const auto gainOf = [&](const VectorXd& change) { return rest.squaredNorm() - (rest + change).squaredNorm(); };
   std::vector<Try> tries;
   double felt = 0;
   for (const Values& variant : candidate.variants) {
-    const FitModel model = fit.model.with(problem, candidate.placed(variant));
-    Try attempt{variant, {}, {}, 0, 0};
-    try {
-      const VectorXd with = residualsOf(problem, model, fit.shifts);
-      attempt.change = linear.profile(problem, with - linear.residuals);
-    } catch (const InputError&) {
-      continue;  // a scene that cannot be: a mass below zero, say
+    Try attempt{variant, {}, {}};
+    if (const auto change = changeBy(variant)) {
+      attempt.change = *change;
+    } else {
+      continue;
     }
     felt = std::max(felt, attempt.change.squaredNorm());
     attempt.left = projector.leftOf(attempt.change);
@@ -80,7 +93,8 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     // What the fitted parameters can do as well is no evidence.
     if (norm <= 1e-6 * attempt.change.squaredNorm() || norm <= 0) continue;
     attempt.step = std::clamp(-rest.dot(attempt.left) / norm, 0.0, 20.0);
-    attempt.gain = rest.squaredNorm() - (rest + attempt.step * attempt.left).squaredNorm();
+    attempt.gain = gainOf(attempt.step * attempt.left);
+    attempt.gainAsIs = gainOf(attempt.left);
     tries.push_back(std::move(attempt));
   }
   const double total = linear.profiled.squaredNorm();
@@ -93,8 +107,10 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   const auto add = [&](double gain, const Values& effect, const VectorXd& change) {
     if (gain > 0) found.push_back({gain, effect, projector.answer(linear.profiled + change)});
   };
-  for (const Try& attempt : tries)
+  for (const Try& attempt : tries) {
     add(attempt.gain, scaledVariant(candidate, attempt.effect, attempt.step), attempt.step * attempt.change);
+    add(attempt.gainAsIs, attempt.effect, attempt.change);
+  }
 
   // Several sizes of one effect together: the best variant of each of its neutral parameters.
   std::vector<const Try*> best;
@@ -123,7 +139,24 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   }
   std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.gain > b.gain; });
 
-  std::vector<double> numbers{felt, static_cast<double>(found.size())};
+  // Few effects are proportional to their size (play, limits): the promise is looked at where it lies, and at smaller
+  // and larger sizes. What does best there comes first.
+  const double promised = found.empty() ? 0 : found[0].gain;
+  if (promised > worthLooking * total) {
+    std::vector<Found> seen;
+    for (const double size : {1.0, 0.1, 0.3, 3.0}) {
+      const Values values = scaledVariant(candidate, found[0].effect, size);
+      if (size != 1 && values == found[0].effect) continue;
+      const auto change = changeBy(values);
+      if (!change) continue;
+      const double gain = gainOf(projector.leftOf(*change));
+      if (gain > 0) seen.push_back({gain, values, projector.answer(linear.profiled + *change)});
+    }
+    std::stable_sort(seen.begin(), seen.end(), [](const Found& a, const Found& b) { return a.gain > b.gain; });
+    found.insert(found.begin(), seen.begin(), seen.begin() + std::min<std::ptrdiff_t>(1, std::ssize(seen)));
+  }
+
+  std::vector<double> numbers{felt, total > 0 ? promised / total : 0, static_cast<double>(found.size())};
   for (const Found& each : found) {
     numbers.push_back(total > 0 ? each.gain / total : 0);
     for (const Parameter& p : candidate.declared) numbers.push_back(each.effect.at(p.name));
@@ -153,7 +186,8 @@ Part worstThird(const FitProblem& problem, const Fit& fit, const Linearised& lin
   std::vector<double> error;
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
     const auto rows = static_cast<Eigen::Index>(problem.segments[s].row.size());
-    error.push_back(linear.profiled.segment(linear.first[s], rows).squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows)));
+    error.push_back(linear.profiled.segment(linear.first[s], rows).squaredNorm() /
+                    static_cast<double>(std::max<Eigen::Index>(1, rows)));
     order.push_back(s);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return error[a] > error[b]; });
@@ -196,7 +230,7 @@ std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Lin
       goOn);
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    result[c].share = numbers[c].size() > 2 ? numbers[c][2] : 0;
+    result[c].share = numbers[c].empty() ? 0 : numbers[c][1];
     result[c].excited = !numbers[c].empty() && numbers[c][0] > leastFelt(part.linear);
     order.push_back(c);
   }
@@ -235,8 +269,9 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
     const auto& list = numbers[k];
     if (!list.empty()) {
       screened.excited = list[0] > leastFelt(linear);
-      const auto starts = static_cast<std::size_t>(list[1]);
-      std::size_t at = 2;
+      screened.share = list[1];
+      const auto starts = static_cast<std::size_t>(list[2]);
+      std::size_t at = 3;
       for (std::size_t s = 0; s < starts; ++s) {
         Screened::Start start;
         start.share = list[at++];
@@ -244,7 +279,6 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
         for (std::size_t i = 0; i < fit.model.parameters.size(); ++i) start.parameters.push_back(list[at++]);
         screened.starts.push_back(std::move(start));
       }
-      if (!screened.starts.empty()) screened.share = screened.starts[0].share;
     }
   }
   return result;

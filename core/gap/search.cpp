@@ -10,9 +10,9 @@
 namespace btr {
 namespace {
 
-constexpr double unexplainedExcess = 0.3;      // mean squared error above 1 at which pairs are tried
-constexpr std::size_t candidatesToFit = 8;     // half of them are fitted to the end and scored
-constexpr double nothingLeft = 1.03;           // mean squared error at which there is nothing left to explain
+constexpr double unexplainedExcess = 0.3;   // mean squared error above 1 at which pairs are tried
+constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
+constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
 }  // namespace
 
@@ -24,9 +24,9 @@ bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
 Scored SearchRun::calibrate() {
   const FitModel given = givenModel(problem_);
   if (given.parameters.empty()) {
-    Fit asIs = scoreAsIs(problem_, {given, {}, 0}).fit;
-    while (problem_.scene.step_s > finest_s_ && needsFinerStep(asIs)) problem_.scene.step_s /= 2;
-    return scoreAsIs(problem_, asIs);
+    std::vector<Fit> asIs{scoreAsIs(problem_, {given, {}, 0}).fit};
+    refineStep(asIs, 1, "calibrating", 0.05);
+    return scoreAsIs(problem_, asIs[0]);
   }
   // From the numbers as given, and from two drawn around them.
   std::vector<FitModel> starts{given, given, given};
@@ -36,20 +36,17 @@ Scored SearchRun::calibrate() {
       const FitParameter& p = given.parameters[i];
       starts[s].values[i] = std::clamp(p.given + 2 * p.scale * random.uniform(-1, 1), p.minimum, p.maximum);
     }
-  std::vector<Fit> fits = fitAll({given}, {}, 15, "calibrating", 0.02, 0.05);
+  std::vector<Fit> fits = fitAll({{given, {}}}, 15, "calibrating", 0.02, 0.05);
   // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
   if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
-    const std::vector<Fit> others = fitAll({starts[1], starts[2]}, {}, 10, "calibrating", 0.05, 0.08);
+    const std::vector<Fit> others = fitAll({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08);
     fits.insert(fits.end(), others.begin(), others.end());
   }
-  Fit best =
-      *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+  std::vector<Fit> best{
+      *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; })};
   // A step that was harmless beside the error as given may not be so beside what is left of it.
-  while (problem_.scene.step_s > finest_s_ && needsFinerStep(best)) {
-    problem_.scene.step_s /= 2;
-    best = polish({best}, againIterations, "", 0.08, 0.08)[0];
-  }
-  return scoreAll({best}, "calibrating", 0.08, 0.1)[0];
+  refineStep(best, 1, "calibrating", 0.08);
+  return scoreAll(best, "calibrating", 0.08, 0.1)[0];
 }
 
 GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {
@@ -104,6 +101,26 @@ void SearchRun::holdUntold(SearchResult& result) const {
   }
 }
 
+/// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it may
+/// have bent them to take up what is missing.
+std::vector<SearchRun::Base> SearchRun::basesOf(const SearchResult& result, const Linearised& linear,
+                                                bool first) const {
+  std::vector<Base> bases{{result.final.fit, linear}};
+  if (!first || excessOf(result.final) < 1) return bases;
+  const FitModel& model = result.final.fit.model;
+  FitModel given = model;
+  bool far = false;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    given.values[i] = model.parameters[i].given;
+    far = far || std::abs(model.values[i] - given.values[i]) > 2 * model.parameters[i].scale;
+  }
+  if (!far) return bases;
+  Fit fit{given, result.given.fit.shifts, 0};
+  Linearised linearHere = linearise(problem_, fit);
+  bases.push_back({std::move(fit), std::move(linearHere)});
+  return bases;
+}
+
 SearchResult SearchRun::run() {
   SearchResult result;
   if (options_.progress && !options_.progress("replaying as given", 0)) throw Cancelled{};
@@ -139,20 +156,18 @@ SearchResult SearchRun::run() {
   Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
-    if (result.final.mean() < nothingLeft + stepError(result.final.fit)) break;
+    if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    const double step_s = problem_.scene.step_s;
-    auto tried = tryCandidates(result.final.fit, linear, candidatesToFit,
+    auto tried = tryCandidates(result.final, basesOf(result, linear, stage == 0), candidatesToFit,
                                stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to);
     if (stage == 0) firstStage_ = tried;
-    if (problem_.scene.step_s < step_s) result.final = scoreAll({result.final.fit}, "confirming", to, to)[0];
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {
-      if (!tried[k].attempt.scored) continue;
-      const bool good = passes(result.final, tried[k].scored, tried[k].fit.model.effects.size() - 1,
-                               tried[k].attempt.comparison, tried[k].attempt.reason);
-      if (good && winner == tried.size()) winner = k;
-      if (good && winner != k) tried[k].attempt.reason = tried[winner].attempt.candidate.text() + " does better";
+      if (!tried[k].passes) continue;
+      if (winner == tried.size())
+        winner = k;
+      else
+        tried[k].attempt.reason = tried[winner].attempt.candidate.text() + " does better";
     }
     if (winner < tried.size()) tried[winner].attempt.accepted = true;
     for (const Tried& each : tried) remember(result.attempts, each.attempt);
@@ -183,7 +198,7 @@ SearchResult SearchRun::run() {
   prune(result);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
-  result.stepError = stepError(result.final.fit);
+  result.stepChange = stepChange(result.final.fit);
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
   return result;

@@ -33,6 +33,7 @@ struct Found {
   PlacedEffect effect;
   Comparison comparison;  ///< with the final simulator without it
   std::vector<GapReport::Rival> rivals;
+  std::vector<FitModel> rivalModels;  ///< the whole simulator with each rival in its place
 };
 
 struct SearchResult {
@@ -42,15 +43,16 @@ struct SearchResult {
   std::vector<GapReport::Step> ladder;
   Linearised calibratedLinear, finalLinear;
   Uncertainty calibratedUncertainty, finalUncertainty;
-  /// Fitted rivals of the first accepted effect, for the next recording: the best alternative model, if any.
-  std::vector<FitModel> rivalModels;
-  double step_s = 0;      ///< of the final fits [s]
-  double stepError = 0;   ///< mean squared change of the final simulator's replay with half that step [noise floors²]
-  bool unstable = false;  ///< free runs predict blocks far worse than they fit them: windows are needed
+  double step_s = 0;           ///< of the final fits [s]
+  Eigen::VectorXd stepChange;  ///< of the final simulator's residuals with half that step
+  bool unstable = false;       ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 
 /// Steps 4 and 6 to 8: calibrate, screen, confirm one effect at a time, drop what became useless, list rivals.
 SearchResult searchEffects(const FitProblem& problem, const SearchOptions& options);
+
+/// Of the integration: mean squared change with half the step [noise floors²].
+double stepErrorOf(const Eigen::VectorXd& stepChange);
 
 /// Mean over blocks of the excess over the noise: mean squared error − 1, not below 0.
 double excessOf(const Scored& scored);

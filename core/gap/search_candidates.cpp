@@ -1,62 +1,109 @@
 // From all effects at all places to the few that are fitted to the end.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/gap/search_run.h"
 
 namespace btr {
 namespace {
 
-constexpr int firstIterations = 4, lastIterations = 15;
-constexpr double hopeless = 2;
+constexpr int firstIterations = 8, lastIterations = 15;
+constexpr double hopeless = 4;
 constexpr std::size_t candidatesInPairs = 4;
 
 std::string percent(double share) { return toText(std::round(1000 * share) / 10) + " %"; }
 
+/// Where the fit of a candidate may begin.
+struct Start {
+  const Screened::Start* from;
+  std::size_t base;
+  double left;  ///< squared error that it promises to leave
+};
+
+/// What a candidate promises from all bases together.
+struct Promise {
+  bool excited = false;
+  double share = 0;  ///< of the first base's squared error
+  std::vector<Start> starts;
+};
+
+std::vector<Promise> promisesOf(const std::vector<std::vector<Screened>>& screened, const std::vector<double>& totals) {
+  std::vector<Promise> promises(screened[0].size());
+  for (std::size_t c = 0; c < promises.size(); ++c) {
+    Promise& promise = promises[c];
+    std::vector<Start> later;
+    for (std::size_t b = 0; b < screened.size(); ++b) {
+      const Screened& of = screened[b][c];
+      promise.excited = promise.excited || of.excited;
+      if (totals[0] > 0) promise.share = std::max(promise.share, 1 - totals[b] * (1 - of.share) / totals[0]);
+      for (const Screened::Start& start : of.starts)
+        (&start == of.starts.data() ? promise.starts : later).push_back({&start, b, totals[b] * (1 - start.share)});
+    }
+    // The best that was looked at from each base, then what else was promised.
+    for (std::vector<Start>* list : {&promise.starts, &later})
+      std::stable_sort(list->begin(), list->end(), [](const Start& a, const Start& b) { return a.left < b.left; });
+    promise.starts.insert(promise.starts.end(), later.begin(), later.end());
+  }
+  return promises;
+}
+
 }  // namespace
 
-std::vector<SearchRun::Tried> SearchRun::tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
-                                                 const std::string& stage, double from, double to) {
-  const std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
+std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const std::vector<Base>& bases,
+                                                       std::size_t toFit, const std::string& stage, double from,
+                                                       double to) {
   const double part = (to - from) / 3;
-  const std::vector<Screened> screened = screen(problem_, base, linear, candidates, options_.jobs,
-                                                reporter("screening" + stage, candidates.size(), from, from + part));
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < screened.size(); ++i) order.push_back(i);
+  const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
+  std::vector<std::vector<Screened>> screened;
+  std::vector<double> totals;
+  for (const Base& base : bases) {
+    const double begin = from + part * static_cast<double>(screened.size()) / static_cast<double>(bases.size());
+    screened.push_back(screen(
+        problem_, base.fit, base.linear, candidates, options_.jobs,
+        reporter("screening" + stage, candidates.size(), begin, begin + part / static_cast<double>(bases.size()))));
+    totals.push_back(base.linear.profiled.squaredNorm());
+  }
+  const std::vector<Promise> promises = promisesOf(screened, totals);
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return screened[a].share > screened[b].share; });
+                   [&](std::size_t a, std::size_t b) { return promises[a].share > promises[b].share; });
 
   std::vector<Tried> tried;
   for (const std::size_t i : order) {
     Tried each;
+    each.promise = i;
     each.attempt.candidate = candidates[i];
-    each.attempt.share = screened[i].share;
-    each.attempt.excited = screened[i].excited;
+    each.attempt.share = promises[i].share;
+    each.attempt.excited = promises[i].excited;
     each.attempt.rank = static_cast<int>(tried.size()) + 1;
     each.fit.cost = INFINITY;
-    if (!screened[i].starts.empty()) each.attempt.values = screened[i].starts[0].effect;
+    if (!promises[i].starts.empty()) each.attempt.values = promises[i].starts[0].from->effect;
     if (!each.attempt.excited)
       each.attempt.reason = "the recordings do not feel it at a typical size";
     else
-      each.attempt.reason = "screening: would take away " + toText(std::round(1000 * each.attempt.share) / 10) +
-                            " % of the squared error, others more";
+      each.attempt.reason =
+          "screening: would take away " + percent(each.attempt.share) + " of the squared error, others more";
     tried.push_back(std::move(each));
   }
 
   // One start each of the most promising, a second one of the best of them.
   const auto fitStarts = [&](const std::vector<std::size_t>& which, std::size_t start, double begin, double end) {
-    std::vector<FitModel> models;
+    std::vector<FitJob> jobs;
     std::vector<std::size_t> owner;
     for (const std::size_t k : which) {
-      const Screened& of = screened[order[k]];
-      if (start >= of.starts.size()) continue;
-      FitModel model = base.model.with(problem_, tried[k].attempt.candidate.placed(of.starts[start].effect));
-      std::copy(of.starts[start].parameters.begin(), of.starts[start].parameters.end(), model.values.begin());
-      models.push_back(model);
+      const Promise& promise = promises[tried[k].promise];
+      if (start >= promise.starts.size()) continue;
+      const Start& at = promise.starts[start];
+      const Base& base = bases[at.base];
+      FitModel model = base.fit.model.with(problem_, tried[k].attempt.candidate.placed(at.from->effect));
+      std::copy(at.from->parameters.begin(), at.from->parameters.end(), model.values.begin());
+      jobs.push_back({model, base.fit.shifts, &base.linear});
       owner.push_back(k);
     }
-    const std::vector<Fit> fits =
-        fitAll(models, base.shifts, firstIterations, "fitting candidates" + stage, begin, end, &linear);
+    const std::vector<Fit> fits = fitAll(jobs, firstIterations, "fitting candidates" + stage, begin, end);
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (fits[i].cost < tried[owner[i]].fit.cost) {
         tried[owner[i]].fit = fits[i];
@@ -65,8 +112,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(const Fit& base, const Li
   };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
-    if (screened[order[k]].excited && !screened[order[k]].starts.empty() &&
-        screened[order[k]].share >= std::max(0.7 * leastGain, 0.1 * screened[order[0]].share))
+    if (tried[k].attempt.excited && !promises[tried[k].promise].starts.empty() &&
+        tried[k].attempt.share >= std::max(0.7 * leastGain, 0.1 * tried[0].attempt.share))
       promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
   std::stable_sort(promising.begin(), promising.end(),
@@ -75,36 +122,90 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(const Fit& base, const Li
   fitStarts(promising, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
 
-  // The best are fitted to the end, then judged on what they were not fitted to.
-  std::vector<Fit> best;
-  for (std::size_t k = 0; k < std::min(toFit / 2, tried.size()); ++k)
+  // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
+  // contain; if none of them will do, the next ones.
+  std::vector<std::size_t> best, next;
+  for (std::size_t k = 0; k < tried.size() && tried[k].attempt.fitted; ++k)
     // What fits far worse than the best after the first iterations is no rival.
-    if (tried[k].attempt.fitted && tried[k].fit.cost <= hopeless * tried[0].fit.cost) best.push_back(tried[k].fit);
-  best = polish(best, lastIterations, stage, from + 2 * part, to - part / 2);
-  // Effects may need finer steps than the simulator without them: friction at reversals, play.
-  while (!best.empty() && problem_.scene.step_s > finest_s_ &&
-         std::any_of(best.begin(), best.begin() + std::min<std::ptrdiff_t>(2, std::ssize(best)),
-                     [&](const Fit& fit) { return needsFinerStep(fit); })) {
-    problem_.scene.step_s /= 2;
-    best = polish(best, againIterations, stage, to - part / 2, to - part / 2);
-  }
-  const std::vector<Scored> scored = scoreAll(best, "confirming" + stage, to - part / 2, to);
-  for (std::size_t i = 0; i < scored.size(); ++i) {
-    tried[i].fit = best[i];
-    tried[i].scored = scored[i];
-    tried[i].attempt.scored = true;
-  }
-  for (Tried& each : tried) {
-    if (!each.attempt.fitted) continue;
-    each.attempt.values = each.fit.model.simulator(problem_).effects.back().parameters;
-  }
-  std::stable_sort(tried.begin(), tried.begin() + static_cast<std::ptrdiff_t>(scored.size()),
-                   [](const Tried& a, const Tried& b) { return a.scored.mean() < b.scored.mean(); });
+    (best.size() < toFit / 2 && tried[k].fit.cost <= hopeless * tried[0].fit.cost ? best : next).push_back(k);
+  std::erase_if(next, [&](std::size_t k) {
+    const bool contained = std::any_of(best.begin(), best.end(), [&](std::size_t of) {
+      return isRicher(tried[of].attempt.candidate, tried[k].attempt.candidate.placed({}));
+    });
+    if (contained) best.push_back(k);
+    return contained;
+  });
+  if (!confirm(tried, best, without, stage, from + 2 * part, to)) confirm(tried, next, without, stage, to, to);
+  for (Tried& each : tried)
+    if (each.attempt.fitted) each.attempt.values = each.fit.model.simulator(problem_).effects.back().parameters;
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
+    if (a.attempt.scored != b.attempt.scored) return a.attempt.scored;
+    return a.attempt.scored && a.scored.mean() < b.scored.mean();
+  });
   return tried;
 }
 
+/// Dry friction and play leave side minima along an effect's size: where another size fits better at once, the fit is
+/// taken up again from there.
+void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
+  constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
+  constexpr double better = 0.995;
+  const auto resized = [&](const Fit& fit, double size) {
+    FitModel model = fit.model;
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+      const FitParameter& p = model.parameters[i];
+      if (p.effect + 1 == static_cast<int>(model.effects.size()) && p.hasNeutral)
+        model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
+    }
+    return model;
+  };
+  const auto errors = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
+    std::vector<double> list;
+    for (const double size : sizes)
+      list.push_back(residualsOf(problem_, resized(fits[i], size), fits[i].shifts).squaredNorm());
+    return list;
+  });
+  std::vector<FitJob> jobs;
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const auto least = std::min_element(errors[i].begin(), errors[i].end());
+    if (errors[i].empty() || !(*least < better * errors[i][0])) continue;
+    const double size = sizes[static_cast<std::size_t>(least - errors[i].begin())];
+    jobs.push_back({resized(fits[i], size), fits[i].shifts});
+    owner.push_back(i);
+  }
+  const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
+  for (std::size_t k = 0; k < again.size(); ++k)
+    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
+}
+
+bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
+                        const std::string& stage, double from, double to) {
+  if (which.empty()) return false;
+  std::vector<FitJob> jobs;
+  for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
+  std::vector<Fit> fits = fitAll(jobs, lastIterations, "confirming" + stage, from, (from + to) / 2);
+  shake(fits, "confirming" + stage, (from + to) / 2);
+  // Effects may need finer steps than the simulator without them: friction at reversals, play.
+  const double step_s = problem_.scene.step_s;
+  refineStep(fits, 2, "confirming" + stage, (from + to) / 2);
+  if (problem_.scene.step_s < step_s) without = scoreAll({without.fit}, "confirming" + stage, to, to)[0];
+  const std::vector<Scored> scored = scoreAll(fits, "confirming" + stage, (from + to) / 2, to);
+  bool any = false;
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    Tried& each = tried[which[i]];
+    each.fit = fits[i];
+    each.scored = scored[i];
+    each.attempt.scored = true;
+    each.passes =
+        passes(without, each.scored, each.fit.model.effects.size() - 1, each.attempt.comparison, each.attempt.reason);
+    any = any || each.passes;
+  }
+  return any;
+}
+
 bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
-                    std::string& reason) const {
+                       std::string& reason) const {
   comparison = compare(without.blocks, with.blocks);
   const double excess = excessOf(without);
   const double taken = without.mean() - with.mean();
@@ -130,18 +231,18 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
   return true;
 }
 
-bool SearchRun::tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair) {
+bool SearchRun::tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair) {
   bool found = false;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
-    const Linearised linear = linearise(problem_, singles[k].fit);
-    const auto seconds = tryCandidates(singles[k].fit, linear, candidatesInPairs, ", in pairs", 0.5, 0.6);
+    Scored single = singles[k].scored;
+    const auto seconds = tryCandidates(single, {{single.fit, linearise(problem_, single.fit)}}, candidatesInPairs,
+                                       ", in pairs", 0.5, 0.6);
     if (seconds.empty() || !seconds[0].attempt.scored) continue;
     Comparison comparison;
     std::string reason;
     // Each of the two must be worth it beside the other, and both together.
-    if (!passes(singles[k].scored, seconds[0].scored, seconds[0].fit.model.effects.size() - 1, comparison, reason))
-      continue;
+    if (!passes(single, seconds[0].scored, seconds[0].fit.model.effects.size() - 1, comparison, reason)) continue;
     if (!passes(current, seconds[0].scored, seconds[0].fit.model.effects.size() - 2, comparison, reason)) continue;
     if (!found || seconds[0].scored.mean() < pair.mean()) pair = seconds[0].scored;
     found = true;

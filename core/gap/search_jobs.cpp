@@ -14,9 +14,9 @@ std::vector<double> packed(const Fit& fit) {
   return numbers;
 }
 
-/// Back from numbers; false if the job failed.
-bool unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& fit) {
-  if (numbers.empty()) return false;
+/// Back from numbers; nothing changes if the job failed.
+void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& fit) {
+  if (numbers.empty()) return;
   std::size_t at = 0;
   fit.cost = numbers[at++];
   for (double& value : fit.model.values) value = numbers[at++];
@@ -26,31 +26,29 @@ bool unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
                             numbers.begin() + static_cast<std::ptrdiff_t>(at + segment.nuisances.size()));
     at += segment.nuisances.size();
   }
-  return true;
 }
 
 }  // namespace
 
-std::vector<Fit> SearchRun::fitAll(const std::vector<FitModel>& models, const std::vector<std::vector<double>>& shifts,
-                                int iterations, const std::string& stage, double from, double to,
-                                const Linearised* inherited) const {
+std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                   double from, double to) const {
   const auto numbers = parallel(
-      options_.jobs, models.size(),
+      options_.jobs, jobs.size(),
       [&](std::size_t i) {
-        return packed(fitModel(problem_, models[i], shifts, {iterations, Fold::all, false, inherited}));
+        return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, {iterations, false, jobs[i].inherited}));
       },
-      reporter(stage, models.size(), from, to));
+      reporter(stage, jobs.size(), from, to));
   std::vector<Fit> fits;
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    Fit fit{models[i], {}, INFINITY};
-    if (!unpack(numbers[i], problem_, fit)) fit.cost = INFINITY;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Fit fit{jobs[i].model, jobs[i].shifts, INFINITY};
+    unpack(numbers[i], problem_, fit);
     fits.push_back(std::move(fit));
   }
   return fits;
 }
 
 std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
-                                     double to) const {
+                                        double to) const {
   const auto numbers = parallel(
       options_.jobs, fits.size(),
       [&](std::size_t i) {
@@ -77,33 +75,32 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
   return result;
 }
 
-double SearchRun::stepError(const Fit& fit) const {
+Eigen::VectorXd SearchRun::stepChange(const Fit& fit) const {
   FitProblem finer = problem_;
   finer.scene.step_s /= 2;
-  const Eigen::VectorXd change =
-      residualsOf(problem_, fit.model, fit.shifts) - residualsOf(finer, fit.model, fit.shifts);
-  return change.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, change.size()));
+  return residualsOf(problem_, fit.model, fit.shifts) - residualsOf(finer, fit.model, fit.shifts);
 }
 
-bool SearchRun::needsFinerStep(const Fit& fit) const {
-  constexpr double hidden = 0.12;  // noise floors
-  const Eigen::VectorXd here = residualsOf(problem_, fit.model, fit.shifts);
-  const double error = std::sqrt(here.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, here.size())));
-  // Where much is unexplained anyway, the step is not what matters.
-  return std::sqrt(stepError(fit)) > std::max(hidden, 0.05 * error);
+double stepErrorOf(const Eigen::VectorXd& stepChange) {
+  return stepChange.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, stepChange.size()));
 }
 
-std::vector<Fit> SearchRun::polish(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
-                                double to) const {
-  const auto numbers = parallel(
-      options_.jobs, fits.size(),
-      [&](std::size_t i) {
-        return packed(fitModel(problem_, fits[i].model, fits[i].shifts, {iterations, Fold::all, false}));
-      },
-      reporter("confirming" + stage, fits.size(), from, to));
-  std::vector<Fit> polished = fits;
-  for (std::size_t i = 0; i < fits.size(); ++i) unpack(numbers[i], problem_, polished[i]);
-  return polished;
+void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
+  const auto tooCoarse = [&](const Fit& fit) {
+    constexpr double hidden = 0.12, much = 10;  // noise floors
+    // Where much is unexplained anyway, the step is not what matters.
+    const double error = std::sqrt(2 * fit.cost / static_cast<double>(std::max<std::size_t>(1, problem_.residuals())));
+    if (error > much && problem_.scene.step_s <= problem_.givenStep_s) return false;
+    return std::sqrt(stepErrorOf(stepChange(fit))) > std::max(hidden, 0.05 * error);
+  };
+  judged = std::min(judged, fits.size());
+  while (problem_.scene.step_s > finest_s_ &&
+         std::any_of(fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(judged), tooCoarse)) {
+    problem_.scene.step_s /= 2;
+    std::vector<FitJob> jobs;
+    for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
+    fits = fitAll(jobs, againIterations, stage, at, at);
+  }
 }
 
 }  // namespace btr

@@ -16,9 +16,8 @@ std::size_t sizeOf(const FitModel& model, std::size_t effect) {
 }
 
 bool contains(const FitModel& model, const EffectCandidate& candidate) {
-  return std::any_of(model.effects.begin(), model.effects.end(), [&](const PlacedEffect& e) {
-    return e.effect == candidate.effect && e.at == candidate.at;
-  });
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [&](const PlacedEffect& e) { return e.effect == candidate.effect && e.at == candidate.at; });
 }
 
 /// Of a comparison with the final model.
@@ -29,10 +28,10 @@ bool isWorse(const Comparison& lost) { return lost.t >= 2 && lost.gain > 0.01; }
 void SearchRun::prune(SearchResult& result) {
   for (bool changed = true; changed && result.final.fit.model.effects.size() > 1;) {
     changed = false;
-    std::vector<FitModel> models;
+    std::vector<FitJob> jobs;
     for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i)
-      models.push_back(result.final.fit.model.without(i));
-    const auto fits = fitAll(models, result.final.fit.shifts, 12, "dropping each in turn", 0.8, 0.83);
+      jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
+    const auto fits = fitAll(jobs, 12, "dropping each in turn", 0.8, 0.83);
     const auto scored = scoreAll(fits, "dropping each in turn", 0.83, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
       const Comparison comparison = compare(scored[i].blocks, result.final.blocks);
@@ -63,9 +62,10 @@ std::vector<SearchRun::Tried> SearchRun::inPlaceOf(std::size_t i, const SearchRe
     without = result.calibrated;
     return firstStage_;
   }
-  without = scoreAll(fitAll({model.without(i)}, result.final.fit.shifts, 12, "rivals", 0.86, 0.87), "rivals", 0.87,
+  without = scoreAll(fitAll({{model.without(i), result.final.fit.shifts}}, 12, "rivals", 0.86, 0.87), "rivals", 0.87,
                      0.88)[0];
-  return tryCandidates(without.fit, linearise(problem_, without.fit), candidatesAsRivals, ", rivals", 0.88, 0.95);
+  return tryCandidates(without, {{without.fit, linearise(problem_, without.fit)}}, candidatesAsRivals, ", rivals", 0.88,
+                       0.95);
 }
 
 /// True if another effect took the place of effect `i`: the simpler of equals, or simply a better one.
@@ -106,23 +106,24 @@ void SearchRun::findRivals(SearchResult& result) {
     const std::size_t place = replace(i, others, result) ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;
     const PlacedEffect own = model.effects[place];
-    Found found{own, compare(without.blocks, result.final.blocks), {}};
+    Found found{own, compare(without.blocks, result.final.blocks), {}, {}};
     for (const Tried& other : others) {
       const EffectCandidate& candidate = other.attempt.candidate;
       if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
       if (isWorse(compare(other.scored.blocks, result.final.blocks))) continue;
-      found.rivals.push_back({candidate.effect, candidate.at,
-                              std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
-      if (result.effects.empty()) result.rivalModels.push_back(other.fit.model);
+      found.rivals.push_back(
+          {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
+      found.rivalModels.push_back(other.fit.model);
     }
     result.effects.push_back(found);
   }
   // In the order of the final model.
   const auto& effects = result.final.fit.model.effects;
   const auto placeOf = [&](const Found& found) {
-    return std::find_if(effects.begin(), effects.end(), [&](const PlacedEffect& e) {
-             return e.effect == found.effect.effect && e.at == found.effect.at;
-           }) - effects.begin();
+    return std::find_if(
+               effects.begin(), effects.end(),
+               [&](const PlacedEffect& e) { return e.effect == found.effect.effect && e.at == found.effect.at; }) -
+           effects.begin();
   };
   std::stable_sort(result.effects.begin(), result.effects.end(),
                    [&](const Found& a, const Found& b) { return placeOf(a) < placeOf(b); });

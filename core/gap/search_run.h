@@ -27,6 +27,18 @@ class SearchRun {
     Attempt attempt;
     Fit fit;
     Scored scored;
+    bool passes = false;      ///< better than without it, by the rules
+    std::size_t promise = 0;  ///< its place among the screened candidates
+  };
+  struct FitJob {
+    FitModel model;
+    std::vector<std::vector<double>> shifts;
+    const Linearised* inherited = nullptr;  ///< see FitOptions
+  };
+  /// A model that candidates are added to.
+  struct Base {
+    Fit fit;
+    Linearised linear;
   };
 
   std::function<bool(std::size_t)> reporter(const std::string& stage, std::size_t count, double from, double to) const {
@@ -37,18 +49,26 @@ class SearchRun {
     };
   }
 
-  std::vector<Fit> fitAll(const std::vector<FitModel>& models, const std::vector<std::vector<double>>& shifts,
-                          int iterations, const std::string& stage, double from, double to,
-                          const Linearised* inherited = nullptr) const;
+  /// A fit that fails costs infinitely much.
+  std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
+                          double to) const;
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
-  std::vector<Tried> tryCandidates(const Fit& base, const Linearised& linear, std::size_t toFit,
+  /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
+  /// ones first, best first. Fits begin from any of the bases, of which the first is that of `without`; `without` is
+  /// scored again where the step becomes finer.
+  std::vector<Tried> tryCandidates(Scored& without, const std::vector<Base>& bases, std::size_t toFit,
                                    const std::string& stage, double from, double to);
+  /// Fits some of them to the end and scores them; true if one passes.
+  bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
+               const std::string& stage, double from, double to);
+  void shake(std::vector<Fit>& fits, const std::string& stage, double at) const;
+  std::vector<Base> basesOf(const SearchResult& result, const Linearised& linear, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
-  bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  bool tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair);
   void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
   bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;
@@ -58,12 +78,11 @@ class SearchRun {
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;
 
-  /// Mean squared change of the replay with half the step [noise floors²].
-  double stepError(const Fit& fit) const;
-  /// True if half the step changes the replay by more than what hides in the noise.
-  bool needsFinerStep(const Fit& fit) const;
-  std::vector<Fit> polish(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
-                          double to) const;
+  /// Change of the residuals with half the step.
+  Eigen::VectorXd stepChange(const Fit& fit) const;
+  /// Halves the step until half of it changes no fit by more than what hides in the noise, and fits again. Of `fits`,
+  /// the first `judged` are asked.
+  void refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at);
 
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;

@@ -5,8 +5,6 @@
 namespace btr {
 namespace {
 
-constexpr double startStep = 0.1;        // of an initial state's standard error
-
 /// Huber's loss as a residual of its own.
 double tamed(double r, double limit) {
   return std::abs(r) <= limit ? r : std::copysign(std::sqrt(limit * (2 * std::abs(r) - limit)), r);
@@ -15,24 +13,20 @@ double tamedSlope(double r, double limit) {
   return std::abs(r) <= limit ? 1 : limit / std::sqrt(limit * (2 * std::abs(r) - limit));
 }
 
-bool takesPart(const Segment& segment, std::size_t k, Fold fold) {
-  return fold == Fold::all || segment.fold[k] == static_cast<char>(fold);
-}
-
 }  // namespace
 
 SegmentCost::SegmentCost(const FitProblem& problem, const FitModel& model, std::size_t segment, SceneCache& scenes,
-                         const JacobianPolicy& policy, Fold fold, double limit)
+                         const JacobianPolicy& policy, double limit)
     : problem_(problem),
       model_(model),
       segment_(problem.segments[segment]),
       scenes_(scenes),
       policy_(policy),
       index_(segment),
-      fold_(fold),
       limit_(limit) {
   if (!model.parameters.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(model.parameters.size()));
-  if (!segment_.nuisances.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(segment_.nuisances.size()));
+  if (!segment_.nuisances.empty())
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(segment_.nuisances.size()));
   set_num_residuals(static_cast<int>(segment_.row.size()));
 }
 
@@ -59,12 +53,8 @@ void SegmentCost::differences(const Eigen::VectorXd& x) const {
       jacobian_.col(i) = known->rawStarts[index_].col(i - parameters);
       continue;
     }
-    double step = startStep;
-    if (i < parameters) {
-      // A step that stays inside the bounds.
-      const FitParameter& p = model_.parameters[static_cast<std::size_t>(i)];
-      step = problem_.differenceStep * ((x[i] + problem_.differenceStep) * p.scale > p.maximum ? -1 : 1);
-    }
+    const double step =
+        i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;
     Eigen::VectorXd moved = x;
     moved[i] += step;
     jacobian_.col(i) = (simulate(moved) - here_) / step;
@@ -82,8 +72,7 @@ bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, doubl
     here_ = simulate(x);
     last_ = x;
   }
-  for (Eigen::Index k = 0; k < here_.size(); ++k)
-    residuals[k] = takesPart(segment_, static_cast<std::size_t>(k), fold_) ? tamed(here_[k], limit_) : 0;
+  for (Eigen::Index k = 0; k < here_.size(); ++k) residuals[k] = tamed(here_[k], limit_);
   if (!jacobians) return true;
 
   if (policy_.difference || jacobian_.size() == 0) {
@@ -98,9 +87,7 @@ bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, doubl
     if (!jacobian) return;
     for (Eigen::Index k = 0; k < here_.size(); ++k)
       for (Eigen::Index i = 0; i < width; ++i)
-        jacobian[k * width + i] = takesPart(segment_, static_cast<std::size_t>(k), fold_)
-                                      ? tamedSlope(here_[k], limit_) * jacobian_(k, from + i)
-                                      : 0;
+        jacobian[k * width + i] = tamedSlope(here_[k], limit_) * jacobian_(k, from + i);
   };
   if (parameters > 0) hand(jacobians[0], 0, parameters);
   if (starts > 0) hand(jacobians[parameters > 0 ? 1 : 0], parameters, starts);

@@ -12,9 +12,9 @@ namespace btr {
 /// one up to date with what the step just taken showed (Broyden, Math. Comp. 19 (1965) 577: the least change that
 /// agrees with it; no replay).
 struct JacobianPolicy {
-  bool difference = true;                ///< the next one
-  int age = 0;                           ///< updates since the last differences
-  const Linearised* inherited = nullptr; ///< of a model that this one's first parameters and starts come from
+  bool difference = true;                 ///< the next one
+  int age = 0;                            ///< updates since the last differences
+  const Linearised* inherited = nullptr;  ///< of a model that this one's first parameters and starts come from
   static constexpr int oldest = 6;
 };
 
@@ -22,9 +22,9 @@ struct JacobianPolicy {
 /// state (next block, if there are any). Residuals beyond `limit` count in proportion to their size only (Huber).
 class SegmentCost final : public ceres::CostFunction {
  public:
-  /// Keeps references to all but `fold` and `limit`.
+  /// Keeps references to all but `limit`.
   SegmentCost(const FitProblem& problem, const FitModel& model, std::size_t segment, SceneCache& scenes,
-              const JacobianPolicy& policy, Fold fold, double limit);
+              const JacobianPolicy& policy, double limit);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
  private:
@@ -37,7 +37,6 @@ class SegmentCost final : public ceres::CostFunction {
   SceneCache& scenes_;
   const JacobianPolicy& policy_;
   std::size_t index_;
-  Fold fold_;
   double limit_;
   mutable Eigen::VectorXd last_, here_;       ///< where it was asked for last, and what it was
   mutable Eigen::VectorXd base_, residuals_;  ///< where the Jacobian belongs

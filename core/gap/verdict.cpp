@@ -67,7 +67,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   const double given = found.given.mean(), calibrated = found.calibrated.mean(), final = found.final.mean();
   const double excess = std::max(0.0, calibrated - 1), left = std::max(0.0, final - 1);
   // What the integration itself is wrong by is not physics that was left out.
-  const double beyondStep = final - found.stepError, leftBeyondStep = std::max(0.0, beyondStep - 1);
+  const double beyondStep = final - stepErrorOf(found.stepChange), leftBeyondStep = std::max(0.0, beyondStep - 1);
   report.remainder.explainedShare = excess > 0 ? std::clamp(1 - left / excess, 0.0, 1.0) : 1;
   const std::string floors = " noise floors";
   const std::string error = "The held-out error falls from " + digits(std::sqrt(given)) + floors + " as given over " +

@@ -125,6 +125,16 @@ TEST(Analysis, ADelayIsNotTakenForFriction) {
   EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.02, 0.002);
 }
 
+TEST(Analysis, ASensorThatIsOffFromTheFirstSampleOnIsExplainedDownToTheNoise) {
+  const SimulatorSpec truth{{}, {{"position_offset", "rig.hinge", {{"offset_rad", 0.1}}}}};
+  AnalysisOptions options;
+  options.effects = {"position_offset"};
+  const GapReport report = analyse(recordedFrom(truth), library(), options);
+  ASSERT_THAT(namesOf(report), testing::ElementsAre("position_offset at rig.hinge")) << toPlainText(report);
+  EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.1, 0.001);
+  EXPECT_LT(report.ladder.back().error, 1.1);
+}
+
 TEST(Analysis, ARecordingInWhichNothingMovesTellsNothing) {
   const GapReport report = analyse(recordedFrom({}, 1e-4), library(), {});
   EXPECT_EQ(report.verdict, Verdict::notExcited) << report.sentence;

@@ -12,6 +12,7 @@
 #include "core/sim/controller.h"
 #include "core/sim/effect.h"
 #include "core/sim/fitness.h"
+#include "core/sim/gait.h"
 #include "core/spec/error.h"
 
 namespace btr {

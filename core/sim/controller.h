@@ -17,6 +17,8 @@ class Motion {
   virtual void command(double time, const RobotReadings& readings, std::span<JointInput> inputs) = 0;
   /// Time at which the motion itself has ended [s].
   virtual double duration() const = 0;
+  /// What a fitness or a person should know of the motion itself, e.g. how many of its points no leg could reach.
+  virtual Values remarks() const { return {}; }
 };
 
 /// A family of motions: what evolves (its genotype) and what the task is (its settings). Stateless and shared.

@@ -17,6 +17,10 @@ class Fitness {
   /// `controllerSettings` say what the task was: all of the controller's settings, defaults filled in.
   virtual double evaluate(const TrialResult& result, const Values& settings,
                           const Values& controllerSettings) const = 0;
+  /// What else is worth recording of a finished trial beside its fitness, e.g. how straight it was. Names end in units.
+  virtual Values figures(const TrialResult&, const Values& /*settings*/, const Values& /*controllerSettings*/) const {
+    return {};
+  }
   /// What a failed trial is worth.
   virtual double ofFailure() const { return 0; }
 };

@@ -64,6 +64,7 @@ class Trial {
       world_.advance(inputs_, scene_.controlPeriod_s);
       record(result);
     }
+    if (motion) result.remarks = motion->remarks();
     conclude(result);
     return result;
   }
@@ -71,6 +72,10 @@ class Trial {
  private:
   void record(TrialResult& result) const {
     if (options_.recordTrace) world_.sample(result.trace.values);
+    if (scene_.robots.empty()) return;
+    const Eigen::Isometry3d base = world_.robot(0).base;
+    const auto& axes = base.linear();
+    result.basePath.push_back({base.translation(), std::atan2(axes(1, 0), axes(0, 0)), axes(2, 2)});
   }
 
   /// True if nothing more is to be seen after the motion.
@@ -134,6 +139,7 @@ class Trial {
 
   void conclude(TrialResult& result) const {
     result.simulated_s = world_.time();
+    result.controlPeriod_s = scene_.controlPeriod_s;
     for (std::size_t i = 0; i < result.balls.size(); ++i) {
       result.balls[i].rest_m = world_.ball(i).position_m;
       if (options_.closedFormRoll && result.outcome == TrialResult::Outcome::finished && rollsFreely(i))

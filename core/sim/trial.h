@@ -17,6 +17,13 @@ struct BallRest {
   Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();
 };
 
+/// Where a robot's root frame was.
+struct BasePose {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double yaw_rad = 0;  ///< of its x axis in the world, −π … π
+  double up = 1;       ///< cosine of the angle between its z axis and the vertical
+};
+
 struct TrialResult {
   enum class Outcome { finished, exploded, timedOut, workerDied };
   Outcome outcome = Outcome::finished;
@@ -24,6 +31,9 @@ struct TrialResult {
   double simulated_s = 0;
   std::vector<BallRest> balls;                                                                 ///< by ball of the scene
   Eigen::Vector3d baseStart_m = Eigen::Vector3d::Zero(), baseEnd_m = Eigen::Vector3d::Zero();  ///< first robot
+  std::vector<BasePose> basePath;  ///< first robot: at the start and after each control period
+  double controlPeriod_s = 0;
+  Values remarks;     ///< of the motion
   bool fell = false;  ///< first robot: the body's up axis ended more than 60° from vertical
   Trace trace;        ///< empty unless asked for; a failed trial keeps its last states
 };

@@ -24,7 +24,6 @@
 
 namespace {
 
-constexpr std::array legs{"LF", "RF", "LR", "RR"};
 constexpr std::size_t legJoints = 12;
 
 /// One joint of a leg: how far a kick may move it (inside the ERS-7's software limits: J1 −2.0 … 2.27 front and −2.27
@@ -37,7 +36,7 @@ constexpr std::array<Range, 3> rear{{{-1.2, 1.0, -0.37}, {-0.17, 0.7, 0.01}, {-0
 
 /// Leg joint i = 0 … 11: LF J1, J2, J3, RF …, LR …, RR ….
 const Range& rangeOf(std::size_t i) { return (i < 6 ? front : rear)[i % 3]; }
-std::string legOf(std::size_t i) { return legs[i / 3]; }
+std::string legOf(std::size_t i) { return btr::FourLegs::names[i / 3]; }
 std::string jointName(std::size_t i) { return legOf(i) + "_J" + std::to_string(i % 3 + 1); }
 
 std::size_t jointIndex(const btr::RobotModel& model, const std::string& name) {
@@ -55,51 +54,12 @@ const btr::SceneRobot& firstRobot(const btr::Scene& scene) {
 
 /// The stance, by joint of the model.
 std::vector<double> stanceOf(const btr::RobotModel& model) {
-  std::vector<double> stance;
-  for (const btr::Joint& joint : model.joints) stance.push_back(std::clamp(0.0, joint.lower, joint.upper));
+  std::vector<double> stance = btr::restPositions(model);
   for (std::size_t i = 0; i < legJoints; ++i) {
     const std::size_t j = jointIndex(model, jointName(i));
     stance[j] = std::clamp(rangeOf(i).stance, model.joints[j].lower, model.joints[j].upper);
   }
   return stance;
-}
-
-/// Centre and radius of the ball of a leg's foot: the lowest sphere of its last link.
-struct Foot {
-  Eigen::Vector3d centre;
-  double radius = 0;
-};
-Foot footOf(const btr::RobotModel& model, const std::vector<Eigen::Isometry3d>& poses, const std::string& leg) {
-  const std::size_t link = jointIndex(model, leg + "_J3") + 1;
-  Foot foot;
-  for (const btr::Shape& shape : model.links[link].shapes) {
-    if (shape.kind != btr::Shape::Kind::sphere || !shape.collides) continue;
-    const Eigen::Vector3d centre = poses[link] * shape.pose.translation();
-    if (foot.radius == 0 || centre.z() - shape.size_m.x() < foot.centre.z() - foot.radius)
-      foot = {centre, shape.size_m.x()};
-  }
-  if (foot.radius == 0)
-    throw btr::InputError("kick: link \"" + model.links[link].name + "\" has no sphere that could be its foot");
-  return foot;
-}
-
-/// Root pose at the origin, looking along x, pitched so that all four feet just touch z = 0.
-Eigen::Isometry3d standing(const btr::RobotModel& model, const std::vector<double>& stance) {
-  const auto meanFoot = [&](const std::vector<Eigen::Isometry3d>& poses, std::size_t one,
-                            std::size_t other) -> Eigen::Vector3d {
-    return (footOf(model, poses, legs[one]).centre + footOf(model, poses, legs[other]).centre) / 2;
-  };
-  auto poses = btr::forwardKinematics(model, Eigen::Isometry3d::Identity(), stance);
-  const Eigen::Vector3d reach = meanFoot(poses, 0, 1) - meanFoot(poses, 2, 3);
-  Eigen::Isometry3d root(Eigen::AngleAxisd(std::atan2(reach.z(), reach.x()), Eigen::Vector3d::UnitY()));
-  poses = btr::forwardKinematics(model, root, stance);
-  double lowest = HUGE_VAL;
-  for (const char* leg : legs) {
-    const Foot foot = footOf(model, poses, leg);
-    lowest = std::min(lowest, foot.centre.z() - foot.radius);
-  }
-  root.translation() = Eigen::Vector3d(0, 0, -lowest);
-  return root;
 }
 
 class KickMotion final : public btr::Motion {
@@ -178,7 +138,7 @@ class Kick final : public btr::Controller {
     btr::SceneRobot& robot = scene.robots.front();
     robot.jointStart = stanceOf(robot.model);
     robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
-    robot.start = standing(robot.model, robot.jointStart);
+    robot.start = btr::standing(robot.model, robot.jointStart, "kick");
 
     const auto poses = btr::forwardKinematics(robot.model, robot.start, robot.jointStart);
     const Eigen::Vector3d neck = poses[jointIndex(robot.model, "NECK_TILT") + 1].translation();

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   btr::cli::addModelCommands(app, shell);
   btr::cli::addGapCommands(app, shell);
   btr::cli::addBenchCommand(app, shell);
+  btr::cli::addGaitCommands(app, shell);
 
   try {
     app.parse(argc, argv);

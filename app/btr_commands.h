@@ -34,6 +34,7 @@ void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 void addGapStoreCommands(CLI::App& gap, Shell& shell);
 void addGapProveCommand(CLI::App& gap, Shell& shell);  ///< gap prove
 void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
+void addGaitCommands(CLI::App& app, Shell& shell);     ///< gait check
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);

@@ -134,7 +134,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   }
 
   ceres::Solver::Options solver;
-  solver.function_tolerance = options.tolerance;
+  solver.function_tolerance = 3e-4;
   solver.parameter_tolerance = 1e-6;
   solver.initial_trust_region_radius = 10;
   solver.linear_solver_type = problem.segments.size() > 8 ? ceres::DENSE_SCHUR : ceres::DENSE_QR;

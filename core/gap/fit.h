@@ -15,7 +15,6 @@ struct Linearised;
 struct FitOptions {
   int iterations = 20;
   bool startsOnly = false;  ///< the parameters stay; only initial states are fitted
-  double tolerance = 3e-4;  ///< ends when a step takes a smaller share of the cost
   /// Of a fit whose parameters this model begins with, near where it starts: saves the first differences.
   const Linearised* inherited = nullptr;
 };

@@ -49,6 +49,16 @@ Scored SearchRun::calibrate() {
   return scoreAll(best, "calibrating", 0.08, 0.1)[0];
 }
 
+/// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
+Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
+  constexpr int iterations = 30;
+  if (excessOf(scored) < 0.1) return scored;
+  std::vector<Fit> fits = fitAll({{scored.fit.model, scored.fit.shifts}}, iterations, stage, at, at);
+  refineStep(fits, 1, stage, at);
+  const Scored better = scoreAll(fits, stage, at, at)[0];
+  return better.mean() < scored.mean() ? better : scored;
+}
+
 GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {
   GapReport::Step step{what, std::sqrt(scored.mean()), 0};
   double n = 0, square = 0;

@@ -1,5 +1,6 @@
 // From all effects at all places to the few that are fitted to the end.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -9,7 +10,6 @@ namespace btr {
 namespace {
 
 constexpr int firstIterations = 8, lastIterations = 15;
-constexpr double firstTolerance = 0.01;
 constexpr double hopeless = 4;
 constexpr std::size_t candidatesInPairs = 4;
 
@@ -100,7 +100,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       const Base& base = bases[at.base];
       FitModel model = base.fit.model.with(problem_, tried[k].attempt.candidate.placed(at.from->effect));
       std::copy(at.from->parameters.begin(), at.from->parameters.end(), model.values.begin());
-      jobs.push_back({model, base.fit.shifts, &base.linear, firstTolerance});
+      jobs.push_back({model, base.fit.shifts, &base.linear});
       owner.push_back(k);
     }
     const std::vector<Fit> fits = fitAll(jobs, firstIterations, "fitting candidates" + stage, begin, end);
@@ -143,6 +143,40 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     return a.attempt.scored && a.scored.mean() < b.scored.mean();
   });
   return tried;
+}
+
+/// Dry friction and play leave side minima along an effect's size: where another size fits better at once, the fit is
+/// taken up again from there.
+void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
+  constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
+  constexpr double better = 0.995;
+  const auto resized = [&](const Fit& fit, double size) {
+    FitModel model = fit.model;
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+      const FitParameter& p = model.parameters[i];
+      if (p.effect + 1 == static_cast<int>(model.effects.size()) && p.hasNeutral)
+        model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
+    }
+    return model;
+  };
+  const auto errors = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
+    std::vector<double> list;
+    for (const double size : sizes)
+      list.push_back(residualsOf(problem_, resized(fits[i], size), fits[i].shifts).squaredNorm());
+    return list;
+  });
+  std::vector<FitJob> jobs;
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const auto least = std::min_element(errors[i].begin(), errors[i].end());
+    if (errors[i].empty() || !(*least < better * errors[i][0])) continue;
+    const double size = sizes[static_cast<std::size_t>(least - errors[i].begin())];
+    jobs.push_back({resized(fits[i], size), fits[i].shifts});
+    owner.push_back(i);
+  }
+  const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
+  for (std::size_t k = 0; k < again.size(); ++k)
+    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
 }
 
 bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,

@@ -35,8 +35,7 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
   const auto numbers = parallel(
       options_.jobs, jobs.size(),
       [&](std::size_t i) {
-        return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts,
-                               {iterations, false, jobs[i].tolerance, jobs[i].inherited}));
+        return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, {iterations, false, jobs[i].inherited}));
       },
       reporter(stage, jobs.size(), from, to));
   std::vector<Fit> fits;

@@ -31,7 +31,7 @@ void SearchRun::prune(SearchResult& result) {
     std::vector<FitJob> jobs;
     for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i)
       jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
-    const auto fits = fitAll(jobs, 20, "dropping each in turn", 0.8, 0.83);
+    const auto fits = fitAll(jobs, 12, "dropping each in turn", 0.8, 0.83);
     const auto scored = scoreAll(fits, "dropping each in turn", 0.83, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
       const Comparison comparison = compare(scored[i].blocks, result.final.blocks);
@@ -43,7 +43,7 @@ void SearchRun::prune(SearchResult& result) {
           attempt.accepted = false;
           attempt.reason = "useless once the others were there";
         }
-      result.final = converged(scored[i], "dropping each in turn", 0.86);
+      result.final = scored[i];
       changed = true;
     }
   }

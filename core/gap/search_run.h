@@ -33,8 +33,7 @@ class SearchRun {
   struct FitJob {
     FitModel model;
     std::vector<std::vector<double>> shifts;
-    const Linearised* inherited = nullptr;  ///< see FitOptions, as all below
-    double tolerance = FitOptions{}.tolerance;
+    const Linearised* inherited = nullptr;  ///< see FitOptions
   };
   /// A model that candidates are added to.
   struct Base {
@@ -64,7 +63,6 @@ class SearchRun {
   /// Fits some of them to the end and scores them; true if one passes.
   bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
                const std::string& stage, double from, double to);
-  void grope(Fit& fit) const;
   void shake(std::vector<Fit>& fits, const std::string& stage, double at) const;
   std::vector<Base> basesOf(const SearchResult& result, const Linearised& linear, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,

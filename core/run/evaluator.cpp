@@ -48,7 +48,7 @@ TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, co
   const TrialResult result = prepared.trial(scene, job.parameters, job.seed, true);
   TrialReply reply;
   reply.outcome = toText(result.outcome);
-  reply.detail = result.detail;
+  reply.detail = prepared.detailOf(result);
   reply.fitness = prepared.fitnessOf(result);
   reply.traceSha256 = result.trace.sha256();
   if (job.wantTrace) reply.packedTrace = result.trace.pack();

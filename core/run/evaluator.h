@@ -24,9 +24,9 @@ struct TrialJob {
 struct TrialReply {
   double fitness = 0;
   std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
-  std::string detail;
-  std::string traceSha256;  ///< "" if a worker died
-  std::string packedTrace;  ///< if wanted
+  std::string detail;                ///< why it failed, or what else the fitness tells: "falls 0, straightness 0.97"
+  std::string traceSha256;           ///< "" if a worker died
+  std::string packedTrace;           ///< if wanted
 };
 
 /// Runs one trial here and now; what a worker does.

@@ -81,6 +81,8 @@ bool learnUntil(RunContext& context, int lastGeneration) {
   const auto learner = context.host.learner(context.prepared.spec.learner.name);
   Random random = Random::forPurpose(context.record.seed, "L1");
   learner->start(context.prepared.genotype, context.prepared.spec.learner.settings, random);
+  if (const auto& start = context.prepared.spec.start)
+    learner->beginAt(context.prepared.start, {start->share, start->flip}, random);
 
   int number = 0;
   if (const auto last = db.lastGeneration(run)) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <locale>
+#include <sstream>
 
 #include "core/model/load_model.h"
 #include "core/spec/error.h"
@@ -38,6 +40,7 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   prepared.fitness = host.fitness(spec.fitness.name);
   prepared.effects = host.effectFactory();
   prepared.genotype = prepared.controller->genotype();
+  if (spec.start) prepared.start = resolve(prepared.genotype, spec.start->parameters, "start/parameters");
 
   const auto learner = host.learner(spec.learner.name);
   const auto adaptation = host.learner(spec.adaptation.name);
@@ -90,12 +93,25 @@ TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const dou
 
 double PreparedExperiment::fitnessOf(const TrialResult& result) const {
   if (result.outcome != TrialResult::Outcome::finished) return fitness->ofFailure();
-  // A fitness sees the whole task: settings that the user left out have their defaults.
+  const double value = fitness->evaluate(result, spec.fitness.settings, task());
+  return std::isfinite(value) ? value : fitness->ofFailure();
+}
+
+std::string PreparedExperiment::detailOf(const TrialResult& result) const {
+  if (result.outcome != TrialResult::Outcome::finished) return result.detail;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(4);
+  for (const auto& [name, value] : fitness->figures(result, spec.fitness.settings, task()))
+    text << (text.tellp() > 0 ? ", " : "") << name << ' ' << value;
+  return text.str();
+}
+
+Values PreparedExperiment::task() const {
   Values task;
   for (const Parameter& p : controller->settings())
     task[p.name] = valueOf(controller->settings(), spec.controller.settings, p.name);
-  const double value = fitness->evaluate(result, spec.fitness.settings, task);
-  return std::isfinite(value) ? value : fitness->ofFailure();
+  return task;
 }
 
 PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host) {

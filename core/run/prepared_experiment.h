@@ -27,12 +27,19 @@ struct PreparedExperiment {
   std::vector<Parameter> genotype;  ///< of the controller
   std::vector<Parameter> adapted;   ///< simulator parameters that L3 may change
 
+  std::vector<double> start;  ///< the genotype's vector that L1 begins around; empty if it begins anywhere
+
   /// The scene of one simulator version, arranged for the task.
   Scene scene(const SimulatorSpec& simulator) const;
   TrialResult trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
                     bool recordTrace) const;
   /// The fitness plugin's value; ofFailure() for a trial that did not finish or a value that is not finite.
   double fitnessOf(const TrialResult& result) const;
+  /// Why a trial failed; of a finished one what else the fitness plugin tells, "falls 0, straightness 0.97".
+  std::string detailOf(const TrialResult& result) const;
+
+ private:
+  Values task() const;  ///< all of the controller's settings, defaults filled in
 };
 
 /// Checks everything that can be checked before a run: plugins, settings, scene, models, and that a scene can be built.

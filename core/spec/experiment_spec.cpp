@@ -12,7 +12,17 @@ namespace {
 
 using nlohmann::json;
 
-PluginChoice choiceFrom(JsonReader reader) {
+json toJson(const PluginChoice& choice) {
+  json settings = btr::toJson(choice.settings, {});
+  for (const auto& [name, word] : choice.words) settings[name] = word;
+  return {{"name", choice.name}, {"settings", settings}};
+}
+
+constexpr double largestSeed = 9007199254740991;  // 2^53 − 1: every whole number up to it is a double
+
+}  // namespace
+
+PluginChoice pluginChoice(JsonReader reader) {
   PluginChoice choice;
   choice.name = reader.text("name");
   if (choice.name.empty()) reader.refuse("name", "the name of a plugin");
@@ -29,16 +39,6 @@ PluginChoice choiceFrom(JsonReader reader) {
   reader.finish();
   return choice;
 }
-
-json toJson(const PluginChoice& choice) {
-  json settings = btr::toJson(choice.settings, {});
-  for (const auto& [name, word] : choice.words) settings[name] = word;
-  return {{"name", choice.name}, {"settings", settings}};
-}
-
-constexpr double largestSeed = 9007199254740991;  // 2^53 − 1: every whole number up to it is a double
-
-}  // namespace
 
 Values settingsOf(const PluginChoice& choice, std::span<const Parameter> declared, const std::string& place) {
   Values values = choice.settings;
@@ -132,12 +132,19 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   if (spec.name.empty()) reader.refuse("name", "at least one letter");
   spec.scene = reader.text("scene");
   if (spec.scene.empty()) reader.refuse("scene", "the path of a scene file");
-  spec.controller = choiceFrom(reader.object("controller"));
-  spec.fitness = choiceFrom(reader.object("fitness"));
-  spec.learner = choiceFrom(reader.object("learner"));
+  spec.controller = pluginChoice(reader.object("controller"));
+  spec.fitness = pluginChoice(reader.object("fitness"));
+  spec.learner = pluginChoice(reader.object("learner"));
+  if (auto start = reader.objectIfAny("start")) {
+    spec.start.emplace();
+    spec.start->parameters = start->anyValues("parameters");
+    spec.start->share = start->number("share", 0, 1, spec.start->share);
+    spec.start->flip = start->number("flip", 0, 1, spec.start->flip);
+    start->finish();
+  }
   spec.stages = reader.values("stages", stageParameters());
   JsonReader adaptation = reader.object("adaptation");
-  spec.adaptation = choiceFrom(adaptation.object("learner"));
+  spec.adaptation = pluginChoice(adaptation.object("learner"));
   spec.adaptationSettings = adaptation.values("settings", adaptationParameters());
   spec.adapted = adaptation.texts("parameters");
   for (auto name = spec.adapted.begin(); name != spec.adapted.end(); ++name)
@@ -166,21 +173,25 @@ ExperimentSpec loadExperiment(const std::string& path) {
 }
 
 std::string toJsonText(const ExperimentSpec& experiment) {
-  const json document{{"format", "uchilsim-experiment-1"},
-                      {"name", experiment.name},
-                      {"scene", experiment.scene},
-                      {"controller", toJson(experiment.controller)},
-                      {"fitness", toJson(experiment.fitness)},
-                      {"learner", toJson(experiment.learner)},
-                      {"stages", btr::toJson(experiment.stages, stageParameters())},
-                      {"adaptation",
-                       {{"learner", toJson(experiment.adaptation)},
-                        {"settings", btr::toJson(experiment.adaptationSettings, adaptationParameters())},
-                        {"parameters", experiment.adapted}}},
-                      {"simulator", simulatorToJson(experiment.simulator)},
-                      {"reality", experiment.reality},
-                      {"stand_in", btr::toJson(experiment.standIn, standInParameters())},
-                      {"seed", experiment.seed}};
+  json document{{"format", "uchilsim-experiment-1"},
+                {"name", experiment.name},
+                {"scene", experiment.scene},
+                {"controller", toJson(experiment.controller)},
+                {"fitness", toJson(experiment.fitness)},
+                {"learner", toJson(experiment.learner)},
+                {"stages", btr::toJson(experiment.stages, stageParameters())},
+                {"adaptation",
+                 {{"learner", toJson(experiment.adaptation)},
+                  {"settings", btr::toJson(experiment.adaptationSettings, adaptationParameters())},
+                  {"parameters", experiment.adapted}}},
+                {"simulator", simulatorToJson(experiment.simulator)},
+                {"reality", experiment.reality},
+                {"stand_in", btr::toJson(experiment.standIn, standInParameters())},
+                {"seed", experiment.seed}};
+  if (experiment.start)
+    document["start"] = {{"parameters", btr::toJson(experiment.start->parameters, {})},
+                         {"share", experiment.start->share},
+                         {"flip", experiment.start->flip}};
   return document.dump(2) + "\n";
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct PluginChoice {
   bool operator==(const PluginChoice&) const = default;
 };
 
+/// A known vector that L1's search begins around, and how a population is made of it.
+struct SearchStart {
+  Values parameters;   ///< by name of the controller's genotype; what is absent has its default
+  double share = 1;    ///< of the population that are permutations of it, the first one unaltered; the rest is drawn
+  double flip = 0.05;  ///< probability that a bit of a permutation flips
+  bool operator==(const SearchStart&) const = default;
+};
+
 /// What the user asked for: everything that a Back-to-Reality run depends on ("format": "uchilsim-experiment-1").
 /// The same spec and seed give the same bits.
 struct ExperimentSpec {
@@ -27,6 +36,7 @@ struct ExperimentSpec {
   PluginChoice controller;           ///< e.g. "kick": settings = the task (d, β, α)
   PluginChoice fitness;              ///< e.g. "kick_distance"
   PluginChoice learner;              ///< L1, e.g. "ga"
+  std::optional<SearchStart> start;  ///< absent: L1 begins anywhere, as its learner does
   Values stages;                     ///< cadences, counts and stops: stageParameters()
   PluginChoice adaptation;           ///< L3's learner, e.g. "ga"
   Values adaptationSettings;         ///< how L3 compares: adaptationParameters()
@@ -39,6 +49,9 @@ struct ExperimentSpec {
   bool operator==(const ExperimentSpec&) const = default;
 };
 
+class JsonReader;
+/// {"name": …, "settings": {…}} as it stands in a file. Throws InputError.
+PluginChoice pluginChoice(JsonReader reader);
 /// Numbers and words as checked values of the declared parameters (what is absent stays absent). Throws InputError.
 Values settingsOf(const PluginChoice& choice, std::span<const Parameter> declared, const std::string& place);
 /// The way back: a plugin with its settings, choices as words. Throws InputError if a choice is not one.

@@ -35,8 +35,23 @@ TEST(ExampleExperiments, TheShortKickMeasuresThreeTimesByTheStandIn) {
   EXPECT_EQ("stand_in", kick.reality);
 }
 
+TEST(ExampleExperiments, WalkHasAllSettingsOfThePaper) {
+  const ExperimentSpec walk = example("walk.json");
+  EXPECT_EQ("walk", walk.controller.name);
+  EXPECT_EQ(20, walk.controller.settings.at("duration_s"));
+  EXPECT_EQ(0.7, walk.learner.settings.at("crossover"));
+  EXPECT_EQ(0.005, walk.learner.settings.at("mutation"));
+  EXPECT_EQ(8, walk.learner.settings.at("bits"));
+  EXPECT_EQ(10, valueOf(stageParameters(), walk.stages, "measured_individuals"));
+  // The paper minimises the norm of the differences of the ten.
+  EXPECT_EQ(1, valueOf(adaptationParameters(), walk.adaptationSettings, "norm"));
+  EXPECT_TRUE(walk.adapted.empty());
+  EXPECT_EQ("person", walk.reality);
+  EXPECT_EQ("stand_in", example("walk-short.json").reality);
+}
+
 TEST(ExampleExperiments, BeginWithTheStartingValuesOfAllTwelveParameters) {
-  for (const char* name : {"kick.json", "kick-short.json"}) {
+  for (const char* name : {"kick.json", "kick-short.json", "walk.json", "walk-short.json"}) {
     const Values given = example(name).simulator.values;
     for (const Parameter& parameter : simulatorParameters())
       EXPECT_EQ(parameter.byDefault, given.at(parameter.name)) << name << " " << parameter.name;
@@ -44,11 +59,11 @@ TEST(ExampleExperiments, BeginWithTheStartingValuesOfAllTwelveParameters) {
 }
 
 TEST(ExampleExperiments, TheirScenesCanBeRead) {
-  for (const char* name : {"kick.json", "kick-short.json"}) {
+  for (const char* name : {"kick.json", "kick-short.json", "walk.json", "walk-short.json"}) {
     const ExperimentSpec spec = example(name);
     const SceneSpec scene = loadScene(spec.directory + "/" + spec.scene);
     EXPECT_EQ(1u, scene.robots.size());
-    EXPECT_EQ(1u, scene.balls.size());
+    EXPECT_EQ(spec.controller.name == "kick" ? 1u : 0u, scene.balls.size());
   }
 }
 

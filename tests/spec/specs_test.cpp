@@ -137,6 +137,7 @@ const std::string experimentText = R"({
   "controller": {"name": "kick", "settings": {"distance_m": 0.16}},
   "fitness": {"name": "kick_distance", "settings": {"measured_from": "neck"}},
   "learner": {"name": "ga", "settings": {"population": 30, "coding": "gray"}},
+  "start": {"parameters": {"points": 6}, "share": 0.8, "flip": 0.02},
   "stages": {"first_generations": 50, "hide_simulated": "no"},
   "adaptation": {"learner": {"name": "ga"}, "settings": {"generations": 10, "norm": "maximum", "held_out": 2},
                  "parameters": ["friction", "leg_mass_kg"]},
@@ -151,6 +152,8 @@ TEST(Experiments, ReadBackEqual) {
   EXPECT_EQ(18446744073709551615u, spec.seed);
   EXPECT_EQ(2, spec.adaptationSettings.at("norm"));
   EXPECT_EQ("gray", spec.learner.words.at("coding"));
+  ASSERT_TRUE(spec.start);
+  EXPECT_EQ((SearchStart{{{"points", 6}}, 0.8, 0.02}), *spec.start);
   EXPECT_EQ(spec, experiment(toJsonText(spec)));
 }
 
@@ -176,6 +179,8 @@ TEST(Experiments, NameWhatIsWrong) {
             refused("\"held_out\": 2", "\"held_out\": 10"));
   EXPECT_EQ("e.json /reality: \"robot\" is not allowed; one of person, stand_in",
             refused("\"stand_in\",", "\"robot\","));
+  EXPECT_EQ("e.json /start/share: 1.8 is not allowed; 0 to 1", refused("\"share\": 0.8", "\"share\": 1.8"));
+  EXPECT_NE("(accepted)", refused("\"flip\"", "\"flips\""));
   EXPECT_NE("(accepted)", refused("\"leg_mass_kg\"", "\"friction\""));
   EXPECT_NE("(accepted)", refused("\"leg_mass_kg\"", "\"ear_mass_kg\""));
   EXPECT_NE("(accepted)", refused("\"seed\": 18446744073709551615", "\"seed\": 18446744073709551616"));

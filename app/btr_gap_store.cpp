@@ -15,7 +15,7 @@ namespace btr::cli {
 namespace {
 
 struct StoreArguments {
-  std::string database, simulator, report, mapping, out;
+  std::string database, simulator, report, mapping, scene, out;
   std::vector<std::string> files;
   std::vector<Id> recordings;
   Id run = 0, experiment = 0, individual = 0;
@@ -62,7 +62,7 @@ void import(const StoreArguments& a, Shell& shell) {
   const Id experiment = experimentOf(db, a);
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& file : a.files) {
-    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual);
+    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual, a.scene);
     all.push_back({{"recording", stored.id},
                    {"file", file},
                    {"new", stored.isNew},
@@ -130,7 +130,8 @@ void clues(const ClueArguments& a, Shell& shell) {
     for (const FitnessClue& clue : found.clues) {
       if (rows.size() == 20) break;
       std::string sizes;
-      for (const auto& [name, value] : clue.effect.parameters) sizes += (sizes.empty() ? "" : ", ") + name + " " + brief(value);
+      for (const auto& [name, value] : clue.effect.parameters)
+        sizes += (sizes.empty() ? "" : ", ") + name + " " + brief(value);
       rows.push_back({clue.effect.effect, clue.effect.at, brief(100 * clue.share) + " %", brief(clue.pValue), sizes});
     }
     writeOut("", table({"effect", "at", "takes away", "p by chance", "size"}, rows));
@@ -189,7 +190,9 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
   CLI::App* importApp = recordings->add_subcommand("import", "check recordings and keep them");
   owner(importApp);
   importApp->add_option("RECORDING.csv", a->files, "recorded trials")->required();
-  importApp->add_option("--mapping", a->mapping, "which column is which channel (default: the one beside the file)");
+  importApp->add_option("--mapping", a->mapping,
+                        "which column is which channel (default: the one beside the file, else beside the scene)");
+  importApp->add_option("--scene", a->scene, "the scene whose SCENE.mapping.json counts for files without one");
   importApp->add_option("--individual", a->individual, "number of the individual that was recorded")
       ->check(CLI::PositiveNumber);
   importApp->callback([a, &shell] { import(*a, shell); });

@@ -133,7 +133,7 @@ class MainWindow : public QMainWindow {
   void connectGap();
   void showAdoption();
   void showGhosts(std::size_t trial, double time_s);
-  void keepRecordings(const QStringList& files);
+  void keepRecordings(const QStringList& files, const QString& scene);
   void takeStoredRecordings();
 
   /// The connection for the user's own words, opened when it is first needed.

@@ -98,11 +98,11 @@ void MainWindow::showGhosts(std::size_t trial, double time_s) {
   replay_->showTime(time_s);
 }
 
-void MainWindow::keepRecordings(const QStringList& files) {
+void MainWindow::keepRecordings(const QStringList& files, const QString& scene) {
   if (files.isEmpty()) return report(tr("Add recordings first."));
   if (!watcher_.isOpen() || run_.id == 0)
     return report(tr("Select a run first: recordings are kept with its experiment."));
-  launcher_.keepRecordings(databasePath(), run_.id, files);
+  launcher_.keepRecordings(databasePath(), run_.id, files, scene);
 }
 
 // Written out as files, beside which mappings and the report stay.

@@ -97,13 +97,16 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
 
 Mapping loadMapping(const std::string& path) { return mappingFromJson(readFile(path), path); }
 
-std::optional<std::string> findMapping(const std::string& recordingPath) {
+std::optional<std::string> findMapping(const std::string& recordingPath, const std::string& scene) {
   namespace fs = std::filesystem;
   const fs::path recording(recordingPath);
   const fs::path folder = recording.parent_path();
   const std::string ending = ".mapping.json";
-  for (const fs::path& candidate : {folder / (recording.stem().string() + ending),
-                                    folder / (recording.filename().string() + ending), folder / "mapping.json"}) {
+  std::vector<fs::path> candidates{folder / (recording.stem().string() + ending),
+                                   folder / (recording.filename().string() + ending), folder / "mapping.json"};
+  if (const fs::path path(scene); !scene.empty())
+    candidates.push_back(path.parent_path() / (path.stem().string() + ending));
+  for (const fs::path& candidate : candidates) {
     std::error_code ignored;
     if (fs::exists(candidate, ignored)) return candidate.string();
   }

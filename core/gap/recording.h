@@ -64,8 +64,9 @@ struct Mapping {
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is
-/// there.
-std::optional<std::string> findMapping(const std::string& recordingPath);
+/// there; else "SCENE.mapping.json" beside the scene ("" for none), which is for all recordings without one of their
+/// own.
+std::optional<std::string> findMapping(const std::string& recordingPath, const std::string& scene = "");
 
 /// Reads a CSV in one pass; memory is that of the numbers. With no mapping given, findMapping() is asked, else the
 /// columns must have contract names. Damaged, empty, unordered, non-numeric files throw InputError with line and
@@ -76,8 +77,7 @@ Recording loadRecording(const std::string& path, const Mapping* mapping = nullpt
 /// The file's trials, in their order: one, or those that its mapping divides it into, then called "DIR/NAME-1.csv" …
 std::vector<Recording> loadTrials(const std::string& path, const Mapping* mapping = nullptr,
                                   std::size_t limit = 1u << 30);
-/// The same with the mapping file that was asked for ("" for none), else the one beside the recording, else
-/// SCENE.mapping.json beside the scene, else none.
+/// The same with the mapping file that was asked for ("" for none), else the one that findMapping() finds, else none.
 std::vector<Recording> loadTrialsFor(const std::string& path, const std::string& mapping, const std::string& scene);
 
 }  // namespace btr

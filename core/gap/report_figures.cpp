@@ -71,7 +71,13 @@ std::string brief(double value) {
 
 std::string digits(double value, int count) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", count, value);
+  // 870, not 8.7e+02.
+  if (const double size = std::abs(value); size >= std::pow(10, count) - 0.5 && size < 1e9) {
+    const double unit = std::pow(10, std::floor(std::log10(size)) - count + 1);
+    std::snprintf(text.data(), text.size(), "%.0f", std::round(value / unit) * unit);
+  } else {
+    std::snprintf(text.data(), text.size(), "%.*g", count, value);
+  }
   return text.data();
 }
 

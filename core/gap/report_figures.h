@@ -32,7 +32,7 @@ HeatColour heatColour(double error);
 std::string inWords(std::string name);
 /// Three or four digits that matter; "–" if it is not finite.
 std::string brief(double value);
-/// So many digits that matter: "0.0512", "1.2e+03".
+/// So many digits that matter: "0.0512", "1230".
 std::string digits(double value, int count = 3);
 /// "0.7 %", "83 %".
 std::string percent(double share);

@@ -69,16 +69,9 @@ Recording loadRecording(const std::string& path, const Mapping* mapping, std::si
 }
 
 std::vector<Recording> loadTrialsFor(const std::string& path, const std::string& mapping, const std::string& scene) {
-  if (!mapping.empty()) {
-    const Mapping given = loadMapping(mapping);
-    return loadTrials(path, &given);
-  }
-  if (findMapping(path)) return loadTrials(path);
-  const fs::path scenePath(scene);
-  const auto beside = scenePath.parent_path() / (scenePath.stem().string() + ".mapping.json");
-  std::error_code ignored;
-  if (!fs::exists(beside, ignored)) return loadTrials(path);
-  const Mapping found = loadMapping(beside.string());
+  const std::string file = mapping.empty() ? findMapping(path, scene).value_or("") : mapping;
+  if (file.empty()) return loadTrials(path);
+  const Mapping found = loadMapping(file);
   return loadTrials(path, &found);
 }
 

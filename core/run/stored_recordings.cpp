@@ -10,10 +10,10 @@ namespace btr {
 namespace fs = std::filesystem;
 
 StoredRecording importRecording(Database& database, Id experiment, const std::string& path, const std::string& mapping,
-                                Id individual) {
+                                Id individual, const std::string& scene) {
   constexpr std::size_t largest = std::size_t{1} << 30;
   std::string mappingPath = mapping;
-  if (mappingPath.empty()) mappingPath = findMapping(path).value_or("");
+  if (mappingPath.empty()) mappingPath = findMapping(path, scene).value_or("");
   RecordingRecord record;
   if (!mappingPath.empty()) record.mappingJson = readFile(mappingPath);
   const std::optional<Mapping> map =

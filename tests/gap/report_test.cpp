@@ -48,6 +48,14 @@ std::string afterChange(const std::function<void(nlohmann::json&)>& change) {
   return messageOf(folder.file("r"));
 }
 
+TEST(Figures, OfManyDigitsAreRoundedAndNotWrittenWithPowersOfTen) {
+  EXPECT_EQ(digits(0.051234), "0.0512");
+  EXPECT_EQ(digits(873.4, 2), "870");
+  EXPECT_EQ(digits(-1234.5), "-1230");
+  EXPECT_EQ(digits(99.6, 2), "100");
+  EXPECT_EQ(digits(0), "0");
+}
+
 TEST(GapReport, ComesBackWholeFromItsFolder) {
   const TemporaryFolder folder;
   const GapReport written = sampleReport();

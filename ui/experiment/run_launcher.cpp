@@ -129,9 +129,10 @@ void RunLauncher::revert(const QString& database, Id run) {
            [this, run] { emit simulatorChanged(run); });
 }
 
-void RunLauncher::keepRecordings(const QString& database, Id run, const QStringList& files) {
-  runToEnd(QStringList{"gap", "recordings", "import", "--db", database, "--run", QString::number(run)} + files,
-           [this, count = int(files.size())] { emit recordingsKept(count); });
+void RunLauncher::keepRecordings(const QString& database, Id run, const QStringList& files, const QString& scene) {
+  QStringList arguments{"gap", "recordings", "import", "--db", database, "--run", QString::number(run)};
+  if (!scene.isEmpty()) arguments += {"--scene", scene};
+  runToEnd(arguments + files, [this, count = int(files.size())] { emit recordingsKept(count); });
 }
 
 // Short commands run beside the window; one line on their standard error says what is wrong.

@@ -40,7 +40,8 @@ class RunLauncher : public QObject {
   void adopt(const QString& database, Id run, const QString& simulator, const QString& report);
   void revert(const QString& database, Id run);
   /// Keeps recordings in the database with their mappings; tells recordingsKept() or failed().
-  void keepRecordings(const QString& database, Id run, const QStringList& files);
+  /// `scene` may be empty; a mapping beside it counts for files that have none of their own.
+  void keepRecordings(const QString& database, Id run, const QStringList& files, const QString& scene);
   bool isBusy() const { return thread_ != nullptr; }
 
  signals:

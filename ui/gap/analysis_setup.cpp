@@ -134,8 +134,8 @@ QWidget* AnalysisSetup::makeInputs() {
   auto* removeButton = button("list-remove", tr("Re&move"), [this] { removeRecording(); });
   auto* storedButton = button("server-database", tr("From the data&base…"), [this] { emit storedRequested(); });
   storedButton->setToolTip(tr("Recordings that are kept with the selected run's experiment"));
-  auto* keepButton =
-      button("document-save", tr("&Keep in the database"), [this] { emit keepRequested(files(false) + files(true)); });
+  auto* keepButton = button("document-save", tr("&Keep in the database"),
+                            [this] { emit keepRequested(files(false) + files(true), scene()); });
   keepButton->setToolTip(tr("Stores the files with their mappings and SHA-256; the same file is kept once"));
   auto* form = new QFormLayout(inputs);
   form->setContentsMargins(8, 8, 8, 4);
@@ -276,12 +276,8 @@ QString AnalysisSetup::problem() const {
   return {};
 }
 
-// A mapping beside the scene is for all recordings that have none of their own.
 QString AnalysisSetup::mappingOf(const QString& recording) const {
-  if (const auto beside = findMapping(recording.toStdString())) return QString::fromStdString(*beside);
-  if (scene().isEmpty()) return {};
-  const QString ofScene = QFileInfo(scene()).path() + '/' + QFileInfo(scene()).completeBaseName() + ".mapping.json";
-  return QFileInfo::exists(ofScene) ? ofScene : QString();
+  return QString::fromStdString(findMapping(recording.toStdString(), scene().toStdString()).value_or(""));
 }
 
 void AnalysisSetup::openMapping() {

@@ -50,7 +50,7 @@ class AnalysisSetup : public QWidget {
   void sceneChanged(const QString& path);
   /// Recordings of the database are wanted; these files are to be kept in it.
   void storedRequested();
-  void keepRequested(const QStringList& files);
+  void keepRequested(const QStringList& files, const QString& scene);
 
  private:
   QWidget* makeInputs();

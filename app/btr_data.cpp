@@ -46,9 +46,7 @@ void replayCommand(const DataArguments& a, Shell& shell) {
 void exportCommand(const DataArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
   const PreparedExperiment prepared = prepareFromRun(db.run(a.run), shell.plugins());
-  std::vector<std::string> names;
-  for (const Parameter& p : prepared.genotype) names.push_back(p.name);
-  writeOut(a.csv, exportCsv(db, a.run, a.what, names, prepared.fitness->unit()));
+  writeOut(a.csv, exportCsv(db, a.run, a.what, prepared.genotype, prepared.fitness->unit()));
 }
 
 }  // namespace
@@ -71,7 +69,7 @@ void addDataCommands(CLI::App& app, Shell& shell) {
   common(exportApp);
   exportApp->add_option("--what", a->what, "which table")
       ->required()
-      ->check(CLI::IsMember({"generations", "individuals", "gaps", "simulators", "measurements"}));
+      ->check(CLI::IsMember({"generations", "individuals", "gaps", "simulators", "measurements", "policies", "steps"}));
   exportApp->callback([a, &shell] { exportCommand(*a, shell); });
 }
 

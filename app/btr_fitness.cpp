@@ -33,7 +33,9 @@ void list(const FitnessArguments& a, Shell& shell) {
   const std::vector<MeasurementRecord> measured = db.measurements(a.run);
   nlohmann::json all = nlohmann::json::array();
   std::vector<std::vector<std::string>> rows;
-  for (const MeasurementTask& task : db.measurementTasks(a.run)) {
+  const std::vector<MeasurementTask> tasks = db.measurementTasks(a.run);
+  const int iteration = tasks.empty() ? 0 : tasks.back().iteration;  // of L2; 0: the stage's own measurement waits
+  for (const MeasurementTask& task : tasks) {
     nlohmann::json values = nlohmann::json::array();
     std::string text;
     int have = 0;
@@ -43,9 +45,11 @@ void list(const FitnessArguments& a, Shell& shell) {
       values.push_back({{"value", m.value}, {"void", m.isVoid}, {"note", m.note}, {"source", m.source}});
       text += (text.empty() ? "" : " ") + brief(m.value) + (m.isVoid ? " (void)" : "");
     }
-    if (task.stage != run.stage + 1 && have >= task.wantedRepeats) continue;
+    const bool isOpen = task.stage == run.stage + 1 && task.iteration == iteration;
+    if (!isOpen && have >= task.wantedRepeats) continue;
     // The simulated fitness stays hidden, so that nobody measures what he expects.
     nlohmann::json row{{"stage", task.stage},
+                       {"iteration", task.iteration},
                        {"position", task.position},
                        {"individual", task.individual},
                        {"unit", unit},
@@ -54,7 +58,8 @@ void list(const FitnessArguments& a, Shell& shell) {
                        {"held_out", task.heldOut}};
     if (a.showSimulated) row["simulated_fitness"] = task.simulatedFitness;
     all.push_back(row);
-    rows.push_back({std::to_string(task.stage), std::to_string(task.position), std::to_string(task.individual),
+    rows.push_back({std::to_string(task.stage), task.iteration > 0 ? std::to_string(task.iteration) : "",
+                    std::to_string(task.position), std::to_string(task.individual),
                     std::to_string(have) + "/" + std::to_string(task.wantedRepeats), text,
                     a.showSimulated ? brief(task.simulatedFitness) : "hidden"});
   }
@@ -63,7 +68,7 @@ void list(const FitnessArguments& a, Shell& shell) {
   else if (rows.empty())
     std::cout << "run " << a.run << ": nothing waits for real fitness\n";
   else
-    writeOut("", table({"stage", "order", "individual", "measured", "values [" + unit + "]", "simulated"}, rows));
+    writeOut("", table({"stage", "L2", "order", "individual", "measured", "values [" + unit + "]", "simulated"}, rows));
 }
 
 void enter(const FitnessArguments& a) {

@@ -24,6 +24,7 @@
 #include "ui/experiment/simulators_page.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
+#include "ui/measure/policy_page.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
 
@@ -108,6 +109,7 @@ void MainWindow::makeDocks() {
   individuals_ = new IndividualsTable(this);
   individuals_->view().sortByColumn(IndividualsModel::fitness, Qt::DescendingOrder);
   sheet_ = new MeasurementSheet(this);
+  policies_ = new PolicyPage(this);
   replay_ = new ReplayPanel(this);
   replayJob_ = new ReplayJob(this);
   replay_->attach(*replayJob_);
@@ -123,6 +125,7 @@ void MainWindow::makeDocks() {
   versionsDock_ = addDock("simulators", tr("Simulators"), "cpu", versions_);
   individualsDock_ = addDock("individuals", tr("Individuals"), "view-list-details", individuals_);
   sheetDock_ = addDock("sheet", tr("Measurement sheet"), "document-edit", sheet_);
+  policiesDock_ = addDock("policies", tr("Learning in reality"), "view-statistics", policies_);
   replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
   makeGapPage();
@@ -187,7 +190,8 @@ void MainWindow::arrangeDocks() {
   // Tabs come last: a dock that is split from a tab becomes one of the tabs.
   tabifyDockWidget(specDock_, draftDock_);
   tabifyDockWidget(individualsDock_, sheetDock_);
-  tabifyDockWidget(sheetDock_, versionsDock_);
+  tabifyDockWidget(sheetDock_, policiesDock_);
+  tabifyDockWidget(policiesDock_, versionsDock_);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
   gapPageDock_->hide();
   specDock_->raise();

@@ -27,6 +27,7 @@ class GapChart;
 class GapPage;
 class MeasurementSheet;
 class MessageBanner;
+class PolicyPage;
 class IndividualsTable;
 class ReplayJob;
 class ReplayPanel;
@@ -121,6 +122,7 @@ class MainWindow : public QMainWindow {
   void importMeasurements();
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
   void showWaiting();
+  void showPolicies(const RunProgress& progress);
 
   // main_window_show.cpp
   void connectShow();
@@ -150,6 +152,8 @@ class MainWindow : public QMainWindow {
   bool sized_ = false;     ///< the docks have got their sizes
   RunRecord run_;          ///< the followed run as last seen
   QString unit_;
+  std::vector<Parameter> genotype_;        ///< of its controller
+  std::vector<std::size_t> policiesSeen_;  ///< what the page of L2 was made from
   std::vector<SimulatorRecord> simulators_;
   std::vector<GapRecord> gaps_;
   std::vector<MeasurementTask> tasks_;
@@ -169,12 +173,13 @@ class MainWindow : public QMainWindow {
   SimulatorsPage* versions_ = nullptr;
   IndividualsTable* individuals_ = nullptr;
   MeasurementSheet* sheet_ = nullptr;
+  PolicyPage* policies_ = nullptr;
   Alarm* alarm_ = nullptr;
   ReplayPanel* replay_ = nullptr;
   ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
               *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
-              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *gapPageDock_ = nullptr;
+              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *policiesDock_ = nullptr, *gapPageDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

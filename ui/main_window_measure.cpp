@@ -10,6 +10,7 @@
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
+#include "ui/measure/policy_page.h"
 
 namespace btr::ui {
 
@@ -21,17 +22,19 @@ void MainWindow::connectMeasure() {
   connect(sheet_, &MeasurementSheet::replayRequested, this, &MainWindow::replayIndividual);
   connect(sheet_, &MeasurementSheet::importRequested, this, &MainWindow::importMeasurements);
   connect(sheet_, &MeasurementSheet::continueRequested, this, [this] { continueRun(run_.id); });
+  connect(policies_, &PolicyPage::replayRequested, this, &MainWindow::replayIndividual);
   connect(alarm_, &Alarm::sheetRequested, this, [this] { raiseDock(sheetDock_); });
 }
 
-// The sheet shows the stage that waits, else the last one that was measured.
+// The sheet shows the measurement that waits (of a stage, or of an iteration of L2), else the last one that was made.
 void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
                            const std::vector<MeasurementRecord>& measurements) {
   tasks_ = tasks;
   measurements_ = measurements;
   std::vector<MeasurementTask> latest;
   for (const MeasurementTask& task : tasks) {
-    if (!latest.empty() && latest.front().stage != task.stage) latest.clear();
+    if (!latest.empty() && (latest.front().stage != task.stage || latest.front().iteration != task.iteration))
+      latest.clear();
     latest.push_back(task);
   }
   sheet_->setTasks(latest);
@@ -51,6 +54,7 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
     fitness_->setMeasurements(measured, measurements);
   });
   showWaiting();
+  showPolicies({});
 }
 
 // The alarm rings for a person while values are missing; a stand-in answers by itself.
@@ -60,13 +64,29 @@ void MainWindow::showWaiting() {
   sheet_->setWaiting(run_.state == RunState::waiting);
   if (waits && count.settled < count.wanted) {
     if (alarm_->state() == Alarm::State::quiet) raiseDock(sheetDock_);
-    alarm_->raiseAlarm(tr("%1, stage %2: %3 individuals wait for their real fitness.")
+    const int iteration = tasks_.empty() ? 0 : tasks_.back().iteration;
+    alarm_->raiseAlarm((iteration > 0 ? tr("%1, stage %2: %3 policies of L2 wait for their real fitness.")
+                                      : tr("%1, stage %2: %3 individuals wait for their real fitness."))
                            .arg(runName(run_))
                            .arg(run_.stage + 1)
                            .arg(count.wanted));
   } else {
     alarm_->clear();
   }
+}
+
+// Made anew when a policy was asked for, a value came or an iteration ended.
+void MainWindow::showPolicies(const RunProgress& progress) {
+  const std::vector<std::size_t> seen{static_cast<std::size_t>(run_.id),
+                                      static_cast<std::size_t>(run_.stage),
+                                      static_cast<std::size_t>(run_.state),
+                                      static_cast<std::size_t>(run_.generation),
+                                      progress.stage == "L2" ? static_cast<std::size_t>(progress.stageDone) : 0,
+                                      tasks_.size(),
+                                      measurements_.size()};
+  if (seen == policiesSeen_) return;
+  guard([&] { policies_->setReports(realityReports(watcher_.database(), run_, genotype_)); });
+  policiesSeen_ = seen;
 }
 
 void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {

@@ -55,7 +55,8 @@ void MainWindow::makeMenus() {
   QMenu* exports = file->addMenu(themeIcon("document-export"), tr("&Export"));
   for (const auto& [what, label] :
        {std::pair{"generations", tr("Generations as CSV…")}, std::pair{"individuals", tr("Individuals as CSV…")},
-        std::pair{"gaps", tr("Reality gaps as CSV…")}, std::pair{"simulators", tr("Simulator versions as CSV…")}})
+        std::pair{"gaps", tr("Reality gaps as CSV…")}, std::pair{"simulators", tr("Simulator versions as CSV…")},
+        std::pair{"policies", tr("Policies of L2 as CSV…")}, std::pair{"steps", tr("Steps of L2 as CSV…")}})
     exports->addAction(label, this, [this, name = QString(what)] { exportRun(run_.id, name); });
   exports->addSeparator();
   exports->addAction(tr("Fitness chart…"), this, [this] { fitness_->plot().exportWithDialog(); });

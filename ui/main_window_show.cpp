@@ -15,6 +15,7 @@
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
+#include "ui/measure/policy_page.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
 
@@ -91,6 +92,7 @@ void MainWindow::selectRun(Id run) {
     versions_->clear();
     individuals_->clear();
     sheet_->setTasks({});
+    policies_->setReports({});
     alarm_->clear();
     showAdoption();
   } else {
@@ -120,7 +122,10 @@ void MainWindow::showSpec(const RunRecord& run) {
   versions_->setUnit(unit_);
   individuals_->setUnit(unit_);
   individuals_->setStandIn(shown.standIn);
-  individuals_->setGenotype(host_->controller(spec.controller.name)->genotype());
+  genotype_ = host_->controller(spec.controller.name)->genotype();
+  individuals_->setGenotype(genotype_);
+  policies_->setUnit(unit_);
+  policiesSeen_.clear();
   sheet_->setUnit(unit_);
   sheet_->setStandIn(shown.standIn);
   sheet_->model().setSimulatedShown(valueOf(stageParameters(), spec.stages, "hide_simulated") == 0);
@@ -132,6 +137,7 @@ void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool
   panel_->showRun(run, progress, active);
   showAdoption();
   showWaiting();
+  showPolicies(progress);
 }
 
 // Made again in a thread of its own, from a connection of its own.

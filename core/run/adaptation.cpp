@@ -33,6 +33,7 @@ Evidence collect(const RunContext& context, int stage) {
   const Database& db = context.database;
   for (RealFitness& r :
        realFitness(db.measurementTasks(context.record.id), db.measurements(context.record.id), stage)) {
+    if (r.iteration > 0 && context.adaptationSetting("sees_policies") == 0) continue;
     r.parameters = db.individual(r.individual).parameters;
     if (r.stage == stage) evidence.own.push_back(r);
     (r.heldOut ? evidence.heldOut : evidence.shown).push_back(std::move(r));
@@ -117,6 +118,11 @@ bool adaptSimulator(RunContext& context, int stage) {
   const auto learner = context.host.learner(context.prepared.spec.adaptation.name);
   Random random = Random::forPurpose(context.record.seed, "L3", static_cast<std::uint64_t>(stage));
   learner->start(context.prepared.adapted, context.prepared.spec.adaptation.settings, random);
+  // A population is drawn over all of the bounds, as in the papers; a learner with a centre begins at the parent.
+  std::vector<double> present;
+  for (const Parameter& p : context.prepared.adapted)
+    present.push_back(valueOf(simulatorParameters(), parent.simulator.values, p.name));
+  learner->beginAt(present, {.share = 0}, random);
 
   // What an interrupted adaptation has done already.
   Error known;
@@ -174,10 +180,7 @@ bool adaptSimulator(RunContext& context, int stage) {
   const auto before = gapsOf(context, evidence, parent.simulator);
   if (!before) return false;
   Error startError;
-  Candidate start;
-  for (const Parameter& p : context.prepared.adapted)
-    start.parameters.push_back(valueOf(simulatorParameters(), parent.simulator.values, p.name));
-  if (!evaluateCandidates(context, evidence, parent.simulator, {start}, startError)) return false;
+  if (!evaluateCandidates(context, evidence, parent.simulator, {{"", present}}, startError)) return false;
   const double parentError = startError.begin()->second;
   const auto best =
       std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error < b.error; });

@@ -83,6 +83,10 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     context.publish(true);
     return RunEnd::stopped;
   };
+  const auto waiting = [&] {
+    database.setRunState(run, RunState::waiting, context.progress.message);
+    return RunEnd::waiting;
+  };
 
   while (true) {
     const RunRecord now = database.run(run);
@@ -104,9 +108,11 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     }
     if (!completeMeasuring(context, stage)) {
       if (context.stopped()) return stopped();
-      database.setRunState(run, RunState::waiting, context.progress.message);
-      return RunEnd::waiting;
+      return waiting();
     }
+    const StageEnd learned = learnInReality(context, stage);
+    if (learned == StageEnd::stopped) return stopped();
+    if (learned == StageEnd::waiting) return waiting();
     if (!adaptSimulator(context, stage)) return stopped();
   }
 }

@@ -10,10 +10,10 @@ namespace btr {
 
 /// Where a run is, for progress bars. Written to the database about once a second and after each generation.
 struct RunProgress {
-  std::string stage;   ///< "L1", "measuring", "L3", "finished"
+  std::string stage;   ///< "L1", "measuring", "L2", "L3", "finished"
   int generation = 0;  ///< L1 generations done
   int totalGenerations = 0;
-  int stageDone = 0, stageTotal = 0;  ///< within this stage: generations of L1 or L3
+  int stageDone = 0, stageTotal = 0;  ///< within this stage: generations of L1 or L3, iterations of L2
   long trials = 0;                    ///< simulated in this session
   double trialsPerSecond = 0;
   double secondsLeft = -1;    ///< estimate for the simulated part, negative: not known yet
@@ -42,7 +42,7 @@ Id startRun(Database& database, const PluginHost& host, const struct ExperimentS
             bool again = false);
 
 /// Goes on with a run until it is finished, waits for a person, or `stop` is raised (or requested in the database): the
-/// stage machine L1 → measure → L3 → L1 …. All state is in the database: after kill -9 at any moment the next call goes
+/// stage machine L1 → measure → (L2) → L3 → L1 …. All state is in the database: after kill -9 at any moment the next call goes
 /// on with the same bits as if nothing had happened. Throws InputError if another process works on this run.
 RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
 

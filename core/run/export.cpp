@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/run/reality_report.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
 
@@ -68,7 +69,7 @@ struct Measured {
   std::set<std::string> sources;
 };
 
-std::string individuals(const Database& database, const RunRecord& run, const std::vector<std::string>& names,
+std::string individuals(const Database& database, const RunRecord& run, std::span<const Parameter> names,
                         const std::string& unit) {
   const std::vector<IndividualRecord> all = database.individuals(run.id);
   const std::size_t parameters = all.empty() ? names.size() : all.front().parameters.size();
@@ -79,7 +80,7 @@ std::string individuals(const Database& database, const RunRecord& run, const st
   head(table, {"run", "individual", "generation", "slot", "simulator", "fitness" + unit, "outcome", "detail", "same_as",
                "trial_seed", "trace_sha256", "measured_mean" + unit, "measured_count", "reality", "chromosome"});
   for (std::size_t k = 0; k < parameters; ++k)
-    table << (names.empty() ? "parameter_" + std::to_string(k + 1) : names[k]);
+    table << (names.empty() ? "parameter_" + std::to_string(k + 1) : names[k].name);
   table.endLine();
 
   std::map<Id, Measured> measured;
@@ -185,6 +186,54 @@ std::string measurements(const Database& database, const RunRecord& run, const s
   return std::move(table).text();
 }
 
+// Policies of L2 with the change of each parameter: −1, 0 or 1, nothing where there is no centre.
+std::string policies(const Database& database, const RunRecord& run, std::span<const Parameter> genotype,
+                     const std::string& unit) {
+  Table table;
+  head(table, {"run", "stage", "iteration", "individual", "simulated_fitness" + unit, "measured_mean" + unit,
+               "standard_error" + unit, "measured_count", "reality"});
+  for (const Parameter& p : genotype) table << p.name;
+  for (const Parameter& p : genotype) table << "change_" + p.name;
+  table.endLine();
+  for (const RealityReport& report : realityReports(database, run, genotype))
+    for (const PolicyRow& p : report.policies) {
+      table << run.id << report.stage << report.number << p.individual << p.simulated << p.fitness << p.standardError
+            << p.count << run.reality;
+      for (const double value : p.parameters) table << value;
+      for (std::size_t n = 0; n < genotype.size(); ++n) {
+        if (n < p.changes.size())
+          table << p.changes[n];
+        else
+          table << "";
+      }
+      table.endLine();
+    }
+  return std::move(table).text();
+}
+
+// One line for each parameter and iteration of L2.
+std::string steps(const Database& database, const RunRecord& run, std::span<const Parameter> genotype,
+                  const std::string& unit) {
+  Table table;
+  head(table, {"run", "stage", "iteration", "parameter", "unit", "centre_before"});
+  for (const std::string group : {"below", "same", "above"})
+    for (const std::string what : {"_count", "_mean", "_standard_error"})
+      table << group + what + (what == "_count" ? "" : unit);
+  for (const char* name : {"gradient", "p_value", "significant", "step", "centre_after", "reality"}) table << name;
+  table.endLine();
+  for (const RealityReport& report : realityReports(database, run, genotype))
+    for (const StepRow& s : report.steps) {
+      table << run.id << report.stage << report.number << s.parameter.name << s.parameter.unit << s.centreBefore;
+      for (const PolicyGroup* group : {&s.gradient.below, &s.gradient.same, &s.gradient.above})
+        table << group->count << (group->count > 0 ? std::optional(group->mean) : std::nullopt)
+              << (group->count > 1 ? std::optional(group->standardError) : std::nullopt);
+      table << s.gradient.gradient << s.gradient.pValue << int{s.isSignificant()}
+            << (s.centreAfter ? std::optional(s.gradient.step) : std::nullopt) << s.centreAfter << run.reality;
+      table.endLine();
+    }
+  return std::move(table).text();
+}
+
 }  // namespace
 
 std::string unitSuffix(const std::string& unit) {
@@ -199,16 +248,19 @@ std::string unitSuffix(const std::string& unit) {
   return suffix.empty() ? "" : "_" + suffix;
 }
 
-std::string exportCsv(const Database& database, Id id, const std::string& what,
-                      const std::vector<std::string>& parameterNames, const std::string& fitnessUnit) {
+std::string exportCsv(const Database& database, Id id, const std::string& what, const std::vector<Parameter>& genotype,
+                      const std::string& fitnessUnit) {
   const RunRecord run = database.run(id);
   const std::string unit = unitSuffix(fitnessUnit);
   if (what == "generations") return generations(database, run, unit);
-  if (what == "individuals") return individuals(database, run, parameterNames, unit);
+  if (what == "individuals") return individuals(database, run, genotype, unit);
   if (what == "gaps") return gaps(database, run, unit);
   if (what == "simulators") return simulators(database, run);
   if (what == "measurements") return measurements(database, run, unit);
-  throw InputError("export", '"' + what + '"', "generations, individuals, gaps, simulators or measurements");
+  if (what == "policies") return policies(database, run, genotype, unit);
+  if (what == "steps") return steps(database, run, genotype, unit);
+  throw InputError("export", '"' + what + '"',
+                   "generations, individuals, gaps, simulators, measurements, policies or steps");
 }
 
 }  // namespace btr

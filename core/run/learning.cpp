@@ -73,6 +73,17 @@ bool fill(RunContext& context, GenerationRecord& generation, const std::vector<C
   return true;
 }
 
+/// Where L2 has given something back since generation `number`, the search begins afresh around it.
+void beginFromReality(const RunContext& context, Learner& learner, int number) {
+  const int stage = context.database.run(context.record.id).stage;
+  if (stage == 0 || number != context.measuredAfter(stage)) return;
+  const auto best = givenBack(context, stage);
+  if (!best) return;
+  Random random = Random::forPurpose(context.record.seed, "permutations", static_cast<std::uint64_t>(stage));
+  learner.start(context.prepared.genotype, context.prepared.spec.learner.settings, random);
+  learner.beginAt(*best, {context.realitySetting("copies"), context.realitySetting("flip")}, random);
+}
+
 }  // namespace
 
 bool learnUntil(RunContext& context, int lastGeneration) {
@@ -91,6 +102,7 @@ bool learnUntil(RunContext& context, int lastGeneration) {
     number = last->number;
   }
   if (number >= lastGeneration) return true;
+  beginFromReality(context, *learner, number);
 
   const SimulatorRecord simulator = context.simulator();
   Memory memory = remember(context, simulator.id);

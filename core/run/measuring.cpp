@@ -1,5 +1,6 @@
 // Between L1 and L3: who is measured in reality, in which order, and the stand-in's answers.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/run/reality_gap.h"
@@ -31,6 +32,28 @@ std::vector<IndividualRecord> chooseMeasured(const RunContext& context, int stag
   if (lastOnly) take(last);
   if (chosen.size() < count) take(first);
   return chosen;
+}
+
+/// The tasks of one measurement: the stage's own, or those of an iteration of L2.
+std::vector<MeasurementTask> tasksOf(const Database& db, Id run, int stage, int iteration) {
+  std::vector<MeasurementTask> tasks = db.measurementTasks(run, stage);
+  std::erase_if(tasks, [&](const MeasurementTask& t) { return t.iteration != iteration; });
+  return tasks;
+}
+
+/// How often the parameters of each task were to be measured by the tasks before it: the stand-in's noise must not come
+/// again when a policy is tried again.
+std::map<Id, int> repeatsBefore(const Database& db, const std::vector<MeasurementTask>& tasks) {
+  std::map<Id, int> before;
+  if (tasks.empty()) return before;
+  std::map<std::vector<double>, int> wanted;
+  for (const MeasurementTask& task : db.measurementTasks(tasks.front().run)) {
+    int& sum = wanted[db.individual(task.individual).parameters];
+    before[task.individual] = sum;
+    sum += task.wantedRepeats;
+    if (task.individual == tasks.back().individual) break;
+  }
+  return before;
 }
 
 }  // namespace
@@ -65,10 +88,10 @@ bool beginMeasuring(RunContext& context, int stage) {
   return true;
 }
 
-bool completeMeasuring(RunContext& context, int stage) {
+bool completeMeasuring(RunContext& context, int stage, int iteration) {
   Database& db = context.database;
   const Id run = context.record.id;
-  const std::vector<MeasurementTask> tasks = db.measurementTasks(run, stage);
+  const std::vector<MeasurementTask> tasks = tasksOf(db, run, stage, iteration);
   std::vector<MeasurementRecord> done = db.measurements(run);
   const auto settled = [&] {
     return std::count_if(tasks.begin(), tasks.end(), [&](const MeasurementTask& t) { return isSettled(t, done); });
@@ -80,14 +103,14 @@ bool completeMeasuring(RunContext& context, int stage) {
 
   if (context.record.reality == "stand_in" && context.progress.stageDone < context.progress.stageTotal) {
     StandIn robot(StandIn::standardProgram(), db.path(), run);
-    const double each = context.stageSetting("repeats");
+    const std::map<Id, int> before = repeatsBefore(db, tasks);
     for (const MeasurementTask& task : tasks) {
       const IndividualRecord individual = db.individual(task.individual);
       auto have = static_cast<int>(std::count_if(
           done.begin(), done.end(), [&](const MeasurementRecord& m) { return m.individual == task.individual; }));
-      for (; have < each; ++have) {
+      for (; have < task.wantedRepeats; ++have) {
         if (context.stopped()) return false;
-        const RealAnswer answer = robot.measure(individual.parameters, have);
+        const RealAnswer answer = robot.measure(individual.parameters, before.at(task.individual) + have);
         MeasurementRecord measurement;
         measurement.run = run;
         measurement.individual = task.individual;
@@ -106,12 +129,15 @@ bool completeMeasuring(RunContext& context, int stage) {
   }
   const int missing = context.progress.stageTotal - static_cast<int>(settled());
   const bool anyReal = !realFitness(tasks, done, stage).empty();
+  const std::string who = iteration > 0 ? " policies" : " individuals";
+  const std::string where = iteration > 0
+                                ? "L2 in stage " + std::to_string(stage) + ", iteration " + std::to_string(iteration)
+                                : "measurement stage " + std::to_string(stage);
   if (missing > 0)
-    context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
-                               std::to_string(tasks.size()) + " individuals wait for real fitness";
-  else if (!anyReal)
     context.progress.message =
-        "measurement stage " + std::to_string(stage) + ": all values are void; enter at least one that is not";
+        where + ": " + std::to_string(missing) + " of " + std::to_string(tasks.size()) + who + " wait for real fitness";
+  else if (!anyReal)
+    context.progress.message = where + ": all values are void; enter at least one that is not";
   else
     context.progress.message.clear();
   context.publish(true);

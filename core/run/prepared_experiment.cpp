@@ -42,31 +42,38 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   prepared.genotype = prepared.controller->genotype();
   if (spec.start) prepared.start = resolve(prepared.genotype, spec.start->parameters, "start/parameters");
 
-  const auto learner = host.learner(spec.learner.name);
-  const auto adaptation = host.learner(spec.adaptation.name);
-  settle(prepared.spec.controller, prepared.controller->settings());
-  settle(prepared.spec.fitness, prepared.fitness->settings());
-  settle(prepared.spec.learner, learner->settings());
-  settle(prepared.spec.adaptation, adaptation->settings());
-  prepared.specInWords = prepared.spec;
-  const auto inWords = [](PluginChoice& choice, const std::vector<Parameter>& declared) {
-    choice = choiceOf(choice.name, choice.settings, declared);
-  };
-  inWords(prepared.specInWords.controller, prepared.controller->settings());
-  inWords(prepared.specInWords.fitness, prepared.fitness->settings());
-  inWords(prepared.specInWords.learner, learner->settings());
-  inWords(prepared.specInWords.adaptation, adaptation->settings());
-
   for (const Parameter& p : simulatorParameters()) {
     const bool named = std::find(spec.adapted.begin(), spec.adapted.end(), p.name) != spec.adapted.end();
     if (spec.adapted.empty() || named) prepared.adapted.push_back(p);
     if (const auto value = spec.simulator.values.find(p.name); value != spec.simulator.values.end())
       check(p, value->second, "simulator " + p.name);
   }
+
+  // Each plugin with what may be set on it: a learner's settings may depend on what it searches.
+  const auto learner = host.learner(spec.learner.name);
+  const auto adaptation = host.learner(spec.adaptation.name);
+  prepared.specInWords = prepared.spec;
+  const auto settleBoth = [&](PluginChoice ExperimentSpec::*choice, const std::vector<Parameter>& declared) {
+    settle(prepared.spec.*choice, declared);
+    prepared.specInWords.*choice = choiceOf((prepared.spec.*choice).name, (prepared.spec.*choice).settings, declared);
+  };
+  settleBoth(&ExperimentSpec::controller, prepared.controller->settings());
+  settleBoth(&ExperimentSpec::fitness, prepared.fitness->settings());
+  settleBoth(&ExperimentSpec::learner, learner->settingsFor(prepared.genotype));
+  settleBoth(&ExperimentSpec::adaptation, adaptation->settingsFor(simulatorParameters()));
+  // What is set for a parameter that is not adapted plays no part.
+  std::erase_if(prepared.spec.adaptation.settings,
+                [used = adaptation->settingsFor(prepared.adapted)](const auto& s) { return !find(used, s.first); });
+
+  const bool inReality = !spec.realityLearner.name.empty();
+  const auto realityLearner = host.learner(inReality ? spec.realityLearner.name : spec.learner.name);
+  if (inReality) settleBoth(&ExperimentSpec::realityLearner, realityLearner->settingsFor(prepared.genotype));
+
   // The learners' own checks: what they cannot search is refused now, not after hours.
   Random unused(0);
   learner->start(prepared.genotype, prepared.spec.learner.settings, unused);
   adaptation->start(prepared.adapted, prepared.spec.adaptation.settings, unused);
+  if (inReality) realityLearner->start(prepared.genotype, prepared.spec.realityLearner.settings, unused);
 
   for (const StoredFile& file : prepared.files)
     prepared.models[file.name] = std::make_shared<const RobotModel>(parseModel(file));

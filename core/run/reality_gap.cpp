@@ -46,6 +46,7 @@ std::vector<RealFitness> realFitness(const std::vector<MeasurementTask>& tasks,
     r.individual = task.individual;
     r.stage = task.stage;
     r.heldOut = task.heldOut;
+    r.iteration = task.iteration;
     r.count = static_cast<int>(values.size());
     for (double v : values) r.mean += v;
     r.mean /= r.count;

@@ -17,6 +17,7 @@ struct RealFitness {
   int count = 0;
   int stage = 0;
   bool heldOut = false;
+  int iteration = 0;  ///< of L2, 0: measured by the stage itself
 };
 
 /// How real and simulated fitness are compared over several individuals: names as in adaptationParameters().

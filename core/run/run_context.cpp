@@ -63,6 +63,10 @@ double RunContext::adaptationSetting(const std::string& name) const {
   return valueOf(adaptationParameters(), prepared.spec.adaptationSettings, name);
 }
 
+double RunContext::realitySetting(const std::string& name) const {
+  return valueOf(realityLearningParameters(), prepared.spec.realitySettings, name);
+}
+
 std::uint64_t RunContext::trialSeed() const { return Random::forPurpose(record.seed, "trial").next() >> 1; }
 
 int RunContext::measuredAfter(int stage) const {

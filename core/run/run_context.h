@@ -36,6 +36,7 @@ class RunContext {
 
   int stageSetting(const std::string& name) const;          ///< of stageParameters()
   double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()
+  double realitySetting(const std::string& name) const;     ///< of realityLearningParameters()
   std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
   /// L1 generation after which stage k = 1, 2, … measures, at most the total.
   int measuredAfter(int stage) const;
@@ -56,8 +57,15 @@ bool learnUntil(RunContext& context, int lastGeneration);
 /// Chooses who is measured after the stage's last generation and stores tasks and traces. False if stopped.
 bool beginMeasuring(RunContext& context, int stage);
 /// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are
-/// settled.
-bool completeMeasuring(RunContext& context, int stage);
+/// settled; with an iteration those of L2's.
+bool completeMeasuring(RunContext& context, int stage, int iteration = 0);
+/// How a stage ended that may also wait for a person.
+enum class StageEnd { done, waiting, stopped };
+/// L2, where the experiment wants it after this stage: iteration by iteration the learner proposes policies, which are
+/// tried in reality (or in the newest simulator).
+StageEnd learnInReality(RunContext& context, int stage);
+/// What L2 of a completed stage gives back to L1; nothing if it had none or nothing is to go back.
+std::optional<std::vector<double>> givenBack(const RunContext& context, int stage);
 /// L3: a new simulator version from all measurements so far. False if stopped.
 bool adaptSimulator(RunContext& context, int stage);
 

@@ -109,6 +109,25 @@ const std::vector<Parameter>& adaptationParameters() {
        false,
        {"mean_absolute", "root_mean_square", "maximum"}},
       {"held_out", "", "measured individuals of each stage that the adaptation never sees", 0, 999, 0, {}, true},
+      {"sees_policies", "", "it also sees the policies that L2 measured", 0, 1, 0, {}, false, {"no", "yes"}},
+  };
+  return parameters;
+}
+
+const std::vector<Parameter>& realityLearningParameters() {
+  static const std::vector<Parameter> parameters{
+      {"iterations", "", "iterations of one stage of learning in reality", 1, 1000, 5, {}, true},
+      {"repeats", "", "wanted measurements of each policy", 1, 100, 3, {}, true},
+      {"evaluated_in", "", "where policies are tried", 0, 1, 0, {}, false, {"reality", "simulator"}},
+      {"begins_at", "", "the individual it begins at", 0, 1, 0, {}, false, {"best_measured", "best_simulated"}},
+      {"first_stage", "", "measurement stage that it first belongs to", 1, 1e6, 1, {}, true},
+      {"every_stages", "", "and then every so many stages", 1, 1e6, 1, {}, true},
+      {"most_stages", "", "at most in so many stages; 0: in all", 0, 1e6, 0, {}, true},
+      {"after_last", "", "also after the last measurement", 0, 1, 0, {}, false, {"no", "yes"}},
+      {"patience", "", "ends early after so many iterations without a better policy; 0: never", 0, 1000, 0, {}, true},
+      {"gives_back", "", "what goes back into the simulator", 0, 1, 0, {}, false, {"best_measured", "centre"}},
+      {"copies", "", "share of the next population that are permutations of it; 0: nothing goes back", 0, 1, 1},
+      {"flip", "", "probability that a bit of such a copy flips", 0, 0.5, 0.05},
   };
   return parameters;
 }
@@ -151,6 +170,11 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
     if (!find(simulatorParameters(), *name) || std::find(spec.adapted.begin(), name, *name) != name)
       adaptation.refuse("parameters", "names of the simulator's parameters, each once; \"" + *name + "\" is not");
   adaptation.finish();
+  if (auto learning = reader.objectIfAny("reality_learning")) {
+    spec.realityLearner = choiceFrom(learning->object("learner"));
+    spec.realitySettings = learning->values("settings", realityLearningParameters());
+    learning->finish();
+  }
   if (auto simulator = reader.objectIfAny("simulator")) {
     spec.simulator = simulatorFromReader(*simulator);
     simulator->finish();
@@ -192,6 +216,10 @@ std::string toJsonText(const ExperimentSpec& experiment) {
     document["start"] = {{"parameters", btr::toJson(experiment.start->parameters, {})},
                          {"share", experiment.start->share},
                          {"flip", experiment.start->flip}};
+  // What is not used is not written: experiments without it keep the text that their runs are known by.
+  if (!experiment.realityLearner.name.empty())
+    document["reality_learning"] = {{"learner", toJson(experiment.realityLearner)},
+                                    {"settings", btr::toJson(experiment.realitySettings, realityLearningParameters())}};
   return document.dump(2) + "\n";
 }
 

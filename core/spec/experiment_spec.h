@@ -41,6 +41,8 @@ struct ExperimentSpec {
   PluginChoice adaptation;           ///< L3's learner, e.g. "ga"
   Values adaptationSettings;         ///< how L3 compares: adaptationParameters()
   std::vector<std::string> adapted;  ///< names of simulatorParameters() that L3 may change; empty means all
+  PluginChoice realityLearner;       ///< L2's learner, e.g. "pgrl"; without a name the run has no L2
+  Values realitySettings;            ///< when and how long L2 learns: realityLearningParameters()
   SimulatorSpec simulator;  ///< the simulator the run starts with; what is absent has the scene's and robot's numbers
   std::string reality = "person";  ///< who answers the measurements: "person" or "stand_in"
   Values standIn;                  ///< standInParameters(), used when reality is "stand_in"
@@ -61,6 +63,8 @@ PluginChoice choiceOf(const std::string& name, const Values& settings, std::span
 const std::vector<Parameter>& stageParameters();
 /// generations, norm (mean_absolute | root_mean_square | maximum), held_out, …
 const std::vector<Parameter>& adaptationParameters();
+/// iterations, repeats, first_stage, every_stages, gives_back, …
+const std::vector<Parameter>& realityLearningParameters();
 /// seed, noise_m, parameter_error, effects, …
 const std::vector<Parameter>& standInParameters();
 

@@ -56,12 +56,12 @@ class Database {
   void addGeneration(GenerationRecord& generation);
   std::vector<GenerationRecord> generations(Id run, int after = 0) const;  ///< without individuals and learner states
   std::optional<GenerationRecord> lastGeneration(Id run) const;            ///< with individuals and states
-  std::vector<IndividualRecord> individuals(Id run,
-                                            int generation = 0) const;  ///< 0: of all generations, in their order
+  /// Those of L1; 0: of all generations, in their order.
+  std::vector<IndividualRecord> individuals(Id run, int generation = 0) const;
   std::vector<IndividualRecord> individualsOfSimulator(Id run,
                                                        Id simulator) const;  ///< simulated ones only (sameAs = 0)
   std::vector<IndividualRecord> bestIndividuals(Id run, int count, int firstGeneration, int lastGeneration) const;
-  ///< distinct chromosomes, best first, ties by generation and slot; lastGeneration 0: no limit
+  ///< distinct (identityOf), best first, ties by generation and slot; lastGeneration 0: no limit
   IndividualRecord individual(Id id) const;
   /// Refuses a hash that differs from the one stored with the individual: that would be another trial.
   void setTrace(Id individual, const std::string& packed, const std::string& sha256);
@@ -77,6 +77,20 @@ class Database {
   void setMeasurementVoid(Id measurement, bool isVoid, const std::string& note);
   std::vector<MeasurementRecord> measurements(Id run) const;  ///< in the order of entry, void ones too
   MeasurementRecord measurement(Id id) const;
+
+  // ---- L2
+  /// The next iteration as it begins (run, stage, number, centre before, states after the learner was asked), its
+  /// policies (ids, generation and slots are written back), their packed traces ("" for none) and, with `wantedRepeats`
+  /// > 0, their measurement tasks in the order `order` (indices of policies); the run then waits.
+  void beginRealityIteration(const RealityIteration& begun, std::vector<IndividualRecord>& policies,
+                             const std::vector<std::string>& traces, const std::vector<std::size_t>& order,
+                             int wantedRepeats);
+  std::optional<RealityIteration> begunRealityIteration(Id run,
+                                                        int stage) const;  ///< begun and not finished; no policies
+  std::vector<IndividualRecord> realityPolicies(Id run, int stage, int number) const;  ///< begun or finished; else none
+  /// Ends the iteration that was begun; its centre before is kept from there.
+  void addRealityIteration(const RealityIteration& iteration);
+  std::vector<RealityIteration> realityIterations(Id run, int stage = 0) const;  ///< 0: of all stages
 
   // ---- L3
   void addAdaptation(const AdaptationRecord& adaptation);  ///< refuses a stage or number that is not the next

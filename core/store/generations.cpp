@@ -18,23 +18,11 @@ GenerationRecord generationOf(const Query& row) {
   return g;
 }
 
-constexpr const char* individualColumns =
-    "SELECT id, run_id, generation, slot, simulator_id, chromosome, parameters, fitness, outcome, detail, same_as, "
-    "trial_seed, "
-    "trace_sha256 FROM individual ";
-
-IndividualRecord individualOf(const Query& row) {
-  IndividualRecord i;
-  row.get(i.id, i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
-          i.sameAs, i.trialSeed, i.traceSha256);
-  return i;
-}
-
 template <class... Values>
 std::vector<IndividualRecord> select(const Connection& connection, const char* rest, const Values&... values) {
   std::vector<IndividualRecord> all;
-  Query row(connection, (std::string(individualColumns) + rest).c_str(), values...);
-  while (row.next()) all.push_back(individualOf(row));
+  Query row(connection, (std::string(IndividualRow::select) + rest).c_str(), values...);
+  while (row.next()) all.push_back(IndividualRow::read(row));
   return all;
 }
 
@@ -83,19 +71,12 @@ void Database::addGeneration(GenerationRecord& generation) {
     Query(*connection_, "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?)")
         .run(g.run, g.number, g.randomState, g.learnerState);
 
-    Query row(*connection_,
-              "INSERT INTO individual (run_id, generation, slot, simulator_id, chromosome, parameters, fitness, "
-              "outcome, detail, "
-              "same_as, trial_seed, trace_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    Query rowId(*connection_, "SELECT last_insert_rowid()");
+    IndividualRow row(*connection_);
     for (std::size_t k = 0; k < g.individuals.size(); ++k) {
       IndividualRecord& i = g.individuals[k];
       complete(*connection_, g, k, i);
       if (i.simulator != g.simulator) requireRowOfRun(*connection_, "simulator", g.run, i.simulator);
-      row.run(i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
-              Reference{i.sameAs}, i.trialSeed, i.traceSha256);
-      i.id = *rowId.value<Id>();
-      rowId.reset();
+      i.id = row.insert(i);
     }
     Query(*connection_, "UPDATE run_state SET generation = ?, updated_at = ? WHERE run_id = ?")
         .run(g.number, g.finishedAt, g.run);
@@ -122,21 +103,24 @@ std::optional<GenerationRecord> Database::lastGeneration(Id run) const {
     Query state(*connection_, "SELECT random_state, learner_state FROM learner_state WHERE run_id = ? AND number = ?",
                 run, g.number);
     if (state.next()) state.get(g.randomState, g.learnerState);
-    g.individuals = select(*connection_, "WHERE run_id = ? AND generation = ? ORDER BY slot", run, g.number);
+    g.individuals =
+        select(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run, g.number);
     return g;
   });
 }
 
 std::vector<IndividualRecord> Database::individuals(Id run, int generation) const {
   return connection_->read([&] {
-    if (generation == 0) return select(*connection_, "WHERE run_id = ? ORDER BY generation, slot", run);
-    return select(*connection_, "WHERE run_id = ? AND generation = ? ORDER BY slot", run, generation);
+    if (generation == 0)
+      return select(*connection_, "WHERE run_id = ? AND iteration = 0 ORDER BY generation, slot", run);
+    return select(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run, generation);
   });
 }
 
 std::vector<IndividualRecord> Database::individualsOfSimulator(Id run, Id simulator) const {
   return connection_->read([&] {
-    return select(*connection_, "WHERE simulator_id = ? AND same_as IS NULL AND run_id = ? ORDER BY id", simulator,
+    return select(*connection_,
+                  "WHERE simulator_id = ? AND same_as IS NULL AND run_id = ? AND iteration = 0 ORDER BY id", simulator,
                   run);
   });
 }
@@ -147,13 +131,13 @@ std::vector<IndividualRecord> Database::bestIndividuals(Id run, int count, int f
     std::unordered_set<std::string> seen;
     Query row(
         *connection_,
-        (std::string(individualColumns) + "WHERE run_id = ?1 AND generation >= ?2 AND (?3 = 0 OR generation <= ?3) "
-                                          "ORDER BY fitness DESC, generation, slot")
+        (std::string(IndividualRow::select) + "WHERE run_id = ?1 AND generation >= ?2 AND (?3 = 0 OR generation <= ?3) "
+                                              "AND iteration = 0 ORDER BY fitness DESC, generation, slot")
             .c_str(),
         run, first, last);
     while (static_cast<int>(best.size()) < count && row.next()) {
-      IndividualRecord individual = individualOf(row);
-      if (seen.insert(individual.chromosome).second) best.push_back(std::move(individual));
+      IndividualRecord individual = IndividualRow::read(row);
+      if (seen.insert(identityOf(individual)).second) best.push_back(std::move(individual));
     }
     return best;
   });

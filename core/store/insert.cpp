@@ -28,4 +28,30 @@ RunCounters countersOf(const Connection& connection, Id run) {
   return counters;
 }
 
+const char* const IndividualRow::select =
+    "SELECT id, run_id, generation, slot, simulator_id, chromosome, parameters, fitness, outcome, detail, same_as, "
+    "trial_seed, trace_sha256, iteration FROM individual ";
+
+IndividualRecord IndividualRow::read(const Query& row) {
+  IndividualRecord i;
+  row.get(i.id, i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
+          i.sameAs, i.trialSeed, i.traceSha256, i.iteration);
+  return i;
+}
+
+IndividualRow::IndividualRow(const Connection& connection)
+    : insert_(connection,
+              "INSERT INTO individual (run_id, generation, slot, simulator_id, chromosome, parameters, fitness, "
+              "outcome, detail, same_as, trial_seed, trace_sha256, iteration) "
+              "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+      id_(connection, "SELECT last_insert_rowid()") {}
+
+Id IndividualRow::insert(const IndividualRecord& i) {
+  insert_.run(i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
+              Reference{i.sameAs}, i.trialSeed, i.traceSha256, i.iteration);
+  const Id id = *id_.value<Id>();
+  id_.reset();
+  return id;
+}
+
 }  // namespace btr

@@ -33,4 +33,16 @@ inline std::string orNow(const std::string& time) { return time.empty() ? utcNow
 /// The version and its numbers; its number is the next of its run.
 Id insertSimulator(const Connection& connection, const SimulatorRecord& simulator);
 
+/// Rows of the table of individuals.
+class IndividualRow {
+ public:
+  static const char* const select;  ///< "SELECT … FROM individual ", in the order that read() takes
+  static IndividualRecord read(const Query& row);
+  explicit IndividualRow(const Connection& connection);
+  Id insert(const IndividualRecord& individual);  ///< returns the new row's id
+
+ private:
+  Query insert_, id_;
+};
+
 }  // namespace btr

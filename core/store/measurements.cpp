@@ -59,13 +59,13 @@ std::vector<MeasurementTask> Database::measurementTasks(Id run, int stage) const
   return connection_->read([&] {
     std::vector<MeasurementTask> all;
     Query row(*connection_,
-              "SELECT run_id, stage, individual_id, position, simulated_fitness, wanted_repeats, held_out FROM "
-              "measurement_task "
+              "SELECT run_id, stage, individual_id, position, simulated_fitness, wanted_repeats, held_out, "
+              "iteration FROM measurement_task "
               "WHERE run_id = ?1 AND (?2 = 0 OR stage = ?2) ORDER BY stage, position",
               run, stage);
     while (row.next()) {
       MeasurementTask& t = all.emplace_back();
-      row.get(t.run, t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut);
+      row.get(t.run, t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.iteration);
     }
     return all;
   });

@@ -6,6 +6,8 @@
 #include <array>
 #include <string>
 
+#include "core/store/migration_steps.h"
+
 namespace btr {
 namespace {
 
@@ -231,12 +233,10 @@ CREATE TABLE recording_data (
 ) STRICT;
 )";
 
-// What was found is kept: the database itself refuses to change or delete it, whichever program asks.
+// What was found is kept.
 void guard(SQLite::Database& database) {
   const auto trigger = [&](const std::string& table, const std::string& event, const std::string& when) {
-    const std::string name = table + "_keeps_" + event.substr(0, 6);
-    database.exec("CREATE TRIGGER \"" + name + "\" BEFORE " + event + " ON " + table + " " + when +
-                  " BEGIN SELECT RAISE(ABORT, 'rows of " + table + " are kept as they were stored'); END");
+    keep(database, table, event, when);
   };
   for (const char* table : {"stored_file", "run", "run_file", "simulator", "simulator_value", "simulator_effect",
                             "simulator_effect_value", "generation", "learner_state", "trace", "measurement_task",
@@ -265,6 +265,7 @@ void firstSchema(SQLite::Database& database) {
 constexpr std::array steps{
     Migration{"the first schema: everything that a Back-to-Reality run is resumed, shown and replayed from",
               firstSchema},
+    Migration{"policies of L2, and how its learner goes on", learningInReality},
 };
 
 }  // namespace

@@ -17,4 +17,11 @@ RunState runStateFromText(const std::string& text) {
   throw InputError("run state", text, "ready, learning, waiting, adapting, finished, stopped or failed");
 }
 
+std::string identityOf(const IndividualRecord& individual) {
+  if (!individual.chromosome.empty()) return individual.chromosome;
+  std::string text;
+  for (const double value : individual.parameters) text += toText(value) + ' ';
+  return text;
+}
+
 }  // namespace btr

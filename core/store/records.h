@@ -67,7 +67,11 @@ struct IndividualRecord {
   Id sameAs = 0;                  ///< not simulated: the fitness is that of this earlier individual (see sameAsSlot)
   std::uint64_t trialSeed = 0;
   std::string traceSha256;        ///< of the trial's trace, "" if it was not recorded
+  int iteration = 0;              ///< 0: evolved by L1; n: a policy of the n-th iteration of L2 after this generation
 };
+
+/// The same text for two individuals that are the same: of a learner without chromosomes its parameters tell.
+std::string identityOf(const IndividualRecord& individual);
 
 /// In a generation that is not stored yet, individuals have no ids: `sameAs` of one that equals an earlier slot of the same
 /// generation. Database::addGeneration puts the id in its place.
@@ -94,6 +98,7 @@ struct MeasurementTask {
   double simulatedFitness = 0;    ///< in the simulator version of that time; hidden from the sheet while blind
   int wantedRepeats = 1;
   bool heldOut = false;           ///< not shown to L3; the gap on it is reported apart
+  int iteration = 0;              ///< 0: the stage's own measurement; n: the n-th iteration of L2 in this stage
 };
 
 /// One value typed in (or answered by the stand-in). Never deleted: a correction voids the old one.
@@ -106,6 +111,26 @@ struct MeasurementRecord {
   std::string note = {}, who = {};
   std::string source = "person";  ///< "person" or "stand_in"
   std::string enteredAt = {};
+};
+
+/// One policy of L2 as its learner was told of it.
+struct RealityPolicy {
+  Id individual = 0;
+  std::optional<double> fitness;  ///< mean of what was measured; none if all of it is void
+  double standardError = 0;       ///< of that mean, from repeats; 0 if it was measured once or simulated
+  int count = 0;                  ///< values that count; 0 if it was simulated
+};
+
+/// One finished iteration of L2, learning in reality from the best individual.
+struct RealityIteration {
+  Id run = 0;
+  int stage = 0;
+  int number = 0;                   ///< 1, 2, …
+  std::vector<double> centreBefore; ///< where the learner stood; empty for a learner without such a point
+  std::vector<double> centreAfter;
+  std::string randomState, learnerState;  ///< after tell; of one that is only begun: after ask
+  std::string finishedAt;
+  std::vector<RealityPolicy> policies;    ///< in the learner's order
 };
 
 /// One generation of L3 with its candidates.

@@ -71,4 +71,45 @@ for id in 1 "${ids[0]}" 24; do
 done
 expect 1 "replay of nobody" "$btr" replay --db "$db" --run 1 --individual 12345
 one_line
+
+# The same with L2: policies wait like individuals do, and go in by hand and by file.
+python3 - "$folder/kick.json" "$folder/l2.json" <<'PY'
+import json, sys
+spec = json.load(open(sys.argv[1]))
+spec["name"] += " with L2"
+spec["reality_learning"] = {"learner": {"name": "pgrl", "settings": {"policies": 3, "measure_centre": "yes"}},
+                            "settings": {"iterations": 1, "repeats": 2}}
+json.dump(spec, open(sys.argv[2], "w"))
+PY
+db=$folder/l2.db
+measure_all() {  # by file: two values each
+  expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+  python3 - "$folder/out" > "$folder/all.csv" <<'PY'
+import json, sys
+print("individual,value")
+for t in json.load(open(sys.argv[1])):
+    for repeat in range(t["wanted_repeats"]):
+        print(f'{t["individual"]},{0.3 + 0.01 * t["position"] + 0.002 * repeat}')
+PY
+  expect 0 "import" "$btr" fitness import --db "$db" --run 1 "$folder/all.csv"
+}
+expect 10 "L1" "$btr" run "$folder/l2.json" --db "$db"
+measure_all
+expect 10 "L2 waits" "$btr" run "$folder/l2.json" --db "$db"
+says out "L2 in stage 1, iteration 1: 4 of 4 policies wait for real fitness"
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+[ "$(grep -c '"iteration": 1' "$folder/out")" = 4 ] || fail "three policies and the centre should wait"
+grep -q simulated_fitness "$folder/out" && fail "the simulated fitness of policies is not hidden"
+policy=$(python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))[0]["individual"])' "$folder/out")
+expect 0 "a policy by hand" "$btr" fitness enter --db "$db" --run 1 --individual "$policy" --value 0.6 --value 0.62
+measure_all
+expect 0 "replay of a policy" "$btr" replay --db "$db" --run 1 --individual "$policy"
+says out "identical to the stored run"
+expect 10 "the next stage" "$btr" run "$folder/l2.json" --db "$db"
+expect 0 "policies" "$btr" export --db "$db" --run 1 --what policies
+[ "$(wc -l < "$folder/out")" = 5 ] || fail "four policies and a header were expected"
+expect 0 "steps" "$btr" export --db "$db" --run 1 --what steps
+[ "$(wc -l < "$folder/out")" = 26 ] || fail "25 parameters and a header were expected"
+measure_all
+expect 0 "the end" "$btr" run "$folder/l2.json" --db "$db"
 finish

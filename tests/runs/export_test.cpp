@@ -75,7 +75,9 @@ class Export : public testing::Test {
   }
   // The table, read by the program's own reader.
   std::vector<Row> table(const std::string& what, const std::vector<std::string>& names = {}) const {
-    std::istringstream stream(exportCsv(*database_, run_, what, names, "m"));
+    std::vector<Parameter> genotype;
+    for (const std::string& name : names) genotype.push_back({name, "", ""});
+    std::istringstream stream(exportCsv(*database_, run_, what, genotype, "m"));
     CsvReader reader(stream, what);
     std::vector<Row> rows;
     for (Row row; reader.next(row);) rows.push_back(row);
@@ -148,7 +150,7 @@ TEST_F(Export, MeasurementsKeepVoidOnesAndTheirSource) {
 TEST_F(Export, WrongRequestsAreRefused) {
   EXPECT_THROW(exportCsv(*database_, run_, "everything"), InputError);
   EXPECT_THROW(exportCsv(*database_, 99, "gaps"), InputError);
-  EXPECT_THROW(exportCsv(*database_, run_, "individuals", {"one"}), InputError);
+  EXPECT_THROW(exportCsv(*database_, run_, "individuals", {Parameter{"one", "", ""}}), InputError);
 }
 
 TEST(UnitSuffix, IsTheUnitInLettersAsColumnsEnd) {

@@ -39,6 +39,15 @@ class KilledRun : public testing::Test {
     spec["reality"] = "stand_in";
     writeFile(spec_(), spec.dump());
   }
+
+  /// The same with L2 after the first two stages: its policies twice measured, what it finds seen by L3 and given back.
+  void learnInReality() {
+    nlohmann::json spec = nlohmann::json::parse(readFile(spec_()));
+    spec["reality_learning"] = {{"learner", {{"name", "pgrl"}, {"settings", {{"policies", 5}, {"epsilon", 0.1}}}}},
+                                {"settings", {{"iterations", 2}, {"repeats", 2}, {"copies", 0.75}}}};
+    spec["adaptation"]["settings"]["sees_policies"] = "yes";
+    writeFile(spec_(), spec.dump());
+  }
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string spec_() const { return (folder_ / "experiment.json").string(); }
@@ -70,7 +79,15 @@ class KilledRun : public testing::Test {
                                       i.outcome, i.detail, i.sameAs, i.trialSeed, i.traceSha256});
     }
     for (const MeasurementTask& t : db.measurementTasks(1))
-      all["tasks"].push_back({t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut});
+      all["tasks"].push_back(
+          {t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.iteration});
+    for (const RealityIteration& r : db.realityIterations(1)) {
+      all["iterations"].push_back({r.stage, r.number, r.centreBefore, r.centreAfter, r.randomState, r.learnerState});
+      for (const IndividualRecord& i : db.realityPolicies(1, r.stage, r.number))
+        all["policies"].push_back({i.id, i.generation, i.slot, i.iteration, i.parameters, i.fitness, i.traceSha256});
+      for (const RealityPolicy& p : r.policies)
+        all["told"].push_back({p.individual, p.fitness.value_or(-1e9), p.standardError, p.count});
+    }
     for (const MeasurementRecord& m : db.measurements(1))
       all["measurements"].push_back({m.individual, m.value, m.isVoid, m.source});
     for (const SimulatorRecord& s : db.simulators(1))
@@ -127,6 +144,25 @@ TEST_F(KilledRun, GoesOnWithTheSameBitsAfterAtLeastFiftyKills) {
   killAndCompare(expected, 50);
 }
 
+TEST_F(KilledRun, GoesOnWithTheSameBitsAlsoInTheMidstOfLearningInReality) {
+  learnInReality();
+  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  killAndCompare(results(database("undisturbed")), 25);
+  const Database db = Database::open(database("undisturbed"), Database::Mode::readOnly);
+  EXPECT_EQ(4u, db.realityIterations(1).size()) << "two iterations in the first two of three stages";
+}
+
+TEST_F(KilledRun, GoesOnWithTheSameBitsWhicheverLearnersStandInTheStages) {
+  learnInReality();
+  nlohmann::json spec = nlohmann::json::parse(readFile(spec_()));
+  spec["learner"] = {{"name", "cma_es"}, {"settings", {{"population", 6}}}};
+  spec["adaptation"]["learner"] = {{"name", "pgrl"}, {"settings", {{"policies", 4}}}};
+  spec["reality_learning"]["learner"] = {{"name", "ga"}, {"settings", {{"population", 4}}}};
+  writeFile(spec_(), spec.dump());
+  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  killAndCompare(results(database("undisturbed")), 12);
+}
+
 TEST_F(KilledRun, HasTheSameBitsWithOneAndWithFourWorkers) {
   ASSERT_EQ(0, wait(start(database("one"), "1")));
   ASSERT_EQ(0, wait(start(database("four"), "4")));
@@ -143,7 +179,8 @@ TEST_F(KilledWalk, GoesOnWithTheSameBitsOnAnyNumberOfWorkers) {
   const auto first = db.individuals(1, 1);
   ASSERT_FALSE(first.empty());
   for (std::size_t i = 0; i < genotype.size(); ++i)
-    EXPECT_NEAR(genotype[i].byDefault, first[0].parameters[i], 0.51 / 255 * (genotype[i].maximum - genotype[i].minimum));
+    EXPECT_NEAR(genotype[i].byDefault, first[0].parameters[i],
+                0.51 / 255 * (genotype[i].maximum - genotype[i].minimum));
   ASSERT_EQ(0, wait(start(database("four"), "4")));
   EXPECT_EQ(expected, results(database("four")));
   killAndCompare(expected, 10);

@@ -179,6 +179,19 @@ TEST_F(Records, ReusedIndividualsPointToTheSimulatedOne) {
   EXPECT_THAT(refusal([&] { db_.addGeneration(wrong); }), HasSubstr("individual 1000 is not in the database"));
 }
 
+TEST_F(Records, TheBestOfALearnerWithoutChromosomesAreDistinctParameters) {
+  GenerationRecord generation = generationOf(run_, 1, 4, 1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    generation.individuals[k].chromosome = "";
+    generation.individuals[k].parameters = {0.1 * static_cast<double>(k % 3), 1};
+    generation.individuals[k].fitness = static_cast<double>(k);
+  }
+  db_.addGeneration(generation);
+  std::vector<int> slots;
+  for (const IndividualRecord& i : db_.bestIndividuals(run_, 10, 1, 0)) slots.push_back(i.slot);
+  EXPECT_THAT(slots, ElementsAre(3, 2, 1));
+}
+
 TEST_F(Records, TheBestAreDistinctChromosomesAndTiesGoToTheEarlier) {
   for (int number = 1; number <= 3; ++number) {
     GenerationRecord generation = generationOf(run_, number, 4, 1);

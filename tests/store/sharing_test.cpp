@@ -113,6 +113,14 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
     database.setTrace(1, "packed", "hash");
     database.addMeasurementStage(id, 1, {{id, 1, 1, 1, 1.0, 1, false}});
     database.addMeasurement({.run = id, .individual = 1, .value = 1});
+    std::vector<IndividualRecord> policies(1);
+    policies[0].simulator = 1;
+    policies[0].parameters = {1};
+    const RealityIteration begun{id, 1, 1, {1}, {2}, "", "", "", {}};
+    database.beginRealityIteration(begun, policies, {"packed"}, {0}, 2);
+    RealityIteration done = begun;
+    done.policies = {{policies[0].id, 1.5, 0, 1}};
+    database.addRealityIteration(done);
     database.addAdaptation({id, 1, 1, 0, 0, "", "", {{"01", {1}, 1}}});
     start.run = id;
     database.finishStage(start, {id, 1, 1, 0, 1, 1, {}, {}, 1, 1, 0, 1}, RunState::learning);
@@ -122,18 +130,34 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
   std::vector<std::string> tables;
   for (SQLite::Statement row(raw, "SELECT name FROM sqlite_master WHERE type = 'table'"); row.executeStep();)
     tables.push_back(row.getColumn(0).getString());
-  EXPECT_EQ(20u, tables.size());
+  EXPECT_EQ(24u, tables.size());
   for (const std::string& table : tables) {
     EXPECT_GT(raw.execAndGet("SELECT count(*) FROM " + table).getInt(), 0) << table;
     EXPECT_THROW(raw.exec("DELETE FROM " + table), SQLite::Exception) << table;
   }
-  for (const char* change :
-       {"simulator SET parent_id = NULL", "simulator_value SET value = 1", "simulator_effect SET place = 'floor'",
-        "simulator_effect_value SET value = 2", "measurement SET value = 2", "measurement SET who = 'x'",
-        "measurement SET source = 'stand_in'", "measurement SET entered_at = ''", "individual SET fitness = 9",
-        "individual SET trace_sha256 = ''", "generation SET best = 9", "run SET seed = 3",
-        "experiment SET spec_json = ''", "gap SET after = 0", "recording_data SET csv = x''",
-        "stored_file SET content = x''", "trace SET packed = x''"})
+  for (const char* change : {"simulator SET parent_id = NULL",
+                             "simulator_value SET value = 1",
+                             "simulator_effect SET place = 'floor'",
+                             "simulator_effect_value SET value = 2",
+                             "measurement SET value = 2",
+                             "measurement SET who = 'x'",
+                             "measurement SET source = 'stand_in'",
+                             "measurement SET entered_at = ''",
+                             "individual SET fitness = 9",
+                             "individual SET trace_sha256 = ''",
+                             "generation SET best = 9",
+                             "run SET seed = 3",
+                             "experiment SET spec_json = ''",
+                             "gap SET after = 0",
+                             "recording_data SET csv = x''",
+                             "stored_file SET content = x''",
+                             "trace SET packed = x''",
+                             "individual SET iteration = 3",
+                             "measurement_task SET iteration = 3",
+                             "reality_begun SET learner_state = 'x'",
+                             "reality_iteration SET learner_state = 'x'",
+                             "reality_policy SET individual_id = 1",
+                             "reality_result SET fitness = 2"})
     EXPECT_THROW(raw.exec("UPDATE " + std::string(change)), SQLite::Exception) << change;
   EXPECT_EQ(1, raw.exec("UPDATE measurement SET is_void = 1, note = 'slipped'"));
   EXPECT_THROW(raw.exec("INSERT INTO measurement VALUES (9, 1, 1, 9e999, 0, '', '', 'person', '')"), SQLite::Exception);

@@ -24,6 +24,18 @@ ExperimentOffers someOffers() {
           {{"ga", ga, {}}}};
 }
 
+/// The same with a learner that has a step for each parameter of what it searches.
+ExperimentOffers offersWithSteps() {
+  ExperimentOffers offers = someOffers();
+  const std::vector<Parameter> plain{{"policies", "", "of an iteration", 3, 100, 15, {}, true}};
+  std::vector<Parameter> kick = plain;
+  kick.push_back({"epsilon_length_mm", "mm", "step", 0, 10, 0});
+  const PluginForm::Offer ga = offers.learners.front();
+  offers.learners = offers.adapters = {ga, {"pgrl", plain, {}}};
+  offers.learnersOf = {{"kick", {ga, {"pgrl", kick, {}}}}, {"walk", {ga, {"pgrl", plain, {}}}}};
+  return offers;
+}
+
 ExperimentSpec aSpec() {
   ExperimentSpec spec;
   spec.name = "Kick";
@@ -67,6 +79,40 @@ class TestExperimentForm : public QObject {
     form.setSpec(experimentFromJson(text, "kick.json", "/somewhere"));
     QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(text));
     QCOMPARE(form.spec().directory, std::string("/somewhere"));
+  }
+
+  void learningInRealityIsThereOnlyWithALearner() {
+    ExperimentForm form(offersWithSteps());
+    form.setSpec(aSpec());
+    QCOMPARE(form.spec().realityLearner.name, std::string());
+    ExperimentSpec spec = aSpec();
+    spec.realityLearner = {"pgrl", {{"policies", 7}, {"epsilon_length_mm", 2}}, {}};
+    spec.realitySettings = {{"iterations", 4}, {"gives_back", 1}};
+    form.setSpec(spec);
+    QVERIFY2(form.isValid(), qPrintable(form.problems().join('\n')));
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(spec)));
+    spec.realityLearner.settings["epsilon_nobody"] = 1;
+    QVERIFY_EXCEPTION_THROWN(form.setSpec(spec), InputError);
+  }
+
+  void aLearnersStepsFollowTheController() {
+    ExperimentForm form(offersWithSteps());
+    ExperimentSpec spec = aSpec();
+    spec.learner = {"pgrl", {{"policies", 7}, {"epsilon_length_mm", 2}}, {}};
+    form.setSpec(spec);
+    auto* controllers = form.findChild<QWidget*>("controller")->findChild<QComboBox*>();
+    const auto choose = [&](const QString& name) {
+      const int index = controllers->findText(name);
+      controllers->setCurrentIndex(index);
+      emit controllers->activated(index);
+    };
+    choose("walk");
+    QCOMPARE(form.spec().learner.settings, (Values{{"policies", 7}}));
+    form.undoStack().undo();
+    QCOMPARE(form.spec().learner.settings, (Values{{"policies", 7}, {"epsilon_length_mm", 2}}));
+    form.undoStack().redo();
+    QCOMPARE(form.spec().controller.name, std::string("walk"));
+    QVERIFY(form.isValid());
   }
 
   void refusesASettingThatThePluginDoesNotAllowAndKeepsWhatItShows() {

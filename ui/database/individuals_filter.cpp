@@ -49,13 +49,13 @@ void IndividualsFilter::findBest() {
     if (a.fitness != b.fitness) return a.fitness > b.fitness;
     return std::pair(a.generation, a.slot) < std::pair(b.generation, b.slot);
   };
-  std::unordered_map<std::string_view, const IndividualRecord*> best;
+  std::unordered_map<std::string, const IndividualRecord*> best;
   for (int row = 0; row < model_.rowCount(); ++row) {
     const IndividualRecord& record = model_.at(row);
-    const auto [place, fresh] = best.emplace(record.chromosome, &record);
+    const auto [place, fresh] = best.emplace(identityOf(record), &record);
     if (!fresh && better(record, *place->second)) place->second = &record;
   }
-  for (const auto& [chromosome, record] : best) best_.insert(record->id);
+  for (const auto& [identity, record] : best) best_.insert(record->id);
 }
 
 bool IndividualsFilter::filterAcceptsRow(int row, const QModelIndex&) const {

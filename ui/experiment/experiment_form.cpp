@@ -10,6 +10,7 @@
 
 #include "ui/common/section.h"
 #include "ui/common/theme.h"
+#include "ui/experiment/learner_form.h"
 #include "ui/experiment/parameter_form.h"
 
 namespace btr::ui {
@@ -27,6 +28,22 @@ void checkSettings(const PluginChoice& choice, const std::vector<PluginForm::Off
     if (offer.name.toStdString() == choice.name) settingsOf(choice, offer.settings, place);
 }
 
+/// In the list of L2's learners: the run has no L2.
+const char* const noLearner = "none";
+
+std::vector<PluginForm::Offer> withNone(const std::vector<PluginForm::Offer>& offers) {
+  std::vector<PluginForm::Offer> all{{noLearner, {}, QObject::tr("The run does not learn in reality.")}};
+  all.insert(all.end(), offers.begin(), offers.end());
+  return all;
+}
+
+std::map<QString, std::vector<PluginForm::Offer>> withNone(
+    const std::map<QString, std::vector<PluginForm::Offer>>& all) {
+  std::map<QString, std::vector<PluginForm::Offer>> with;
+  for (const auto& [genotype, offers] : all) with[genotype] = withNone(offers);
+  return with;
+}
+
 QString changes(int count) { return count == 0 ? QString() : QObject::tr("%1 changed").arg(count); }
 
 }  // namespace
@@ -40,8 +57,15 @@ ExperimentOffers offersOf(const PluginHost& host) {
     offers.fitnesses.push_back({QString::fromStdString(name), fitness->settings(),
                                 QString::fromStdString(fitness->meaning() + " [" + fitness->unit() + "]")});
   }
-  for (const auto& name : host.learners())
-    offers.learners.push_back({QString::fromStdString(name), host.learner(name)->settings(), {}});
+  for (const auto& name : host.learners()) {
+    const auto learner = host.learner(name);
+    const QString shown = QString::fromStdString(name);
+    offers.learners.push_back({shown, learner->settings(), {}});
+    offers.adapters.push_back({shown, learner->settingsFor(simulatorParameters()), {}});
+    for (const auto& controller : host.controllers())
+      offers.learnersOf[QString::fromStdString(controller)].push_back(
+          {shown, learner->settingsFor(host.controller(controller)->genotype()), {}});
+  }
   return offers;
 }
 
@@ -50,15 +74,21 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
       offers_(offers),
       controller_(new PluginForm(tr("Controller"), offers.controllers, undo_, this)),
       fitness_(new PluginForm(tr("Fitness"), offers.fitnesses, undo_, this)),
-      learner_(new PluginForm(tr("Learner"), offers.learners, undo_, this)),
-      adaptation_(new PluginForm(tr("Learner"), offers.learners, undo_, this)),
+      adaptation_(
+          new PluginForm(tr("Learner"), offers.adapters.empty() ? offers.learners : offers.adapters, undo_, this)),
+      learner_(new LearnerForm(tr("Learner"), offers.learnersOf, offers.learners, undo_, this)),
+      realityLearner_(
+          new LearnerForm(tr("Learner"), withNone(offers.learnersOf), withNone(offers.learners), undo_, this)),
       stages_(new ParameterForm(stageParameters(), undo_, this)),
+      realitySettings_(new ParameterForm(realityLearningParameters(), undo_, this)),
       adaptationSettings_(new ParameterForm(adaptationParameters(), undo_, this)),
       simulator_(new ParameterForm(simulatorParameters(), undo_, {.checkable = true, .filterFrom = 99}, this)) {
   controller_->setObjectName("controller");
   fitness_->setObjectName("fitness");
   learner_->setObjectName("learner");
   adaptation_->setObjectName("adaptation");
+  realityLearner_->setObjectName("realityLearner");
+  realitySettings_->setObjectName("realitySettings");
   stages_->setObjectName("stages");
   simulator_->setObjectName("simulator");
 
@@ -82,7 +112,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   adaptationColumn->addWidget(adaptationSettings_);
   adaptationColumn->addWidget(adaptation_);
 
-  // The story of a run from top to bottom: what, how it is judged, L1, measuring, L3.
+  // The story of a run from top to bottom: what, how it is judged, L1, measuring, L2, L3.
   auto* inside = new QWidget;
   auto* column = new QVBoxLayout(inside);
   column->setContentsMargins(6, 4, 6, 4);
@@ -92,6 +122,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   add(*column, tr("L1 · learning in simulation"), learner_, true);
   add(*column, tr("Stages and measuring"), stages_, true);
   add(*column, tr("Reality"), makeReality(), true);
+  add(*column, tr("L2 · learning in reality"), makeRealityLearning(), false);
   add(*column, tr("L3 · adapting the simulator"), adaptationPart, false);
   add(*column, tr("Simulator parameters"), simulatorPart, false);
   column->addStretch();
@@ -107,9 +138,12 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   all->addWidget(scroll, 1);
   makeBars(*all);
 
+  connect(controller_, &PluginForm::changed, this, &ExperimentForm::followController);
   for (auto* form : findChildren<ParameterForm*>())
     connect(form, &ParameterForm::changed, this, &ExperimentForm::update);
-  for (auto* form : findChildren<PluginForm*>()) connect(form, &PluginForm::changed, this, &ExperimentForm::update);
+  for (auto* form : {controller_, fitness_, adaptation_})
+    connect(form, &PluginForm::changed, this, &ExperimentForm::update);
+  for (auto* form : {learner_, realityLearner_}) connect(form, &LearnerForm::changed, this, &ExperimentForm::update);
   setSpec({});
 }
 
@@ -119,15 +153,22 @@ ExperimentForm::~ExperimentForm() { undo_.clear(); }
 void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.controller, offers_.controllers, "controller/settings");
   checkSettings(spec.fitness, offers_.fitnesses, "fitness/settings");
-  checkSettings(spec.learner, offers_.learners, "learner/settings");
-  checkSettings(spec.adaptation, offers_.learners, "adaptation/learner/settings");
+  const auto searched = offers_.learnersOf.find(QString::fromStdString(spec.controller.name));
+  const auto& learners = searched == offers_.learnersOf.end() ? offers_.learners : searched->second;
+  checkSettings(spec.learner, learners, "learner/settings");
+  checkSettings(spec.realityLearner, learners, "reality_learning/learner/settings");
+  checkSettings(spec.adaptation, offers_.adapters.empty() ? offers_.learners : offers_.adapters,
+                "adaptation/learner/settings");
   shown_ = spec;
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
   seed_->setValues({{"seed", double(spec.seed)}});
   controller_->setChoice(spec.controller);
   fitness_->setChoice(spec.fitness);
+  followController();
   learner_->setChoice(spec.learner);
+  realityLearner_->setChoice(spec.realityLearner.name.empty() ? PluginChoice{noLearner, {}, {}} : spec.realityLearner);
+  realitySettings_->setValues(spec.realitySettings);
   stages_->setValues(spec.stages);
   adaptation_->setChoice(spec.adaptation);
   adaptationSettings_->setValues(spec.adaptationSettings);
@@ -158,6 +199,9 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.controller = controller_->choice();
   spec.fitness = fitness_->choice();
   spec.learner = learner_->choice();
+  spec.realityLearner = realityLearner_->choice();
+  if (spec.realityLearner.name == noLearner) spec.realityLearner = {};
+  spec.realitySettings = spec.realityLearner.name.empty() ? Values{} : realitySettings_->values();
   spec.stages = stages_->values();
   spec.adaptation = adaptation_->choice();
   spec.adaptationSettings = adaptationSettings_->values();
@@ -180,6 +224,8 @@ QStringList ExperimentForm::problems() const {
   if (scene_->text().trimmed().isEmpty()) problems << tr("Scene: the path of a scene file");
   problems << seed_->problems() << controller_->problems() << fitness_->problems() << learner_->problems()
            << stages_->problems();
+  problems << realityLearner_->problems();
+  if (realityLearner_->choice().name != noLearner) problems << realitySettings_->problems();
   if (reality_->currentData().toString() == "stand_in") problems << standIn_->problems();
   problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems();
   if (simulator_->checked().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
@@ -198,15 +244,17 @@ void ExperimentForm::setReadOnly(const QString& why) {
   browse_->hide();
   reality_->setEnabled(false);
   for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(true);
-  for (auto* form : findChildren<PluginForm*>()) form->setReadOnly(true);
+  for (auto* form : {controller_, fitness_, adaptation_}) form->setReadOnly(true);
+  for (auto* form : {learner_, realityLearner_}) form->setReadOnly(true);
   why_->setText(why);
   update();
 }
 
 void ExperimentForm::resetAll() {
   undo_.beginMacro(tr("reset all fields"));
-  for (auto* form : {controller_, fitness_, learner_, adaptation_}) form->resetAll();
-  for (auto* form : {stages_, adaptationSettings_, simulator_, standIn_}) form->resetAll();
+  for (auto* form : {controller_, fitness_, adaptation_}) form->resetAll();
+  for (auto* form : {learner_, realityLearner_}) form->resetAll();
+  for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_}) form->resetAll();
   undo_.endMacro();
 }
 
@@ -229,8 +277,11 @@ void ExperimentForm::update() {
   sections_[2]->setSummary(changes(fitness_->changedCount()));
   sections_[3]->setSummary(changes(learner_->changedCount()));
   sections_[4]->setSummary(changes(stages_->changedCount()));
-  sections_[6]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
-  sections_[7]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
+  const bool learnsInReality = realityLearner_->choice().name != noLearner;
+  realitySettings_->setVisible(learnsInReality);
+  sections_[6]->setSummary(learnsInReality ? QString::fromStdString(realityLearner_->choice().name) : tr("none"));
+  sections_[7]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
+  sections_[8]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
 
   const QStringList wrong = readOnly_ ? QStringList() : problems();
   problem_->setText(wrong.isEmpty()

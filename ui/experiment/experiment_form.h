@@ -1,6 +1,7 @@
 #pragma once
 #include <QUndoStack>
 #include <QWidget>
+#include <map>
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/experiment_spec.h"
@@ -13,12 +14,15 @@ class QPushButton;
 class QVBoxLayout;
 
 namespace btr::ui {
+class LearnerForm;
 class ParameterForm;
 class Section;
 
 /// What the plugins offer to an experiment, as plain values.
 struct ExperimentOffers {
   std::vector<PluginForm::Offer> controllers, fitnesses, learners;
+  std::map<QString, std::vector<PluginForm::Offer>> learnersOf = {};  ///< with what a controller's genotype adds
+  std::vector<PluginForm::Offer> adapters = {};                       ///< learners for the simulator's parameters
 };
 ExperimentOffers offersOf(const PluginHost& host);
 
@@ -52,6 +56,9 @@ class ExperimentForm : public QWidget {
  private:
   QWidget* makeGeneral();
   QWidget* makeReality();
+  QWidget* makeRealityLearning();
+  /// Learners' pages follow the controller: its parameters may have settings of their own.
+  void followController();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
   QLineEdit* addText(QVBoxLayout& column, const QString& name, const QString& label, const QString& toolTip,
@@ -70,8 +77,9 @@ class ExperimentForm : public QWidget {
   QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
   QWidget* editBar_ = nullptr;
-  PluginForm *controller_, *fitness_, *learner_, *adaptation_;
-  ParameterForm *seed_ = nullptr, *stages_, *adaptationSettings_, *simulator_, *standIn_ = nullptr;
+  PluginForm *controller_, *fitness_, *adaptation_;
+  LearnerForm *learner_, *realityLearner_;
+  ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr;
   std::vector<Section*> sections_;
 };
 

@@ -12,6 +12,7 @@
 #include "ui/common/form_undo.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/experiment_form.h"
+#include "ui/experiment/learner_form.h"
 #include "ui/experiment/parameter_form.h"
 
 namespace btr::ui {
@@ -109,6 +110,27 @@ QWidget* ExperimentForm::makeReality() {
     }));
   });
   return part;
+}
+
+QWidget* ExperimentForm::makeRealityLearning() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* hint =
+      new QLabel(tr("After a measurement a second learner may go on in reality from the best individual: it proposes "
+                    "policies, these are measured, it takes a step. What it finds goes back into the simulator."),
+                 part);
+  hint->setWordWrap(true);
+  hint->setContentsMargins(8, 2, 8, 2);
+  column->addWidget(hint);
+  column->addWidget(realityLearner_);
+  column->addWidget(realitySettings_);
+  return part;
+}
+
+void ExperimentForm::followController() {
+  const QString controller = QString::fromStdString(controller_->choice().name);
+  for (auto* form : {learner_, realityLearner_}) form->setGenotype(controller);
 }
 
 void ExperimentForm::makeBars(QVBoxLayout& column) {

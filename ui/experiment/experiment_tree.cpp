@@ -201,7 +201,8 @@ void ExperimentTree::fillRunMenu(QMenu& menu, Id run) {
   QMenu* exports = menu.addMenu(themeIcon("document-export"), tr("Export as CSV"));
   for (const auto& [what, label] :
        {std::pair{"generations", tr("Generations…")}, std::pair{"individuals", tr("Individuals…")},
-        std::pair{"gaps", tr("Reality gaps…")}, std::pair{"simulators", tr("Simulator versions…")}})
+        std::pair{"gaps", tr("Reality gaps…")}, std::pair{"simulators", tr("Simulator versions…")},
+        std::pair{"policies", tr("Policies of L2…")}, std::pair{"steps", tr("Steps of L2…")}})
     exports->addAction(label, this, [this, run, name = QString(what)] { emit exportRequested(run, name); });
 }
 

@@ -1,6 +1,7 @@
 #include "ui/experiment/run_text.h"
 
 #include <QCoreApplication>
+#include <algorithm>
 
 namespace btr::ui {
 namespace {
@@ -35,7 +36,9 @@ QString stageText(RunFace face, const RunProgress& progress) {
     case RunFace::ready:
       return tr("Ready to start");
     case RunFace::learning:
-      return progress.stage == "L3" ? tr("L3 · adapting the simulator") : tr("L1 · learning in simulation");
+      return progress.stage == "L3"   ? tr("L3 · adapting the simulator")
+             : progress.stage == "L2" ? tr("L2 · learning in reality")
+                                      : tr("L1 · learning in simulation");
     case RunFace::adapting:
       return tr("L3 · adapting the simulator");
     case RunFace::waiting:
@@ -81,8 +84,11 @@ QString iconName(RunFace face) {
 MeasuringCount countMeasured(const RunRecord& run, const std::vector<MeasurementTask>& tasks,
                              const std::vector<MeasurementRecord>& measurements) {
   MeasuringCount count;
+  // Of L2 the iteration that was begun last; the earlier ones are settled.
+  for (const MeasurementTask& task : tasks)
+    if (task.stage == run.stage + 1) count.iteration = std::max(count.iteration, task.iteration);
   for (const MeasurementTask& task : tasks) {
-    if (task.stage != run.stage + 1) continue;
+    if (task.stage != run.stage + 1 || task.iteration != count.iteration) continue;
     ++count.wanted;
     int values = 0;  // a void value settles too: the individual was tried
     for (const MeasurementRecord& measurement : measurements) values += measurement.individual == task.individual;
@@ -99,6 +105,7 @@ QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progre
     case RunFace::adapting:
       if (face == RunFace::adapting || progress.stage == "L3")
         return tr("Then the new simulator version is stored and learning goes on in it.");
+      if (progress.stage == "L2") return tr("Then the step is taken, and the next policies are proposed.");
       if (progress.stageTotal > progress.stageDone && progress.generation < progress.totalGenerations)
         return isStandIn(run) ? tr("In %1 generations the best are measured by the stand-in reality.")
                                     .arg(progress.stageTotal - progress.stageDone)
@@ -109,7 +116,9 @@ QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progre
       if (isStandIn(run))
         return tr("The stand-in reality answers the measurements; press Continue if nothing happens.");
       if (measuring.wanted > 0 && measuring.settled >= measuring.wanted)
-        return tr("All %1 are measured: press Continue to adapt the simulator.").arg(measuring.wanted);
+        return (measuring.iteration > 0 ? tr("All %1 are measured: press Continue to take the step.")
+                                        : tr("All %1 are measured: press Continue to adapt the simulator."))
+            .arg(measuring.wanted);
       return tr("Measure on the real robot and enter the values in the measurement sheet (%1 of %2 done).")
           .arg(measuring.settled)
           .arg(measuring.wanted);

@@ -16,6 +16,7 @@ QString iconName(RunFace face);                                ///< a Breeze ico
 /// Measured and wanted individuals of the stage that waits.
 struct MeasuringCount {
   int settled = 0, wanted = 0;
+  int iteration = 0;  ///< of L2; 0: the stage's own measurement
 };
 MeasuringCount countMeasured(const RunRecord& run, const std::vector<MeasurementTask>& tasks,
                              const std::vector<MeasurementRecord>& measurements);

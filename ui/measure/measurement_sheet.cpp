@@ -158,7 +158,14 @@ QString MeasurementSheet::progressText() const {
 void MeasurementSheet::refresh() {
   const auto& rows = model_.rows();
   QString title = tr("<b>Nothing to measure now.</b> The run stops here by itself when real fitness is wanted.");
-  if (!rows.empty())
+  if (!rows.empty() && rows.front().task.iteration > 0)
+    title = tr("<b>Stage %1, L2, iteration %2: measure these %3 policies</b> in the order given, %4 each.")
+                .arg(rows.front().task.stage)
+                .arg(rows.front().task.iteration)
+                .arg(rows.size())
+                .arg(rows.front().task.wantedRepeats == 1 ? tr("once")
+                                                          : tr("%1 times").arg(rows.front().task.wantedRepeats));
+  else if (!rows.empty())
     title = tr("<b>Stage %1: measure these %2 individuals</b> in the order given, %3 each.")
                 .arg(rows.front().task.stage)
                 .arg(rows.size())

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+namespace SQLite {
+class Database;
+}
+
+// The steps of migrations.cpp that stand in files of their own, and what steps share.
+namespace btr {
+
+/// From now on the database itself refuses `event` (UPDATE, DELETE, UPDATE OF …) on rows of `table` where `when` (or
+/// always), whichever program asks.
+void keep(SQLite::Database& database, const std::string& table, const std::string& event, const std::string& when);
+
+/// Policies of L2 and how its learner goes on.
+void learningInReality(SQLite::Database& database);
+
+}  // namespace btr

@@ -1,0 +1,289 @@
+// L2: what it begins at, what its learner is told, what goes back, and when it is done.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/run/back_to_reality.h"
+#include "core/run/export.h"
+#include "core/run/prepared_experiment.h"
+#include "core/run/reality_gap.h"
+#include "core/run/reality_report.h"
+#include "core/spec/error.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace btr;
+
+class RealityLearning : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_);
+    spec_ = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+    spec_.learner.settings["population"] = 6;
+    spec_.adaptation.settings["population"] = 4;
+    spec_.adaptationSettings["generations"] = 1;
+    spec_.stages = {
+        {"first_generations", 2}, {"next_generations", 1}, {"total_generations", 4}, {"measured_individuals", 3}};
+    spec_.realityLearner = {"pgrl", {{"policies", 4}, {"epsilon", 0.1}}, {}};
+    spec_.realitySettings = {{"iterations", 2}, {"repeats", 2}};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Starts the experiment in a database of its own.
+  void begin(const std::string& name) {
+    db_.emplace(Database::open((folder_ / (name + ".db")).string(), Database::Mode::create));
+    run_ = startRun(*db_, host, spec_, 1);
+  }
+  /// Runs the experiment to its end or until it waits.
+  RunEnd go() {
+    if (!db_) begin("run");
+    const StopFlag never{false};
+    return continueRun(*db_, host, run_, never, {.jobs = 2, .progress = {}});
+  }
+  /// Enters values for every task that has not its repeats yet: `value` of the parameters, one higher each repeat.
+  template <class F>
+  void measure(F value) {
+    const auto done = db_->measurements(run_);
+    for (const MeasurementTask& task : db_->measurementTasks(run_)) {
+      if (isSettled(task, done)) continue;
+      MeasurementRecord m;
+      m.run = run_;
+      m.individual = task.individual;
+      for (int repeat = 0; repeat < task.wantedRepeats; ++repeat) {
+        m.value = value(db_->individual(task.individual).parameters) + repeat;
+        db_->addMeasurement(m);
+      }
+    }
+  }
+  std::vector<Parameter> genotype() const { return host.controller("kick")->genotype(); }
+
+  PluginHost host{PLUGIN_DIR};
+  ExperimentSpec spec_;
+  std::optional<Database> db_;
+  Id run_ = 0;
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("btr-l2-" + std::to_string(getpid()));
+};
+
+TEST_F(RealityLearning, WaitsForThePoliciesStepsAndGivesTheBestBack) {
+  spec_.reality = "person";
+  const std::vector<Parameter> declared = genotype();
+  // Reality likes a large first parameter and nothing else.
+  const auto reality = [&](const std::vector<double>& p) {
+    return (p[0] - declared[0].minimum) / (declared[0].maximum - declared[0].minimum);
+  };
+  ASSERT_EQ(RunEnd::waiting, go());
+  measure(reality);
+  ASSERT_EQ(RunEnd::waiting, go());
+
+  // It waits for four policies around the best of the three.
+  std::vector<double> best;
+  for (const MeasurementTask& t : db_->measurementTasks(run_, 1)) {
+    const std::vector<double> p = db_->individual(t.individual).parameters;
+    if (t.iteration == 0 && (best.empty() || reality(p) > reality(best))) best = p;
+  }
+  std::vector<MeasurementTask> tasks = db_->measurementTasks(run_, 1);
+  ASSERT_EQ(7u, tasks.size());
+  const auto begun = db_->begunRealityIteration(run_, 1);
+  ASSERT_TRUE(begun);
+  EXPECT_EQ(best, begun->centreBefore);
+  for (std::size_t i = 3; i < 7; ++i) {
+    EXPECT_EQ(1, tasks[i].iteration);
+    EXPECT_EQ(2, tasks[i].wantedRepeats);
+    EXPECT_EQ(static_cast<int>(i) + 1, tasks[i].position);
+    EXPECT_TRUE(db_->trace(tasks[i].individual)) << "a replay needs it";
+  }
+  EXPECT_EQ("waiting", std::string(toText(db_->run(run_).state)));
+  EXPECT_THAT(db_->run(run_).message, testing::HasSubstr("4 of 4 policies"));
+  ASSERT_EQ(RunEnd::waiting, go()) << "waiting is not over by asking again";
+  EXPECT_EQ(7u, db_->measurementTasks(run_, 1).size());
+
+  // A measurement of the stage that is voided now must not change the policies that wait.
+  db_->setMeasurementVoid(db_->measurements(run_).front().id, true, "the ball hit a wall");
+  measure(reality);
+  ASSERT_EQ(RunEnd::waiting, go());
+  measure(reality);
+  ASSERT_EQ(RunEnd::waiting, go());
+  const std::vector<RealityIteration> iterations = db_->realityIterations(run_, 1);
+  ASSERT_EQ(2u, iterations.size());
+  EXPECT_EQ(iterations[0].centreAfter, iterations[1].centreBefore);
+  const std::vector<IndividualRecord> policies = db_->realityPolicies(run_, 1, 1);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(policies[k].id, iterations[0].policies[k].individual);
+    EXPECT_DOUBLE_EQ(reality(policies[k].parameters) + 0.5, *iterations[0].policies[k].fitness);
+    EXPECT_EQ(2, iterations[0].policies[k].count);
+    EXPECT_DOUBLE_EQ(0.5, iterations[0].policies[k].standardError);  // of two values one apart
+  }
+
+  // The next generation begins with what was best in reality, as near as eight bits say it.
+  std::vector<double> top = best;
+  for (const RealityIteration& i : iterations)
+    for (const IndividualRecord& p : db_->realityPolicies(run_, 1, i.number))
+      if (reality(p.parameters) > reality(top)) top = p.parameters;
+  const IndividualRecord first = db_->individuals(run_, 3).front();
+  for (std::size_t n = 0; n < top.size(); ++n) {
+    const double step = (declared[n].maximum - declared[n].minimum) / 255;
+    EXPECT_NEAR(top[n], first.parameters[n], 0.51 * step) << declared[n].name;
+  }
+  // Policies are nobody that L1 bred.
+  for (int generation = 1; generation <= 3; ++generation) EXPECT_EQ(6u, db_->individuals(run_, generation).size());
+}
+
+TEST_F(RealityLearning, RunsByItselfWithTheStandInAndInTheSimulator) {
+  for (const double where : {0.0, 1.0}) {
+    spec_.realitySettings["evaluated_in"] = where;
+    begin(where == 0 ? "reality" : "simulator");
+    ASSERT_EQ(RunEnd::finished, go());
+    EXPECT_EQ(4u, db_->realityIterations(run_).size()) << "two of three stages: not after the last";
+    for (const MeasurementTask& t : db_->measurementTasks(run_)) EXPECT_TRUE(where == 0 || t.iteration == 0);
+    for (const RealityIteration& i : db_->realityIterations(run_))
+      for (const RealityPolicy& p : i.policies) {
+        EXPECT_EQ(where == 0 ? 2 : 0, p.count);
+        if (where == 1) {
+          EXPECT_EQ(db_->individual(p.individual).fitness, *p.fitness);
+        }
+      }
+  }
+}
+
+TEST_F(RealityLearning, IsDoneInTheStagesThatItsFieldsName) {
+  struct Case {
+    Values settings;
+    std::vector<int> stages;
+  };
+  int number = 0;
+  for (const Case& c : {Case{{{"after_last", 1}}, {1, 2, 3}}, Case{{{"first_stage", 2}}, {2}},
+                        Case{{{"every_stages", 2}, {"after_last", 1}}, {1, 3}}, Case{{{"most_stages", 1}}, {1}}}) {
+    spec_.realitySettings = c.settings;
+    spec_.realitySettings["iterations"] = 1;
+    spec_.realitySettings["evaluated_in"] = 1;
+    begin("stages" + std::to_string(++number));
+    ASSERT_EQ(RunEnd::finished, go());
+    std::vector<int> found;
+    for (const RealityIteration& i : db_->realityIterations(run_)) found.push_back(i.stage);
+    EXPECT_EQ(c.stages, found);
+  }
+}
+
+TEST_F(RealityLearning, EndsEarlyWhenPatienceIsOver) {
+  spec_.reality = "person";
+  spec_.realitySettings = {{"iterations", 9}, {"repeats", 1}, {"patience", 2}};
+  ASSERT_EQ(RunEnd::waiting, go());
+  measure([](const auto&) { return 0.0; });
+  ASSERT_EQ(RunEnd::waiting, go());
+  // The first iteration is the best; two more are waited for, then L1 goes on.
+  double value = 10;
+  while (db_->run(run_).stage == 0) {
+    measure([&](const auto&) { return value; });
+    value -= 1;
+    ASSERT_EQ(RunEnd::waiting, go());
+    ASSERT_GT(value, 0);
+  }
+  EXPECT_EQ(3u, db_->realityIterations(run_, 1).size());
+}
+
+TEST_F(RealityLearning, AllValuesVoidAreAskedForAgainAndSomeVoidAreLeftOut) {
+  spec_.reality = "person";
+  spec_.realitySettings = {{"iterations", 1}, {"repeats", 1}};
+  ASSERT_EQ(RunEnd::waiting, go());
+  measure([](const auto&) { return 0.5; });
+  ASSERT_EQ(RunEnd::waiting, go());
+  MeasurementRecord m;
+  m.run = run_;
+  m.isVoid = true;
+  std::vector<Id> waiting;
+  for (const MeasurementTask& t : db_->measurementTasks(run_, 1))
+    if (t.iteration == 1) waiting.push_back(t.individual);
+  for (const Id id : waiting) {
+    m.individual = id;
+    db_->addMeasurement(m);
+  }
+  ASSERT_EQ(RunEnd::waiting, go());
+  EXPECT_THAT(db_->run(run_).message, testing::HasSubstr("all values are void"));
+  m.isVoid = false;
+  m.value = 0.7;
+  m.individual = waiting.front();
+  db_->addMeasurement(m);
+  ASSERT_EQ(RunEnd::waiting, go());
+  const RealityIteration done = db_->realityIterations(run_, 1).at(0);
+  int known = 0;
+  for (const RealityPolicy& p : done.policies) known += p.fitness.has_value();
+  EXPECT_EQ(1, known);
+  EXPECT_EQ(done.centreBefore, done.centreAfter) << "one value says nothing of a direction";
+}
+
+TEST_F(RealityLearning, L3SeesThePoliciesOnlyWhereItIsToldTo) {
+  spec_.stages["total_generations"] = 3;
+  spec_.realitySettings["iterations"] = 1;
+  for (const double sees : {0.0, 1.0}) {
+    spec_.adaptationSettings["sees_policies"] = sees;
+    begin("sees" + std::to_string(static_cast<int>(sees)));
+    ASSERT_EQ(RunEnd::finished, go());
+    EXPECT_EQ(sees == 1 ? 7 : 3, db_->gaps(run_).at(0).individuals);
+  }
+}
+
+TEST_F(RealityLearning, TheReportShowsTheArithmeticOfTheStepsThatWereTaken) {
+  ASSERT_EQ(RunEnd::finished, go());
+  const std::vector<Parameter> declared = genotype();
+  const auto reports = realityReports(*db_, db_->run(run_), declared);
+  ASSERT_EQ(4u, reports.size());
+  for (const RealityReport& report : reports) {
+    EXPECT_TRUE(report.isFinished);
+    ASSERT_EQ(declared.size(), report.steps.size());
+    double squares = 0;
+    for (const StepRow& s : report.steps) squares += s.gradient.gradient * s.gradient.gradient;
+    for (std::size_t n = 0; n < declared.size(); ++n) {
+      const StepRow& s = report.steps[n];
+      EXPECT_EQ(4, s.gradient.below.count + s.gradient.same.count + s.gradient.above.count);
+      const double epsilon = 0.1 * (declared[n].maximum - declared[n].minimum);
+      const double expected = squares > 0 ? epsilon * s.gradient.gradient / std::sqrt(squares) : 0;
+      EXPECT_NEAR(std::clamp(s.centreBefore + expected, declared[n].minimum, declared[n].maximum), *s.centreAfter,
+                  1e-12 * (declared[n].maximum - declared[n].minimum) + 1e-12)
+          << s.parameter.name;
+    }
+  }
+}
+
+TEST_F(RealityLearning, ExportsPoliciesAndSteps) {
+  ASSERT_EQ(RunEnd::finished, go());
+  const std::vector<Parameter> declared = genotype();
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  EXPECT_EQ(1 + 4 * 4, lines(exportCsv(*db_, run_, "policies", declared, "m")));
+  EXPECT_EQ(1 + 4 * static_cast<long>(declared.size()), lines(exportCsv(*db_, run_, "steps", declared, "m")));
+  EXPECT_EQ(1 + 6 * 4, lines(exportCsv(*db_, run_, "individuals", declared, "m"))) << "L1's own";
+}
+
+TEST_F(RealityLearning, AnyLearnerMayStandInIt) {
+  for (const PluginChoice& learner :
+       {PluginChoice{"ga", {{"population", 4}}, {}}, PluginChoice{"cma_es", {{"population", 4}}, {}}}) {
+    spec_.realityLearner = learner;
+    begin(learner.name);
+    ASSERT_EQ(RunEnd::finished, go());
+    EXPECT_EQ(4u, db_->realityIterations(run_).size());
+    for (const RealityReport& report : realityReports(*db_, db_->run(run_), genotype())) {
+      EXPECT_EQ(4u, report.policies.size());
+      EXPECT_TRUE(report.steps.empty());
+    }
+  }
+}
+
+TEST_F(RealityLearning, AnExperimentWithoutItKeepsItsTextAndWhatItsPluginRefusesIsRefusedAtOnce) {
+  ExperimentSpec without = spec_;
+  without.realityLearner = {};
+  EXPECT_EQ(std::string::npos, toJsonText(without).find("reality_learning"));
+  const ExperimentSpec again = experimentFromJson(toJsonText(spec_), "spec", "");
+  EXPECT_EQ(spec_.realityLearner, again.realityLearner);
+  EXPECT_EQ(spec_.realitySettings, again.realitySettings);
+  spec_.realityLearner.settings["policies"] = 2;
+  EXPECT_THROW(prepareFromFiles(spec_, host), InputError);
+  spec_.realityLearner = {"gradient", {}, {}};
+  EXPECT_THROW(prepareFromFiles(spec_, host), InputError);
+}
+
+}  // namespace

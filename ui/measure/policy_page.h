@@ -1,0 +1,47 @@
+#pragma once
+#include <QWidget>
+#include <vector>
+
+#include "core/run/reality_report.h"
+
+class QComboBox;
+class QLabel;
+class QTableWidget;
+
+namespace btr::ui {
+
+/// The page of L2: one iteration at a time, for each parameter the mean fitness of the policies below, at and above the
+/// centre with standard errors, the step that was chosen and whether chance alone would explain it; and the policies
+/// themselves. What the simulator promised of them is shown once they are measured.
+class PolicyPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PolicyPage(QWidget* parent = nullptr);
+
+  void setUnit(const QString& unit);
+  /// The newest iteration is shown, unless the user looks at an earlier one that is still there.
+  void setReports(std::vector<RealityReport> reports);
+  const std::vector<RealityReport>& reports() const { return reports_; }
+
+  enum StepColumn { parameter, step, verdict, pValue, below, same, above, before, after, stepColumns };
+  enum PolicyColumn { individual, changes, simulated, real, values, policyColumns };
+
+ signals:
+  void replayRequested(btr::Id individual);
+
+ private:
+  void show(int index);
+  void showSteps(const RealityReport& report);
+  void showPolicies(const RealityReport& report);
+
+  QString unit_;
+  std::vector<RealityReport> reports_;
+  QComboBox* iteration_;
+  QLabel* sentence_;
+  QTableWidget *steps_, *policies_;
+};
+
+/// What an iteration found, in one sentence.
+QString sentenceOf(const RealityReport& report);
+
+}  // namespace btr::ui

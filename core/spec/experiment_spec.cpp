@@ -171,7 +171,7 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
       adaptation.refuse("parameters", "names of the simulator's parameters, each once; \"" + *name + "\" is not");
   adaptation.finish();
   if (auto learning = reader.objectIfAny("reality_learning")) {
-    spec.realityLearner = choiceFrom(learning->object("learner"));
+    spec.realityLearner = pluginChoice(learning->object("learner"));
     spec.realitySettings = learning->values("settings", realityLearningParameters());
     learning->finish();
   }

@@ -26,7 +26,11 @@ class KilledRun : public testing::Test {
     fs::create_directories(folder_);
     // The short experiment, smaller still: 3 × 4 generations of 8, three measurement stages, small adaptations.
     nlohmann::json spec = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/" + experiment_));
-    if (experiment_ == "walk-short.json") spec["controller"]["settings"]["duration_s"] = 1;
+    if (experiment_ == "walk-short.json") {
+      spec["controller"]["settings"]["duration_s"] = 1;
+      spec["reality_learning"]["learner"]["settings"]["policies"] = 4;
+      spec["reality_learning"]["settings"]["iterations"] = 1;
+    }
     spec["scene"] = fs::absolute(fs::path(SOURCE_DIR "/resources/experiments") / spec["scene"].get<std::string>())
                         .lexically_normal();
     spec["learner"]["settings"]["population"] = 8;

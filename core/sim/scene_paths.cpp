@@ -12,6 +12,14 @@ namespace {
   throw InputError("simulator value", path, allowed);
 }
 
+/// "head, leg", or "none".
+template <class List>
+std::string namesOf(const List& list) {
+  std::string names;
+  for (const auto& each : list) names += (names.empty() ? "" : ", ") + std::string(each.name);
+  return names.empty() ? "none" : names;
+}
+
 std::string next(std::string& rest) {
   const auto dot = rest.find('.');
   std::string word = rest.substr(0, dot);
@@ -30,9 +38,7 @@ const Parameter& declaredIn(const std::vector<Parameter>& declared, const std::s
                             const std::string& path) {
   const Parameter* parameter = find(declared, number);
   if (parameter) return *parameter;
-  std::string names;
-  for (const auto& each : declared) names += (names.empty() ? "" : ", ") + each.name;
-  noSuch(path, "one of " + names);
+  noSuch(path, "one of " + namesOf(declared));
 }
 
 /// The other axes' numbers stay: what is about one axis alone may be known from it alone.
@@ -48,7 +54,8 @@ Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), kind = next(rest), item = next(rest), number = next(rest);
   const auto robot =
       std::find_if(scene.robots.begin(), scene.robots.end(), [&](const auto& r) { return r.name == name; });
-  if (robot == scene.robots.end() || !rest.empty()) noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
+  if (robot == scene.robots.end()) noSuch(path, "a robot of this scene, which has " + namesOf(scene.robots));
+  if (!rest.empty()) noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
   if (kind == "links") {
     const int link = robot->model.findLink(item);
     if (link < 0) noSuch(path, "a link of " + robot->model.name);
@@ -72,12 +79,9 @@ struct Field {
 };
 
 Target fieldOf(const std::vector<Field>& fields, const std::string& number, const std::string& path) {
-  std::string names;
-  for (const Field& field : fields) {
+  for (const Field& field : fields)
     if (number == field.name) return {field.target, {field.name, "", "", field.minimum, field.maximum}};
-    names += (names.empty() ? "" : ", ") + std::string(field.name);
-  }
-  noSuch(path, "one of " + names);
+  noSuch(path, "one of " + namesOf(fields));
 }
 
 Target floorNumber(Scene& scene, const std::string& path, const std::string& number) {
@@ -95,7 +99,7 @@ Target floorNumber(Scene& scene, const std::string& path, const std::string& num
 Target ballNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), number = rest;
   const auto ball = std::find_if(scene.balls.begin(), scene.balls.end(), [&](const auto& b) { return b.name == name; });
-  if (ball == scene.balls.end()) noSuch(path, "a ball of the scene");
+  if (ball == scene.balls.end()) noSuch(path, "a ball of this scene, which has " + namesOf(scene.balls));
   return fieldOf({{"radius_m", 0.001, 10, &ball->radius_m},
                   {"mass_kg", 1e-6, 1000, &ball->mass_kg},
                   {"inertia_factor", 0.01, 2.0 / 3.0, &ball->inertiaFactor},

@@ -27,6 +27,10 @@ one_line
 says err "is this simulator already"
 expect 1 "a report that is not there" "$btr" gap adopt --db "$db" --run 1 --simulator "$folder/simulator.json" --report "$folder/none"
 one_line
+echo '{"format": "uchilsim-simulator-1", "values": {"robots.arm.servos.elbow.p": 1}, "effects": []}' > "$folder/other.json"
+expect 1 "a simulator of another robot" "$btr" gap adopt --db "$db" --run 1 --simulator "$folder/other.json"
+one_line
+says err "a robot of this scene, which has ers7"
 expect 0 "revert" "$btr" --json gap revert --db "$db" --run 1
 says out '"simulator": 2'
 expect 0 "lineage" "$btr" export --db "$db" --run 1 --what simulators

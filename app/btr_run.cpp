@@ -87,7 +87,7 @@ struct RunArguments {
   Id run = 0;
   int jobs = 0;
   std::uint64_t seed = 0;
-  bool seedGiven = false, again = false, quiet = false;
+  bool seedGiven = false, again = false, quiet = false, withoutRecordings = false;
 };
 
 void run(const RunArguments& arguments, Shell& shell) {
@@ -101,6 +101,7 @@ void run(const RunArguments& arguments, Shell& shell) {
   }
   RunOptions options;
   options.jobs = arguments.jobs;
+  options.withoutRecordings = arguments.withoutRecordings;
   const bool show = isatty(STDERR_FILENO) && !arguments.quiet;
   if (show) options.progress = showProgress;
   const RunEnd end = continueRun(db, shell.plugins(), id, *shell.stop, options);
@@ -122,6 +123,8 @@ void addRunCommands(CLI::App& app, Shell& shell) {
       ->check(CLI::Range(0, 1024));
   CLI::Option* seed = command->add_option("--seed", arguments->seed, "instead of the seed in the file");
   command->add_flag("--again", arguments->again, "start a new run even if the same one is stored");
+  command->add_flag("--without-recordings", arguments->withoutRecordings,
+                    "go on with the recordings that are there, or without any");
   command->add_flag("--quiet", arguments->quiet, "no progress on stderr");
   command->callback([arguments, seed, &shell] {
     arguments->seedGiven = seed->count() > 0;
@@ -150,7 +153,7 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   standInCommand->add_option("--run", standIn->run, "number of the run")->required()->check(CLI::PositiveNumber);
   standInCommand->callback([standIn, &shell] {
     const RunRecord record = Database::open(standIn->database, Database::Mode::readOnly).run(standIn->run);
-    serveStandIn(prepareFromRun(record, shell.plugins()), shell.plugins(), std::cin, std::cout);
+    serveStandIn(asReality(prepareFromRun(record, shell.plugins()), record.seed), shell.plugins(), std::cin, std::cout);
   });
 }
 

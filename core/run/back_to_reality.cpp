@@ -110,6 +110,9 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
       if (context.stopped()) return stopped();
       return waiting();
     }
+    const StageEnd repaired = repairSimulator(context, stage);
+    if (repaired == StageEnd::stopped) return stopped();
+    if (repaired == StageEnd::waiting) return waiting();
     const StageEnd learned = learnInReality(context, stage);
     if (learned == StageEnd::stopped) return stopped();
     if (learned == StageEnd::waiting) return waiting();

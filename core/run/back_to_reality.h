@@ -10,7 +10,7 @@ namespace btr {
 
 /// Where a run is, for progress bars. Written to the database about once a second and after each generation.
 struct RunProgress {
-  std::string stage;   ///< "L1", "measuring", "L2", "L3", "finished"
+  std::string stage;   ///< "L1", "measuring", "gap analysis", "L2", "L3", "finished"
   int generation = 0;  ///< L1 generations done
   int totalGenerations = 0;
   int stageDone = 0, stageTotal = 0;  ///< within this stage: generations of L1 or L3, iterations of L2
@@ -29,7 +29,8 @@ enum class RunEnd { finished, waiting, stopped };
 using StopFlag = std::atomic<bool>;
 
 struct RunOptions {
-  int jobs = 0;  ///< worker processes, 0: as many as processors
+  int jobs = 0;                    ///< worker processes, 0: as many as processors
+  bool withoutRecordings = false;  ///< do not wait for recordings that a person has not attached
   std::function<void(const RunProgress&)> progress;
 };
 

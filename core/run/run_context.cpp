@@ -55,6 +55,8 @@ void RunContext::publish(bool now) {
   if (options_.progress) options_.progress(progress);
 }
 
+int RunContext::jobs() const { return options_.jobs > 0 ? options_.jobs : processorCount(); }
+
 int RunContext::stageSetting(const std::string& name) const {
   return static_cast<int>(valueOf(stageParameters(), prepared.spec.stages, name));
 }

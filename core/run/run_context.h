@@ -34,6 +34,8 @@ class RunContext {
   /// Publishes progress: at once if `now`, else at most once a second.
   void publish(bool now);
 
+  int jobs() const;  ///< worker processes
+  bool withoutRecordings() const { return options_.withoutRecordings; }
   int stageSetting(const std::string& name) const;          ///< of stageParameters()
   double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()
   double realitySetting(const std::string& name) const;     ///< of realityLearningParameters()
@@ -66,6 +68,9 @@ enum class StageEnd { done, waiting, stopped };
 StageEnd learnInReality(RunContext& context, int stage);
 /// What L2 of a completed stage gives back to L1; nothing if it had none or nothing is to go back.
 std::optional<std::vector<double>> givenBack(const RunContext& context, int stage);
+/// Where the experiment wants it after this stage: records the measured individuals (a person attaches recordings),
+/// analyses them and stores the repaired simulator as the newest version.
+StageEnd repairSimulator(RunContext& context, int stage);
 /// L3: a new simulator version from all measurements so far. False if stopped.
 bool adaptSimulator(RunContext& context, int stage);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "core/run/recorded_robot.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/random.h"
@@ -52,13 +53,13 @@ bool hasTypicalSize(const std::vector<Parameter>& parameters) {
 /// A size that the real robot could have: each parameter lies half to one and a half times its typical size away from
 /// the value at which it does nothing (log-uniform), on either side where both are possible. Bounds do not enter: they
 /// say how far a search may look, not what is likely. Numbers that only shape the effect (no neutral value) keep their
-/// default.
-Values drawSize(const std::vector<Parameter>& parameters, Random& random) {
+/// default. `times` makes all of it larger.
+Values drawSize(const std::vector<Parameter>& parameters, double times, Random& random) {
   Values values;
   for (const Parameter& p : parameters) {
     double value = p.byDefault;
     if (const double typical = typicalSize(p); typical != 0) {
-      const double size = typical * std::exp(random.uniform(std::log(0.5), std::log(1.5)));
+      const double size = times * typical * std::exp(random.uniform(std::log(0.5), std::log(1.5)));
       const bool either = p.minimum < *p.neutral && *p.neutral < p.maximum;
       value = std::clamp(*p.neutral + (either && random.chance(0.5) ? -size : size), p.minimum, p.maximum);
     }
@@ -67,36 +68,19 @@ Values drawSize(const std::vector<Parameter>& parameters, Random& random) {
   return values;
 }
 
+/// Those of the places where an effect can sit that the experiment allows.
+std::vector<std::string> allowedPlaces(Effect::Place place, const Scene& scene,
+                                       const std::vector<std::string>& allowed) {
+  std::vector<std::string> places = placesFor(place, scene);
+  if (!allowed.empty())
+    std::erase_if(places, [&](const std::string& at) { return std::ranges::count(allowed, at) == 0; });
+  return places;
+}
+
 std::uint64_t keyOf(std::span<const double> parameters) {
   std::string bytes(parameters.size_bytes(), '\0');
   std::memcpy(bytes.data(), parameters.data(), bytes.size());
   return std::stoull(sha256(bytes).substr(0, 16), nullptr, 16);
-}
-
-void writeRecording(const Trace& trace, const std::string& path, Random& random) {
-  std::string text;
-  std::vector<std::size_t> kept;
-  for (std::size_t c = 0; c < trace.channels.size(); ++c) {
-    const std::string& name = trace.channels[c];
-    const bool wanted = name == "time_s" || name.ends_with(".command_rad") || name.ends_with(".position_rad") ||
-                        (name.starts_with("ball") && (name.ends_with(".x_m") || name.ends_with(".y_m")));
-    if (!wanted) continue;
-    text += (kept.empty() ? "" : ",") + name;
-    kept.push_back(c);
-  }
-  text += '\n';
-  for (std::size_t row = 0; row < trace.rows(); ++row) {
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const std::string& name = trace.channels[kept[i]];
-      double value = trace.at(row, kept[i]);
-      // A potentiometer's and a camera's noise and resolution.
-      if (name.ends_with(".position_rad")) value = std::round((value + 0.001 * random.normal()) * 1000) / 1000;
-      if (name.ends_with("_m")) value = std::round((value + 0.002 * random.normal()) * 1000) / 1000;
-      text += (i ? "," : "") + toText(value);
-    }
-    text += '\n';
-  }
-  writeFile(path, text);
 }
 
 }  // namespace
@@ -106,11 +90,16 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
   const auto seed = static_cast<std::uint64_t>(setting("seed"));
   Random random = Random::forPurpose(seed, "stand-in");
   const Scene plain = prepared.scene(prepared.spec.simulator);
+  const ConcealedSpec& from = prepared.spec.concealed;
   std::vector<std::string> drawable;
-  for (const std::string& name : host.effects()) {
+  for (const std::string& name : from.effects.empty() ? host.effects() : from.effects) {
     const auto effect = host.effect(name);
-    if (hasTypicalSize(effect->parameters()) && !placesFor(effect->place(), plain).empty()) drawable.push_back(name);
+    if (hasTypicalSize(effect->parameters()) && !allowedPlaces(effect->place(), plain, from.at).empty())
+      drawable.push_back(name);
   }
+  if (drawable.empty() && setting("hidden_effects") > 0 && from != ConcealedSpec{})
+    throw InputError("experiment /concealed", "nothing that can be drawn",
+                     "effects that have a typical size, and places of the scene where they can sit");
 
   while (true) {
     Concealed concealed{prepared.spec.simulator, setting("noise_m"), seed};
@@ -123,9 +112,9 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
     for (int i = 0; i < static_cast<int>(setting("hidden_effects")) && !drawable.empty(); ++i) {
       const std::string& name = drawable[random.below(drawable.size())];
       const std::shared_ptr<const Effect> effect = host.effect(name);
-      const std::vector<std::string> places = placesFor(effect->place(), plain);
+      const std::vector<std::string> places = allowedPlaces(effect->place(), plain, from.at);
       const std::string& at = places[random.below(places.size())];
-      concealed.simulator.effects.push_back({name, at, drawSize(effect->parameters(), random)});
+      concealed.simulator.effects.push_back({name, at, drawSize(effect->parameters(), setting("effect_size"), random)});
     }
     try {
       prepared.scene(concealed.simulator);
@@ -138,8 +127,7 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
 
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
                           std::span<const double> parameters, int repeat, const std::string& recordTo) {
-  const Scene scene = prepared.scene(concealed.simulator);
-  const TrialResult result = prepared.trial(scene, parameters, concealed.seed, !recordTo.empty());
+  const TrialResult result = prepared.trial(prepared.scene(concealed.simulator), parameters, concealed.seed, false);
   Random random =
       Random::forPurpose(concealed.seed ^ keyOf(parameters), "measurement", static_cast<std::uint64_t>(repeat));
   RealAnswer answer;
@@ -148,8 +136,26 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
     answer.isVoid = true;
     answer.note = std::string("the stand-in's trial failed: ") + toText(result.outcome);
   }
-  if (!recordTo.empty()) writeRecording(result.trace, recordTo, random);
+  // A run of its own: a robot that hangs does not kick.
+  if (!recordTo.empty())
+    writeRecording(prepared.trial(recordedScene(prepared, concealed.simulator), parameters, concealed.seed, true).trace,
+                   recordTo, random);
   return answer;
+}
+
+PreparedExperiment asReality(PreparedExperiment prepared, std::uint64_t runSeed) {
+  Values& standIn = prepared.spec.standIn;
+  const auto setting = [&](const char* name) { return valueOf(standInParameters(), standIn, name); };
+  // Whole numbers below 2^53 keep their value.
+  if (setting("drawn_by") == 1)
+    standIn["seed"] = static_cast<double>(
+        Random::forPurpose(runSeed, "stand-in of a run", static_cast<std::uint64_t>(setting("seed"))).next() >> 12);
+  const double step = setting("step_s"), steps = prepared.sceneSpec.controlPeriod_s / std::max(step, 1e-9);
+  if (step > 0 && std::abs(steps - std::round(steps)) > 1e-6 * steps)
+    throw InputError("experiment /stand_in/step_s", toText(step),
+                     "a whole part of control_period_s = " + toText(prepared.sceneSpec.controlPeriod_s));
+  if (step > 0) prepared.sceneSpec.step_s = step;
+  return prepared;
 }
 
 void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out) {

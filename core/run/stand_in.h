@@ -22,10 +22,15 @@ struct Concealed {
   std::uint64_t seed = 0;
 };
 
+/// The experiment as the stand-in sees it: its own integration step, and its own seed where each seed of a run meets
+/// another robot ("drawn_by": "run_seed").
+PreparedExperiment asReality(PreparedExperiment prepared, std::uint64_t runSeed);
+
 /// Draws it: each of the 12 parameters deviates by a normal factor of the stand-in's `parameter_error` (of its range
 /// where the starting value is 0), within its bounds; `hidden_effects` effects at places of the scene's first robot,
-/// floor or ball, each parameter of half to one and a half times the typical size that its effect declares as default.
-/// A function of the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
+/// floor or ball, each parameter of half to one and a half times `effect_size` times the typical size that its effect
+/// declares as default; the experiment's block "concealed" says which effects and places are drawn from. A function of
+/// the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host);
 
 /// One answer of the robot.
@@ -36,8 +41,8 @@ struct RealAnswer {
 };
 
 /// Measures one individual for the n-th time (0, 1, …): the concealed trial plus noise. The same arguments give the
-/// same bits. With `recordTo` not empty, also writes a recording of that name as a robot's log would have it: time,
-/// commands, joint positions quantised to `1 mrad`, ball position to 1 mm.
+/// same bits. With `recordTo` not empty, the individual is also recorded as the experiment wants it (recordedScene())
+/// into a file of that name.
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
                           std::span<const double> parameters, int repeat, const std::string& recordTo = {});
 

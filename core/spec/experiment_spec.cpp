@@ -138,6 +138,17 @@ const std::vector<Parameter>& standInParameters() {
       {"noise_m", "m", "standard deviation of one measurement", 0, 10, 0.02},
       {"parameter_error", "", "relative size of the concealed deviations of the simulator's parameters", 0, 0.9, 0.2},
       {"hidden_effects", "", "concealed effects that the simulator lacks", 0, 10, 1, {}, true},
+      {"effect_size", "", "how large they are: times the sizes that a robot in good order has", 0.01, 100, 1},
+      {"step_s", "s", "integration step of the stand-in's world, 0 for the scene's", 0, 0.02, 0},
+      {"drawn_by",
+       "",
+       "whether all runs meet the same concealed robot or each seed of a run another one",
+       0,
+       1,
+       0,
+       {},
+       false,
+       {"own_seed", "run_seed"}},
   };
   return parameters;
 }
@@ -181,6 +192,8 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   }
   spec.reality = reader.word("reality", {"person", "stand_in"}, spec.reality);
   spec.standIn = reader.values("stand_in", standInParameters());
+  spec.concealed = concealedFrom(reader, "concealed");
+  spec.recordings = recordingsFrom(reader, "recordings");
   spec.seed = reader.seed("seed", spec.seed);
   reader.finish();
 
@@ -220,6 +233,8 @@ std::string toJsonText(const ExperimentSpec& experiment) {
   if (!experiment.realityLearner.name.empty())
     document["reality_learning"] = {{"learner", toJson(experiment.realityLearner)},
                                     {"settings", btr::toJson(experiment.realitySettings, realityLearningParameters())}};
+  if (experiment.concealed != ConcealedSpec{}) document["concealed"] = btr::toJson(experiment.concealed);
+  if (experiment.recordings != RecordingsSpec{}) document["recordings"] = btr::toJson(experiment.recordings);
   return document.dump(2) + "\n";
 }
 

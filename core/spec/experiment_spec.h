@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/spec/parameter.h"
+#include "core/spec/recordings_spec.h"
 #include "core/spec/simulator_spec.h"
 
 namespace btr {
@@ -46,6 +47,8 @@ struct ExperimentSpec {
   SimulatorSpec simulator;  ///< the simulator the run starts with; what is absent has the scene's and robot's numbers
   std::string reality = "person";  ///< who answers the measurements: "person" or "stand_in"
   Values standIn;                  ///< standInParameters(), used when reality is "stand_in"
+  ConcealedSpec concealed;         ///< what its hidden effects are drawn from
+  RecordingsSpec recordings;       ///< whether measured individuals are recorded and the recordings analysed
   std::uint64_t seed = 1;
   std::string directory;  ///< of the experiment's file; not part of the JSON
   bool operator==(const ExperimentSpec&) const = default;

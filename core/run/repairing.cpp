@@ -1,0 +1,197 @@
+// Between measuring and L3, where the experiment wants it: the measured individuals are recorded as well, gap analysis
+// says what the simulator lacks, and the repaired simulator becomes the run's next version.
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/run/recorded_robot.h"
+#include "core/run/run_context.h"
+#include "core/run/stand_in.h"
+#include "core/run/stored_recordings.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for files on their way from or to the database, gone with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (fs::temp_directory_path() / "uchilsim-recordings-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw InputError(pattern + ": the folder cannot be made");
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+double settingOf(const RunContext& context, const char* name) {
+  return valueOf(recordingParameters(), context.prepared.spec.recordings.settings, name);
+}
+
+/// Whom this stage records: the first in the order of measuring, without those whose trials all failed.
+std::vector<Id> whomToRecord(const RunContext& context, int stage) {
+  const std::map<Id, int> counts = context.database.measurementCounts(context.record.id);
+  std::vector<Id> who;
+  for (const MeasurementTask& task : context.database.measurementTasks(context.record.id, stage)) {
+    const auto count = counts.find(task.individual);
+    if (count != counts.end() && count->second > 0) who.push_back(task.individual);
+  }
+  if (static_cast<double>(who.size()) > settingOf(context, "individuals"))
+    who.resize(static_cast<std::size_t>(settingOf(context, "individuals")));
+  return who;
+}
+
+/// The individuals' recordings, in their order; several of one in the order in which they came.
+std::vector<RecordingRecord> recordingsOf(const RunContext& context, const std::vector<Id>& who) {
+  const std::vector<RecordingRecord> all = context.database.recordings(context.record.experiment);
+  std::vector<RecordingRecord> found;
+  for (const Id individual : who)
+    for (const RecordingRecord& recording : all)
+      if (recording.individual == individual) found.push_back(recording);
+  return found;
+}
+
+/// The stand-in robot is recorded. False if stopped.
+bool recordStandIn(RunContext& context, const std::vector<Id>& who) {
+  const ScratchFolder scratch;
+  StandIn robot(StandIn::standardProgram(), context.database.path(), context.record.id);
+  for (const Id individual : who) {
+    if (!recordingsOf(context, {individual}).empty()) continue;
+    if (context.stopped()) return false;
+    RecordingRecord record;
+    record.experiment = context.record.experiment;
+    record.individual = individual;
+    record.name = "run-" + std::to_string(context.record.id) + "-individual-" + std::to_string(individual) + ".csv";
+    robot.measure(context.database.individual(individual).parameters, 0, scratch.file(record.name));
+    record.csv = readFile(scratch.file(record.name));
+    record.sha256 = sha256(record.csv);
+    record.source = "stand-in reality";
+    context.database.addRecording(record);
+  }
+  return true;
+}
+
+nlohmann::json numbersOf(const std::vector<GapReport::Number>& numbers) {
+  nlohmann::json all = nlohmann::json::object();
+  for (const GapReport::Number& n : numbers)
+    all[n.name] = {{"before", n.before}, {"value", n.value}, {"ci95", {n.ci95.low, n.ci95.high}}};
+  return all;
+}
+
+std::string evidenceOf(const GapReport& report, int stage, const std::vector<RecordingRecord>& recordings) {
+  nlohmann::json evidence{{"stage", stage},
+                          {"verdict", toText(report.verdict)},
+                          {"sentence", report.sentence},
+                          {"calibrated", numbersOf(report.calibrated)},
+                          {"effects", nlohmann::json::array()},
+                          {"ladder", nlohmann::json::array()},
+                          {"recordings", nlohmann::json::array()},
+                          {"recordings_sha256", nlohmann::json::array()},
+                          {"seed", report.seed},
+                          {"version", report.version}};
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted)
+      evidence["effects"].push_back(
+          {{"effect", effect.effect}, {"at", effect.at}, {"parameters", numbersOf(effect.parameters)}});
+  for (const GapReport::Step& step : report.ladder)
+    evidence["ladder"].push_back({{"what", step.what}, {"error_in_noise_floors", step.error}});
+  for (const RecordingRecord& recording : recordings) {
+    evidence["recordings"].push_back(recording.id);
+    evidence["recordings_sha256"].push_back(recording.sha256);
+  }
+  return evidence.dump();
+}
+
+/// The analysis of the recordings; nothing if stopped.
+std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorSpec& simulator,
+                                           const std::vector<RecordingRecord>& recordings) {
+  std::vector<Recording> trials;
+  {
+    const ScratchFolder scratch;
+    for (const RecordingRecord& stored : recordings) {
+      // Two recordings may have the same name: each gets a folder of its own.
+      const std::string folder = scratch.file(std::to_string(stored.id));
+      for (Recording& trial : loadTrials(exportRecording(context.database, stored.id, folder)))
+        trials.push_back(std::move(trial));
+    }
+  }
+  AnalysisOptions options;
+  options.jobs = context.jobs();
+  options.seed = context.record.seed;
+  options.maximumEffects = static_cast<int>(settingOf(context, "maximum_effects"));
+  options.effects = consideredEffects(context.prepared, context.host);
+  options.designNext = false;
+  const EffectLibrary library{context.host.effectFactory(), context.host.effects()};
+  context.progress.stage = "gap analysis";
+  context.progress.stageTotal = 100;
+  context.progress.secondsLeft = -1;
+  try {
+    return analyse(recordedProblem(context.prepared, simulator, std::move(trials)), library, options,
+                   [&](const std::string& what, double share) {
+                     context.progress.stageDone = static_cast<int>(100 * share);
+                     context.progress.message = what;
+                     context.publish(false);
+                     return !context.stopped();
+                   });
+  } catch (const Cancelled&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+StageEnd repairSimulator(RunContext& context, int stage) {
+  Database& db = context.database;
+  const Id run = context.record.id;
+  if (static_cast<double>(stage) != settingOf(context, "after_stage")) return StageEnd::done;
+  // Done before, or L3 has begun without it.
+  const SimulatorRecord parent = context.simulator();
+  const int generation = context.measuredAfter(stage);
+  if (parent.madeBy == "gap analysis" && parent.madeAfterGeneration == generation) return StageEnd::done;
+  if (!db.adaptations(run, stage).empty()) return StageEnd::done;
+
+  db.setRunState(run, RunState::adapting, "");
+  const std::vector<Id> who = whomToRecord(context, stage);
+  if (context.record.reality == "stand_in" && !recordStandIn(context, who)) return StageEnd::stopped;
+  const std::vector<RecordingRecord> recordings = recordingsOf(context, who);
+  if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
+  const auto missing = std::ranges::count_if(who, [&](Id i) { return recordingsOf(context, {i}).empty(); });
+  if (missing > 0 && !context.withoutRecordings()) {
+    context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
+                               std::to_string(who.size()) +
+                               " individuals wait for a recording (btr gap recordings import --individual); "
+                               "btr run --without-recordings goes on with those that are there";
+    context.publish(true);
+    return StageEnd::waiting;
+  }
+
+  const auto report = analyseRecordings(context, parent.simulator, recordings);
+  if (!report) return StageEnd::stopped;
+  // A version even if nothing was found: that the analysis was made, and what it said, is part of the lineage.
+  SimulatorRecord version;
+  version.run = run;
+  version.parent = parent.id;
+  version.simulator = report->after;
+  version.madeBy = "gap analysis";
+  version.evidence = evidenceOf(*report, stage, recordings);
+  version.madeAfterGeneration = generation;
+  version.createdAt = utcNow();
+  db.addSimulator(version);
+  context.progress.message.clear();
+  return StageEnd::done;
+}
+
+}  // namespace btr

@@ -1,0 +1,203 @@
+// Recordings of the measured individuals, their analysis and its adoption as a stage of a run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/run/back_to_reality.h"
+#include "core/run/recorded_robot.h"
+#include "core/run/stand_in.h"
+#include "core/run/stored_recordings.h"
+#include "core/spec/error.h"
+#include "core/spec/experiment_spec.h"
+#include "core/spec/json_reader.h"
+#include "tests/gap/temporary_folder.h"
+
+namespace btr {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Two generations of four, two measured after each; after the first, one is recorded hung up and a knee is compared.
+class Repairing : public testing::Test {
+ protected:
+  Repairing() : host_(PLUGIN_DIR) {
+    setenv("UCHILSIM_BTR", BTR_PROGRAM, 1);
+    text_ = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    text_["controller"]["settings"] = {{"accumulate_s", 0.1}, {"hold_s", 0.0}, {"return_s", 0.1}};
+    text_["learner"]["settings"]["population"] = 4;
+    text_["adaptation"]["learner"]["settings"]["population"] = 2;
+    text_["adaptation"]["settings"]["generations"] = 1;
+    text_["stages"] = {
+        {"first_generations", 1}, {"next_generations", 1}, {"total_generations", 2}, {"measured_individuals", 2}};
+    text_["stand_in"]["hidden_effects"] = 0;
+    text_["recordings"] = {{"settings", {{"after_stage", 1}, {"individuals", 1}, {"maximum_effects", 0}}},
+                           {"joints", {"ers7.LF_J3"}}};
+  }
+  ExperimentSpec spec() const { return experimentFromJson(text_.dump(), "kick", SOURCE_DIR "/resources/experiments"); }
+  RunEnd goOn(Database& database, Id run, int jobs, bool without = false) {
+    RunOptions options;
+    options.jobs = jobs;
+    options.withoutRecordings = without;
+    return continueRun(database, host_, run, StopFlag{false}, options);
+  }
+  Database fresh(const std::string& name) { return Database::open(folder_.file(name), Database::Mode::create); }
+
+  TemporaryFolder folder_;
+  PluginHost host_;
+  nlohmann::json text_;
+};
+
+TEST_F(Repairing, TheStandInIsRecordedAndTheRunGoesOnInTheRepairedSimulator) {
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::finished);
+
+  const auto recordings = database.recordings(database.run(run).experiment);
+  ASSERT_EQ(recordings.size(), 1u);
+  EXPECT_EQ(recordings[0].individual, database.measurementTasks(run, 1)[0].individual);
+  EXPECT_EQ(recordings[0].source, "stand-in reality");
+  const std::vector<SimulatorRecord> all = database.simulators(run);
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[1].madeBy, "gap analysis");
+  EXPECT_EQ(all[1].parent, all[0].id);
+  EXPECT_EQ(all[1].madeAfterGeneration, 1);
+  EXPECT_EQ(all[2].madeBy, "L3");
+  EXPECT_EQ(all[2].parent, all[1].id);
+  EXPECT_EQ(all[3].madeBy, "L3");
+  const nlohmann::json evidence = nlohmann::json::parse(all[1].evidence);
+  EXPECT_EQ(evidence["recordings_sha256"][0], recordings[0].sha256);
+  EXPECT_TRUE(evidence["calibrated"].contains("servo_p_nm_rad"));
+
+  EXPECT_LT(evidence["ladder"].back()["error_in_noise_floors"], evidence["ladder"].front()["error_in_noise_floors"]);
+
+  // The same bits with another number of workers.
+  Database other = fresh("b.db");
+  const Id again = startRun(other, host_, spec(), 7);
+  ASSERT_EQ(goOn(other, again, 2), RunEnd::finished);
+  const auto second = other.simulators(again);
+  ASSERT_EQ(second.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(second[i].simulator, all[i].simulator);
+  EXPECT_EQ(other.lastGeneration(again)->best, database.lastGeneration(run)->best);
+}
+
+TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttached) {
+  text_["reality"] = "person";
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  const std::vector<MeasurementTask> tasks = database.measurementTasks(run, 1);
+  for (const MeasurementTask& task : tasks) {
+    MeasurementRecord value;
+    value.run = run;
+    value.individual = task.individual;
+    value.value = 0.5;
+    database.addMeasurement(value);
+  }
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  EXPECT_THAT(database.run(run).message, HasSubstr("1 of 1 individuals wait for a recording"));
+  ASSERT_EQ(database.simulators(run).size(), 1u);
+
+  // The same robot as simulated, recorded by somebody.
+  const PreparedExperiment prepared = prepareFromRun(database.run(run), host_);
+  const SimulatorSpec plain = database.latestSimulator(run).simulator;
+  Random noise(3);
+  const std::string csv = folder_.file("knee.csv");
+  const auto parameters = database.individual(tasks[0].individual).parameters;
+  writeRecording(prepared.trial(recordedScene(prepared, plain), parameters, 1, true).trace, csv, noise);
+  importRecording(database, database.run(run).experiment, csv, "", tasks[0].individual);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);  // for the second stage's measurements
+  EXPECT_EQ(database.simulators(run).at(1).madeBy, "gap analysis");
+  EXPECT_EQ(database.run(run).stage, 1);
+}
+
+TEST_F(Repairing, WithAPersonItGoesOnWithoutRecordingsIfToldSo) {
+  text_["reality"] = "person";
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  for (const MeasurementTask& task : database.measurementTasks(run, 1)) {
+    MeasurementRecord value;
+    value.run = run;
+    value.individual = task.individual;
+    value.value = 0.5;
+    database.addMeasurement(value);
+  }
+  ASSERT_EQ(goOn(database, run, 1, true), RunEnd::waiting);
+  EXPECT_EQ(database.run(run).stage, 1);
+  EXPECT_EQ(database.simulators(run).at(1).madeBy, "L3");
+}
+
+TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
+  const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  const Scene hung = recordedScene(prepared, spec().simulator), stands = prepared.scene(spec().simulator);
+  EXPECT_FALSE(hung.robots[0].freeBase);
+  EXPECT_DOUBLE_EQ(hung.robots[0].start.translation().z(), stands.robots[0].start.translation().z() + 1);
+  std::vector<double> middle;
+  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const TrialResult result = prepared.trial(hung, middle, 1, true);
+  EXPECT_EQ(result.baseEnd_m, result.baseStart_m);
+  EXPECT_EQ(result.balls[0].rest_m.head<2>(), result.balls[0].start_m.head<2>());
+
+  // On the floor it is the trial itself.
+  text_["recordings"]["settings"]["robot"] = "on_floor";
+  const PreparedExperiment free = prepareFromFiles(spec(), host_);
+  EXPECT_TRUE(recordedScene(free, spec().simulator).robots[0].freeBase);
+  EXPECT_EQ(recordedProblem(free, spec().simulator, {}).scene.robots[0].base, "free");
+  EXPECT_EQ(recordedProblem(prepared, spec().simulator, {}).scene.robots[0].base, "fixed");
+}
+
+TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
+  text_["recordings"]["calibrate"] = {"servo_p_nm_rad"};
+  const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  Recording recording;
+  recording.channels = {"time_s", "ers7.LF_J3.command_rad", "ers7.LF_J3.position_rad", "ers7.RF_J3.position_rad"};
+  recording.columns = {{0, 1}, {0, 0}, {1, 1}, {2, 2}};
+  const GapProblem problem = recordedProblem(prepared, spec().simulator, {recording});
+  EXPECT_EQ(problem.recordings[0].channels,
+            (std::vector<std::string>{"time_s", "ers7.LF_J3.command_rad", "ers7.LF_J3.position_rad"}));
+  ASSERT_EQ(problem.scene.calibrate.size(), 1u);
+  EXPECT_EQ(problem.scene.calibrate[0].path, "servo_p_nm_rad");
+  // Within half of 7.5 N·m/rad, the experiment's own number.
+  EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].minimum, 3.75);
+  EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].maximum, 11.25);
+}
+
+TEST_F(Repairing, TheStandInDrawsFromWhatTheExperimentNames) {
+  text_["stand_in"]["hidden_effects"] = 1;
+  text_["stand_in"]["effect_size"] = 2.5;
+  text_["concealed"] = {{"effects", {"backlash"}}, {"at", {"ers7.LF_J3", "ers7.RF_J3"}}};
+  std::set<std::string> places;
+  for (int seed = 1; seed <= 12; ++seed) {
+    text_["stand_in"]["seed"] = seed;
+    const Concealed concealed = drawConcealed(prepareFromFiles(spec(), host_), host_);
+    ASSERT_EQ(concealed.simulator.effects.size(), 1u);
+    const PlacedEffect& hidden = concealed.simulator.effects[0];
+    EXPECT_EQ(hidden.effect, "backlash");
+    places.insert(hidden.at);
+    EXPECT_GE(hidden.parameters.at("width_rad"), 0.5 * 2.5 * 0.02);
+    EXPECT_LE(hidden.parameters.at("width_rad"), 1.5 * 2.5 * 0.02);
+  }
+  EXPECT_EQ(places, (std::set<std::string>{"ers7.LF_J3", "ers7.RF_J3"}));
+  text_["concealed"]["at"] = {"floor"};
+  EXPECT_THROW(drawConcealed(prepareFromFiles(spec(), host_), host_), InputError);
+}
+
+TEST_F(Repairing, TheStandInsWorldHasItsOwnStepAndIfWantedAnotherRobotForEachSeed) {
+  text_["stand_in"]["step_s"] = 0.001;
+  const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  EXPECT_EQ(asReality(prepared, 1).sceneSpec.step_s, 0.001);
+  const auto drawn = [&](std::uint64_t run) {
+    return drawConcealed(asReality(prepareFromFiles(spec(), host_), run), host_).simulator;
+  };
+  EXPECT_EQ(drawn(1), drawn(2));
+  text_["stand_in"]["drawn_by"] = "run_seed";
+  EXPECT_NE(drawn(1), drawn(2));
+  EXPECT_EQ(drawn(2), drawn(2));
+  text_["stand_in"]["step_s"] = 0.003;
+  EXPECT_THROW(asReality(prepareFromFiles(spec(), host_), 1), InputError);
+}
+
+}  // namespace
+}  // namespace btr

@@ -1,0 +1,69 @@
+// The blocks "recordings" and "concealed" of an experiment.
+#include "core/spec/recordings_spec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/spec/error.h"
+#include "core/spec/experiment_spec.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+nlohmann::json kick() { return nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json")); }
+ExperimentSpec read(const nlohmann::json& text) { return experimentFromJson(text.dump(), "kick.json", ""); }
+std::string complaint(const nlohmann::json& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Recordings, AnExperimentWithoutThemIsWrittenAsBefore) {
+  const std::string text = toJsonText(read(kick()));
+  EXPECT_THAT(text, Not(HasSubstr("recordings")));
+  EXPECT_THAT(text, Not(HasSubstr("concealed")));
+  EXPECT_FALSE(read(kick()).recordings.wanted());
+}
+
+TEST(Recordings, AreReadBackAsTheyWereWritten) {
+  nlohmann::json text = kick();
+  text["recordings"] = {{"settings", {{"after_stage", 1}, {"individuals", 3}, {"robot", "on_floor"}}},
+                        {"calibrate", {"servo_p_nm_rad"}},
+                        {"effects", {"backlash"}},
+                        {"joints", {"ers7.LF_J3"}}};
+  text["concealed"] = {{"effects", {"backlash"}}, {"at", {"ers7.LF_J3"}}};
+  text["stand_in"]["drawn_by"] = "run_seed";
+  const ExperimentSpec spec = read(text);
+  EXPECT_TRUE(spec.recordings.wanted());
+  EXPECT_EQ(spec.recordings.settings.at("robot"), 1);
+  EXPECT_EQ(spec.recordings.joints, std::vector<std::string>{"ers7.LF_J3"});
+  EXPECT_EQ(spec.concealed.at, std::vector<std::string>{"ers7.LF_J3"});
+  EXPECT_EQ(read(nlohmann::json::parse(toJsonText(spec))), spec);
+}
+
+TEST(Recordings, RefuseWhatNobodyKnows) {
+  nlohmann::json text = kick();
+  text["recordings"] = {{"calibrate", {"wind"}}};
+  EXPECT_THAT(complaint(text), HasSubstr("\"wind\""));
+  text["recordings"] = {{"settings", {{"after_stage", 0.5}}}};
+  EXPECT_THAT(complaint(text), HasSubstr("after_stage"));
+  text["recordings"] = {{"effects", {"backlash", "backlash"}}};
+  EXPECT_THAT(complaint(text), HasSubstr("each once"));
+  text["recordings"] = {{"after", 1}};
+  EXPECT_THAT(complaint(text), HasSubstr("after"));
+  text.erase("recordings");
+  text["concealed"] = {{"place", "ers7.LF_J3"}};
+  EXPECT_THAT(complaint(text), HasSubstr("place"));
+}
+
+}  // namespace
+}  // namespace btr

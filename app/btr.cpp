@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   shell.stop = &stopRequested;
   app.add_flag("--json", shell.json, "machine-readable standard output");
   btr::cli::addRunCommands(app, shell);
+  btr::cli::addCompareCommand(app, shell);
   btr::cli::addFitnessCommands(app, shell);
   btr::cli::addDataCommands(app, shell);
   btr::cli::addModelCommands(app, shell);

@@ -62,6 +62,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   connectShow();
   connectMeasure();
   connectGap();
+  connectCompare();
   arrangeDocks();
   restoreWindow();
   restoreDraft();
@@ -129,6 +130,7 @@ void MainWindow::makeDocks() {
   replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
   makeGapPage();
+  makeComparePage();
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
 
   // Messages stand above everything, in a tool bar of their own that is there only while there is one.
@@ -192,8 +194,10 @@ void MainWindow::arrangeDocks() {
   tabifyDockWidget(individualsDock_, sheetDock_);
   tabifyDockWidget(sheetDock_, policiesDock_);
   tabifyDockWidget(policiesDock_, versionsDock_);
+  tabifyDockWidget(specDock_, compareDock_);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
   gapPageDock_->hide();
+  compareDock_->hide();
   specDock_->raise();
   individualsDock_->raise();
   sized_ = false;

@@ -20,6 +20,7 @@ struct GapReport;
 }
 namespace btr::ui {
 class Alarm;
+class ComparePage;
 class ExperimentForm;
 class ExperimentTree;
 class FitnessChart;
@@ -68,6 +69,9 @@ class MainWindow : public QMainWindow {
   MessageBanner& banner() { return *banner_; }
   DatabaseWatcher& watcher() { return watcher_; }
   GapPage& gapPage() { return *gapPage_; }
+  ComparePage& comparePage() { return *comparePage_; }
+  /// The page that compares runs, these ticked beside those that are ticked already.
+  void compareRuns(const std::vector<Id>& runs);
   ExperimentForm& draft() { return *draft_; }
   const Settings& settings() const { return settings_; }
 
@@ -130,6 +134,10 @@ class MainWindow : public QMainWindow {
   void showSpec(const RunRecord& run);
   void showTitle();
 
+  // main_window_compare.cpp
+  void makeComparePage();
+  void connectCompare();
+
   // main_window_gap.cpp
   void makeGapPage();
   void connectGap();
@@ -166,6 +174,7 @@ class MainWindow : public QMainWindow {
   FitnessChart* fitness_ = nullptr;
   GapChart* gap_ = nullptr;
   GapPage* gapPage_ = nullptr;
+  ComparePage* comparePage_ = nullptr;
   QAction* gapAction_ = nullptr;
   QByteArray runsLayout_;                                            ///< of the docks while the gap page has the window
   std::pair<std::shared_ptr<const GapReport>, std::size_t> ghosts_;  ///< report and trial that the 3D view shows
@@ -179,7 +188,8 @@ class MainWindow : public QMainWindow {
   ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
               *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
-              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *policiesDock_ = nullptr, *gapPageDock_ = nullptr;
+              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *policiesDock_ = nullptr, *gapPageDock_ = nullptr,
+              *compareDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

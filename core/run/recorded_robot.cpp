@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/spec/json_reader.h"
 
@@ -10,6 +11,51 @@ namespace {
 
 bool isHung(const PreparedExperiment& prepared) {
   return valueOf(recordingParameters(), prepared.spec.recordings.settings, "robot") == 0;
+}
+
+void drop(Recording& recording, std::size_t channel) {
+  recording.channels.erase(recording.channels.begin() + static_cast<std::ptrdiff_t>(channel));
+  recording.columns.erase(recording.columns.begin() + static_cast<std::ptrdiff_t>(channel));
+}
+
+/// Of a model: the joints of those branches of the body that carry one of the named joints ("ers7.LF_J3"). They alone
+/// move what is compared while the body is held.
+std::vector<char> movesWhatIsCompared(const RobotModel& model, const std::string& robot,
+                                      const std::vector<std::string>& joints) {
+  std::vector<std::size_t> branch(model.joints.size());  // the joint at the body that each hangs from
+  for (std::size_t j = 0; j < branch.size(); ++j) {
+    const auto parent = static_cast<std::size_t>(model.joints[j].parentLink);
+    branch[j] = parent == 0 ? j : branch[parent - 1];
+  }
+  std::vector<char> moves(model.joints.size(), joints.empty());
+  for (std::size_t j = 0; j < branch.size(); ++j)
+    if (std::ranges::count(joints, robot + "." + model.joints[j].name) > 0)
+      for (std::size_t k = 0; k < branch.size(); ++k) moves[k] |= branch[k] == branch[j];
+  return moves;
+}
+
+/// A hung robot's branches do not feel each other: those that nobody compares become part of the body, which saves most
+/// of the time and all places where an effect could not be seen.
+void leaveOutUnseenBranches(GapProblem& problem, const std::vector<std::string>& joints) {
+  RobotSpec& robot = problem.scene.robots.front();
+  RobotModel model = *problem.models.at(robot.model);
+  const std::vector<char> moves = movesWhatIsCompared(model, robot.name, joints);
+  for (std::size_t j = 0; j < moves.size(); ++j) {
+    const std::string name = model.joints[j].name, channel = robot.name + "." + name;
+    // An effect that sits there already needs its joint.
+    const bool hasEffect = std::ranges::any_of(problem.simulator.effects,
+                                               [&](const PlacedEffect& effect) { return effect.at == channel; });
+    if (moves[j] || hasEffect) continue;
+    model.joints[j].type = Joint::Type::fixed;
+    robot.jointStart.erase(name);
+    robot.servos.erase(name);
+    robot.joints.erase(name);
+    for (Recording& recording : problem.recordings)
+      for (std::size_t c = recording.channels.size(); c-- > 1;)
+        if (recording.channels[c].starts_with(channel + ".")) drop(recording, c);
+  }
+  robot.model += " (what is compared)";
+  problem.models[robot.model] = std::make_shared<const RobotModel>(std::move(model));
 }
 
 }  // namespace
@@ -66,10 +112,8 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   };
   for (Recording& recording : problem.recordings)
     for (std::size_t c = recording.channels.size(); c-- > 1;)
-      if (!isCompared(recording.channels[c])) {
-        recording.channels.erase(recording.channels.begin() + static_cast<std::ptrdiff_t>(c));
-        recording.columns.erase(recording.columns.begin() + static_cast<std::ptrdiff_t>(c));
-      }
+      if (!isCompared(recording.channels[c])) drop(recording, c);
+  if (isHung(prepared)) leaveOutUnseenBranches(problem, spec.joints);
   return problem;
 }
 
@@ -97,7 +141,9 @@ void writeRecording(const Trace& trace, const std::string& path, Random& random)
   for (std::size_t row = 0; row < trace.rows(); ++row) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const std::string& name = trace.channels[kept[i]];
-      double value = trace.at(row, kept[i]);
+      // A trace has the command that led to its row; in a recording a command holds from its row on.
+      const bool leads = name.ends_with(".command_rad") && row + 1 < trace.rows();
+      double value = trace.at(leads ? row + 1 : row, kept[i]);
       // A potentiometer's and a camera's noise and resolution.
       if (name.ends_with(".position_rad")) value = std::round((value + 0.001 * random.normal()) * 1000) / 1000;
       if (name.ends_with("_m")) value = std::round((value + 0.002 * random.normal()) * 1000) / 1000;

@@ -25,8 +25,8 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
 /// on the floor all.
 std::vector<std::string> consideredEffects(const PreparedExperiment& prepared, const PluginHost& host);
 
-/// Writes a trace as a robot's log would have it: time, commands, joint positions (noise and resolution 1 mrad), where
-/// the ball is (noise 2 mm, resolution 1 mm).
+/// Writes a trace as a robot's log would have it: time, commands as they are sent, joint positions (noise and
+/// resolution 1 mrad), where the ball is (noise 2 mm, resolution 1 mm).
 void writeRecording(const Trace& trace, const std::string& path, Random& random);
 
 }  // namespace btr

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/run/reality_gap.h"
 #include "core/run/recorded_robot.h"
 #include "core/run/run_context.h"
 #include "core/run/stand_in.h"
@@ -43,12 +44,10 @@ double settingOf(const RunContext& context, const char* name) {
 
 /// Whom this stage records: the first in the order of measuring, without those whose trials all failed.
 std::vector<Id> whomToRecord(const RunContext& context, int stage) {
-  const std::map<Id, int> counts = context.database.measurementCounts(context.record.id);
   std::vector<Id> who;
-  for (const MeasurementTask& task : context.database.measurementTasks(context.record.id, stage)) {
-    const auto count = counts.find(task.individual);
-    if (count != counts.end() && count->second > 0) who.push_back(task.individual);
-  }
+  for (const RealFitness& real : realFitness(context.database.measurementTasks(context.record.id, stage),
+                                             context.database.measurements(context.record.id), stage))
+    who.push_back(real.individual);
   if (static_cast<double>(who.size()) > settingOf(context, "individuals"))
     who.resize(static_cast<std::size_t>(settingOf(context, "individuals")));
   return who;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/replay.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/recorded_robot.h"
 #include "core/run/stand_in.h"
@@ -162,6 +163,42 @@ TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
   // Within half of 7.5 N·m/rad, the experiment's own number.
   EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].minimum, 3.75);
   EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].maximum, 11.25);
+}
+
+TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
+  const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  std::vector<double> middle;
+  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  Random noise(3);
+  const std::string csv = folder_.file("legs.csv");
+  const SimulatorSpec plain = spec().simulator;
+  writeRecording(prepared.trial(recordedScene(prepared, plain), middle, 1, true).trace, csv, noise);
+
+  // One knee as it is replayed with all other joints moving, and alone with its leg.
+  const auto knee = [&](const std::vector<std::string>& joints) {
+    PreparedExperiment asked = prepared;
+    asked.spec.recordings.joints = joints;
+    const GapProblem problem = recordedProblem(asked, plain, {loadRecording(csv)});
+    const Scene scene = makeScene(problem.scene, problem.models, plain, prepared.effects);
+    const Recording& recording = problem.recordings[0];
+    const Binding binding = bind(scene, recording);
+    const auto replayed = replayRecording(scene, recording, binding, startState(scene, recording, binding));
+    const auto column = static_cast<std::size_t>(recording.column("ers7.LF_J3.position_rad"));
+    std::vector<double> values;
+    for (std::size_t c = 0; c < binding.measured.size(); ++c)
+      if (binding.measured[c].column == column)
+        for (const auto& row : replayed.values) values.push_back(row[c]);
+    return std::pair(values, recording.columns[column]);
+  };
+  const auto [all, recorded] = knee({});
+  const auto [alone, same] = knee({"ers7.LF_J3"});
+  ASSERT_EQ(all.size(), recorded.size());
+  ASSERT_EQ(alone.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(alone[i], all[i], 1e-9);
+    // And as it was recorded: the commands hold from the rows in which they stand. At 5 rad/s a period is 40 mrad.
+    EXPECT_NEAR(all[i], recorded[i], 0.01);
+  }
 }
 
 TEST_F(Repairing, TheStandInDrawsFromWhatTheExperimentNames) {

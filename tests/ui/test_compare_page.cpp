@@ -127,6 +127,30 @@ class TestComparePage : public QObject {
     QCOMPARE(read.size(), 6);
   }
 
+  void gapAndRealFitnessOfRunsThatDifferInTheirSeedBecomeMeansWithIntervals() {
+    ComparePage page;
+    page.setReader([&](Id id) {
+      ComparePage::History all = history(1);
+      // Gaps 0.1 and 0.3 of two seeds, 0.5 of the other experiment.
+      all.stages = {{1, id == 1 ? 0.1 : id == 2 ? 0.3 : 0.5, 0, double(id), double(id)}};
+      return all;
+    });
+    page.setUnit("m");
+    page.setRuns({run(1, 7, 30, "stand_in"), run(2, 8, 30, "stand_in"), run(3, 7, 60, "stand_in")}, {{1, "Kick"}});
+    page.setChosen({1, 2, 3});
+    const PlotData& plot = page.stages().data();
+    QCOMPARE(plot.note, QString("stand-in reality"));
+    QCOMPARE(plot.yTitle, QString("fitness, or its gap (m)"));
+    QCOMPARE(plot.series.size(), std::size_t(4));
+    QCOMPARE(plot.series[0].points, (std::vector<QPointF>{{1, 0.2}}));
+    // Half the difference times Student's t of one degree of freedom.
+    QVERIFY(std::abs(plot.series[0].errors[0] - 0.1 * 12.7062) < 1e-5);
+    QCOMPARE(plot.series[1].points, (std::vector<QPointF>{{1, 1.5}}));
+    QCOMPARE(plot.series[2].points, (std::vector<QPointF>{{1, 0.5}}));
+    QCOMPARE(plot.series[2].errors, std::vector<double>{0.0});
+    QVERIFY(plot.series[0].colour != plot.series[2].colour);
+  }
+
   void ticksStayWhenTheListIsReadAgain() {
     ComparePage page;
     page.setRuns({run(1, 7, 30), run(2, 8, 30)}, {{1, "Kick"}});

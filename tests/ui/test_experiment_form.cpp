@@ -50,7 +50,9 @@ ExperimentSpec aSpec() {
   spec.simulator.values = {{"friction", 0.7}, {"robots.dog.links.head.mass_kg", 0.2}};
   spec.simulator.effects = {{"backlash", "dog.LF_J1", {{"width_rad", 0.02}}}};
   spec.reality = "stand_in";
-  spec.standIn = {{"seed", 7}};
+  spec.standIn = {{"seed", 7}, {"drawn_by", 1}};
+  spec.concealed = {{"backlash"}, {"dog.LF_J3"}};
+  spec.recordings = {{{"after_stage", 1}, {"robot", 1}}, {"servo_p_nm_rad"}, {"backlash"}, {"dog.LF_J3"}};
   spec.seed = 9007199254740991;
   return spec;
 }
@@ -197,6 +199,21 @@ class TestExperimentForm : public QObject {
     QCOMPARE(form.spec().adapted, std::vector<std::string>{"friction"});
     simulator->setChecked({});
     QVERIFY(!form.isValid());
+  }
+
+  void saysWhatIsRecordedAndWhatTheStandInConceals() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    form.show();
+    QVERIFY(form.findChild<QLabel*>("concealed")->text().contains("backlash; at: dog.LF_J3"));
+    QVERIFY(!form.findChild<QLabel*>("concealed")->isHidden());
+    QVERIFY(form.findChild<QLabel*>("recorded")->text().contains("Joints compared: dog.LF_J3"));
+    ExperimentSpec none = aSpec();
+    none.recordings = {};
+    none.concealed = {};
+    form.setSpec(none);
+    QVERIFY(form.findChild<QLabel*>("concealed")->isHidden());
+    QVERIFY(form.findChild<QLabel*>("recorded")->isHidden());
   }
 
   void refusesMoreHeldOutThanMeasured() {

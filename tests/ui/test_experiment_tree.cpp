@@ -113,6 +113,9 @@ class TestExperimentTree : public QObject {
     tree.fillRunMenu(menu, run);
     QVERIFY(!entry(menu, "Continue")->isEnabled());
     QVERIFY(entry(menu, "Duplicate with another seed")->isEnabled());
+    QSignalSpy compare(&tree, &ExperimentTree::compareRequested);
+    entry(menu, "Compare")->trigger();
+    QCOMPARE(compare.first().first().value<std::vector<Id>>(), std::vector<Id>{run});
     QSignalSpy table(&tree, &ExperimentTree::exportRequested);
     entry(menu, "Export as CSV")->menu()->actions().first()->trigger();
     QCOMPARE(table.first().last().toString(), QString("generations"));

@@ -15,7 +15,7 @@
 #include "ui/charts/plot_export.h"
 #include "ui/charts/plot_legend.h"
 #include "ui/charts/plot_widget.h"
-#include "ui/charts/statistics.h"
+#include "core/run/spread.h"
 
 using namespace btr;
 using namespace btr::ui;

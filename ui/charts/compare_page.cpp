@@ -5,21 +5,58 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTreeWidget>
 #include <algorithm>
 
 #include "core/spec/error.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/charts/stage_plot.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
 namespace {
 constexpr int runRole = Qt::UserRole;
+
+/// Runs that differ only in their seed as one arm, in the order in which the first of each comes; by seed.
+std::vector<ComparedArm> armsOf(const std::vector<FitnessRun>& curves, const std::vector<RunRecord>& records,
+                                const std::map<Id, ComparePage::History>& read, bool joinSeeds) {
+  struct Member {
+    std::uint64_t seed;
+    const std::vector<StageOutcome>* stages;
+  };
+  std::vector<QString> groups;
+  std::vector<std::vector<Member>> members;
+  std::vector<ComparedArm> arms;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const QString group = joinSeeds ? curves[i].group : QString::number(curves[i].run);
+    const auto known = std::find(groups.begin(), groups.end(), group);
+    const auto index = static_cast<std::size_t>(known - groups.begin());
+    if (known == groups.end()) {
+      groups.push_back(group);
+      members.emplace_back();
+      arms.push_back({(joinSeeds ? curves[i].experiment : curves[i].name).toStdString(), {}, {}});
+    }
+    members[index].push_back({records[i].seed, &read.at(curves[i].run).stages});
+  }
+  for (std::size_t a = 0; a < arms.size(); ++a) {
+    std::stable_sort(members[a].begin(), members[a].end(), [](auto& x, auto& y) { return x.seed < y.seed; });
+    for (const Member& member : members[a]) arms[a].runs.push_back(*member.stages);
+  }
+  compareArms(arms);
+  return arms;
 }
 
+}  // namespace
+
 ComparePage::ComparePage(QWidget* parent)
-    : QWidget(parent), tree_(new QTreeWidget(this)), plot_(new PlotWidget(this)), differences_(new QTableWidget(this)) {
+    : QWidget(parent),
+      tree_(new QTreeWidget(this)),
+      plot_(new PlotWidget(this)),
+      stages_(new PlotWidget(this)),
+      charts_(new QTabWidget(this)),
+      differences_(new QTableWidget(this)) {
   tree_->setHeaderLabels({tr("run"), tr("seed"), tr("generations")});
   tree_->setAccessibleName(tr("Runs to compare"));
   tree_->setToolTip(tr("Tick the runs to compare; a tick beside an experiment takes all of its runs"));
@@ -40,7 +77,9 @@ ComparePage::ComparePage(QWidget* parent)
   belowLayout->addWidget(makeOptions());
   belowLayout->addWidget(differences_, 1);
   auto* right = new QSplitter(Qt::Vertical, this);
-  right->addWidget(plot_);
+  charts_->addTab(plot_, tr("Fitness by generation"));
+  charts_->addTab(stages_, tr("Gap and real fitness by stage"));
+  right->addWidget(charts_);
   right->addWidget(below);
   right->setStretchFactor(0, 3);
   right->setStretchFactor(1, 2);
@@ -131,6 +170,8 @@ std::vector<Id> ComparePage::chosen() const {
   return ids;
 }
 
+void ComparePage::showStages(bool on) { charts_->setCurrentWidget(on ? static_cast<QWidget*>(stages_) : plot_); }
+
 void ComparePage::refresh() {
   read_.clear();
   draw();
@@ -170,6 +211,8 @@ void ComparePage::draw() {
     curves.push_back(std::move(curve));
   }
   plot_->setData(comparisonPlot(curves, unit_, joinSeeds_->isChecked()));
+  const bool standIn = std::any_of(curves.begin(), curves.end(), [](auto& curve) { return curve.standIn; });
+  stages_->setData(stagePlot(armsOf(curves, records, read_, joinSeeds_->isChecked()), unit_, standIn));
   fillDifferences(records);
   if (!trouble.isEmpty()) summary_->setText(trouble);
 }

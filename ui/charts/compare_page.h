@@ -3,11 +3,13 @@
 #include <functional>
 #include <map>
 
+#include "core/run/comparison.h"
 #include "ui/charts/fitness_plot.h"
 #include "ui/charts/spec_difference.h"
 
 class QCheckBox;
 class QLabel;
+class QTabWidget;
 class QTableWidget;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -16,16 +18,18 @@ namespace btr::ui {
 
 class PlotWidget;
 
-/// Several runs side by side: their fitness in one chart, runs that differ only in their seed as mean and 95 %
-/// interval, and a table of the settings that differ.
+/// Several runs side by side: their fitness in one chart, reality gap and real fitness by measurement stage in another,
+/// runs that differ only in their seed as mean and 95 % interval, and a table of the settings that differ.
 class ComparePage : public QWidget {
   Q_OBJECT
 
  public:
-  /// Generations of a run (without individuals) and its simulator versions; may throw InputError, which is shown.
+  /// Generations of a run (without individuals), its simulator versions and what its measurement stages showed; may
+  /// throw InputError, which is shown.
   struct History {
     std::vector<GenerationRecord> generations;
     std::vector<SimulatorRecord> simulators;
+    std::vector<StageOutcome> stages = {};
   };
   using Reader = std::function<History(Id run)>;
 
@@ -41,6 +45,9 @@ class ComparePage : public QWidget {
   void refresh();
 
   PlotWidget& plot() { return *plot_; }
+  PlotWidget& stages() { return *stages_; }
+  /// Brings the chart of the measurement stages to the front, or that of fitness.
+  void showStages(bool on);
   QTableWidget& differences() { return *differences_; }
 
  private:
@@ -51,7 +58,8 @@ class ComparePage : public QWidget {
   void fillDifferences(const std::vector<RunRecord>& runs);
 
   QTreeWidget* tree_;
-  PlotWidget* plot_;
+  PlotWidget *plot_, *stages_;
+  QTabWidget* charts_;
   QTableWidget* differences_;
   QLabel* summary_;
   QCheckBox *joinSeeds_, *onlyDifferent_;

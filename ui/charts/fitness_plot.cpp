@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "ui/charts/statistics.h"
+#include "core/run/spread.h"
 
 namespace btr::ui {
 namespace {

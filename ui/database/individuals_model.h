@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "core/store/records.h"
-#include "ui/charts/statistics.h"
+#include "core/run/spread.h"
 
 namespace btr::ui {
 

@@ -125,6 +125,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   add(*column, tr("L2 · learning in reality"), makeRealityLearning(), false);
   add(*column, tr("L3 · adapting the simulator"), adaptationPart, false);
   add(*column, tr("Simulator parameters"), simulatorPart, false);
+  recordingsSection_ = add(*column, tr("Recordings and gap analysis"), makeRecordings(), false);
   column->addStretch();
 
   auto* scroll = new QScrollArea(this);
@@ -177,6 +178,18 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   chosenReality_ = reality_->findData(QString::fromStdString(spec.reality));
   reality_->setCurrentIndex(chosenReality_);
   standIn_->setValues(spec.standIn);
+  recordings_->setValues(spec.recordings.settings);
+  const auto list = [](const std::vector<std::string>& names, const QString& none) {
+    QStringList words;
+    for (const std::string& name : names) words << QString::fromStdString(name);
+    return words.isEmpty() ? none : words.join(", ");
+  };
+  concealed_->setText(tr("Its hidden effects are drawn from: %1; at: %2")
+                          .arg(list(spec.concealed.effects, tr("all")), list(spec.concealed.at, tr("anywhere"))));
+  recorded_->setText(tr("Joints compared: %1. Fitted: %2. Effects considered: %3.")
+                         .arg(list(spec.recordings.joints, tr("all")),
+                              list(spec.recordings.calibrate, tr("p, d and largest torque of the servos")),
+                              list(spec.recordings.effects, tr("all that can act"))));
 
   QStringList effects;
   for (const auto& effect : spec.simulator.effects)
@@ -208,6 +221,7 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.simulator.values = simulator_->values();
   spec.reality = reality_->currentData().toString().toStdString();
   spec.standIn = standIn_->values();
+  spec.recordings.settings = recordings_->values();
   // "All" may be written as nothing or as every name: what was read stays as it was.
   if (const auto checked = simulator_->checked(); checked != adaptedNames(shown_)) {
     spec.adapted.clear();
@@ -227,7 +241,8 @@ QStringList ExperimentForm::problems() const {
   problems << realityLearner_->problems();
   if (realityLearner_->choice().name != noLearner) problems << realitySettings_->problems();
   if (reality_->currentData().toString() == "stand_in") problems << standIn_->problems();
-  problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems();
+  problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems()
+           << recordings_->problems();
   if (simulator_->checked().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
   if (problems.isEmpty()) {
     const double heldOut = valueOf(adaptationParameters(), adaptationSettings_->values(), "held_out");
@@ -254,7 +269,7 @@ void ExperimentForm::resetAll() {
   undo_.beginMacro(tr("reset all fields"));
   for (auto* form : {controller_, fitness_, adaptation_}) form->resetAll();
   for (auto* form : {learner_, realityLearner_}) form->resetAll();
-  for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_}) form->resetAll();
+  for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_, recordings_}) form->resetAll();
   undo_.endMacro();
 }
 
@@ -272,6 +287,10 @@ void ExperimentForm::update() {
   const bool standIn = reality_->currentData().toString() == "stand_in";
   standIn_->setVisible(standIn);
   standInNote_->setVisible(standIn);
+  concealed_->setVisible(standIn && shown_.concealed != ConcealedSpec{});
+  const double after = valueOf(recordingParameters(), recordings_->values(), "after_stage");
+  recorded_->setVisible(after > 0);
+  recordingsSection_->setSummary(after > 0 ? tr("after stage %1").arg(after) : tr("none"));
   standInNote_->setStyleSheet(QStringLiteral("color: %1; font-weight: 600").arg(tonesOf(palette()).standIn.name()));
   sections_[1]->setSummary(changes(controller_->changedCount()));
   sections_[2]->setSummary(changes(fitness_->changedCount()));

@@ -59,6 +59,7 @@ class ExperimentForm : public QWidget {
   QWidget* makeRealityLearning();
   /// Learners' pages follow the controller: its parameters may have settings of their own.
   void followController();
+  QWidget* makeRecordings();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
   QLineEdit* addText(QVBoxLayout& column, const QString& name, const QString& label, const QString& toolTip,
@@ -79,7 +80,10 @@ class ExperimentForm : public QWidget {
   QWidget* editBar_ = nullptr;
   PluginForm *controller_, *fitness_, *adaptation_;
   LearnerForm *learner_, *realityLearner_;
-  ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr;
+  ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr,
+                *recordings_ = nullptr;
+  QLabel *concealed_ = nullptr, *recorded_ = nullptr;
+  Section* recordingsSection_ = nullptr;
   std::vector<Section*> sections_;
 };
 

@@ -99,6 +99,11 @@ QWidget* ExperimentForm::makeReality() {
   standIn_ = new ParameterForm(standInParameters(), undo_, part);
   standIn_->setObjectName("standIn");
   column->addWidget(standIn_);
+  concealed_ = new QLabel(part);
+  concealed_->setObjectName("concealed");
+  concealed_->setWordWrap(true);
+  concealed_->setContentsMargins(8, 2, 8, 2);
+  column->addWidget(concealed_);
 
   // The combo box tells only what it became: what was chosen before is remembered here.
   connect(reality_, &QComboBox::activated, this, [this](int index) {
@@ -131,6 +136,27 @@ QWidget* ExperimentForm::makeRealityLearning() {
 void ExperimentForm::followController() {
   const QString controller = QString::fromStdString(controller_->choice().name);
   for (auto* form : {learner_, realityLearner_}) form->setGenotype(controller);
+}
+
+QWidget* ExperimentForm::makeRecordings() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto* hint = new QLabel(tr("After one measurement stage the measured individuals are recorded as well; gap analysis "
+                             "says what the simulator lacks, and learning goes on in the repaired simulator."),
+                          part);
+  recorded_ = new QLabel(part);
+  recorded_->setObjectName("recorded");
+  for (QLabel* label : {hint, recorded_}) {
+    label->setWordWrap(true);
+    label->setContentsMargins(8, 2, 8, 2);
+  }
+  recordings_ = new ParameterForm(recordingParameters(), undo_, part);
+  recordings_->setObjectName("recordings");
+  column->addWidget(hint);
+  column->addWidget(recordings_);
+  column->addWidget(recorded_);
+  return part;
 }
 
 void ExperimentForm::makeBars(QVBoxLayout& column) {

@@ -198,6 +198,7 @@ void ExperimentTree::fillRunMenu(QMenu& menu, Id run) {
   menu.addAction(themeIcon("edit-copy"), tr("Duplicate with another seed…"), this,
                  [this, run] { emit duplicateRequested(run); });
   menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this, [this, run] { emit runNoteRequested(run); });
+  menu.addAction(themeIcon("office-chart-line"), tr("Compare"), this, [this, run] { emit compareRequested({run}); });
   QMenu* exports = menu.addMenu(themeIcon("document-export"), tr("Export as CSV"));
   for (const auto& [what, label] :
        {std::pair{"generations", tr("Generations…")}, std::pair{"individuals", tr("Individuals…")},
@@ -206,14 +207,24 @@ void ExperimentTree::fillRunMenu(QMenu& menu, Id run) {
     exports->addAction(label, this, [this, run, name = QString(what)] { emit exportRequested(run, name); });
 }
 
+std::vector<Id> ExperimentTree::runsOf(Id experiment) const {
+  std::vector<Id> ids;
+  for (const auto& [id, run] : runs_)
+    if (run.experiment == experiment) ids.push_back(id);
+  return ids;
+}
+
 void ExperimentTree::openMenu(const QPoint& position) {
   const QModelIndex index = view_->indexAt(position);
   QMenu menu(this);
-  if (kindOf(index) == experimentKind)
+  if (kindOf(index) == experimentKind) {
     menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this,
                    [this, id = idOf(index)] { emit experimentNoteRequested(id); });
-  else if (const Id run = selectedRun())
+    menu.addAction(themeIcon("office-chart-line"), tr("Compare its runs"), this,
+                   [this, id = idOf(index)] { emit compareRequested(runsOf(id)); });
+  } else if (const Id run = selectedRun()) {
     fillRunMenu(menu, run);
+  }
   if (!menu.isEmpty()) menu.exec(view_->viewport()->mapToGlobal(position));
 }
 

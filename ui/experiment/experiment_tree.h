@@ -41,6 +41,7 @@ class ExperimentTree : public QWidget {
   void runNoteRequested(btr::Id run);
   void experimentNoteRequested(btr::Id experiment);
   void exportRequested(btr::Id run, const QString& what);
+  void compareRequested(const std::vector<btr::Id>& runs);
 
  private:
   enum Kind { experimentKind = 1, runKind, simulatorKind };
@@ -48,6 +49,7 @@ class ExperimentTree : public QWidget {
   void showRun(QStandardItem& item, const RunRecord& run);
   void keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids);
   void openMenu(const QPoint& position);
+  std::vector<Id> runsOf(Id experiment) const;
   void current(const QModelIndex& index);
   void activate(const QModelIndex& index);
 

@@ -5,7 +5,7 @@
 #include <QPalette>
 
 #include "ui/charts/plot_data.h"
-#include "ui/charts/statistics.h"
+#include "core/run/spread.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_model.h"

@@ -1,10 +1,10 @@
-#include "ui/charts/statistics.h"
+#include "core/run/spread.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
-namespace btr::ui {
+namespace btr {
 
 Spread spreadOf(std::span<const double> values) {
   Spread spread;
@@ -24,4 +24,4 @@ Spread spreadOf(std::span<const double> values) {
   return spread;
 }
 
-}  // namespace btr::ui
+}  // namespace btr

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-namespace btr::ui {
+namespace btr {
 
 /// Mean and spread of repeats.
 struct Spread {
@@ -13,4 +13,4 @@ struct Spread {
 };
 Spread spreadOf(std::span<const double> values);
 
-}  // namespace btr::ui
+}  // namespace btr

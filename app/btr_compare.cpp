@@ -1,0 +1,72 @@
+// btr compare: several experiments with the same seeds, side by side.
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "app/btr_commands.h"
+#include "core/run/comparison.h"
+
+namespace btr::cli {
+namespace {
+
+struct CompareArguments {
+  std::string file, database, csv;
+  int jobs = 0;
+  bool quiet = false;
+};
+
+/// "0.123 ± 0.045", the 95 % interval; empty where there is nothing.
+std::string interval(const Spread& spread) {
+  if (spread.count == 0) return "";
+  char text[48];
+  std::snprintf(text, sizeof text, spread.count > 1 ? "%.3f ± %.3f" : "%.3f", spread.mean, spread.halfWidth95);
+  return text;
+}
+
+void print(const Comparison& comparison) {
+  const std::string unit = comparison.unit.empty() ? "" : " [" + comparison.unit + "]";
+  std::vector<std::vector<std::string>> rows;
+  for (const ComparedArm& arm : comparison.arms)
+    for (const ComparedStage& s : arm.stages)
+      rows.push_back({arm.name, std::to_string(s.stage), std::to_string(s.gap.count), interval(s.gap),
+                      interval(s.adapted), interval(s.realMean), interval(s.realBest), interval(s.gapDifference),
+                      interval(s.realDifference)});
+  std::cout << comparison.name << unit
+            << "\nmean ± half of the 95 % interval over the seeds; gap: |real − simulated| of "
+            << "individuals that no update had seen\n\n";
+  writeOut("", table({"arm", "stage", "seeds", "gap", "after its update", "real fitness", "real best",
+                      "gap − first arm's", "real − first arm's"},
+                     rows));
+}
+
+void compare(const CompareArguments& a, Shell& shell) {
+  const ComparisonSpec spec = loadComparison(a.file);
+  Database db = Database::open(a.database, Database::Mode::create);
+  RunOptions options;
+  options.jobs = a.jobs;
+  const Comparison all =
+      runComparison(db, shell.plugins(), spec, *shell.stop, options, [&](const std::string& arm, std::uint64_t seed) {
+        if (!a.quiet) std::fprintf(stderr, "%s, seed %llu\n", arm.c_str(), static_cast<unsigned long long>(seed));
+      });
+  if (!a.csv.empty()) writeOut(a.csv, toCsv(all));
+  if (shell.json)
+    std::cout << toJsonText(all) << '\n';
+  else
+    print(all);
+  shell.exitCode = all.end == RunEnd::finished ? done : all.end == RunEnd::waiting ? waitsForFitness : stoppedEarly;
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, Shell& shell) {
+  auto a = std::make_shared<CompareArguments>();
+  CLI::App* command = app.add_subcommand("compare", "run or resume several experiments with the same seeds, compare");
+  command->add_option("FILE", a->file, "comparison file (.json)")->required();
+  command->add_option("--db", a->database, "experiment database")->required();
+  command->add_option("--jobs", a->jobs, "worker processes (0: as many as processors)")->check(CLI::Range(0, 1024));
+  command->add_option("--csv", a->csv, "write the table to this file, too");
+  command->add_flag("--quiet", a->quiet, "do not say which run is worked on");
+  command->callback([a, &shell] { compare(*a, shell); });
+}
+
+}  // namespace btr::cli

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace btr {
+
+/// Experiments that are run with the same seeds and compared ("format": "uchilsim-comparison-1").
+struct ComparisonSpec {
+  struct Arm {
+    std::string name;        ///< for tables and charts
+    std::string experiment;  ///< path of the experiment's file, relative to the comparison's
+  };
+  std::string name;
+  std::vector<Arm> arms;             ///< the first is what the others are compared with
+  std::vector<std::uint64_t> seeds;  ///< of the runs, each once
+  std::string directory;             ///< of the file; not part of the JSON
+};
+
+/// Throws InputError: at least one arm and one seed, names and seeds each once.
+ComparisonSpec comparisonFromJson(const std::string& text, const std::string& place, const std::string& directory);
+ComparisonSpec loadComparison(const std::string& path);
+
+}  // namespace btr

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "core/run/comparison.h"
+#include "ui/charts/plot_data.h"
+
+namespace btr::ui {
+
+/// Reality gap and real fitness of several arms by measurement stage in one chart: for each arm its mean gap on
+/// individuals that no update had seen, and the mean real fitness of the measured individuals, both with 95 % intervals
+/// over the seeds. `standIn`: real fitness came from the stand-in reality.
+PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, bool standIn);
+
+}  // namespace btr::ui

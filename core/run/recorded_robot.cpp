@@ -110,9 +110,10 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
     return std::ranges::any_of(spec.joints,
                                [&](const std::string& joint) { return channel == joint + ".position_rad"; });
   };
+  // What is not compared still says where its joint began.
   for (Recording& recording : problem.recordings)
-    for (std::size_t c = recording.channels.size(); c-- > 1;)
-      if (!isCompared(recording.channels[c])) drop(recording, c);
+    for (const std::string& channel : recording.channels)
+      if (!isCompared(channel)) recording.notCompared.push_back(channel);
   if (isHung(prepared)) leaveOutUnseenBranches(problem, spec.joints);
   return problem;
 }

@@ -17,7 +17,7 @@ Scene recordedScene(const PreparedExperiment& prepared, const SimulatorSpec& sim
 
 /// What gap analysis is given: the experiment's scene as it is recorded, the recordings, and which numbers it may fit
 /// (by default the servos' p, d and largest torque) within a share of their present values. Positions of joints that
-/// the experiment does not name are left out of the comparison.
+/// the experiment does not name say where these joints begin and are not compared.
 GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSpec& simulator,
                            std::vector<Recording> recordings);
 

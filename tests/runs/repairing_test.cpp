@@ -186,8 +186,7 @@ TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
     const auto column = static_cast<std::size_t>(recording.column("ers7.LF_J3.position_rad"));
     std::vector<double> values;
     for (std::size_t c = 0; c < binding.measured.size(); ++c)
-      if (binding.measured[c].column == column)
-        for (const auto& row : replayed.values) values.push_back(row[c]);
+      if (binding.measured[c].column == column) values = replayed.values[c];
     return std::pair(values, recording.columns[column]);
   };
   const auto [all, recorded] = knee({});
@@ -196,8 +195,9 @@ TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
   ASSERT_EQ(alone.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_NEAR(alone[i], all[i], 1e-9);
-    // And as it was recorded: the commands hold from the rows in which they stand. At 5 rad/s a period is 40 mrad.
-    EXPECT_NEAR(all[i], recorded[i], 0.01);
+    // And as it was recorded: the commands hold from the rows in which they stand, not a period sooner or later. At
+    // 5 rad/s half a period is 20 mrad.
+    EXPECT_NEAR(all[i], recorded[i], 0.02) << i;
   }
 }
 

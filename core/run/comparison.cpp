@@ -23,7 +23,8 @@ std::vector<StageOutcome> stageOutcomes(const Database& database, Id run) {
     outcome.adapted = record.newAfter;
     std::vector<double> real, simulated;
     for (const RealFitness& r : realFitness(tasks, measurements, record.stage)) {
-      if (r.stage != record.stage) continue;
+      // The stage's own individuals, without those that L2 tried.
+      if (r.stage != record.stage || r.iteration != 0) continue;
       real.push_back(r.mean);
       simulated.push_back(std::ranges::find(tasks, r.individual, [](const MeasurementTask& t) {
                             return t.individual;

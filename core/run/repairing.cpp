@@ -47,7 +47,7 @@ std::vector<Id> whomToRecord(const RunContext& context, int stage) {
   std::vector<Id> who;
   for (const RealFitness& real : realFitness(context.database.measurementTasks(context.record.id, stage),
                                              context.database.measurements(context.record.id), stage))
-    who.push_back(real.individual);
+    if (real.iteration == 0) who.push_back(real.individual);
   if (static_cast<double>(who.size()) > settingOf(context, "individuals"))
     who.resize(static_cast<std::size_t>(settingOf(context, "individuals")));
   return who;

@@ -269,7 +269,8 @@ void ExperimentForm::resetAll() {
   undo_.beginMacro(tr("reset all fields"));
   for (auto* form : {controller_, fitness_, adaptation_}) form->resetAll();
   for (auto* form : {learner_, realityLearner_}) form->resetAll();
-  for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_, recordings_}) form->resetAll();
+  for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_, recordings_})
+    form->resetAll();
   undo_.endMacro();
 }
 

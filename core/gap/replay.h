@@ -45,7 +45,8 @@ struct StartState {
   std::vector<BallState> balls;
 };
 /// From the samples that follow `row` (see initial_state.h). A joint that moves takes its rate, and the bend of its
-/// path, from the samples of its velocity where there are some.
+/// path, from the samples of its velocity where there are some. A servo that leaves its place within the first samples
+/// of a recording begins at rest if the scene, so driven, then comes nearer to them.
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row = 0);
 
 /// Simulated values at the recorded times.

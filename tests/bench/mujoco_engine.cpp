@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/sim/contact_builder.h"
 #include "core/sim/drive_law.h"
 
 namespace btr::bench {
@@ -41,7 +42,7 @@ void writeLink(std::ostream& out, const SceneRobot& robot, int index, const Isom
   for (const auto& shape : link.shapes) {
     if (!shape.collides || shape.kind == Shape::Kind::mesh) continue;
     Isometry3d at = shape.pose;
-    out << "<geom contype=\"1\" conaffinity=\"0\" ";
+    out << "<geom contype=\"1\" conaffinity=\"2\" ";
     if (shape.kind == Shape::Kind::sphere) out << "type=\"sphere\" size=\"" << toText(shape.size_m.x()) << "\" ";
     if (shape.kind == Shape::Kind::box) out << "type=\"box\" size=\"" << text(shape.size_m / 2) << "\" ";
     if (shape.kind == Shape::Kind::cylinder) {
@@ -61,10 +62,12 @@ void writeLink(std::ostream& out, const SceneRobot& robot, int index, const Isom
 std::string mjcf(const Scene& scene) {
   const SceneRobot& robot = scene.robots.front();
   const FloorSpec floor = scene.floor.value_or(FloorSpec{});
-  std::ostringstream out;
+  std::ostringstream out, pairs;
   out << "<mujoco><compiler angle=\"radian\" balanceinertia=\"false\"/><option gravity=\"" << text(scene.gravity_m_s2)
-      << "\"/><default><geom solref=\"0.005 1\" friction=\"" << toText(floor.friction)
-      << " 0 0\"/></default><worldbody><geom type=\"plane\" size=\"50 50 1\" contype=\"0\" conaffinity=\"3\"/>";
+      << "\"/><default><geom solref=\"0.005 1\" friction=\"" << toText(shellFriction)
+      << " 0 0\"/></default><worldbody><geom name=\"floor\" type=\"plane\" size=\"50 50 1\" contype=\"0\" "
+         "conaffinity=\"1\" "
+      << "friction=\"" << toText(floor.friction) << " 0 0\"/>";
   writeLink(out, robot, 0, robot.start);
   for (const auto& ball : scene.balls) {
     const double inertia = ball.inertiaFactor * ball.mass_kg * ball.radius_m * ball.radius_m;
@@ -73,10 +76,13 @@ std::string mjcf(const Scene& scene) {
     out << "<body name=\"ball\" pos=\"" << toText(ball.position_m[0]) << " " << toText(ball.position_m[1]) << " "
         << toText(ball.position_m[2]) << "\"><freejoint/><inertial pos=\"0 0 0\" mass=\"" << toText(ball.mass_kg)
         << "\" diaginertia=\"" << text(Vector3d::Constant(inertia)) << "\"/><geom name=\"ball\" type=\"sphere\" size=\""
-        << toText(ball.radius_m) << "\" contype=\"2\" conaffinity=\"1\" condim=\"6\" friction=\""
-        << toText(floor.friction) << " 0 " << toText(rolling) << "\"/></body>";
+        << toText(ball.radius_m) << "\" contype=\"2\" conaffinity=\"0\" condim=\"3\"/></body>";
+    // Ball and floor: the floor's friction and the ball's resistance to rolling, which its touch with a leg has not.
+    pairs << "<pair geom1=\"ball\" geom2=\"floor\" condim=\"6\" solref=\"0.005 1\" friction=\""
+          << toText(floor.friction) << " " << toText(floor.friction) << " 0 " << toText(rolling) << " "
+          << toText(rolling) << "\"/>";
   }
-  out << "</worldbody></mujoco>";
+  out << "</worldbody><contact>" << pairs.str() << "</contact></mujoco>";
   return out.str();
 }
 

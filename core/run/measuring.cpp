@@ -102,7 +102,7 @@ bool completeMeasuring(RunContext& context, int stage, int iteration) {
   context.progress.stageDone = static_cast<int>(settled());
 
   if (context.record.reality == "stand_in" && context.progress.stageDone < context.progress.stageTotal) {
-    StandIn robot(StandIn::standardProgram(), db.path(), run);
+    StandIn robot(StandIn::programFor(context.prepared.spec), db.path(), run);
     const std::map<Id, int> before = repeatsBefore(db, tasks);
     for (const MeasurementTask& task : tasks) {
       const IndividualRecord individual = db.individual(task.individual);

@@ -66,7 +66,7 @@ std::vector<RecordingRecord> recordingsOf(const RunContext& context, const std::
 /// The stand-in robot is recorded. False if stopped.
 bool recordStandIn(RunContext& context, const std::vector<Id>& who) {
   const ScratchFolder scratch;
-  StandIn robot(StandIn::standardProgram(), context.database.path(), context.record.id);
+  StandIn robot(StandIn::programFor(context.prepared.spec), context.database.path(), context.record.id);
   for (const Id individual : who) {
     if (!recordingsOf(context, {individual}).empty()) continue;
     if (context.stopped()) return false;

@@ -126,20 +126,26 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
 }
 
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
-                          std::span<const double> parameters, int repeat, const std::string& recordTo) {
-  const TrialResult result = prepared.trial(prepared.scene(concealed.simulator), parameters, concealed.seed, false);
+                          std::span<const double> parameters, int repeat, const std::string& recordTo,
+                          const RealWorld& world) {
+  const auto trial = [&](const Scene& scene, bool recordTrace) {
+    return world.trial ? world.trial(prepared, scene, parameters, recordTrace)
+                       : prepared.trial(scene, parameters, concealed.seed, recordTrace);
+  };
+  const TrialResult result = trial(prepared.scene(concealed.simulator), false);
   Random random =
       Random::forPurpose(concealed.seed ^ keyOf(parameters), "measurement", static_cast<std::uint64_t>(repeat));
   RealAnswer answer;
+  answer.note = world.name;
   answer.fitness = prepared.fitnessOf(result) + concealed.noise * random.normal();
   if (result.outcome != TrialResult::Outcome::finished) {
     answer.isVoid = true;
-    answer.note = std::string("the stand-in's trial failed: ") + toText(result.outcome);
+    answer.note +=
+        std::string(answer.note.empty() ? "" : "; ") + "the stand-in's trial failed: " + toText(result.outcome);
   }
   // A run of its own: a robot that hangs does not kick.
   if (!recordTo.empty())
-    writeRecording(prepared.trial(recordedScene(prepared, concealed.simulator), parameters, concealed.seed, true).trace,
-                   recordTo, random);
+    writeRecording(trial(recordedScene(prepared, concealed.simulator), true).trace, recordTo, random);
   return answer;
 }
 
@@ -158,7 +164,8 @@ PreparedExperiment asReality(PreparedExperiment prepared, std::uint64_t runSeed)
   return prepared;
 }
 
-void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out) {
+void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out,
+                  const RealWorld& world) {
   const Concealed concealed = drawConcealed(prepared, host);
   for (std::string line; std::getline(in, line);) {
     JsonReader request = JsonReader::parse(line, "request to the stand-in");
@@ -166,7 +173,7 @@ void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, st
     const auto repeat = static_cast<int>(request.integer("repeat", 0, 1'000'000, 0));
     const std::string record = request.text("record", "");
     request.finish();
-    const RealAnswer answer = measureStandIn(prepared, concealed, parameters, repeat, record);
+    const RealAnswer answer = measureStandIn(prepared, concealed, parameters, repeat, record, world);
     out << json{{"fitness", answer.fitness}, {"void", answer.isVoid}, {"note", answer.note}}.dump() << std::endl;
   }
 }

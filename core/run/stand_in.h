@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -40,6 +41,14 @@ struct RealAnswer {
   std::string note;
 };
 
+/// Who moves the robot: another engine, for one. A trial as PreparedExperiment::trial(); empty is our own simulator.
+struct RealWorld {
+  std::string name;  ///< stands in the note of each answer
+  std::function<TrialResult(const PreparedExperiment& prepared, const Scene& arranged,
+                            std::span<const double> parameters, bool recordTrace)>
+      trial;
+};
+
 /// Measures one individual for the n-th time (0, 1, …): the concealed trial plus noise. The same arguments give the
 /// same bits. With `recordTo` not empty, the individual is also recorded as the experiment wants it (recordedScene())
 /// into a file of that name.
@@ -49,7 +58,8 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
 /// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE"} on `in`, one answer a
 /// line
 /// {"fitness": 0.5, "void": false, "note": ""} on `out`, until `in` ends.
-void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out);
+void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out,
+                  const RealWorld& world = {});
 
 /// Talks to such a process.
 class StandIn {
@@ -63,8 +73,9 @@ class StandIn {
   /// Throws InputError if the process died or answered nonsense.
   RealAnswer measure(const std::vector<double>& parameters, int repeat, const std::string& recordTo = {});
 
-  /// $UCHILSIM_BTR, else "btr" beside the running program.
-  static std::string standardProgram();
+  /// Who plays the robot of an experiment: $UCHILSIM_BTR, else "btr" beside the running program; with "played_by":
+  /// "program" the one that $UCHILSIM_STAND_IN names. Throws InputError if that is not set.
+  static std::string programFor(const ExperimentSpec& spec);
 
  private:
   struct Impl;

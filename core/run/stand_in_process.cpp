@@ -81,8 +81,15 @@ RealAnswer StandIn::measure(const std::vector<double>& parameters, int repeat, c
   return {answer.number("fitness", -1e9, 1e9), answer.flag("void", false), answer.text("note", "")};
 }
 
-std::string StandIn::standardProgram() {
-  if (const char* named = std::getenv("UCHILSIM_BTR")) return named;
+std::string StandIn::programFor(const ExperimentSpec& spec) {
+  const char* btr = std::getenv("UCHILSIM_BTR");
+  const char* named = std::getenv("UCHILSIM_STAND_IN");
+  if (valueOf(standInParameters(), spec.standIn, "played_by") == 1) {
+    if (named && *named) return named;
+    throw InputError("experiment /stand_in/played_by", "program",
+                     "the environment variable UCHILSIM_STAND_IN to name the program that plays the robot");
+  }
+  if (btr) return btr;
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "btr").string();
 }
 

@@ -149,6 +149,15 @@ const std::vector<Parameter>& standInParameters() {
        {},
        false,
        {"own_seed", "run_seed"}},
+      {"played_by",
+       "",
+       "who plays the robot: this program's simulator, or the program that UCHILSIM_STAND_IN names",
+       0,
+       1,
+       0,
+       {},
+       false,
+       {"simulator", "program"}},
   };
   return parameters;
 }

@@ -5,86 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
-#include "core/sim/contact_builder.h"
 #include "core/sim/drive_law.h"
+#include "tests/rival/mjcf.h"
 
 namespace btr::bench {
-namespace {
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
-
-std::string text(const Vector3d& v) { return toText(v.x()) + " " + toText(v.y()) + " " + toText(v.z()); }
-std::string pose(const Isometry3d& p) {
-  const Eigen::Quaterniond q(p.linear());
-  return "pos=\"" + text(p.translation()) + "\" quat=\"" + toText(q.w()) + " " + toText(q.x()) + " " + toText(q.y()) +
-         " " + toText(q.z()) + "\"";
-}
-
-void writeLink(std::ostream& out, const SceneRobot& robot, int index, const Isometry3d& place) {
-  const Link& link = robot.model.links[static_cast<std::size_t>(index)];
-  out << "<body name=\"" << link.name << "\" " << pose(place) << ">";
-  if (index == 0) {
-    out << "<freejoint name=\"base\"/>";
-  } else if (const Joint& joint = robot.model.joints[static_cast<std::size_t>(index - 1)];
-             joint.type != Joint::Type::fixed) {
-    out << "<joint name=\"" << joint.name << "\" type=\"" << (joint.type == Joint::Type::slide ? "slide" : "hinge")
-        << "\" axis=\"" << text(joint.axis) << "\" limited=\"true\" range=\"" << toText(joint.lower - 0.0873) << " "
-        << toText(joint.upper + 0.0873) << "\"/>";
-  }
-  const auto& inertia = link.inertial.inertia_kg_m2;
-  out << "<inertial pos=\"" << text(link.inertial.centreOfMass_m) << "\" mass=\"" << toText(link.inertial.mass_kg)
-      << "\" fullinertia=\"" << toText(inertia(0, 0)) << " " << toText(inertia(1, 1)) << " " << toText(inertia(2, 2))
-      << " " << toText(inertia(0, 1)) << " " << toText(inertia(0, 2)) << " " << toText(inertia(1, 2)) << "\"/>";
-  for (const auto& shape : link.shapes) {
-    if (!shape.collides || shape.kind == Shape::Kind::mesh) continue;
-    Isometry3d at = shape.pose;
-    out << "<geom contype=\"1\" conaffinity=\"2\" ";
-    if (shape.kind == Shape::Kind::sphere) out << "type=\"sphere\" size=\"" << toText(shape.size_m.x()) << "\" ";
-    if (shape.kind == Shape::Kind::box) out << "type=\"box\" size=\"" << text(shape.size_m / 2) << "\" ";
-    if (shape.kind == Shape::Kind::cylinder) {
-      at.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));  // theirs lie along z, ours along y
-      out << "type=\"cylinder\" size=\"" << toText(shape.size_m.x()) << " " << toText(shape.size_m.y() / 2) << "\" ";
-    }
-    out << pose(at) << "/>";
-  }
-  for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
-    if (robot.model.joints[j].parentLink == index)
-      writeLink(out, robot, static_cast<int>(j) + 1, robot.model.joints[j].origin);
-  out << "</body>";
-}
-
-}  // namespace
-
-std::string mjcf(const Scene& scene) {
-  const SceneRobot& robot = scene.robots.front();
-  const FloorSpec floor = scene.floor.value_or(FloorSpec{});
-  std::ostringstream out, pairs;
-  out << "<mujoco><compiler angle=\"radian\" balanceinertia=\"false\"/><option gravity=\"" << text(scene.gravity_m_s2)
-      << "\"/><default><geom solref=\"0.005 1\" friction=\"" << toText(shellFriction)
-      << " 0 0\"/></default><worldbody><geom name=\"floor\" type=\"plane\" size=\"50 50 1\" contype=\"0\" "
-         "conaffinity=\"1\" "
-      << "friction=\"" << toText(floor.friction) << " 0 0\"/>";
-  writeLink(out, robot, 0, robot.start);
-  for (const auto& ball : scene.balls) {
-    const double inertia = ball.inertiaFactor * ball.mass_kg * ball.radius_m * ball.radius_m;
-    const double rolling =
-        ball.rollingDeceleration_m_s2 * (1 + ball.inertiaFactor) * ball.radius_m / scene.gravity_m_s2.norm();
-    out << "<body name=\"ball\" pos=\"" << toText(ball.position_m[0]) << " " << toText(ball.position_m[1]) << " "
-        << toText(ball.position_m[2]) << "\"><freejoint/><inertial pos=\"0 0 0\" mass=\"" << toText(ball.mass_kg)
-        << "\" diaginertia=\"" << text(Vector3d::Constant(inertia)) << "\"/><geom name=\"ball\" type=\"sphere\" size=\""
-        << toText(ball.radius_m) << "\" contype=\"2\" conaffinity=\"0\" condim=\"3\"/></body>";
-    // Ball and floor: the floor's friction and the ball's resistance to rolling, which its touch with a leg has not.
-    pairs << "<pair geom1=\"ball\" geom2=\"floor\" condim=\"6\" solref=\"0.005 1\" friction=\""
-          << toText(floor.friction) << " " << toText(floor.friction) << " 0 " << toText(rolling) << " "
-          << toText(rolling) << "\"/>";
-  }
-  out << "</worldbody><contact>" << pairs.str() << "</contact></mujoco>";
-  return out.str();
-}
 
 struct MujocoEngine::Impl {
   const BenchTask& task;
@@ -94,7 +21,7 @@ struct MujocoEngine::Impl {
   int ballBody = -1, ballGeom = -1;
 
   explicit Impl(const BenchTask& given) : task(given) {
-    const std::string xml = mjcf(task.scene);
+    const std::string xml = rival::mjcf(task.scene);
     mjVFS files;
     mj_defaultVFS(&files);
     mj_makeEmptyFileVFS(&files, "dog.xml", static_cast<int>(xml.size()));
@@ -109,8 +36,8 @@ struct MujocoEngine::Impl {
       position.push_back(id < 0 ? -1 : model->jnt_qposadr[id]);
       velocity.push_back(id < 0 ? -1 : model->jnt_dofadr[id]);
     }
-    ballBody = mj_name2id(model, mjOBJ_BODY, "ball");
-    ballGeom = mj_name2id(model, mjOBJ_GEOM, "ball");
+    ballBody = mj_name2id(model, mjOBJ_BODY, "ball0");
+    ballGeom = mj_name2id(model, mjOBJ_GEOM, "ball0");
   }
   ~Impl() {
     mj_deleteData(data);

@@ -7,10 +7,6 @@
 
 namespace btr::bench {
 
-/// The scene's first robot, its ball and its floor as MuJoCo's own model text: the same bodies, joints, colliding
-/// primitives, masses and friction; no self-collision.
-std::string mjcf(const Scene& scene);
-
 /// How the rival is run.
 struct MujocoWay {
   std::string name;

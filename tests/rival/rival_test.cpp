@@ -1,0 +1,109 @@
+// Our simulator beside another engine on the same robot: where both promise the same physics they must agree.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/run/back_to_reality.h"
+#include "core/run/recorded_robot.h"
+#include "core/sim/bench.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "tests/gap/temporary_folder.h"
+#include "tests/rival/rival_trial.h"
+
+namespace btr::rival {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Rival : public testing::Test {
+ protected:
+  Rival() : host_(PLUGIN_DIR) {
+    setenv("UCHILSIM_BTR", BTR_PROGRAM, 1);
+    unsetenv("UCHILSIM_STAND_IN");
+    text_ = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    text_["controller"]["settings"] = {{"accumulate_s", 0.2}, {"hold_s", 0.1}, {"return_s", 0.2}};
+    text_["learner"]["settings"]["population"] = 4;
+    text_["stages"] = {{"first_generations", 1}, {"total_generations", 1}, {"measured_individuals", 2}};
+    text_["stand_in"]["played_by"] = "program";
+    text_["stand_in"]["step_s"] = 0.001;
+  }
+  ExperimentSpec spec() const { return experimentFromJson(text_.dump(), "kick", SOURCE_DIR "/resources/experiments"); }
+
+  TemporaryFolder folder_;
+  PluginHost host_;
+  nlohmann::json text_;
+};
+
+TEST_F(Rival, AHungDogFollowsItsCommandsAsInOurSimulator) {
+  PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  prepared.sceneSpec.step_s = 0.001;
+  std::vector<double> middle;
+  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const Scene hung = recordedScene(prepared, prepared.spec.simulator);
+  const Trace ours = prepared.trial(hung, middle, 1, true).trace;
+  TrialOptions options;
+  options.recordTrace = true;
+  const Trace theirs =
+      runMujocoTrial(hung, *prepared.controller, prepared.spec.controller.settings, middle, options).trace;
+  for (const char* leg : {"LF", "RF", "LR", "RR"})
+    for (const char* joint : {"_J1", "_J2", "_J3"}) {
+      const std::string name = std::string("ers7.") + leg + joint;
+      const int command = ours.column(name + ".command_rad"), position = ours.column(name + ".position_rad");
+      const int itsCommand = theirs.column(name + ".command_rad"), itsPosition = theirs.column(name + ".position_rad");
+      ASSERT_GE(itsPosition, 0) << name;
+      double largest = 0;
+      const std::size_t rows = std::min(ours.rows(), theirs.rows());
+      ASSERT_GT(rows, 60u);
+      for (std::size_t row = 1; row < rows; ++row) {
+        const auto at = [&](const Trace& trace, int column) { return trace.at(row, static_cast<std::size_t>(column)); };
+        EXPECT_EQ(at(ours, command), at(theirs, itsCommand)) << name << " row " << row;
+        largest = std::max(largest, std::abs(at(ours, position) - at(theirs, itsPosition)));
+      }
+      // A millisecond, one step of either, at 5 rad/s.
+      EXPECT_LT(largest, 0.005) << name;
+    }
+}
+
+TEST_F(Rival, LearnedKicksSendTheBallAboutAsFar) {
+  const SceneSpec kick = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
+  const auto controller = host_.controller("kick");
+  BenchTask task = kickTask(kick, loadModels(kick), *controller);
+  task.scene.step_s = 0.0005;
+  task.scene.nearSubsteps = 1;
+  const auto way = [](const TrialResult& result) {
+    return (result.balls.at(0).rest_m - result.balls.at(0).start_m).head<2>().norm();
+  };
+  double ours = 0, theirs = 0;
+  for (const auto& parameters : task.parameters) {
+    ours += way(runTrial(task.scene, *controller, task.settings, parameters, 1));
+    theirs += way(runMujocoTrial(task.scene, *controller, task.settings, parameters));
+  }
+  // Single kicks hang on hairs; the ten of them together do not. Their contacts have no slip.
+  EXPECT_GT(theirs, ours / 2);
+  EXPECT_LT(theirs, ours * 2);
+}
+
+TEST_F(Rival, AnotherProgramPlaysTheRobotAndEachMeasurementSaysWho) {
+  Database database = Database::open(folder_.file("a.db"), Database::Mode::create);
+  const Id run = startRun(database, host_, spec(), 7);
+  try {
+    continueRun(database, host_, run, StopFlag{false}, {});
+    FAIL() << "nobody was named";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("UCHILSIM_STAND_IN"));
+  }
+  setenv("UCHILSIM_STAND_IN", STAND_IN_PROGRAM, 1);
+  ASSERT_EQ(continueRun(database, host_, run, StopFlag{false}, {}), RunEnd::finished);
+  const auto measured = database.measurements(run);
+  ASSERT_EQ(measured.size(), 2u);
+  for (const MeasurementRecord& measurement : measured) {
+    EXPECT_EQ(measurement.note, "MuJoCo");
+    EXPECT_EQ(measurement.source, "stand_in");
+  }
+}
+
+}  // namespace
+}  // namespace btr::rival

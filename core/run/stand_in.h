@@ -53,7 +53,8 @@ struct RealWorld {
 /// same bits. With `recordTo` not empty, the individual is also recorded as the experiment wants it (recordedScene())
 /// into a file of that name.
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
-                          std::span<const double> parameters, int repeat, const std::string& recordTo = {});
+                          std::span<const double> parameters, int repeat, const std::string& recordTo = {},
+                          const RealWorld& world = {});
 
 /// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE"} on `in`, one answer a
 /// line

@@ -147,22 +147,36 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
 
 /// Dry friction and play leave side minima along an effect's size: where another size fits better at once, the fit is
 /// taken up again from there.
+namespace {
+
+/// The last effect of a model `size` times as large.
+FitModel resized(FitModel model, double size) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect + 1 == static_cast<int>(model.effects.size()) && p.hasNeutral)
+      model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
+  }
+  return model;
+}
+
+}  // namespace
+
+bool SearchRun::isAtLeast(const Fit& fit) const {
+  constexpr double larger = 1.5, flat = 1e-3;
+  const auto costAt = [&](double size) {
+    return residualsOf(problem_, resized(fit.model, size), fit.shifts).squaredNorm();
+  };
+  const double here = costAt(1);
+  return std::abs(costAt(larger) - here) < flat * (costAt(0) - here);
+}
+
 void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
   constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
   constexpr double better = 0.995;
-  const auto resized = [&](const Fit& fit, double size) {
-    FitModel model = fit.model;
-    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-      const FitParameter& p = model.parameters[i];
-      if (p.effect + 1 == static_cast<int>(model.effects.size()) && p.hasNeutral)
-        model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
-    }
-    return model;
-  };
   const auto errors = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
     std::vector<double> list;
     for (const double size : sizes)
-      list.push_back(residualsOf(problem_, resized(fits[i], size), fits[i].shifts).squaredNorm());
+      list.push_back(residualsOf(problem_, resized(fits[i].model, size), fits[i].shifts).squaredNorm());
     return list;
   });
   std::vector<FitJob> jobs;
@@ -171,7 +185,7 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
     const auto least = std::min_element(errors[i].begin(), errors[i].end());
     if (errors[i].empty() || !(*least < better * errors[i][0])) continue;
     const double size = sizes[static_cast<std::size_t>(least - errors[i].begin())];
-    jobs.push_back({resized(fits[i], size), fits[i].shifts});
+    jobs.push_back({resized(fits[i].model, size), fits[i].shifts});
     owner.push_back(i);
   }
   const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
@@ -222,7 +236,7 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
     return false;
   }
   const double errors = with.sizes.at(newEffect);
-  if (errors < leastErrors) {
+  if (errors < leastErrors && !isAtLeast(with.fit)) {
     reason = "its size is only " + toText(std::round(10 * errors) / 10) + " standard errors";
     return false;
   }

@@ -63,6 +63,9 @@ class SearchRun {
   /// Fits some of them to the end and scores them; true if one passes.
   bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
                const std::string& stage, double from, double to);
+  /// Whether the fit's last effect could as well be much larger, though not absent: friction that holds a joint still
+  /// is known from below only, and has no standard error.
+  bool isAtLeast(const Fit& fit) const;
   void shake(std::vector<Fit>& fits, const std::string& stage, double at) const;
   std::vector<Base> basesOf(const SearchResult& result, const Linearised& linear, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,

@@ -80,7 +80,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
       named ? beyondStep > stillNoise && (curveIsBetter || leftBeyondStep > unexplainedShare * excess)
             : beyondStep > unexplained;
 
-  if (!moves) {
+  // What stands still although the simulator moves tells a lot.
+  if (!moves && calibrated <= unexplained) {
     report.verdict = Verdict::notExcited;
     report.sentence =
         "Nothing in these recordings moves by more than " + toText(leastMotion) +

@@ -141,6 +141,15 @@ TEST(Analysis, ARecordingInWhichNothingMovesTellsNothing) {
   EXPECT_THAT(namesOf(report), testing::IsEmpty());
 }
 
+TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "command_delay", "force_offset"};
+  const SimulatorSpec truth{{}, {{"coulomb_friction", "rig.hinge", {{"torque_nm", 1.9}}}}};
+  const GapReport report = analyse(recordedFrom(truth, 0.25), library(), options);
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  EXPECT_THAT(namesOf(report), testing::ElementsAre("coulomb_friction at rig.hinge")) << toPlainText(report);
+}
+
 TEST(Analysis, TheNumberOfWorkersChangesNothing) {
   const GapProblem problem =
       recordedFrom({{}, {{"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 0.05}}}}}, 0.3);

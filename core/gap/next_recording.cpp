@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, Shape>> shapes(std::uint64_t seed) {
                     const double p = std::fmod(t / 4 + phase(k) / 6, 1.0);
                     return p < 0.5 ? 4 * p - 1 : 3 - 4 * p;
                   }});
-  list.push_back({"steps", [phase](double t, std::size_t k) {
+  list.push_back({"steps", [](double t, std::size_t k) {
                     return std::fmod(t + 0.3 * static_cast<double>(k), 2.0) < 1 ? 0.8 : -0.8;
                   }});
   list.push_back({"small steps", [](double t, std::size_t k) {

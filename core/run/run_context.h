@@ -51,7 +51,6 @@ class RunContext {
   const RunOptions& options_;
   std::unique_ptr<Evaluator> evaluator_;
   std::chrono::steady_clock::time_point begun_, published_, looked_;
-  long generationTrials_ = 0;
 };
 
 /// One generation of L1 after another until `lastGeneration` is stored. False if stopped.

@@ -89,7 +89,7 @@ std::string StandIn::programFor(const ExperimentSpec& spec) {
     throw InputError("experiment /stand_in/played_by", "program",
                      "the environment variable UCHILSIM_STAND_IN to name the program that plays the robot");
   }
-  if (btr) return btr;
+  if (btr && *btr) return btr;
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "btr").string();
 }
 

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   btr::cli::addGapCommands(app, shell);
   btr::cli::addBenchCommand(app, shell);
   btr::cli::addGaitCommands(app, shell);
+  btr::cli::addGridCommands(app, shell);
 
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_host.h"
+#include "core/run/spread.h"
 
 // Commands of btr. Each function adds its subcommands to the parser; their callbacks do the work and set the exit code.
 namespace btr::cli {
@@ -36,6 +37,7 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell);
 void addGapProveCommand(CLI::App& gap, Shell& shell);  ///< gap prove
 void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
 void addGaitCommands(CLI::App& app, Shell& shell);     ///< gait check
+void addGridCommands(CLI::App& app, Shell& shell);     ///< grid, grid table|map|kick
 
 /// Writes to the file, or to standard output if `path` is empty.
 void writeOut(const std::string& path, const std::string& text);
@@ -45,5 +47,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 
 /// Four significant digits for people.
 std::string brief(double value);
+/// "0.123 ± 0.045", the 95 % interval; empty where there is nothing.
+std::string interval(const Spread& spread);
 
 }  // namespace btr::cli

@@ -15,14 +15,6 @@ struct CompareArguments {
   bool quiet = false;
 };
 
-/// "0.123 ± 0.045", the 95 % interval; empty where there is nothing.
-std::string interval(const Spread& spread) {
-  if (spread.count == 0) return "";
-  char text[48];
-  std::snprintf(text, sizeof text, spread.count > 1 ? "%.3f ± %.3f" : "%.3f", spread.mean, spread.halfWidth95);
-  return text;
-}
-
 void print(const Comparison& comparison) {
   const std::string unit = comparison.unit.empty() ? "" : " [" + comparison.unit + "]";
   std::vector<std::vector<std::string>> rows;

@@ -28,6 +28,13 @@ std::string brief(double value) {
   return text;
 }
 
+std::string interval(const Spread& spread) {
+  if (spread.count == 0) return "";
+  char text[48];
+  std::snprintf(text, sizeof text, spread.count > 1 ? "%.3f ± %.3f" : "%.3f", spread.mean, spread.halfWidth95);
+  return text;
+}
+
 namespace {
 
 // Columns on the screen: bytes that do not continue a UTF-8 character.

@@ -60,12 +60,7 @@ Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& sp
     experiment.createdAt = utcNow();
     record.experiment = database.addExperiment(experiment);
   }
-  SimulatorRecord first;
-  first.simulator = spec.simulator;
-  for (const Parameter& p : simulatorParameters()) first.simulator.values.try_emplace(p.name, p.byDefault);
-  first.madeBy = "start";
-  first.createdAt = utcNow();
-  return database.addRun(record, first);
+  return database.addRun(record, firstSimulator(spec));
 }
 
 Id startRun(Database& database, const PluginHost& host, const std::string& path, std::uint64_t seed, bool again) {
@@ -76,6 +71,9 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
                    const RunOptions& options) {
   const RunLock lock(database.path(), run);
   if (database.run(run).state == RunState::finished) return RunEnd::finished;
+  if (const auto grid = database.gridOfRun(run))
+    throw InputError("run " + std::to_string(run) + " of " + database.path() + ": it is a cell of grid " +
+                     std::to_string(*grid) + "; its cells go on together (btr grid)");
   database.requestStop(run, false);
   RunContext context(database, host, run, stop, options);
   const auto stopped = [&] {

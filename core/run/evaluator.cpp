@@ -1,5 +1,6 @@
 #include "core/run/evaluator.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/spec/error.h"
@@ -13,7 +14,8 @@ std::string encode(const TrialJob& job) {
   return json{{"simulator", toJsonText(job.simulator)},
               {"parameters", job.parameters},
               {"seed", job.seed},
-              {"wantTrace", job.wantTrace}}
+              {"wantTrace", job.wantTrace},
+              {"task", job.task}}
       .dump();
 }
 
@@ -24,6 +26,7 @@ TrialJob decodeJob(const std::string& text) {
   job.parameters = j.at("parameters").get<std::vector<double>>();
   job.seed = j.at("seed").get<std::uint64_t>();
   job.wantTrace = j.at("wantTrace").get<bool>();
+  job.task = j.at("task").get<Values>();
   return job;
 }
 
@@ -32,7 +35,8 @@ std::string encode(const TrialReply& reply) {
   return json{{"fitness", reply.fitness},
               {"outcome", reply.outcome},
               {"detail", reply.detail},
-              {"sha256", reply.traceSha256}}
+              {"sha256", reply.traceSha256},
+              {"figures", reply.figures}}
              .dump(-1, ' ', false, json::error_handler_t::replace) +
          '\n' + reply.packedTrace;
 }
@@ -40,8 +44,12 @@ std::string encode(const TrialReply& reply) {
 TrialReply decodeReply(const std::string& bytes) {
   const std::size_t line = bytes.find('\n');
   const json j = json::parse(bytes.substr(0, line));
-  return {j.at("fitness").get<double>(), j.at("outcome").get<std::string>(), j.at("detail").get<std::string>(),
-          j.at("sha256").get<std::string>(), bytes.substr(line + 1)};
+  return {j.at("fitness").get<double>(),
+          j.at("outcome").get<std::string>(),
+          j.at("detail").get<std::string>(),
+          j.at("sha256").get<std::string>(),
+          bytes.substr(line + 1),
+          j.at("figures").get<Values>()};
 }
 
 TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, const TrialJob& job) {
@@ -49,6 +57,7 @@ TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, co
   TrialReply reply;
   reply.outcome = toText(result.outcome);
   reply.detail = prepared.detailOf(result);
+  reply.figures = prepared.figuresOf(result);
   reply.fitness = prepared.fitnessOf(result);
   reply.traceSha256 = result.trace.sha256();
   if (job.wantTrace) reply.packedTrace = result.trace.pack();
@@ -58,24 +67,36 @@ TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, co
 }  // namespace
 
 TrialReply runTrialJob(const PreparedExperiment& prepared, const TrialJob& job) {
-  return evaluateIn(prepared, prepared.scene(job.simulator), job);
+  const PreparedExperiment own = prepared.withTask(job.task);
+  return evaluateIn(own, own.scene(job.simulator), job);
 }
 
 Evaluator::Evaluator(const PreparedExperiment& prepared, int workers) : prepared_(prepared) {
-  // A worker keeps the scene of the last simulator: L1 asks for the same one all the time.
-  struct Cache {
-    std::optional<SimulatorSpec> simulator;
+  // A worker keeps the scenes of the last simulator: L1 asks for the same ones all the time.
+  struct Task {
+    PreparedExperiment experiment;
     Scene scene;
   };
-  pool_ = std::make_unique<WorkerPool>(workers > 0 ? workers : processorCount(),
-                                       [&prepared, cache = std::make_shared<Cache>()](const std::string& text) {
-                                         const TrialJob job = decodeJob(text);
-                                         if (!cache->simulator || *cache->simulator != job.simulator) {
-                                           cache->scene = prepared.scene(job.simulator);
-                                           cache->simulator = job.simulator;
-                                         }
-                                         return encode(evaluateIn(prepared, cache->scene, job));
-                                       });
+  struct Cache {
+    std::optional<SimulatorSpec> simulator;
+    std::map<Values, Task> tasks;
+  };
+  constexpr std::size_t mostTasks = 64;
+  pool_ = std::make_unique<WorkerPool>(
+      workers > 0 ? workers : processorCount(),
+      [&prepared, cache = std::make_shared<Cache>()](const std::string& text) {
+        const TrialJob job = decodeJob(text);
+        if (!cache->simulator || *cache->simulator != job.simulator || cache->tasks.size() >= mostTasks)
+          cache->tasks.clear();
+        cache->simulator = job.simulator;
+        auto task = cache->tasks.find(job.task);
+        if (task == cache->tasks.end()) {
+          PreparedExperiment own = prepared.withTask(job.task);
+          Scene scene = own.scene(job.simulator);
+          task = cache->tasks.emplace(job.task, Task{std::move(own), std::move(scene)}).first;
+        }
+        return encode(evaluateIn(task->second.experiment, task->second.scene, job));
+      });
 }
 
 std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<TrialJob>& jobs,
@@ -89,9 +110,11 @@ std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<Tri
   std::vector<TrialReply> results;
   results.reserve(replies.size());
   for (const WorkerPool::Reply& reply : replies)
-    results.push_back(reply.ok ? decodeReply(reply.bytes)
-                               : TrialReply{prepared_.fitness->ofFailure(), toText(TrialResult::Outcome::workerDied),
-                                            reply.failure, "", ""});
+    results.push_back(
+        reply.ok
+            ? decodeReply(reply.bytes)
+            : TrialReply{
+                  prepared_.fitness->ofFailure(), toText(TrialResult::Outcome::workerDied), reply.failure, "", "", {}});
   return results;
 }
 

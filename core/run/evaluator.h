@@ -18,6 +18,7 @@ struct TrialJob {
   std::vector<double> parameters;  ///< in the order of the genotype
   std::uint64_t seed = 0;
   bool wantTrace = false;  ///< send the packed trace back, not only its hash
+  Values task = {};        ///< settings of the controller in place of the experiment's; empty: none
 };
 
 /// What a trial was worth. A trial that failed in any way has the fitness of a failure and says why.
@@ -27,6 +28,7 @@ struct TrialReply {
   std::string detail;                ///< why it failed, or what else the fitness tells: "falls 0, straightness 0.97"
   std::string traceSha256;           ///< "" if a worker died
   std::string packedTrace;           ///< if wanted
+  Values figures = {};               ///< what else the fitness tells, as numbers
 };
 
 /// Runs one trial here and now; what a worker does.

@@ -10,6 +10,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
+#include "core/store/database.h"
 
 namespace btr {
 namespace {
@@ -109,9 +110,23 @@ std::string PreparedExperiment::detailOf(const TrialResult& result) const {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(4);
-  for (const auto& [name, value] : fitness->figures(result, spec.fitness.settings, task()))
-    text << (text.tellp() > 0 ? ", " : "") << name << ' ' << value;
+  for (const auto& [name, value] : figuresOf(result)) text << (text.tellp() > 0 ? ", " : "") << name << ' ' << value;
   return text.str();
+}
+
+Values PreparedExperiment::figuresOf(const TrialResult& result) const {
+  if (result.outcome != TrialResult::Outcome::finished) return {};
+  Values figures = fitness->figures(result, spec.fitness.settings, task());
+  std::erase_if(figures, [](const auto& figure) { return !std::isfinite(figure.second); });
+  return figures;
+}
+
+PreparedExperiment PreparedExperiment::withTask(const Values& settings) const {
+  PreparedExperiment other = *this;
+  for (const auto& [name, value] : settings) other.spec.controller.settings[name] = value;
+  resolve(controller->settings(), other.spec.controller.settings, "settings of " + spec.controller.name);
+  other.specInWords.controller = choiceOf(spec.controller.name, other.spec.controller.settings, controller->settings());
+  return other;
 }
 
 Values PreparedExperiment::task() const {
@@ -140,6 +155,15 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) {
   const std::string place = "run " + std::to_string(run.id);
   return prepare(experimentFromJson(run.specJson, place, ""), sceneFromJson(run.sceneJson, place, ""), run.files, host);
+}
+
+SimulatorRecord firstSimulator(const ExperimentSpec& spec) {
+  SimulatorRecord first;
+  first.simulator = spec.simulator;
+  for (const Parameter& p : simulatorParameters()) first.simulator.values.try_emplace(p.name, p.byDefault);
+  first.madeBy = "start";
+  first.createdAt = utcNow();
+  return first;
 }
 
 RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::uint64_t seed) {

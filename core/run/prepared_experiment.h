@@ -37,6 +37,10 @@ struct PreparedExperiment {
   double fitnessOf(const TrialResult& result) const;
   /// Why a trial failed; of a finished one what else the fitness plugin tells, "falls 0, straightness 0.97".
   std::string detailOf(const TrialResult& result) const;
+  /// The same as numbers; none of a trial that failed.
+  Values figuresOf(const TrialResult& result) const;
+  /// The same experiment with another task: these settings of the controller in place of its own.
+  PreparedExperiment withTask(const Values& settings) const;
 
  private:
   Values task() const;  ///< all of the controller's settings, defaults filled in
@@ -46,6 +50,9 @@ struct PreparedExperiment {
 /// Throws InputError.
 PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host);
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
+
+/// The simulator version 0 of a run: what the experiment says, start values for the rest.
+SimulatorRecord firstSimulator(const ExperimentSpec& spec);
 
 /// The record that stores a prepared experiment as a run, ready to start.
 RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::uint64_t seed);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/spec/random.h"
+#include "core/run/search.h"
 
 namespace btr {
 namespace {
@@ -69,7 +69,7 @@ double RunContext::realitySetting(const std::string& name) const {
   return valueOf(realityLearningParameters(), prepared.spec.realitySettings, name);
 }
 
-std::uint64_t RunContext::trialSeed() const { return Random::forPurpose(record.seed, "trial").next() >> 1; }
+std::uint64_t RunContext::trialSeed() const { return trialSeedOf(record); }
 
 int RunContext::measuredAfter(int stage) const {
   const long long wanted = static_cast<long long>(stageSetting("first_generations")) +

@@ -11,8 +11,8 @@
 namespace btr {
 namespace {
 
-std::string lockPath(const std::string& databasePath, Id run) {
-  return databasePath + ".run-" + std::to_string(run) + ".lock";
+std::string lockPath(const std::string& databasePath, Id run, const std::string& what) {
+  return databasePath + "." + what + "-" + std::to_string(run) + ".lock";
 }
 
 // Locks of the open file, not of the process: they can be asked for without taking them, and they end with their
@@ -26,13 +26,14 @@ struct flock wholeFile() {
 
 }  // namespace
 
-RunLock::RunLock(const std::string& databasePath, Id run) : path_(lockPath(databasePath, run)) {
+RunLock::RunLock(const std::string& databasePath, Id run, const std::string& what)
+    : path_(lockPath(databasePath, run, what)) {
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0) throw InputError(path_ + ": cannot be made: " + std::strerror(errno));
   struct flock lock = wholeFile();
   if (fcntl(file_, F_OFD_SETLK, &lock) != 0) {
     close(file_);
-    throw InputError("run " + std::to_string(run) + " of " + databasePath +
+    throw InputError(what + " " + std::to_string(run) + " of " + databasePath +
                      ": another process works on it; wait for it or stop it first");
   }
 }
@@ -40,8 +41,8 @@ RunLock::RunLock(const std::string& databasePath, Id run) : path_(lockPath(datab
 // The file stays: removing it would let two processes lock two files of the same name.
 RunLock::~RunLock() { close(file_); }
 
-bool RunLock::isHeld(const std::string& databasePath, Id run) {
-  const int file = open(lockPath(databasePath, run).c_str(), O_RDWR | O_CLOEXEC);
+bool RunLock::isHeld(const std::string& databasePath, Id run, const std::string& what) {
+  const int file = open(lockPath(databasePath, run, what).c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return false;
   struct flock lock = wholeFile();
   const bool held = fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;

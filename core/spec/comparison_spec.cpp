@@ -8,6 +8,19 @@
 
 namespace btr {
 
+std::vector<std::uint64_t> seedsFrom(JsonReader& reader) {
+  std::vector<std::uint64_t> seeds;
+  for (const double seed : reader.numberList("seeds")) {
+    constexpr double largest = 9007199254740991;  // every whole number up to it is a double
+    if (!(seed >= 0) || seed > largest || seed != static_cast<double>(static_cast<std::uint64_t>(seed)) ||
+        std::ranges::count(seeds, static_cast<std::uint64_t>(seed)) > 0)
+      reader.refuse("seeds", "whole numbers from 0 to 2^53 − 1, each once");
+    seeds.push_back(static_cast<std::uint64_t>(seed));
+  }
+  if (seeds.empty()) reader.refuse("seeds", "at least one seed");
+  return seeds;
+}
+
 ComparisonSpec comparisonFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
   reader.word("format", {"uchilsim-comparison-1"});
@@ -24,14 +37,7 @@ ComparisonSpec comparisonFromJson(const std::string& text, const std::string& pl
     spec.arms.push_back(std::move(read));
   });
   if (spec.arms.empty()) reader.refuse("arms", "at least one arm");
-  for (const double seed : reader.numberList("seeds")) {
-    constexpr double largest = 9007199254740991;  // every whole number up to it is a double
-    if (!(seed >= 0) || seed > largest || seed != static_cast<double>(static_cast<std::uint64_t>(seed)) ||
-        std::ranges::count(spec.seeds, static_cast<std::uint64_t>(seed)) > 0)
-      reader.refuse("seeds", "whole numbers from 0 to 2^53 − 1, each once");
-    spec.seeds.push_back(static_cast<std::uint64_t>(seed));
-  }
-  if (spec.seeds.empty()) reader.refuse("seeds", "at least one seed");
+  spec.seeds = seedsFrom(reader);
   reader.finish();
   return spec;
 }

@@ -17,6 +17,10 @@ struct ComparisonSpec {
   std::string directory;             ///< of the file; not part of the JSON
 };
 
+class JsonReader;
+/// The list "seeds": at least one whole number from 0 to 2^53 − 1, each once. Throws InputError.
+std::vector<std::uint64_t> seedsFrom(JsonReader& reader);
+
 /// Throws InputError: at least one arm and one seed, names and seeds each once.
 ComparisonSpec comparisonFromJson(const std::string& text, const std::string& place, const std::string& directory);
 ComparisonSpec loadComparison(const std::string& path);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/spec/sha256.h"
+#include "core/store/grid_records.h"
 #include "core/store/records.h"
 
 namespace btr {
@@ -43,7 +44,8 @@ class Database {
   Id addRun(const RunRecord& run, const SimulatorRecord& first);
   std::vector<RunRecord> runs(Id experiment = 0) const;  ///< without specs' files; 0: of all experiments
   RunRecord run(Id id) const;                            ///< with everything
-  std::optional<Id> findRun(const std::string& specSha256, std::uint64_t seed) const;  ///< the latest such run
+  /// The latest such run that is not a cell of a grid.
+  std::optional<Id> findRun(const std::string& specSha256, std::uint64_t seed) const;
   std::optional<Id> latestRun() const;
   void setRunState(Id run, RunState state, const std::string& message);
   void setRunNote(Id run, const std::string& note);
@@ -109,6 +111,24 @@ class Database {
       const RecordingRecord& recording);  ///< refuses a sha256 that is not that of csv; an absent one is filled in
   std::vector<RecordingRecord> recordings(Id experiment) const;  ///< without csv
   RecordingRecord recording(Id id) const;
+
+  // ---- grids
+  /// Grid, cells and the first runs together; there is one grid of a spec, method and seed.
+  Id addGrid(const GridRecord& grid, const std::vector<GridCellRecord>& cells, const std::vector<GridStart>& first);
+  void beginGridCells(Id grid, const std::vector<GridStart>& starts);
+  /// A generation of each of these cells; ids are written back, also the bests'.
+  void addGridRound(Id grid, std::vector<GridStep>& steps);
+  void settleGrid(Id grid,
+                  std::vector<GridSettlement>& settlements);  ///< their runs are finished then; ids written back
+  void addGridPoints(Id grid, const std::vector<GridPoint>& points);
+  std::vector<GridRecord> grids() const;
+  GridRecord grid(Id id) const;
+  std::optional<Id> findGrid(const std::string& specSha256, const std::string& method, std::uint64_t seed) const;
+  std::optional<Id> gridOfRun(Id run) const;               ///< the grid that the run is a cell of
+  std::vector<GridCellRecord> gridCells(Id grid) const;    ///< by number
+  std::vector<GridBest> gridBests(Id grid) const;          ///< by cell and generation
+  std::vector<GridSolution> gridSolutions(Id grid) const;  ///< by cell
+  std::vector<GridPoint> gridPoints(Id grid) const;        ///< by number
 
  private:
   explicit Database(std::unique_ptr<Connection> connection);

@@ -80,40 +80,41 @@ void Database::setExperimentNote(Id id, const std::string& note) {
   });
 }
 
-Id Database::addRun(const RunRecord& r, const SimulatorRecord& first) {
-  return connection_->write([&] {
-    requireRow(*connection_, "experiment", r.experiment);
-    if (r.reality != "person" && r.reality != "stand_in")
-      throw InputError(path() + " run's reality", "\"" + r.reality + "\"", "person or stand_in");
-    const std::string startedAt = orNow(r.startedAt);
-    const Id run = insert(*connection_,
-                          "INSERT INTO run (experiment_id, seed, spec_json, spec_sha256, scene_json, reality, "
-                          "program_version, started_at) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                          r.experiment, r.seed, r.specJson, r.specSha256, r.sceneJson, r.reality,
-                          r.programVersion.empty() ? programVersion() : r.programVersion, startedAt);
-    insert(
-        *connection_,
-        "INSERT INTO run_state (run_id, state, stage, generation, stop_requested, updated_at, message, progress_json, "
-        "note) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        run, toText(r.state), r.stage, r.generation, r.stopRequested, r.updatedAt.empty() ? startedAt : r.updatedAt,
-        r.message, r.progressJson, r.note);
-    // A file's content is stored once, however many runs use it.
-    Query content(*connection_, "INSERT OR IGNORE INTO stored_file (sha256, content) VALUES (?, ?)");
-    Query file(*connection_, "INSERT INTO run_file (run_id, position, name, sha256) VALUES (?, ?, ?, ?)");
-    int position = 0;
-    for (const StoredFile& f : r.files) {
-      const std::string hash = sha256(f.content);
-      if (!f.sha256.empty() && f.sha256 != hash)
-        throw InputError(path() + " file " + f.name, "the hash " + f.sha256, "that of its content, " + hash);
-      content.run(hash, Blob{f.content});
-      file.run(run, position++, f.name, hash);
-    }
-    SimulatorRecord start = first;
-    start.run = run;
-    if (start.madeBy.empty()) start.madeBy = "start";
-    insertSimulator(*connection_, start);
-    return run;
-  });
+Id insertRun(const Connection& connection, const RunRecord& r, const SimulatorRecord& first) {
+  requireRow(connection, "experiment", r.experiment);
+  if (r.reality != "person" && r.reality != "stand_in")
+    throw InputError(connection.path() + " run's reality", "\"" + r.reality + "\"", "person or stand_in");
+  const std::string startedAt = orNow(r.startedAt);
+  const Id run = insert(connection,
+                        "INSERT INTO run (experiment_id, seed, spec_json, spec_sha256, scene_json, reality, "
+                        "program_version, started_at) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                        r.experiment, r.seed, r.specJson, r.specSha256, r.sceneJson, r.reality,
+                        r.programVersion.empty() ? programVersion() : r.programVersion, startedAt);
+  insert(connection,
+         "INSERT INTO run_state (run_id, state, stage, generation, stop_requested, updated_at, message, progress_json, "
+         "note) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+         run, toText(r.state), r.stage, r.generation, r.stopRequested, r.updatedAt.empty() ? startedAt : r.updatedAt,
+         r.message, r.progressJson, r.note);
+  // A file's content is stored once, however many runs use it.
+  Query content(connection, "INSERT OR IGNORE INTO stored_file (sha256, content) VALUES (?, ?)");
+  Query file(connection, "INSERT INTO run_file (run_id, position, name, sha256) VALUES (?, ?, ?, ?)");
+  int position = 0;
+  for (const StoredFile& f : r.files) {
+    const std::string hash = sha256(f.content);
+    if (!f.sha256.empty() && f.sha256 != hash)
+      throw InputError(connection.path() + " file " + f.name, "the hash " + f.sha256, "that of its content, " + hash);
+    content.run(hash, Blob{f.content});
+    file.run(run, position++, f.name, hash);
+  }
+  SimulatorRecord start = first;
+  start.run = run;
+  if (start.madeBy.empty()) start.madeBy = "start";
+  insertSimulator(connection, start);
+  return run;
+}
+
+Id Database::addRun(const RunRecord& run, const SimulatorRecord& first) {
+  return connection_->write([&] { return insertRun(*connection_, run, first); });
 }
 
 std::vector<RunRecord> Database::runs(Id experiment) const {
@@ -147,7 +148,9 @@ RunRecord Database::run(Id id) const {
 
 std::optional<Id> Database::findRun(const std::string& specSha256, std::uint64_t seed) const {
   return connection_->read([&] {
-    return Query(*connection_, "SELECT id FROM run WHERE spec_sha256 = ? AND seed = ? ORDER BY id DESC LIMIT 1",
+    return Query(*connection_,
+                 "SELECT id FROM run WHERE spec_sha256 = ? AND seed = ? AND id NOT IN (SELECT run_id FROM grid_run) "
+                 "ORDER BY id DESC LIMIT 1",
                  specSha256, seed)
         .value<Id>();
   });

@@ -51,36 +51,38 @@ void complete(const Connection& connection, const GenerationRecord& generation, 
 
 }  // namespace
 
+void insertGeneration(const Connection& connection, GenerationRecord& g) {
+  const int next = countersOf(connection, g.run).generation + 1;
+  if (g.number != next)
+    connection.refuse("generation " + std::to_string(g.number) + " is not allowed; the next of run " +
+                      std::to_string(g.run) + " is " + std::to_string(next));
+  requireRowOfRun(connection, "simulator", g.run, g.simulator);
+  g.finishedAt = orNow(g.finishedAt);
+  for (double* value : {&g.best, &g.mean, &g.worst, &g.seconds}) *value += 0.0;
+  Query(connection,
+        "INSERT INTO generation (run_id, number, simulator_id, best, mean, worst, trials, reused, failed, seconds, "
+        "finished_at) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .run(g.run, g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed, g.seconds,
+           g.finishedAt);
+  Query(connection, "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?)")
+      .run(g.run, g.number, g.randomState, g.learnerState);
+
+  IndividualRow row(connection);
+  for (std::size_t k = 0; k < g.individuals.size(); ++k) {
+    IndividualRecord& i = g.individuals[k];
+    complete(connection, g, k, i);
+    if (i.simulator != g.simulator) requireRowOfRun(connection, "simulator", g.run, i.simulator);
+    i.id = row.insert(i);
+  }
+  Query(connection, "UPDATE run_state SET generation = ?, updated_at = ? WHERE run_id = ?")
+      .run(g.number, g.finishedAt, g.run);
+}
+
 void Database::addGeneration(GenerationRecord& generation) {
   // The record is written back only when all of it is stored.
   GenerationRecord g = generation;
-  connection_->write([&] {
-    const int next = countersOf(*connection_, g.run).generation + 1;
-    if (g.number != next)
-      connection_->refuse("generation " + std::to_string(g.number) + " is not allowed; the next of run " +
-                          std::to_string(g.run) + " is " + std::to_string(next));
-    requireRowOfRun(*connection_, "simulator", g.run, g.simulator);
-    g.finishedAt = orNow(g.finishedAt);
-    for (double* value : {&g.best, &g.mean, &g.worst, &g.seconds}) *value += 0.0;
-    Query(*connection_,
-          "INSERT INTO generation (run_id, number, simulator_id, best, mean, worst, trials, reused, failed, seconds, "
-          "finished_at) "
-          "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-        .run(g.run, g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed, g.seconds,
-             g.finishedAt);
-    Query(*connection_, "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?)")
-        .run(g.run, g.number, g.randomState, g.learnerState);
-
-    IndividualRow row(*connection_);
-    for (std::size_t k = 0; k < g.individuals.size(); ++k) {
-      IndividualRecord& i = g.individuals[k];
-      complete(*connection_, g, k, i);
-      if (i.simulator != g.simulator) requireRowOfRun(*connection_, "simulator", g.run, i.simulator);
-      i.id = row.insert(i);
-    }
-    Query(*connection_, "UPDATE run_state SET generation = ?, updated_at = ? WHERE run_id = ?")
-        .run(g.number, g.finishedAt, g.run);
-  });
+  connection_->write([&] { insertGeneration(*connection_, g); });
   generation = std::move(g);
 }
 

@@ -14,5 +14,7 @@ void keep(SQLite::Database& database, const std::string& table, const std::strin
 
 /// Policies of L2 and how its learner goes on.
 void learningInReality(SQLite::Database& database);
+/// Grids of experiments, their cells and what becomes of them.
+void gridsOfExperiments(SQLite::Database& database);
 
 }  // namespace btr

@@ -266,6 +266,7 @@ constexpr std::array steps{
     Migration{"the first schema: everything that a Back-to-Reality run is resumed, shown and replayed from",
               firstSchema},
     Migration{"policies of L2, and how its learner goes on", learningInReality},
+    Migration{"grids of experiments whose runs are learned together", gridsOfExperiments},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 /// The papers give the form, not k and not the place from which d is measured. A robot that fell while kicking still
 /// kicked: its fitness is multiplied by fall_factor, 1 unless the user wants it to stay on its feet. A ball that lies
 /// still has d = 0.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -32,24 +33,46 @@ class KickDistance final : public btr::Fitness {
                   const btr::Values& controllerSettings) const override {
     if (result.outcome != btr::TrialResult::Outcome::finished || result.balls.empty()) return ofFailure();
     const auto value = btr::resolve(this->settings(), settings, "kick_distance");
+    const Way way = wayOf(result, value[1] == 1, controllerSettings);
+    const double kick = way.distance * std::exp(-value[0] * way.psi * way.psi);
+    return result.fell ? kick * value[2] : kick;
+  }
+
+  /// How far and how straight the ball went, and how the robot kept its balance.
+  btr::Values figures(const btr::TrialResult& result, const btr::Values& settings,
+                      const btr::Values& controllerSettings) const override {
+    if (result.balls.empty()) return {};
+    const auto value = btr::resolve(this->settings(), settings, "kick_distance");
+    const Way way = wayOf(result, value[1] == 1, controllerSettings);
+    double up = 1;
+    for (const btr::BasePose& pose : result.basePath) up = std::min(up, pose.up);
+    return {{"distance_m", way.distance},
+            {"off_direction_rad", way.psi},
+            {"falls", result.fell ? 1.0 : 0.0},
+            {"largest_tilt_rad", std::acos(std::clamp(up, -1.0, 1.0))}};
+  }
+
+ private:
+  struct Way {
+    double distance, psi;
+  };
+  static Way wayOf(const btr::TrialResult& result, bool fromNeck, const btr::Values& controllerSettings) {
     const auto task = [&](const char* name) {
       const auto found = controllerSettings.find(name);
       if (found == controllerSettings.end())
-        throw btr::InputError(std::string("kick_distance: needs a controller with the setting ") + name + ", as kick has");
+        throw btr::InputError(std::string("kick_distance: needs a controller with the setting ") + name +
+                              ", as kick has");
       return found->second;
     };
     const double wanted = task("direction_rad");
-
     const btr::BallRest& ball = result.balls.front();
     Eigen::Vector2d from = ball.start_m.head<2>();
-    if (value[1] == 1) {
+    if (fromNeck) {
       const double d = task("distance_m"), bearing = task("bearing_rad");
       from -= d * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
     }
     const Eigen::Vector2d way = ball.rest_m.head<2>() - from;
-    const double psi = std::remainder(std::atan2(way.y(), way.x()) - wanted, 2 * std::numbers::pi);
-    const double kick = way.norm() * std::exp(-value[0] * psi * psi);
-    return result.fell ? kick * value[2] : kick;
+    return {way.norm(), std::remainder(std::atan2(way.y(), way.x()) - wanted, 2 * std::numbers::pi)};
   }
 };
 

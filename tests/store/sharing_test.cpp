@@ -125,12 +125,29 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
     start.run = id;
     database.finishStage(start, {id, 1, 1, 0, 1, 1, {}, {}, 1, 1, 0, 1}, RunState::learning);
     database.addRecording({0, 1, 0, "r.csv", "", "", "a,b", "", ""});
+    GridStart cell;
+    cell.cell = 1;
+    cell.run = runOf(1, 2);
+    const Id grid =
+        database.addGrid({0, 1, "whole", "independent", 1, "{}", "hash", ""}, {{1, {0.14, 0, 0}, 0, 0, 0, 0}}, {cell});
+    const Id learner = database.gridCells(grid).front().run;
+    GridStep step;
+    step.generation = generationOf(learner, 1);
+    step.generation.simulator = database.latestSimulator(learner).id;
+    step.best.cell = 1;
+    step.slot = 0;
+    std::vector<GridStep> steps{step};
+    database.addGridRound(grid, steps);
+    const Id best = steps.front().best.individual;
+    std::vector<GridSettlement> settled{{{1, best, best, false, 0, 0}, {}, -1}};
+    database.settleGrid(grid, settled);
+    database.addGridPoints(grid, {{1, {0.15, 0, 0}, {1}, 1, "finished", {}}});
   }
   SQLite::Database raw(file(), SQLite::OPEN_READWRITE);
   std::vector<std::string> tables;
   for (SQLite::Statement row(raw, "SELECT name FROM sqlite_master WHERE type = 'table'"); row.executeStep();)
     tables.push_back(row.getColumn(0).getString());
-  EXPECT_EQ(24u, tables.size());
+  EXPECT_EQ(30u, tables.size());
   for (const std::string& table : tables) {
     EXPECT_GT(raw.execAndGet("SELECT count(*) FROM " + table).getInt(), 0) << table;
     EXPECT_THROW(raw.exec("DELETE FROM " + table), SQLite::Exception) << table;

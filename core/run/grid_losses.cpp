@@ -1,0 +1,38 @@
+#include "core/run/grid_losses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace btr {
+
+std::vector<GridLoss> lossesOf(const GridMap& map) {
+  const auto figure = [](const GridPoint& point, const char* name, double otherwise) {
+    const auto found = point.figures.find(name);
+    return found == point.figures.end() ? otherwise : found->second;
+  };
+  std::vector<double> ways;
+  for (const GridPoint& point : map.points)
+    if (point.figures.contains("distance_m")) ways.push_back(point.figures.at("distance_m"));
+  double least = 0;
+  if (!ways.empty()) {
+    std::ranges::sort(ways);
+    const std::size_t middle = ways.size() / 2;
+    least = lostDistanceShare * (ways.size() % 2 ? ways[middle] : (ways[middle - 1] + ways[middle]) / 2);
+  }
+  std::vector<GridLoss> losses;
+  for (const GridPoint& point : map.points) {
+    GridLoss loss = GridLoss::none;
+    if (point.outcome != "finished")
+      loss = GridLoss::trial;
+    else if (figure(point, "falls", 0) > 0 || figure(point, "largest_tilt_rad", 0) > lostTilt_rad)
+      loss = GridLoss::balance;
+    else if (figure(point, "distance_m", least) < least)
+      loss = GridLoss::distance;
+    else if (std::abs(figure(point, "off_direction_rad", 0)) > lostDirection_rad)
+      loss = GridLoss::direction;
+    losses.push_back(loss);
+  }
+  return losses;
+}
+
+}  // namespace btr

@@ -14,7 +14,7 @@ namespace {
 
 struct Arguments {
   std::string database, screenshot, look, report;
-  btr::Id run = 0;
+  btr::Id run = 0, grid = 0;
   bool replayBest = false;
   int width = 1600, height = 1000, delay_ms = 3000;
 };
@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   commandLine.add_flag("--replay-best", arguments.replayBest,
                        "replay the best individual of the run's last generation");
   commandLine.add_option("--report", arguments.report, "folder of a gap report to open");
+  commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->check(CLI::PositiveNumber);
   commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
   commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");
   commandLine.add_option("--width", arguments.width, "of the window in the picture")->check(CLI::Range(640, 8000));
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
     window.openDatabase(chooseDatabase(arguments, window.settings()));
     if (arguments.run) window.selectRun(arguments.run);
     if (!arguments.report.empty()) window.openReport(QString::fromStdString(arguments.report));
+    if (arguments.grid) window.showGrid(arguments.grid);
     if (arguments.replayBest) window.replayBest();
 
     int result = 0;

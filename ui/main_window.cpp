@@ -63,6 +63,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   connectMeasure();
   connectGap();
   connectCompare();
+  connectGrid();
   arrangeDocks();
   restoreWindow();
   restoreDraft();
@@ -131,6 +132,7 @@ void MainWindow::makeDocks() {
   draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
   makeGapPage();
   makeComparePage();
+  makeGridPage();
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
 
   // Messages stand above everything, in a tool bar of their own that is there only while there is one.
@@ -177,7 +179,9 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, cons
 // Left what there is, in the middle how it goes, right what is asked for.
 void MainWindow::arrangeDocks() {
   runsLayout_.clear();
+  page_ = nullptr;
   gapAction_->setChecked(false);
+  gridAction_->setChecked(false);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     removeDockWidget(dock);
     dock->setFloating(false);
@@ -197,6 +201,7 @@ void MainWindow::arrangeDocks() {
   tabifyDockWidget(specDock_, compareDock_);
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
   gapPageDock_->hide();
+  gridPageDock_->hide();
   compareDock_->hide();
   specDock_->raise();
   individualsDock_->raise();
@@ -218,6 +223,30 @@ void MainWindow::sizeDocks() {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   if (!sized_) QTimer::singleShot(0, this, &MainWindow::sizeDocks);
+}
+
+// A page needs the room: the runs' docks go and come back as they were. One page at a time.
+void MainWindow::givePage(QDockWidget* page, QAction* action, bool on) {
+  for (QAction* other : {gapAction_, gridAction_}) other->setChecked(on && other == action);
+  if (on && page_ == page) return;
+  const bool fromRuns = page_ == nullptr;
+  page_ = on ? page : nullptr;
+  if (!on) {
+    if (!fromRuns) restoreState(std::exchange(runsLayout_, {}), Settings::layoutVersion);
+    // The pages have no place in that layout.
+    for (QDockWidget* other : {gapPageDock_, gridPageDock_}) other->hide();
+    return;
+  }
+  if (fromRuns) runsLayout_ = saveState(Settings::layoutVersion);
+  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->hide();
+  for (QDockWidget* dock : {treeDock_, page, replayDock_}) {
+    removeDockWidget(dock);
+    dock->setFloating(false);
+    addDockWidget(Qt::LeftDockWidgetArea, dock, Qt::Horizontal);
+    dock->show();
+  }
+  const int left = width() * 15 / 100, right = width() * 27 / 100;
+  resizeDocks({treeDock_, page, replayDock_}, {left, width() - left - right, right}, Qt::Horizontal);
 }
 
 void MainWindow::raiseDock(QDockWidget* dock) {

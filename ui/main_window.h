@@ -26,6 +26,7 @@ class ExperimentTree;
 class FitnessChart;
 class GapChart;
 class GapPage;
+class GridPage;
 class MeasurementSheet;
 class MessageBanner;
 class PolicyPage;
@@ -65,10 +66,14 @@ class MainWindow : public QMainWindow {
   bool openReport(const QString& folder);
   /// The gap page with the experiments beside it, or the runs again.
   void showGapPage(bool on);
+  /// The page of grids in their place, or the runs again.
+  void showGridPage(bool on);
+  void showGrid(Id grid);
 
   MessageBanner& banner() { return *banner_; }
   DatabaseWatcher& watcher() { return watcher_; }
   GapPage& gapPage() { return *gapPage_; }
+  GridPage& gridPage() { return *gridPage_; }
   ComparePage& comparePage() { return *comparePage_; }
   /// The page that compares runs, these ticked beside those that are ticked already.
   void compareRuns(const std::vector<Id>& runs);
@@ -86,6 +91,7 @@ class MainWindow : public QMainWindow {
   void arrangeDocks();
   void sizeDocks();
   void raiseDock(QDockWidget* dock);
+  void givePage(QDockWidget* page, QAction* action, bool on);
   void restoreWindow();
   void report(const QString& error);
   void inform(const QString& text);
@@ -138,6 +144,12 @@ class MainWindow : public QMainWindow {
   void makeComparePage();
   void connectCompare();
 
+  // main_window_grid.cpp
+  void makeGridPage();
+  void connectGrid();
+  void readGrids();
+  void playKick(Id grid, double distance_m, double bearing_rad, double direction_rad);
+
   // main_window_gap.cpp
   void makeGapPage();
   void connectGap();
@@ -174,9 +186,11 @@ class MainWindow : public QMainWindow {
   FitnessChart* fitness_ = nullptr;
   GapChart* gap_ = nullptr;
   GapPage* gapPage_ = nullptr;
+  GridPage* gridPage_ = nullptr;
   ComparePage* comparePage_ = nullptr;
-  QAction* gapAction_ = nullptr;
-  QByteArray runsLayout_;                                            ///< of the docks while the gap page has the window
+  QAction *gapAction_ = nullptr, *gridAction_ = nullptr;
+  QByteArray runsLayout_;                                            ///< of the docks while a page has the window
+  QDockWidget* page_ = nullptr;                                      ///< that has it
   std::pair<std::shared_ptr<const GapReport>, std::size_t> ghosts_;  ///< report and trial that the 3D view shows
   bool runActive_ = false;
   SimulatorsPage* versions_ = nullptr;
@@ -189,7 +203,7 @@ class MainWindow : public QMainWindow {
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
               *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
               *individualsDock_ = nullptr, *sheetDock_ = nullptr, *policiesDock_ = nullptr, *gapPageDock_ = nullptr,
-              *compareDock_ = nullptr;
+              *gridPageDock_ = nullptr, *compareDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

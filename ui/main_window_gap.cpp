@@ -57,25 +57,9 @@ void MainWindow::showAdoption() {
   gapPage_->setRun(runName(run_), simulators_, why);
 }
 
-// The page needs the room: the runs' docks go and come back as they were.
 void MainWindow::showGapPage(bool on) {
-  gapAction_->setChecked(on);
-  if (on == !runsLayout_.isEmpty()) return;
-  if (!on) {
-    restoreState(std::exchange(runsLayout_, {}), Settings::layoutVersion);
-    return;
-  }
-  runsLayout_ = saveState(Settings::layoutVersion);
-  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->hide();
-  for (QDockWidget* dock : {treeDock_, gapPageDock_, replayDock_}) {
-    removeDockWidget(dock);
-    dock->setFloating(false);
-    addDockWidget(Qt::LeftDockWidgetArea, dock, Qt::Horizontal);
-    dock->show();
-  }
-  const int left = width() * 15 / 100, right = width() * 27 / 100;
-  resizeDocks({treeDock_, gapPageDock_, replayDock_}, {left, width() - left - right, right}, Qt::Horizontal);
-  gapPage_->setFocus();
+  givePage(gapPageDock_, gapAction_, on);
+  if (on) gapPage_->setFocus();
 }
 
 bool MainWindow::openReport(const QString& folder) {

@@ -95,6 +95,11 @@ void MainWindow::makeMenus() {
   gapAction_->setObjectName("showGapPage");
   gapAction_->setCheckable(true);
   gapAction_->setToolTip(tr("Recordings against simulation: what physics is missing (F8)"));
+  gridAction_ = add(viewMenu_, "view-grid", tr("The &whole kick"), Qt::Key_F9,
+                    [this] { showGridPage(gridAction_->isChecked()); });
+  gridAction_->setObjectName("showGridPage");
+  gridAction_->setCheckable(true);
+  gridAction_->setToolTip(tr("Grids of experiments: cells, and the kicks between them (F9)"));
   add(viewMenu_, "view-restore", tr("&Reset layout"), {}, [this] { arrangeDocks(); });
   QAction* full = add(viewMenu_, "view-fullscreen", tr("&Full screen"), QKeySequence::FullScreen,
                       [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
@@ -112,7 +117,7 @@ void MainWindow::makeMenus() {
   bar->addSeparator();
   bar->addAction(database);
   bar->addSeparator();
-  bar->addAction(gapAction_);
+  bar->addActions({gapAction_, gridAction_});
   insertToolBar(findChild<QToolBar*>("toolbar.messages"), bar);
   insertToolBarBreak(findChild<QToolBar*>("toolbar.messages"));
 }

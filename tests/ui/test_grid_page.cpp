@@ -1,0 +1,339 @@
+// The page of grids: cells chosen and replayed, the preview's point, maps computed beside it, and the window around it.
+#include <QComboBox>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+#include <nlohmann/json.hpp>
+
+#include "core/run/grid_kicks.h"
+#include "core/run/grid_losses.h"
+#include "core/spec/json_reader.h"
+#include "ui/grid/cube_view.h"
+#include "ui/grid/grid_page.h"
+#include "ui/grid/kick_map.h"
+#include "ui/grid/ramp.h"
+#include "ui/main_window.h"
+#include "ui/scene3d/replay_job.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+GridSummary summaryOf(Id grid) {
+  GridSummary s;
+  s.grid.id = grid;
+  s.grid.name = "kick";
+  s.grid.method = "similarity";
+  s.grid.seed = 7;
+  s.spec.axes = {{{0.14, 0.18}, {-0.5, 0, 0.5}, {-1, 1}}};
+  s.unit = "m";
+  for (int cell = 1; cell <= 12; ++cell) {
+    const int k = cell - 1;
+    GridRow row;
+    row.cell = cell;
+    row.task = {s.spec.axes[0][static_cast<std::size_t>(k / 6)], s.spec.axes[1][static_cast<std::size_t>(k / 2 % 3)],
+                s.spec.axes[2][static_cast<std::size_t>(k % 2)]};
+    row.fitness = 0.1 * cell;
+    row.run = 100 + cell;
+    row.individual = 1000 + cell;
+    s.rows.push_back(row);
+  }
+  s.rows[4].failed = true;
+  s.rows[4].takenFrom = 3;
+  s.edges = {{1, 2, 0.9}, {1, 3, 0.55}, {1, 7, 1}};
+  return s;
+}
+
+GridMap mapOf(double distance) {
+  GridMap map;
+  map.distance_m = distance;
+  map.bearings_rad = {-0.5, 0, 0.5};
+  map.directions_rad = {-1, 1};
+  map.unit = "m";
+  const std::vector<Values> figures{
+      {{"distance_m", 1}, {"off_direction_rad", 0.1}, {"falls", 0}},
+      {{"distance_m", 1}, {"off_direction_rad", -0.5}, {"falls", 0}},
+      {{"distance_m", 0.4}, {"off_direction_rad", 0}, {"falls", 0}},
+      {{"distance_m", 1}, {"off_direction_rad", 0}, {"falls", 1}},
+      {{"distance_m", 1.2}, {"off_direction_rad", 0}, {"falls", 0}, {"largest_tilt_rad", 1}},
+      {{"distance_m", 1.1}, {"off_direction_rad", 0.26}, {"falls", 0}}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    GridPoint point;
+    point.number = static_cast<int>(k) + 1;
+    point.task = {distance, map.bearings_rad[k / 2], map.directions_rad[k % 2]};
+    point.fitness = 0.1 * static_cast<double>(k);
+    point.figures = figures[k];
+    map.points.push_back(point);
+  }
+  return map;
+}
+
+/// A program that behaves like "btr grid map": says how far it is, then writes the map or waits to be cancelled.
+QString programIn(const QTemporaryDir& folder, const std::string& map, bool waits = false) {
+  writeFile(folder.filePath("map.json").toStdString(), map);
+  const QString path = folder.filePath("program.sh");
+  const std::string script =
+      "#!/bin/sh\necho \"$@\" > '" + folder.filePath("arguments").toStdString() +
+      "'\necho 'interpolated kicks 0.500' >&2\n" +
+      (waits ? "exec cat /dev/zero > /dev/null\n" : "cat '" + folder.filePath("map.json").toStdString() + "'\n");
+  writeFile(path.toStdString(), script);
+  QFile::setPermissions(path, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+  return path;
+}
+
+}  // namespace
+
+class TestGridPage : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void aClickChoosesACellAndADoubleClickReplaysIt() {
+    GridPage page;
+    page.resize(1000, 700);
+    page.setGrids("a.db", {summaryOf(1)});
+    page.show();
+    QSignalSpy replayed(&page, &GridPage::replayRequested);
+    const QPoint place = page.cube().centreOf(12).toPoint();
+    QTest::mouseClick(&page.cube(), Qt::LeftButton, {}, place);
+    QCOMPARE(page.cube().current(), 12);
+    // The preview's point follows.
+    QCOMPARE(page.point()[0], 0.18);
+    QVERIFY(std::abs(page.point()[1] - 0.5) < 1e-3);
+    QTest::mouseDClick(&page.cube(), Qt::LeftButton, {}, place);
+    QCOMPARE(replayed.count(), 1);
+    QCOMPARE(replayed[0][0].toLongLong(), 112);
+    QCOMPARE(replayed[0][1].toLongLong(), 1012);
+    QTest::keyClick(&page.cube(), Qt::Key_PageDown);
+    QCOMPARE(page.cube().current(), 6);
+    QTest::keyClick(&page.cube(), Qt::Key_Left);
+    QCOMPARE(page.cube().current(), 6);  // the last bearing to the left
+    QTest::keyClick(&page.cube(), Qt::Key_Down);
+    QCOMPARE(page.cube().current(), 5);
+    QTest::keyClick(&page.cube(), Qt::Key_Return);
+    QCOMPARE(replayed.count(), 2);
+  }
+
+  void cellsNeverLieOnEachOtherAndLeftIsLeft() {
+    CubeView cube;
+    cube.setSummary(summaryOf(1));
+    for (const QSize size : {QSize(300, 260), QSize(900, 600)}) {
+      cube.resize(size);
+      for (int a = 1; a <= 12; ++a) {
+        QVERIFY(cube.rect().contains(cube.centreOf(a).toPoint()));
+        for (int b = a + 1; b <= 12; ++b) {
+          const QPointF away = cube.centreOf(a) - cube.centreOf(b);
+          QVERIFY2(std::hypot(away.x(), away.y()) > 2 * cube.radius() * 0.8,
+                   qPrintable(QString("%1 and %2 at %3").arg(a).arg(b).arg(size.width())));
+        }
+      }
+      QVERIFY(cube.centreOf(5).x() < cube.centreOf(1).x());  // β = 0.5 against −0.5
+      QVERIFY(cube.centreOf(2).y() < cube.centreOf(1).y());  // α = 1 against −1
+    }
+  }
+
+  void aReplacedCellSaysSoAndIsDrawnOtherwise() {
+    CubeView cube;
+    cube.resize(600, 400);
+    GridSummary summary = summaryOf(1);
+    cube.setSummary(summary);
+    QVERIFY(cube.describe(5).contains("solution of cell 3"));
+    QVERIFY(!cube.describe(4).contains("solution of cell"));
+    const QImage marked = cube.grab().toImage();
+    summary.rows[4].failed = false;
+    summary.rows[4].takenFrom = 0;
+    cube.setSummary(summary);
+    QVERIFY(cube.grab().toImage() != marked);
+  }
+
+  void aSliceShowsOneDistance() {
+    GridPage page;
+    page.resize(1000, 700);
+    page.setGrids("a.db", {summaryOf(1)});
+    page.cube().choose(1);
+    page.cube().setSlice(1);
+    QCOMPARE(page.cube().current(), 0);
+    page.cube().choose(1);
+    QCOMPARE(page.cube().current(), 0);
+    page.cube().choose(7);
+    QCOMPARE(page.cube().current(), 7);
+  }
+
+  void thePointStaysInsideTheGrid() {
+    GridPage page;
+    page.setGrids("a.db", {summaryOf(1)});
+    page.setPoint({0.5, -3, 3});
+    QCOMPARE(page.point(), (std::array{0.18, -0.5, 1.0}));
+    QSignalSpy asked(&page, &GridPage::kickRequested);
+    page.setPoint({0.15, 0.25, -0.5});
+    for (QPushButton* button : page.findChildren<QPushButton*>())
+      if (button->text() == "Play this kick") button->click();
+    QCOMPARE(asked.count(), 1);
+    QCOMPARE(asked[0][1].toDouble(), 0.15);
+    QVERIFY(std::abs(asked[0][2].toDouble() - 0.25) < 2e-3);
+  }
+
+  void aGridThatStillLearnsHasNothingBetweenItsCells() {
+    GridSummary half = summaryOf(2);
+    half.rows.resize(3);
+    GridPage page;
+    page.setGrids("a.db", {summaryOf(1), half});
+    page.choose(2);
+    QCOMPARE(page.current(), Id(2));
+    for (QPushButton* button : page.findChildren<QPushButton*>())
+      if (button->text() == "Play this kick" || button->text() == "Compute map") QVERIFY(!button->isEnabled());
+    page.setGrids("a.db", {summaryOf(1)});
+    QCOMPARE(page.current(), Id(1));
+    page.setGrids("a.db", {});
+    QCOMPARE(page.current(), Id(0));
+  }
+
+  void lossesAreToldByTheirOrder() {
+    const auto losses = lossesOf(mapOf(0.14));
+    // The median way is 1 m: 0.4 m is less than half of it. 0.26 rad are just within 15°.
+    const std::vector wanted{GridLoss::none,    GridLoss::direction, GridLoss::distance,
+                             GridLoss::balance, GridLoss::balance,   GridLoss::none};
+    QCOMPARE(losses, wanted);
+    GridMap failed = mapOf(0.14);
+    failed.points[0].outcome = "exploded";
+    QCOMPARE(lossesOf(failed)[0], GridLoss::trial);
+  }
+
+  void aMapIsComputedBesideTheWindowAndKeptForItsDistance() {
+    const QTemporaryDir folder;
+    GridPage page(programIn(folder, toJsonText(mapOf(0.14))));
+    page.resize(1000, 700);
+    page.setGrids("some.db", {summaryOf(4)});
+    page.setPoint({0.14, 0, 0});
+    QSignalSpy done(&page, &GridPage::mapDone), failed(&page, &GridPage::failed);
+    page.computeMap();
+    QVERIFY(page.isComputing());
+    QVERIFY(done.wait(10'000));
+    QCOMPARE(failed.count(), 0);
+    const QString asked = QString::fromStdString(readFile(folder.filePath("arguments").toStdString()));
+    QVERIFY2(asked.contains("grid map --db some.db --grid 4 --distance-m 0.14"), qPrintable(asked));
+    QVERIFY(page.map().map());
+    QCOMPARE(page.map().shareOf(GridLoss::balance), 2.0 / 6);
+    QVERIFY(page.map().describe(1).contains("loses direction"));
+    // What the fitness tells can be painted instead.
+    const QImage lost = page.map().grab().toImage();
+    page.map().setShown("off_direction_rad");
+    QVERIFY(page.map().grab().toImage() != lost);
+    // Another distance has no map yet; going back finds it.
+    page.setPoint({0.16, 0, 0});
+    QVERIFY(!page.map().map());
+    page.setPoint({0.14, 0, 0});
+    QVERIFY(page.map().map());
+  }
+
+  void aClickOnTheMapPlaysThatKick() {
+    const QTemporaryDir folder;
+    GridPage page(programIn(folder, toJsonText(mapOf(0.14))));
+    page.resize(1000, 700);
+    page.setGrids("some.db", {summaryOf(4)});
+    page.setPoint({0.14, 0, 0});
+    page.show();
+    QSignalSpy done(&page, &GridPage::mapDone), asked(&page, &GridPage::kickRequested);
+    page.computeMap();
+    QVERIFY(done.wait(10'000));
+    // The upper left corner: the ball to the left, the target to the left.
+    const QPoint corner = page.map().frame().topLeft().toPoint() + QPoint(5, 5);
+    QTest::mouseClick(&page.map(), Qt::LeftButton, {}, corner);
+    QCOMPARE(asked.count(), 1);
+    QVERIFY(std::abs(asked[0][2].toDouble() - 0.5) < 2e-3);
+    QVERIFY(std::abs(asked[0][3].toDouble() - 1) < 2e-3);
+  }
+
+  void aMapCanBeCancelled() {
+    const QTemporaryDir folder;
+    GridPage page(programIn(folder, "", true));
+    page.setGrids("some.db", {summaryOf(4)});
+    QSignalSpy done(&page, &GridPage::mapDone), failed(&page, &GridPage::failed);
+    page.computeMap();
+    QVERIFY(QTest::qWaitFor([&] { return QFile::exists(folder.filePath("arguments")); }, 10'000));
+    page.cancelMap();
+    QVERIFY(QTest::qWaitFor([&] { return !page.isComputing(); }, 10'000));
+    QCOMPARE(done.count() + failed.count(), 0);
+    QVERIFY(!page.map().map());
+  }
+
+  void aMapThatIsNoneIsToldAndNothingIsShown() {
+    const QTemporaryDir folder;
+    GridPage page(programIn(folder, "{}"));
+    page.setGrids("some.db", {summaryOf(4)});
+    QSignalSpy failed(&page, &GridPage::failed);
+    page.computeMap();
+    QVERIFY(failed.wait(10'000));
+    QVERIFY(failed[0][0].toString().contains("format"));
+    QVERIFY(!page.map().map());
+  }
+
+  void coloursRiseInBrightness() {
+    double before = -1;
+    for (int i = 0; i <= 20; ++i) {
+      const QColor c = rampColour(i / 20.0);
+      const double brightness = 0.299 * c.red() + 0.587 * c.green() + 0.114 * c.blue();
+      QVERIFY(brightness > before);
+      before = brightness;
+    }
+    QCOMPARE(rampColour(-5), rampColour(0));
+    QCOMPARE(rampColour(NAN), rampColour(0));
+  }
+
+  void theWindowShowsAStoredGridAndPlaysAKickBetweenItsCells() {
+    const QTemporaryDir folder;
+    const auto host = std::make_shared<const PluginHost>(PLUGIN_DIR);
+    nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    experiment["scene"] = SOURCE_DIR "/resources/scenes/kick.json";
+    experiment["learner"]["settings"]["population"] = 2;
+    writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+    const nlohmann::json grid{{"format", "uchilsim-grid-1"},
+                              {"name", "tiny"},
+                              {"experiment", "kick.json"},
+                              {"distances_m", {0.14}},
+                              {"bearings_rad", {-0.3, 0.3}},
+                              {"directions_rad", {0}},
+                              {"methods", {"independent"}},
+                              {"seeds", {1}},
+                              {"settings", {{"generations", 1}, {"points", 0}}}};
+    const std::string file = folder.filePath("grid.json").toStdString();
+    writeFile(file, grid.dump());
+    {
+      Database db = Database::open(folder.filePath("a.db").toStdString(), Database::Mode::create);
+      const Id id = startGrid(db, *host, loadGrid(file), GridSpec::Method::independent, 1);
+      QCOMPARE(continueGrid(db, *host, id, StopFlag{false}, {1, {}}), RunEnd::finished);
+    }
+    Theme theme(*qApp);
+    MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});
+    window.show();
+    QVERIFY(window.openDatabase(folder.filePath("a.db")));
+    window.showGrid(1);
+    QVERIFY(window.gridPage().isVisible());
+    QCOMPARE(window.gridPage().current(), Id(1));
+    // A cell's replay selects its run.
+    ReplayJob* job = window.findChild<ReplayJob*>();
+    QVERIFY(job);
+    QSignalSpy finished(job, &ReplayJob::finished), failed(job, &ReplayJob::failed);
+    emit window.gridPage().cube().replayRequested(1);
+    QVERIFY(finished.wait(60'000));
+    QCOMPARE(finished[0][0].value<ReplayData>().check, ReplayData::Check::identical);
+    emit window.gridPage().kickRequested(1, 0.14, 0.1, 0);
+    QVERIFY(finished.wait(60'000));
+    const auto shown = finished[1][0].value<ReplayData>();
+    QVERIFY(shown.title.contains("interpolated"));
+    QCOMPARE(shown.check, ReplayData::Check::notChecked);
+    QVERIFY(shown.trace.rows() > 50);
+    QCOMPARE(failed.count(), 0);
+    // The runs come back, and the other page takes the place of this one.
+    window.showGapPage(true);
+    QVERIFY(!window.gridPage().isVisible());
+    window.showGridPage(true);
+    QVERIFY(window.gridPage().isVisible());
+    window.showGridPage(false);
+    QVERIFY(!window.gridPage().isVisible());
+  }
+};
+
+QTEST_MAIN(TestGridPage)
+#include "test_grid_page.moc"

@@ -12,7 +12,7 @@ std::vector<GridLoss> lossesOf(const GridMap& map) {
   };
   std::vector<double> ways;
   for (const GridPoint& point : map.points)
-    if (point.figures.contains("distance_m")) ways.push_back(point.figures.at("distance_m"));
+    if (point.figures.contains("way_m")) ways.push_back(point.figures.at("way_m"));
   double least = 0;
   if (!ways.empty()) {
     std::ranges::sort(ways);
@@ -26,7 +26,7 @@ std::vector<GridLoss> lossesOf(const GridMap& map) {
       loss = GridLoss::trial;
     else if (figure(point, "falls", 0) > 0 || figure(point, "largest_tilt_rad", 0) > lostTilt_rad)
       loss = GridLoss::balance;
-    else if (figure(point, "distance_m", least) < least)
+    else if (figure(point, "way_m", least) < least)
       loss = GridLoss::distance;
     else if (std::abs(figure(point, "off_direction_rad", 0)) > lostDirection_rad)
       loss = GridLoss::direction;

@@ -46,7 +46,7 @@ class KickDistance final : public btr::Fitness {
     const Way way = wayOf(result, value[1] == 1, controllerSettings);
     double up = 1;
     for (const btr::BasePose& pose : result.basePath) up = std::min(up, pose.up);
-    return {{"distance_m", way.distance},
+    return {{"way_m", way.distance},
             {"off_direction_rad", way.psi},
             {"falls", result.fell ? 1.0 : 0.0},
             {"largest_tilt_rad", std::acos(std::clamp(up, -1.0, 1.0))}};

@@ -45,6 +45,20 @@ TEST_F(KickDistance, FollowsTheWantedDirection) {
 
 TEST_F(KickDistance, ABallThatLiesStillIsWorthNothing) { EXPECT_EQ(0, at(0.23, 0)); }
 
+TEST_F(KickDistance, TellsWayAngleFallsAndTilt) {
+  task["direction_rad"] = 0.1;
+  at(0.23 + 0.3, 0.4);
+  result.fell = true;
+  result.basePath.resize(2);
+  result.basePath[0].up = 1;
+  result.basePath[1].up = 0.5;
+  const Values told = fitness->figures(result, settings, task);
+  EXPECT_NEAR(0.5, told.at("way_m"), 1e-12);
+  EXPECT_NEAR(std::atan2(0.4, 0.3) - 0.1, told.at("off_direction_rad"), 1e-12);
+  EXPECT_EQ(1, told.at("falls"));
+  EXPECT_NEAR(M_PI / 3, told.at("largest_tilt_rad"), 1e-12);
+}
+
 TEST_F(KickDistance, IsNeverNegative) {
   for (int i = 0; i < 360; ++i) EXPECT_GE(at(0.23 + std::cos(i), std::sin(i)), 0);
 }

@@ -52,13 +52,12 @@ GridMap mapOf(double distance) {
   map.bearings_rad = {-0.5, 0, 0.5};
   map.directions_rad = {-1, 1};
   map.unit = "m";
-  const std::vector<Values> figures{
-      {{"distance_m", 1}, {"off_direction_rad", 0.1}, {"falls", 0}},
-      {{"distance_m", 1}, {"off_direction_rad", -0.5}, {"falls", 0}},
-      {{"distance_m", 0.4}, {"off_direction_rad", 0}, {"falls", 0}},
-      {{"distance_m", 1}, {"off_direction_rad", 0}, {"falls", 1}},
-      {{"distance_m", 1.2}, {"off_direction_rad", 0}, {"falls", 0}, {"largest_tilt_rad", 1}},
-      {{"distance_m", 1.1}, {"off_direction_rad", 0.26}, {"falls", 0}}};
+  const std::vector<Values> figures{{{"way_m", 1}, {"off_direction_rad", 0.1}, {"falls", 0}},
+                                    {{"way_m", 1}, {"off_direction_rad", -0.5}, {"falls", 0}},
+                                    {{"way_m", 0.4}, {"off_direction_rad", 0}, {"falls", 0}},
+                                    {{"way_m", 1}, {"off_direction_rad", 0}, {"falls", 1}},
+                                    {{"way_m", 1.2}, {"off_direction_rad", 0}, {"falls", 0}, {"largest_tilt_rad", 1}},
+                                    {{"way_m", 1.1}, {"off_direction_rad", 0.26}, {"falls", 0}}};
   for (std::size_t k = 0; k < 6; ++k) {
     GridPoint point;
     point.number = static_cast<int>(k) + 1;

@@ -1,4 +1,4 @@
-// btr fitness list, enter, import: real fitness, measured by a person.
+// btr fitness list, enter, import, and end-l2: real fitness, measured by a person.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,6 +8,7 @@
 #include "app/btr_commands.h"
 #include "core/run/measured_import.h"
 #include "core/run/prepared_experiment.h"
+#include "core/run/reality_gap.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 
@@ -34,8 +35,10 @@ void list(const FitnessArguments& a, Shell& shell) {
   nlohmann::json all = nlohmann::json::array();
   std::vector<std::vector<std::string>> rows;
   const std::vector<MeasurementTask> tasks = db.measurementTasks(a.run);
+  const std::vector<RealityIteration> finished = db.realityIterations(a.run);
   const int iteration = tasks.empty() ? 0 : tasks.back().iteration;  // of L2; 0: the stage's own measurement waits
   for (const MeasurementTask& task : tasks) {
+    if (isOver(task, finished)) continue;
     nlohmann::json values = nlohmann::json::array();
     std::string text;
     int have = 0;
@@ -56,19 +59,26 @@ void list(const FitnessArguments& a, Shell& shell) {
                        {"wanted_repeats", task.wantedRepeats},
                        {"values", values},
                        {"held_out", task.heldOut}};
-    if (a.showSimulated) row["simulated_fitness"] = task.simulatedFitness;
+    row["reason"] = reasonOf(task, unit, a.showSimulated);
+    if (a.showSimulated) {
+      row["simulated_fitness"] = task.simulatedFitness;
+      row["rank"] = task.rank;
+      if (task.disagreement) row["disagreement"] = *task.disagreement;
+      row["candidates"] = task.candidates;
+    }
     all.push_back(row);
     rows.push_back({std::to_string(task.stage), task.iteration > 0 ? std::to_string(task.iteration) : "",
                     std::to_string(task.position), std::to_string(task.individual),
                     std::to_string(have) + "/" + std::to_string(task.wantedRepeats), text,
-                    a.showSimulated ? brief(task.simulatedFitness) : "hidden"});
+                    a.showSimulated ? brief(task.simulatedFitness) : "hidden", row["reason"].get<std::string>()});
   }
   if (shell.json)
     std::cout << all.dump(1) << '\n';
   else if (rows.empty())
     std::cout << "run " << a.run << ": nothing waits for real fitness\n";
   else
-    writeOut("", table({"stage", "L2", "order", "individual", "measured", "values [" + unit + "]", "simulated"}, rows));
+    writeOut("", table({"stage", "L2", "order", "individual", "measured", "values [" + unit + "]", "simulated", "why"},
+                       rows));
 }
 
 void enter(const FitnessArguments& a) {
@@ -89,6 +99,11 @@ void enter(const FitnessArguments& a) {
   db.addMeasurements(all);
   std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values")
             << " stored\n";
+}
+
+void endRealityLearning(const FitnessArguments& a) {
+  Database::open(a.database, Database::Mode::readWrite).endRealityLearning(a.run, operatorName());
+  std::cout << "run " << a.run << ": L2 of this stage ends; what was measured is kept, btr run goes on with L3\n";
 }
 
 void import(const FitnessArguments& a) {
@@ -135,6 +150,10 @@ void addFitnessCommands(CLI::App& app, Shell& shell) {
   common(importCommand, *a);
   importCommand->add_option("MEASURED.csv", a->file, "the table")->required();
   importCommand->callback([a] { import(*a); });
+
+  CLI::App* end = app.add_subcommand("end-l2", "end learning in reality in the present stage before it is over");
+  common(end, *a);
+  end->callback([a] { endRealityLearning(*a); });
 }
 
 }  // namespace btr::cli

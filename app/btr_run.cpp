@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "core/run/back_to_reality.h"
+#include "core/run/reality_gap.h"
 #include "core/run/stand_in.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
@@ -30,6 +31,15 @@ void showProgress(const RunProgress& p) {
   std::fflush(stderr);
 }
 
+nlohmann::json orNull(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+/// "0.21 → 0.12", "" before the first update.
+std::string change(const nlohmann::json& before, const nlohmann::json& after) {
+  return before.is_null() || after.is_null() ? "" : brief(before) + " → " + brief(after);
+}
+
 nlohmann::json describe(const Database& db, const RunRecord& run) {
   nlohmann::json gaps = nlohmann::json::array();
   for (const GapRecord& g : db.gaps(run.id))
@@ -37,14 +47,18 @@ nlohmann::json describe(const Database& db, const RunRecord& run) {
                     {"before", g.before},
                     {"after", g.after},
                     {"new_before", g.newBefore},
-                    {"individuals", g.individuals}});
+                    {"new_after", g.newAfter},
+                    {"standard_error", g.standardError},
+                    {"individuals", g.individuals},
+                    {"held_out_before", orNull(g.heldOutBefore)},
+                    {"held_out_after", orNull(g.heldOutAfter)},
+                    {"held_out_standard_error", g.heldOutStandardError},
+                    {"held_out_individuals", g.heldOutIndividuals}});
+  const std::vector<RealityIteration> finished = db.realityIterations(run.id);
   int waiting = 0;
   const std::vector<MeasurementRecord> measured = db.measurements(run.id);
-  for (const MeasurementTask& task : db.measurementTasks(run.id, run.stage + 1)) {
-    int have = 0;
-    for (const MeasurementRecord& m : measured) have += m.individual == task.individual;
-    waiting += have < task.wantedRepeats;
-  }
+  for (const MeasurementTask& task : db.measurementTasks(run.id, run.stage + 1))
+    waiting += !isOver(task, finished) && !isSettled(task, measured);
   return {{"run", run.id},
           {"experiment", db.experiment(run.experiment).name},
           {"seed", run.seed},
@@ -70,15 +84,19 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
   for (const auto& r : all) {
     const bool standIn = r["reality"] == "stand_in";
     std::string state = r["state"].get<std::string>() + (r["active"].get<bool>() ? " (working)" : "");
-    std::string gap =
-        r["gaps"].empty() ? "" : brief(r["gaps"].back()["before"]) + " → " + brief(r["gaps"].back()["after"]);
+    std::string gap, heldOut;
+    if (!r["gaps"].empty()) {
+      const auto& last = r["gaps"].back();
+      gap = change(last["before"], last["after"]);
+      heldOut = change(last["held_out_before"], last["held_out_after"]);
+    }
     rows.push_back({std::to_string(r["run"].get<long>()), r["experiment"].get<std::string>(),
                     std::to_string(r["seed"].get<std::uint64_t>()), state, std::to_string(r["generation"].get<int>()),
                     std::to_string(r["stages_done"].get<int>()), std::to_string(r["simulators"].get<int>() - 1), gap,
-                    standIn ? "stand-in" : "person", r["message"].get<std::string>()});
+                    heldOut, standIn ? "stand-in" : "person", r["message"].get<std::string>()});
   }
-  writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "reality",
-                      "message"},
+  writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "held-out gap",
+                      "reality", "message"},
                      rows));
 }
 

@@ -50,14 +50,6 @@ double gapFrom(const std::vector<RealFitness>& real, const TrialReply* simulated
   return gapOf(a, b, norm);
 }
 
-/// The simulator with the adapted parameters replaced.
-SimulatorSpec with(const RunContext& context, const SimulatorSpec& base, const std::vector<double>& values) {
-  SimulatorSpec changed = base;
-  for (std::size_t i = 0; i < context.prepared.adapted.size(); ++i)
-    changed.values[context.prepared.adapted[i].name] = values[i];
-  return changed;
-}
-
 /// Mean absolute gaps of one simulator over the three groups.
 struct Gaps {
   double shown = 0, heldOut = 0, own = 0;
@@ -84,7 +76,7 @@ bool evaluateCandidates(RunContext& context, const Evidence& evidence, const Sim
   for (const Candidate& candidate : candidates) {
     if (!known.try_emplace(candidate.parameters, 0).second) continue;
     fresh.push_back(&candidate);
-    for (TrialJob& job : evidence.jobs(evidence.shown, with(context, base, candidate.parameters)))
+    for (TrialJob& job : evidence.jobs(evidence.shown, context.prepared.adaptedTo(base, candidate.parameters)))
       jobs.push_back(std::move(job));
   }
   const auto replies = context.evaluate(jobs);
@@ -190,7 +182,7 @@ bool adaptSimulator(RunContext& context, int stage) {
   version.run = run;
   version.number = parent.number + 1;
   version.parent = parent.id;
-  version.simulator = kept ? parent.simulator : with(context, parent.simulator, best->parameters);
+  version.simulator = kept ? parent.simulator : context.prepared.adaptedTo(parent.simulator, best->parameters);
   version.madeBy = "L3";
   version.evidence = evidenceText(evidence, stage, kept ? parentError : best->error, parentError, kept);
   version.madeAfterGeneration = context.measuredAfter(stage);
@@ -212,6 +204,8 @@ bool adaptSimulator(RunContext& context, int stage) {
   gap.newAfter = after->own;
   gap.standardError = gapStandardError(evidence.shown);
   gap.individuals = static_cast<int>(evidence.shown.size());
+  gap.heldOutStandardError = gapStandardError(evidence.heldOut);
+  gap.heldOutIndividuals = static_cast<int>(evidence.heldOut.size());
   const bool last = context.measuredAfter(stage) >= context.stageSetting("total_generations");
   db.finishStage(version, gap, last ? RunState::finished : RunState::learning);
   return true;

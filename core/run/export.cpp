@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/run/reality_gap.h"
 #include "core/run/reality_report.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
@@ -115,14 +116,16 @@ std::string individuals(const Database& database, const RunRecord& run, std::spa
 
 std::string gaps(const Database& database, const RunRecord& run, const std::string& unit) {
   Table table;
-  head(table, {"run", "stage", "simulator_before", "simulator_after", "before" + unit, "after" + unit,
-               "held_out_before" + unit, "held_out_after" + unit, "new_before" + unit, "new_after" + unit,
-               "standard_error" + unit, "individuals", "reality"});
+  head(table,
+       {"run", "stage", "simulator_before", "simulator_after", "before" + unit, "after" + unit,
+        "held_out_before" + unit, "held_out_after" + unit, "new_before" + unit, "new_after" + unit,
+        "standard_error" + unit, "individuals", "held_out_standard_error" + unit, "held_out_individuals", "reality"});
   table.endLine();
   const std::map<Id, int> versions = versionNumbers(database, run.id);
   for (const GapRecord& g : database.gaps(run.id)) {
     table << run.id << g.stage << versions.at(g.simulatorBefore) << versions.at(g.simulatorAfter) << g.before << g.after
           << g.heldOutBefore << g.heldOutAfter << g.newBefore << g.newAfter << g.standardError << g.individuals
+          << (g.heldOutBefore ? std::optional(g.heldOutStandardError) : std::nullopt) << g.heldOutIndividuals
           << run.reality;
     table.endLine();
   }
@@ -167,10 +170,12 @@ std::string simulators(const Database& database, const RunRecord& run) {
   return std::move(table).text();
 }
 
-std::string measurements(const Database& database, const RunRecord& run, const std::string& unit) {
+std::string measurements(const Database& database, const RunRecord& run, const std::string& unit,
+                         const std::string& fitnessUnit) {
   Table table;
-  head(table, {"run", "measurement", "individual", "generation", "slot", "stage", "held_out",
-               "simulated_fitness" + unit, "value" + unit, "void", "note", "who", "entered_at", "reality"});
+  head(table, {"run", "measurement", "individual", "generation", "slot", "stage", "held_out", "reason", "rank",
+               "disagreement" + unit, "candidates", "simulated_fitness" + unit, "value" + unit, "void", "note", "who",
+               "entered_at", "reality"});
   table.endLine();
   // An individual that was asked for twice is shown with the stage that asked first.
   std::map<Id, MeasurementTask> tasks;
@@ -179,8 +184,8 @@ std::string measurements(const Database& database, const RunRecord& run, const s
     const IndividualRecord individual = database.individual(m.individual);
     const MeasurementTask& task = tasks.at(m.individual);
     table << run.id << m.id << m.individual << individual.generation << individual.slot << task.stage
-          << int{task.heldOut} << task.simulatedFitness << m.value << int{m.isVoid} << m.note << m.who << m.enteredAt
-          << m.source;
+          << int{task.heldOut} << reasonOf(task, fitnessUnit, true) << task.rank << task.disagreement << task.candidates
+          << task.simulatedFitness << m.value << int{m.isVoid} << m.note << m.who << m.enteredAt << m.source;
     table.endLine();
   }
   return std::move(table).text();
@@ -256,7 +261,7 @@ std::string exportCsv(const Database& database, Id id, const std::string& what, 
   if (what == "individuals") return individuals(database, run, genotype, unit);
   if (what == "gaps") return gaps(database, run, unit);
   if (what == "simulators") return simulators(database, run);
-  if (what == "measurements") return measurements(database, run, unit);
+  if (what == "measurements") return measurements(database, run, unit, fitnessUnit);
   if (what == "policies") return policies(database, run, genotype, unit);
   if (what == "steps") return steps(database, run, genotype, unit);
   throw InputError("export", '"' + what + '"',

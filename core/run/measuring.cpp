@@ -1,8 +1,10 @@
 // Between L1 and L3: who is measured in reality, in which order, and the stand-in's answers.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
+#include "core/run/disagreement.h"
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
 #include "core/run/stand_in.h"
@@ -10,27 +12,55 @@
 namespace btr {
 namespace {
 
-/// The best that were not measured before, each parameter vector once: of the stage's last generation, filled up from
-/// the generations before it in this simulator; or of all generations in this simulator.
-std::vector<IndividualRecord> chooseMeasured(const RunContext& context, int stage) {
+/// One who is measured, and why; see MeasurementTask.
+struct Chosen {
+  IndividualRecord individual;
+  int rank = 0;
+  std::optional<double> disagreement = {};
+  int candidates = 0;
+};
+
+/// Those who were not measured before, each parameter vector once: the best, of the stage's last generation and filled
+/// up from the generations before it in this simulator, or of all generations in this simulator; and of the last
+/// generation those about whom candidate simulators disagree most, if they do. Nothing if stopped.
+std::optional<std::vector<Chosen>> chooseMeasured(RunContext& context, int stage) {
   const Database& db = context.database;
   const Id run = context.record.id;
   std::set<std::vector<double>> taken;
   for (const MeasurementTask& task : db.measurementTasks(run)) taken.insert(db.individual(task.individual).parameters);
   const auto count = static_cast<std::size_t>(context.stageSetting("measured_individuals"));
+  const auto disagreeing = static_cast<std::size_t>(context.stageSetting("disagreeing_individuals"));
   const int ask = static_cast<int>(count + taken.size());
   const int last = context.measuredAfter(stage);
   // A simulator that was taken after the last generation has none of its own yet.
   const int first = std::min(context.simulator().madeAfterGeneration + 1, last);
   const bool lastOnly = context.stageSetting("chosen_from") == 0;
 
-  std::vector<IndividualRecord> chosen;
-  const auto take = [&](int from) {
-    for (const IndividualRecord& i : db.bestIndividuals(run, ask, from, last))
-      if (chosen.size() < count && taken.insert(i.parameters).second) chosen.push_back(i);
+  std::vector<Chosen> chosen;
+  int rank = 0;
+  const auto takeBest = [&](std::size_t until) {
+    const auto take = [&](int from) {
+      for (IndividualRecord& i : db.bestIndividuals(run, ask + static_cast<int>(count), from, last))
+        if (chosen.size() < until && taken.insert(i.parameters).second) chosen.push_back({std::move(i), ++rank});
+    };
+    if (lastOnly) take(last);
+    if (chosen.size() < until) take(first);
   };
-  if (lastOnly) take(last);
-  if (chosen.size() < count) take(first);
+  takeBest(count - disagreeing);
+  if (disagreeing > 0) {
+    std::vector<IndividualRecord> rest;
+    for (IndividualRecord& i : db.bestIndividuals(run, std::numeric_limits<int>::max(), last, last))
+      if (!taken.contains(i.parameters)) rest.push_back(std::move(i));
+    context.progress.message = "candidate simulators are compared to choose whom to measure";
+    const auto all = disagreements(context, rest, candidateSimulators(context, stage));
+    context.progress.message.clear();
+    if (!all) return std::nullopt;
+    int place = 0;
+    for (const Disagreement& d : *all)
+      if (d.deviation > 0 && chosen.size() < count && taken.insert(d.individual.parameters).second)
+        chosen.push_back({d.individual, ++place, d.deviation, d.candidates});
+    takeBest(count);
+  }
   return chosen;
 }
 
@@ -61,17 +91,19 @@ std::map<Id, int> repeatsBefore(const Database& db, const std::vector<Measuremen
 bool beginMeasuring(RunContext& context, int stage) {
   Database& db = context.database;
   const Id run = context.record.id;
-  std::vector<IndividualRecord> chosen = chooseMeasured(context, stage);
+  auto choice = chooseMeasured(context, stage);
+  if (!choice) return false;
+  std::vector<Chosen>& chosen = *choice;
 
   // Their traces, for replay and for comparing with recordings.
   std::vector<TrialJob> jobs;
-  for (const IndividualRecord& i : chosen)
+  for (const auto& [i, rank, disagreement, candidates] : chosen)
     jobs.push_back({db.simulator(i.simulator).simulator, i.parameters, i.trialSeed, true});
   const auto replies = context.evaluate(jobs);
   if (!replies) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (!(*replies)[i].packedTrace.empty())
-      db.setTrace(chosen[i].id, (*replies)[i].packedTrace, (*replies)[i].traceSha256);
+      db.setTrace(chosen[i].individual.id, (*replies)[i].packedTrace, (*replies)[i].traceSha256);
 
   // A drawn order, so that neither the operator's skill nor the battery follows the simulated rank. The drawn last ones
   // are held out where the user wants that.
@@ -81,8 +113,10 @@ bool beginMeasuring(RunContext& context, int stage) {
   std::vector<MeasurementTask> tasks;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const auto left = static_cast<int>(chosen.size() - i);
-    tasks.push_back({run, stage, chosen[i].id, static_cast<int>(i) + 1, chosen[i].fitness,
-                     context.stageSetting("repeats"), left <= heldOut && i > 0});
+    const Chosen& who = chosen[i];
+    tasks.push_back({run, stage, who.individual.id, static_cast<int>(i) + 1, who.individual.fitness,
+                     context.stageSetting("repeats"), left <= heldOut && i > 0, 0, who.rank, who.disagreement,
+                     who.candidates});
   }
   db.addMeasurementStage(run, stage, tasks);
   return true;

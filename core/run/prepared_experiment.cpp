@@ -91,6 +91,11 @@ Scene PreparedExperiment::scene(const SimulatorSpec& simulator) const {
   return scene;
 }
 
+SimulatorSpec PreparedExperiment::adaptedTo(SimulatorSpec simulator, std::span<const double> values) const {
+  for (std::size_t i = 0; i < adapted.size(); ++i) simulator.values[adapted[i].name] = values[i];
+  return simulator;
+}
+
 TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
                                       bool recordTrace) const {
   TrialOptions options;

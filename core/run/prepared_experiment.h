@@ -29,6 +29,8 @@ struct PreparedExperiment {
 
   std::vector<double> start;  ///< the genotype's vector that L1 begins around; empty if it begins anywhere
 
+  /// The simulator with the adapted parameters replaced by `values`, in their order.
+  SimulatorSpec adaptedTo(SimulatorSpec simulator, std::span<const double> values) const;
   /// The scene of one simulator version, arranged for the task.
   Scene scene(const SimulatorSpec& simulator) const;
   TrialResult trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/report_figures.h"
+
 namespace btr {
 
 double gapOf(std::span<const double> real, std::span<const double> simulated, GapNorm norm) {
@@ -57,10 +59,26 @@ std::vector<RealFitness> realFitness(const std::vector<MeasurementTask>& tasks,
   return all;
 }
 
+bool isOver(const MeasurementTask& task, const std::vector<RealityIteration>& finished) {
+  return std::any_of(finished.begin(), finished.end(),
+                     [&](const RealityIteration& i) { return i.stage == task.stage && i.number == task.iteration; });
+}
+
 bool isSettled(const MeasurementTask& task, const std::vector<MeasurementRecord>& measurements) {
   const auto values = std::count_if(measurements.begin(), measurements.end(),
                                     [&](const MeasurementRecord& m) { return m.individual == task.individual; });
   return values >= task.wantedRepeats;
+}
+
+std::string reasonOf(const MeasurementTask& task, const std::string& unit, bool withNumbers) {
+  if (task.iteration > 0) return "policy of L2";
+  if (task.disagreement) {
+    const std::string why = "candidate simulators disagree";
+    if (!withNumbers) return why;
+    return why + ": ± " + brief(*task.disagreement) + (unit.empty() ? "" : " " + unit) + " over " +
+           std::to_string(task.candidates);
+  }
+  return withNumbers && task.rank > 0 ? "best, rank " + std::to_string(task.rank) : "best";
 }
 
 }  // namespace btr

@@ -34,7 +34,15 @@ double gapStandardError(const std::vector<RealFitness>& real);
 std::vector<RealFitness> realFitness(const std::vector<MeasurementTask>& tasks,
                                      const std::vector<MeasurementRecord>& measurements, int stage);
 
+/// True of a task of L2 whose iteration is over: a person may have ended it before everything was measured, and then
+/// the rest is not asked for any more.
+bool isOver(const MeasurementTask& task, const std::vector<RealityIteration>& finished);
+
 /// A task is settled once it has as many values (void or not) as were wanted.
 bool isSettled(const MeasurementTask& task, const std::vector<MeasurementRecord>& measurements);
+
+/// Why an individual is measured: "best, rank 3", "candidate simulators disagree: ± 0.21 m over 6", "policy of L2".
+/// Without numbers while the simulated fitness is hidden: a rank would tell it.
+std::string reasonOf(const MeasurementTask& task, const std::string& unit, bool withNumbers);
 
 }  // namespace btr

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
@@ -71,7 +72,8 @@ BestPolicy bestOf(const std::vector<RealityIteration>& iterations) {
   return best;
 }
 
-bool isOver(const RunContext& context, const std::vector<RealityIteration>& iterations) {
+bool isOver(const RunContext& context, int stage, const std::vector<RealityIteration>& iterations) {
+  if (context.database.isRealityLearningEnded(context.record.id, stage)) return true;
   const auto done = static_cast<int>(iterations.size());
   const auto patience = static_cast<int>(context.realitySetting("patience"));
   return done >= static_cast<int>(context.realitySetting("iterations")) ||
@@ -111,20 +113,25 @@ bool begin(RunContext& context, const RealityIteration& begun, const std::vector
   return true;
 }
 
-/// What the learner is told of each policy.
+/// What the learner is told of each policy. One that was not measured as often as wanted counts as not measured: its
+/// mean would be compared with means of more values.
 std::vector<RealityPolicy> results(const RunContext& context, int stage, int number) {
   const Database& db = context.database;
   const Id run = context.record.id;
   const std::vector<RealFitness> real = isMeasured(context)
                                             ? realFitness(db.measurementTasks(run, stage), db.measurements(run), stage)
                                             : std::vector<RealFitness>();
+  const std::vector<MeasurementRecord> values = db.measurements(run);
+  std::set<Id> settled;
+  for (const MeasurementTask& task : db.measurementTasks(run, stage))
+    if (isSettled(task, values)) settled.insert(task.individual);
   std::vector<RealityPolicy> policies;
   for (const IndividualRecord& i : db.realityPolicies(run, stage, number)) {
     RealityPolicy& policy = policies.emplace_back();
     policy.individual = i.id;
     if (!isMeasured(context)) policy.fitness = i.fitness;
     for (const RealFitness& r : real)
-      if (r.individual == i.id) {
+      if (r.individual == i.id && settled.contains(i.id)) {
         policy.fitness = r.mean;
         policy.count = r.count;
         policy.standardError = r.standardDeviation / std::sqrt(r.count);
@@ -140,13 +147,13 @@ StageEnd learnInReality(RunContext& context, int stage) {
   Database& db = context.database;
   const Id run = context.record.id;
   std::vector<RealityIteration> iterations = db.realityIterations(run, stage);
-  if (isOver(context, iterations)) return StageEnd::done;
+  const auto begun = db.begunRealityIteration(run, stage);
+  if (!begun && isOver(context, stage, iterations)) return StageEnd::done;
 
   const auto learner = context.host.learner(context.prepared.spec.realityLearner.name);
   Random random = Random::forPurpose(context.record.seed, "L2", static_cast<std::uint64_t>(stage));
   learner->start(context.prepared.genotype, context.prepared.spec.realityLearner.settings, random);
   // An iteration that was begun keeps its policies, whatever has become of the measurements that it came from.
-  const auto begun = db.begunRealityIteration(run, stage);
   if (begun || !iterations.empty()) {
     random.setState(begun ? begun->randomState : iterations.back().randomState);
     learner->setState(begun ? begun->learnerState : iterations.back().learnerState);
@@ -154,7 +161,7 @@ StageEnd learnInReality(RunContext& context, int stage) {
     learner->beginAt(originOf(context, stage).parameters, {1, context.realitySetting("flip")}, random);
   }
 
-  while (!isOver(context, iterations)) {
+  for (bool open = begun.has_value(); open || !isOver(context, stage, iterations); open = false) {
     const int number = static_cast<int>(iterations.size()) + 1;
     context.progress.stage = "L2";
     context.progress.message.clear();
@@ -173,14 +180,19 @@ StageEnd learnInReality(RunContext& context, int stage) {
       iteration.learnerState = learner->state();
       if (!begin(context, iteration, candidates)) return StageEnd::stopped;
     }
-    if (isMeasured(context) && !completeMeasuring(context, stage, number))
-      return context.stopped() ? StageEnd::stopped : StageEnd::waiting;
+    const bool isComplete = !isMeasured(context) || completeMeasuring(context, stage, number);
+    if (!isComplete && context.stopped()) return StageEnd::stopped;
+    if (!isComplete && !db.isRealityLearningEnded(run, stage)) return StageEnd::waiting;
 
+    // Of an iteration that a person ended before all was measured, what was measured stays; no step is taken.
     iteration.policies = results(context, stage, number);
     std::vector<double> fitness;
     for (const RealityPolicy& p : iteration.policies)
       fitness.push_back(p.fitness.value_or(std::numeric_limits<double>::quiet_NaN()));
-    learner->tell(fitness);
+    if (isComplete)
+      learner->tell(fitness);
+    else
+      context.progress.message.clear();
     iteration.centreAfter = learner->centre();
     iteration.randomState = random.state();
     iteration.learnerState = learner->state();

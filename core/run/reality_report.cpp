@@ -80,14 +80,21 @@ std::vector<RealityReport> realityReports(const Database& database, const RunRec
   if (iterations.empty()) return reports;
 
   const bool withCentre = measuresCentre(run);
+  const std::vector<MeasurementTask> tasks = database.measurementTasks(run.id);
+  const std::vector<MeasurementRecord> values = database.measurements(run.id);
+  const auto isOpen = [&](const RealityIteration& i) {
+    return std::ranges::any_of(tasks, [&](const MeasurementTask& t) {
+      return t.stage == i.stage && t.iteration == i.number && !isSettled(t, values);
+    });
+  };
   std::map<Id, RealFitness> real;
-  for (RealFitness& r : realFitness(database.measurementTasks(run.id), database.measurements(run.id), run.stage + 1))
-    real.emplace(r.individual, std::move(r));
+  for (RealFitness& r : realFitness(tasks, values, run.stage + 1)) real.emplace(r.individual, std::move(r));
   for (const RealityIteration& iteration : iterations) {
     RealityReport& report = reports.emplace_back();
     report.stage = iteration.stage;
     report.number = iteration.number;
     report.isFinished = reports.size() <= finished;
+    report.wasEnded = report.isFinished && isOpen(iteration);
     std::size_t slot = 0;
     for (const IndividualRecord& i : database.realityPolicies(run.id, iteration.stage, iteration.number)) {
       PolicyRow& policy = report.policies.emplace_back();

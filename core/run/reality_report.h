@@ -34,6 +34,7 @@ struct StepRow {
 struct RealityReport {
   int stage = 0, number = 0;
   bool isFinished = false;
+  bool wasEnded = false;  ///< by a person before everything was measured: no step was taken
   std::vector<PolicyRow> policies;
   /// Empty where policies are not steps up, none or down from a centre (a population, say).
   std::vector<StepRow> steps;

@@ -42,12 +42,13 @@ double settingOf(const RunContext& context, const char* name) {
   return valueOf(recordingParameters(), context.prepared.spec.recordings.settings, name);
 }
 
-/// Whom this stage records: the first in the order of measuring, without those whose trials all failed.
+/// Whom this stage records: the first in the order of measuring, without those whose trials all failed and without
+/// those held out: what is made of the recordings must not know them.
 std::vector<Id> whomToRecord(const RunContext& context, int stage) {
   std::vector<Id> who;
   for (const RealFitness& real : realFitness(context.database.measurementTasks(context.record.id, stage),
                                              context.database.measurements(context.record.id), stage))
-    if (real.iteration == 0) who.push_back(real.individual);
+    if (real.iteration == 0 && !real.heldOut) who.push_back(real.individual);
   if (static_cast<double>(who.size()) > settingOf(context, "individuals"))
     who.resize(static_cast<std::size_t>(settingOf(context, "individuals")));
   return who;

@@ -79,7 +79,27 @@ const std::vector<Parameter>& stageParameters() {
       {"first_generations", "", "generations before the first measurement", 1, 1e6, 50, {}, true},
       {"next_generations", "", "generations between further measurements", 1, 1e6, 100, {}, true},
       {"total_generations", "", "generations of the whole run", 1, 1e6, 500, {}, true},
-      {"measured_individuals", "", "best individuals measured at each stage", 1, 1000, 10, {}, true},
+      {"measured_individuals", "", "individuals measured at each stage", 1, 1000, 10, {}, true},
+      {"disagreeing_individuals",
+       "",
+       "of these, chosen since candidate simulators disagree about them most; the rest are the best",
+       0,
+       1000,
+       0,
+       {},
+       true},
+      {"candidate_simulators",
+       "",
+       "simulators compared for that: the newest and others that explain what was measured about as well",
+       2,
+       100,
+       6,
+       {},
+       true},
+      {"candidate_error_ratio", "", "largest error of a candidate simulator, times that of the newest", 1, 100, 1.5},
+      {"candidate_spread", "",
+       "before any adaptation: candidates are drawn within this share of each parameter's range around the given one",
+       0.001, 1, 0.1},
       {"repeats", "", "wanted measurements of each individual", 1, 100, 1, {}, true},
       {"hide_simulated", "", "hide the simulated fitness until all is measured", 0, 1, 1, {}, false, {"no", "yes"}},
       {"chosen_from",
@@ -211,6 +231,10 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   if (heldOut >= measured)
     throw InputError(place + " /adaptation/settings/held_out", toText(heldOut),
                      "less than measured_individuals = " + toText(measured));
+  const double disagreeing = valueOf(stageParameters(), spec.stages, "disagreeing_individuals");
+  if (disagreeing > measured)
+    throw InputError(place + " /stages/disagreeing_individuals", toText(disagreeing),
+                     "at most measured_individuals = " + toText(measured));
   return spec;
 }
 

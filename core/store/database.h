@@ -93,6 +93,9 @@ class Database {
   /// Ends the iteration that was begun; its centre before is kept from there.
   void addRealityIteration(const RealityIteration& iteration);
   std::vector<RealityIteration> realityIterations(Id run, int stage = 0) const;  ///< 0: of all stages
+  /// A person ends L2 of the run's present stage. Refuses where L2 has not begun in it; asking twice changes nothing.
+  void endRealityLearning(Id run, const std::string& who);
+  bool isRealityLearningEnded(Id run, int stage) const;
 
   // ---- L3
   void addAdaptation(const AdaptationRecord& adaptation);  ///< refuses a stage or number that is not the next

@@ -44,11 +44,12 @@ void Database::addMeasurementStage(Id run, int stage, const std::vector<Measurem
       connection_->refuse(what + " has its individuals already");
     Query task(*connection_,
                "INSERT INTO measurement_task (run_id, stage, position, individual_id, simulated_fitness, "
-               "wanted_repeats, held_out) "
-               "VALUES (?, ?, ?, ?, ?, ?, ?)");
+               "wanted_repeats, held_out, rank, disagreement, candidates) "
+               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     for (const MeasurementTask& t : tasks) {
       requireRowOfRun(*connection_, "individual", run, t.individual);
-      task.run(run, stage, t.position, t.individual, t.simulatedFitness, t.wantedRepeats, t.heldOut);
+      task.run(run, stage, t.position, t.individual, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.rank,
+               t.disagreement, t.candidates);
     }
     Query(*connection_, "UPDATE run_state SET state = 'waiting', message = ?, updated_at = ? WHERE run_id = ?")
         .run("waits for real fitness of " + std::to_string(tasks.size()) + " individuals", utcNow(), run);
@@ -60,12 +61,13 @@ std::vector<MeasurementTask> Database::measurementTasks(Id run, int stage) const
     std::vector<MeasurementTask> all;
     Query row(*connection_,
               "SELECT run_id, stage, individual_id, position, simulated_fitness, wanted_repeats, held_out, "
-              "iteration FROM measurement_task "
+              "iteration, rank, disagreement, candidates FROM measurement_task "
               "WHERE run_id = ?1 AND (?2 = 0 OR stage = ?2) ORDER BY stage, position",
               run, stage);
     while (row.next()) {
       MeasurementTask& t = all.emplace_back();
-      row.get(t.run, t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.iteration);
+      row.get(t.run, t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.iteration,
+              t.rank, t.disagreement, t.candidates);
     }
     return all;
   });

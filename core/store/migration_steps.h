@@ -17,4 +17,7 @@ void learningInReality(SQLite::Database& database);
 /// Grids of experiments, their cells and what becomes of them.
 void gridsOfExperiments(SQLite::Database& database);
 
+/// Why an individual is measured, the held-out gap's error, and that a person ended L2.
+void reasonsForMeasuring(SQLite::Database& database);
+
 }  // namespace btr

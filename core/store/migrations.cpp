@@ -267,6 +267,8 @@ constexpr std::array steps{
               firstSchema},
     Migration{"policies of L2, and how its learner goes on", learningInReality},
     Migration{"grids of experiments whose runs are learned together", gridsOfExperiments},
+    Migration{"why individuals are measured, how sure the held-out gap is, and that a person ended L2",
+              reasonsForMeasuring},
 };
 
 }  // namespace

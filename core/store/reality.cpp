@@ -137,6 +137,23 @@ std::optional<RealityIteration> Database::begunRealityIteration(Id run, int stag
   });
 }
 
+void Database::endRealityLearning(Id run, const std::string& who) {
+  connection_->write([&] {
+    const int stage = countersOf(*connection_, run).stage + 1;
+    if (!Query(*connection_, "SELECT 1 FROM reality_begun WHERE run_id = ? AND stage = ?", run, stage).next())
+      connection_->refuse("run " + std::to_string(run) + " does not learn in reality now; L2 can be ended once its " +
+                          "policies were proposed in stage " + std::to_string(stage));
+    Query(*connection_, "INSERT OR IGNORE INTO reality_end (run_id, stage, who, asked_at) VALUES (?, ?, ?, ?)")
+        .run(run, stage, who, utcNow());
+  });
+}
+
+bool Database::isRealityLearningEnded(Id run, int stage) const {
+  return connection_->read([&] {
+    return Query(*connection_, "SELECT 1 FROM reality_end WHERE run_id = ? AND stage = ?", run, stage).next();
+  });
+}
+
 std::vector<RealityIteration> Database::realityIterations(Id run, int stage) const {
   return connection_->read([&] {
     std::vector<RealityIteration> all;

@@ -99,6 +99,9 @@ struct MeasurementTask {
   int wantedRepeats = 1;
   bool heldOut = false;           ///< not shown to L3; the gap on it is reported apart
   int iteration = 0;              ///< 0: the stage's own measurement; n: the n-th iteration of L2 in this stage
+  int rank = 0;                   ///< place among those chosen for the same reason, 1 first; 0: not known, or a policy of L2
+  std::optional<double> disagreement = {};  ///< chosen since candidate simulators disagree: their standard deviation
+  int candidates = 0;             ///< how many these were; 0: chosen as one of the best
 };
 
 /// One value typed in (or answered by the stand-in). Never deleted: a correction voids the old one.
@@ -170,7 +173,9 @@ struct GapRecord {
   std::optional<double> heldOutBefore, heldOutAfter;  ///< over the held-out individuals of all stages so far
   double newBefore = 0, newAfter = 0;              ///< over this stage's own individuals: before the update they are unseen
   double standardError = 0;                        ///< of `before`, from repeats; 0 if each was measured once
-  int individuals = 0;
+  int individuals = 0;                             ///< that L3 was shown
+  double heldOutStandardError = 0;                 ///< of the held-out gaps, from repeats
+  int heldOutIndividuals = 0;
 };
 
 /// Recording of a real or stand-in robot.

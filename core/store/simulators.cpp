@@ -155,9 +155,11 @@ Id Database::finishStage(const SimulatorRecord& simulator, GapRecord gap, RunSta
     insert(*connection_,
            "INSERT INTO gap (run_id, stage, simulator_before, simulator_after, before, after, held_out_before, "
            "held_out_after, "
-           "new_before, new_after, standard_error, individuals) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+           "new_before, new_after, standard_error, individuals, held_out_standard_error, held_out_individuals) "
+           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
            gap.run, gap.stage, gap.simulatorBefore, gap.simulatorAfter, gap.before, gap.after, gap.heldOutBefore,
-           gap.heldOutAfter, gap.newBefore, gap.newAfter, gap.standardError, gap.individuals);
+           gap.heldOutAfter, gap.newBefore, gap.newAfter, gap.standardError, gap.individuals, gap.heldOutStandardError,
+           gap.heldOutIndividuals);
     Query(*connection_, "UPDATE run_state SET stage = ?, state = ?, message = '', updated_at = ? WHERE run_id = ?")
         .run(stage, toText(next), utcNow(), gap.run);
     return gap.simulatorAfter;
@@ -170,12 +172,13 @@ std::vector<GapRecord> Database::gaps(Id run) const {
     Query row(
         *connection_,
         "SELECT run_id, stage, simulator_before, simulator_after, before, after, held_out_before, held_out_after, "
-        "new_before, new_after, standard_error, individuals FROM gap WHERE run_id = ? ORDER BY stage",
+        "new_before, new_after, standard_error, individuals, held_out_standard_error, held_out_individuals FROM gap "
+        "WHERE run_id = ? ORDER BY stage",
         run);
     while (row.next()) {
       GapRecord& g = all.emplace_back();
       row.get(g.run, g.stage, g.simulatorBefore, g.simulatorAfter, g.before, g.after, g.heldOutBefore, g.heldOutAfter,
-              g.newBefore, g.newAfter, g.standardError, g.individuals);
+              g.newBefore, g.newAfter, g.standardError, g.individuals, g.heldOutStandardError, g.heldOutIndividuals);
     }
     return all;
   });

@@ -12,7 +12,9 @@ spec["reality"] = "person"
 spec["learner"]["settings"]["population"] = 6
 spec["adaptation"]["learner"]["settings"]["population"] = 4
 spec["adaptation"]["settings"]["generations"] = 2
-spec["stages"].update(first_generations=2, next_generations=2, total_generations=4, measured_individuals=3)
+spec["stages"].update(first_generations=2, next_generations=2, total_generations=4, measured_individuals=3,
+                      disagreeing_individuals=1, candidate_simulators=3)
+spec["adaptation"]["settings"]["held_out"] = 1
 json.dump(spec, open(out, "w"))
 PY
 db=$folder/person.db
@@ -24,6 +26,13 @@ expect 0 "list" "$btr" fitness list --db "$db" --run 1
 says out "hidden"
 expect 0 "list as JSON" "$btr" --json fitness list --db "$db" --run 1
 grep -q simulated_fitness "$folder/out" && fail "the simulated fitness is not hidden"
+says out '"reason": "best"'
+says out '"reason": "candidate simulators disagree"'
+grep -q -e "disagreement" -e "rank" "$folder/out" && fail "rank and spread are not hidden"
+expect 0 "why, in numbers" "$btr" fitness list --db "$db" --run 1 --show-simulated
+says out "best, rank 1"
+says out "candidate simulators disagree: ±"
+expect 0 "list as JSON" "$btr" --json fitness list --db "$db" --run 1
 ids=($(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))])' "$folder/out"))
 [ ${#ids[@]} = 3 ] || fail "3 individuals should wait, not ${#ids[@]}"
 
@@ -46,6 +55,10 @@ expect 10 "second stage" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "gaps" "$btr" export --db "$db" --run 1 --what gaps
 says out "stage"
 [ "$(wc -l < "$folder/out")" = 2 ] || fail "one gap was expected"
+expect 0 "status says the gap on the held-out individual, too" "$btr" status --db "$db"
+says out "held-out gap"
+expect 0 "status" "$btr" --json status --db "$db"
+says out '"held_out_individuals": '
 expect 0 "measurements" "$btr" export --db "$db" --run 1 --what measurements
 says out "person"
 says out "new battery"
@@ -58,6 +71,7 @@ expect 0 "the end" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "status" "$btr" --json status --db "$db"
 says out '"state": "finished"'
 says out '"generation": 4'
+says out '"held_out_individuals": 1'
 for what in generations individuals gaps simulators; do
   expect 0 "export $what" "$btr" export --db "$db" --run 1 --what $what --csv "$folder/$what.csv"
 done
@@ -110,6 +124,26 @@ expect 0 "policies" "$btr" export --db "$db" --run 1 --what policies
 [ "$(wc -l < "$folder/out")" = 5 ] || fail "four policies and a header were expected"
 expect 0 "steps" "$btr" export --db "$db" --run 1 --what steps
 [ "$(wc -l < "$folder/out")" = 26 ] || fail "25 parameters and a header were expected"
+measure_all
+expect 0 "the end" "$btr" run "$folder/l2.json" --db "$db"
+
+# A person ends L2 after two of its four policies: they stay, nobody asks for the others, the run goes on.
+db=$folder/ended.db
+expect 10 "L1" "$btr" run "$folder/l2.json" --db "$db"
+expect 1 "L2 has not begun" "$btr" end-l2 --db "$db" --run 1
+one_line
+measure_all
+expect 10 "L2 waits" "$btr" run "$folder/l2.json" --db "$db"
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))][:2])' "$folder/out"); do
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91
+done
+expect 0 "it is enough" "$btr" end-l2 --db "$db" --run 1
+expect 10 "the next stage waits" "$btr" run "$folder/l2.json" --db "$db"
+expect 0 "policies" "$btr" export --db "$db" --run 1 --what policies
+[ "$(grep -c ',2,person,' "$folder/out")" = 2 ] || fail "two policies were measured twice each"
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+grep -q '"iteration": 1' "$folder/out" && fail "policies of an L2 that was ended are asked for"
 measure_all
 expect 0 "the end" "$btr" run "$folder/l2.json" --db "$db"
 finish

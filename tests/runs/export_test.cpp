@@ -119,8 +119,9 @@ TEST_F(Export, IndividualsCarryParametersByNameAndWhatWasMeasured) {
 TEST_F(Export, GapsSaySimulatorVersionsAndReality) {
   EXPECT_EQ((std::vector<Row>{
                 {"run", "stage", "simulator_before", "simulator_after", "before_m", "after_m", "held_out_before_m",
-                 "held_out_after_m", "new_before_m", "new_after_m", "standard_error_m", "individuals", "reality"},
-                {"1", "1", "0", "1", "1.375", "0.25", "", "0.5", "1.375", "0.125", "0.1", "1", "stand_in"}}),
+                 "held_out_after_m", "new_before_m", "new_after_m", "standard_error_m", "individuals",
+                 "held_out_standard_error_m", "held_out_individuals", "reality"},
+                {"1", "1", "0", "1", "1.375", "0.25", "", "0.5", "1.375", "0.125", "0.1", "1", "", "0", "stand_in"}}),
             table("gaps"));
 }
 
@@ -139,12 +140,14 @@ TEST_F(Export, SimulatorsHaveOneColumnForEachNumberOfAnyVersion) {
 TEST_F(Export, MeasurementsKeepVoidOnesAndTheirSource) {
   const auto rows = table("measurements");
   ASSERT_EQ(4u, rows.size());
-  EXPECT_EQ((Row{"run", "measurement", "individual", "generation", "slot", "stage", "held_out", "simulated_fitness_m",
-                 "value_m", "void", "note", "who", "entered_at", "reality"}),
+  EXPECT_EQ((Row{"run", "measurement", "individual", "generation", "slot", "stage", "held_out", "reason", "rank",
+                 "disagreement_m", "candidates", "simulated_fitness_m", "value_m", "void", "note", "who", "entered_at",
+                 "reality"}),
             rows[0]);
-  EXPECT_EQ((Row{"1", "1", "3", "2", "0", "1", "1", "2", "0.5", "0", "a,b", "me", "2026-11-21T11:00:00Z", "stand_in"}),
+  EXPECT_EQ((Row{"1", "1", "3", "2", "0", "1", "1", "best", "0", "", "0", "2", "0.5", "0", "a,b", "me",
+                 "2026-11-21T11:00:00Z", "stand_in"}),
             rows[1]);
-  EXPECT_EQ("1", rows[3][9]);
+  EXPECT_EQ("1", rows[3][13]);
 }
 
 TEST_F(Export, WrongRequestsAreRefused) {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -49,6 +50,8 @@ class KilledRun : public testing::Test {
     nlohmann::json spec = nlohmann::json::parse(readFile(spec_()));
     spec["reality_learning"] = {{"learner", {{"name", "pgrl"}, {"settings", {{"policies", 5}, {"epsilon", 0.1}}}}},
                                 {"settings", {{"iterations", 2}, {"repeats", 2}, {"copies", 0.75}}}};
+    spec["stages"]["disagreeing_individuals"] = 2;
+    spec["stages"]["candidate_simulators"] = 3;
     spec["adaptation"]["settings"]["sees_policies"] = "yes";
     writeFile(spec_(), spec.dump());
   }
@@ -83,8 +86,8 @@ class KilledRun : public testing::Test {
                                       i.outcome, i.detail, i.sameAs, i.trialSeed, i.traceSha256});
     }
     for (const MeasurementTask& t : db.measurementTasks(1))
-      all["tasks"].push_back(
-          {t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut, t.iteration});
+      all["tasks"].push_back({t.stage, t.individual, t.position, t.simulatedFitness, t.wantedRepeats, t.heldOut,
+                              t.iteration, t.rank, t.disagreement.value_or(-1), t.candidates});
     for (const RealityIteration& r : db.realityIterations(1)) {
       all["iterations"].push_back({r.stage, r.number, r.centreBefore, r.centreAfter, r.randomState, r.learnerState});
       for (const IndividualRecord& i : db.realityPolicies(1, r.stage, r.number))
@@ -154,6 +157,8 @@ TEST_F(KilledRun, GoesOnWithTheSameBitsAlsoInTheMidstOfLearningInReality) {
   killAndCompare(results(database("undisturbed")), 25);
   const Database db = Database::open(database("undisturbed"), Database::Mode::readOnly);
   EXPECT_EQ(4u, db.realityIterations(1).size()) << "two iterations in the first two of three stages";
+  const auto tasks = db.measurementTasks(1);
+  EXPECT_TRUE(std::ranges::any_of(tasks, [](const auto& t) { return t.disagreement.has_value(); }));
 }
 
 TEST_F(KilledRun, GoesOnWithTheSameBitsWhicheverLearnersStandInTheStages) {

@@ -187,6 +187,69 @@ TEST_F(RealityLearning, EndsEarlyWhenPatienceIsOver) {
   EXPECT_EQ(3u, db_->realityIterations(run_, 1).size());
 }
 
+TEST_F(RealityLearning, APersonEndsItAndWhatWasMeasuredIsKept) {
+  spec_.reality = "person";
+  spec_.realitySettings = {{"iterations", 9}, {"repeats", 1}};
+  spec_.stages["total_generations"] = 3;
+  ASSERT_EQ(RunEnd::waiting, go());
+  EXPECT_THROW(db_->endRealityLearning(run_, "me"), InputError) << "it has not begun";
+  measure([](const auto&) { return 0.5; });
+  ASSERT_EQ(RunEnd::waiting, go());
+  // One policy of four is measured, and it is better than anything before; then it is enough.
+  const auto waiting = db_->realityPolicies(run_, 1, 1);
+  const auto value = [&](std::size_t policy, double fitness) {
+    db_->addMeasurement({.run = run_, .individual = waiting[policy].id, .value = fitness});
+  };
+  value(2, 7);
+  ASSERT_EQ(RunEnd::waiting, go());
+  db_->endRealityLearning(run_, "me");
+  db_->endRealityLearning(run_, "me");
+  ASSERT_EQ(RunEnd::waiting, go());
+  EXPECT_EQ(1, db_->run(run_).stage) << "L3 is done and the next stage waits";
+
+  const auto iterations = db_->realityIterations(run_, 1);
+  ASSERT_EQ(1u, iterations.size());
+  EXPECT_EQ(iterations[0].centreBefore, iterations[0].centreAfter) << "a quarter of the policies is no step";
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(k == 2, iterations[0].policies[k].fitness.has_value());
+  const auto reports = realityReports(*db_, db_->run(run_), genotype());
+  ASSERT_EQ(1u, reports.size());
+  EXPECT_TRUE(reports[0].isFinished && reports[0].wasEnded);
+  // The best of what was measured goes back.
+  const IndividualRecord first = db_->individuals(run_, 3).front();
+  const std::vector<Parameter> declared = genotype();
+  for (std::size_t n = 0; n < declared.size(); ++n)
+    EXPECT_NEAR(waiting[2].parameters[n], first.parameters[n],
+                0.51 / 255 * (declared[n].maximum - declared[n].minimum));
+  // Nobody asks for the rest any more.
+  for (const MeasurementTask& t : db_->measurementTasks(run_, 1)) EXPECT_EQ(t.iteration > 0, isOver(t, iterations));
+}
+
+TEST_F(RealityLearning, AnIterationThatIsMeasuredWhenItIsEndedStillTakesItsStep) {
+  spec_.reality = "person";
+  spec_.realitySettings = {{"iterations", 9}, {"repeats", 1}};
+  std::vector<std::string> found;
+  for (const bool resumed : {false, true}) {
+    begin(resumed ? "resumed" : "at once");
+    ASSERT_EQ(RunEnd::waiting, go());
+    measure([](const auto& p) { return p[0]; });
+    ASSERT_EQ(RunEnd::waiting, go());
+    measure([](const auto& p) { return p[0]; });
+    db_->endRealityLearning(run_, "me");
+    if (resumed) {
+      // A process that was killed right after the step was stored: the next one finds L2 over.
+      const StopFlag stop{true};
+      ASSERT_EQ(RunEnd::stopped, continueRun(*db_, host, run_, stop, {.jobs = 2, .progress = {}}));
+    }
+    ASSERT_EQ(RunEnd::waiting, go());
+    const auto iterations = db_->realityIterations(run_, 1);
+    ASSERT_EQ(1u, iterations.size());
+    EXPECT_NE(iterations[0].centreBefore, iterations[0].centreAfter);
+    EXPECT_EQ(1, db_->run(run_).stage);
+    found.push_back(exportCsv(*db_, run_, "individuals", genotype(), "m"));
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
 TEST_F(RealityLearning, AllValuesVoidAreAskedForAgainAndSomeVoidAreLeftOut) {
   spec_.reality = "person";
   spec_.realitySettings = {{"iterations", 1}, {"repeats", 1}};

@@ -14,8 +14,8 @@ namespace btr::test {
 /// A run of the kick in a database of its own, of two stages of one generation each, after which a person measures.
 struct SmallKickRun {
   /// `settle` may change the experiment's document before the run begins.
-  SmallKickRun(int population, int measured, const std::function<void(nlohmann::json&)>& settle = {})
-      : host_(PLUGIN_DIR), database_(Database::open(folder_.file("a.db"), Database::Mode::create)) {
+  SmallKickRun(int population, int measured, const std::function<void(nlohmann::json&)>& settle = {}, int jobs = 1)
+      : jobs_(jobs), host_(PLUGIN_DIR), database_(Database::open(folder_.file("a.db"), Database::Mode::create)) {
     const std::string examples = SOURCE_DIR "/resources/experiments";
     nlohmann::json text = nlohmann::json::parse(readFile(examples + "/kick-short.json"));
     text["learner"]["settings"]["population"] = population;
@@ -30,11 +30,12 @@ struct SmallKickRun {
 
   RunEnd goOn(Database& database) const {
     RunOptions options;
-    options.jobs = 1;
+    options.jobs = jobs_;
     return continueRun(database, host_, run_, StopFlag{false}, options);
   }
   RunEnd goOn() { return goOn(database_); }
 
+  int jobs_ = 1;
   TemporaryFolder folder_;
   PluginHost host_;
   Database database_;

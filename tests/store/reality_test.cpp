@@ -91,6 +91,17 @@ TEST_F(Reality, ABegunIterationIsKnownUntilItIsFinished) {
   EXPECT_TRUE(db_.realityIterations(run_, 2).empty());
 }
 
+TEST_F(Reality, IsEndedByAPersonOnceItHasBegunAndOnlyInThatStage) {
+  EXPECT_THAT(refusal([&] { db_.endRealityLearning(run_, "me"); }), HasSubstr("does not learn in reality now"));
+  EXPECT_FALSE(db_.isRealityLearningEnded(run_, 1));
+  std::vector<IndividualRecord> one = policies(1);
+  db_.beginRealityIteration(begun(), one, {""}, {0}, 1);
+  db_.endRealityLearning(run_, "me");
+  db_.endRealityLearning(run_, "me too");
+  EXPECT_TRUE(db_.isRealityLearningEnded(run_, 1));
+  EXPECT_FALSE(db_.isRealityLearningEnded(run_, 2));
+}
+
 TEST_F(Reality, ALearnerWithoutACentreHasNone) {
   std::vector<IndividualRecord> one = policies(1);
   RealityIteration none = begun();

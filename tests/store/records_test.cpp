@@ -300,6 +300,20 @@ TEST_F(Records, OnlyTheNextStageIsOpenedAndOnlyOnce) {
               HasSubstr("individual 3 belongs to run 1, not to run 2"));
 }
 
+TEST_F(Records, ATaskKeepsWhyItsIndividualIsMeasured) {
+  addGenerations(1);
+  db_.addMeasurementStage(
+      run_, 1, {{run_, 1, 3, 1, 1.02, 1, false, 0, 2, {}, 0}, {run_, 1, 1, 2, 0.5, 1, true, 0, 1, 0.1 + 0.2, 6}});
+  const auto tasks = db_.measurementTasks(run_, 1);
+  ASSERT_EQ(2u, tasks.size());
+  EXPECT_EQ(2, tasks[0].rank);
+  EXPECT_FALSE(tasks[0].disagreement);
+  EXPECT_EQ(0, tasks[0].candidates);
+  EXPECT_EQ(1, tasks[1].rank);
+  EXPECT_EQ(0.1 + 0.2, tasks[1].disagreement);
+  EXPECT_EQ(6, tasks[1].candidates);
+}
+
 TEST_F(Records, AStageEndsWithANewSimulatorItsGapAndTheNextState) {
   addGenerations(1);
   AdaptationRecord l3{run_, 1, 1, 0.5, 0.75, "r", "l", {{"01", {0.1, -0.0}, 0.5}, {"10", {0.2}, 1.0}}};
@@ -316,7 +330,7 @@ TEST_F(Records, AStageEndsWithANewSimulatorItsGapAndTheNextState) {
   adapted.simulator.effects = {{"backlash", "ers7.LF_J1", {{"width_rad", 0.051}}},
                                {"air_drag", "ball", {}},
                                {"backlash", "ers7.LF_J2", {{"width_rad", 1}}}};
-  const GapRecord gap{run_, 1, 1, 0, 3.5, 1.25, std::nullopt, 2.0, 3.5, 1.5, 0.125, 10};
+  const GapRecord gap{run_, 1, 1, 0, 3.5, 1.25, std::nullopt, 2.0, 3.5, 1.5, 0.125, 10, 0.25, 3};
   const Id id = db_.finishStage(adapted, gap, RunState::learning);
 
   const SimulatorRecord stored = db_.simulator(id);
@@ -342,6 +356,8 @@ TEST_F(Records, AStageEndsWithANewSimulatorItsGapAndTheNextState) {
   EXPECT_EQ(1.5, g.newAfter);
   EXPECT_EQ(0.125, g.standardError);
   EXPECT_EQ(10, g.individuals);
+  EXPECT_EQ(0.25, g.heldOutStandardError);
+  EXPECT_EQ(3, g.heldOutIndividuals);
   const auto adaptations = db_.adaptations(run_, 1);
   ASSERT_EQ(1u, adaptations.size());
   EXPECT_EQ(0.5, adaptations[0].bestError);

@@ -133,6 +133,7 @@ class MainWindow : public QMainWindow {
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
   void showWaiting();
   void showPolicies(const RunProgress& progress);
+  void endRealityLearning();
 
   // main_window_show.cpp
   void connectShow();

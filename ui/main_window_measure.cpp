@@ -23,6 +23,7 @@ void MainWindow::connectMeasure() {
   connect(sheet_, &MeasurementSheet::importRequested, this, &MainWindow::importMeasurements);
   connect(sheet_, &MeasurementSheet::continueRequested, this, [this] { continueRun(run_.id); });
   connect(policies_, &PolicyPage::replayRequested, this, &MainWindow::replayIndividual);
+  connect(policies_, &PolicyPage::endRequested, this, &MainWindow::endRealityLearning);
   connect(alarm_, &Alarm::sheetRequested, this, [this] { raiseDock(sheetDock_); });
 }
 
@@ -62,6 +63,8 @@ void MainWindow::showWaiting() {
   const bool waits = run_.state == RunState::waiting && !isStandIn(run_);
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
   sheet_->setWaiting(run_.state == RunState::waiting);
+  const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;
+  policies_->setWaiting(waits && learnsInReality);
   if (waits && count.settled < count.wanted) {
     if (alarm_->state() == Alarm::State::quiet) raiseDock(sheetDock_);
     const int iteration = tasks_.empty() ? 0 : tasks_.back().iteration;
@@ -87,6 +90,16 @@ void MainWindow::showPolicies(const RunProgress& progress) {
   if (seen == policiesSeen_) return;
   guard([&] { policies_->setReports(realityReports(watcher_.database(), run_, genotype_)); });
   policiesSeen_ = seen;
+}
+
+void MainWindow::endRealityLearning() {
+  const Id run = run_.id;
+  guard([&] {
+    writer().endRealityLearning(run, sheet_->who().toStdString());
+    inform(tr("Learning in reality of %1 ends here.").arg(runName(run_)));
+    watcher_.poll();
+    continueRun(run);
+  });
 }
 
 void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {

@@ -116,6 +116,14 @@ const std::vector<Parameter>& stageParameters() {
   return parameters;
 }
 
+const std::vector<Parameter>& searchStartParameters() {
+  static const std::vector<Parameter> parameters{
+      {"share", "", "of the first population that are permutations of the vector, the first one unaltered", 0, 1, 1},
+      {"flip", "", "probability that a bit of a permutation flips", 0, 1, 0.05},
+  };
+  return parameters;
+}
+
 const std::vector<Parameter>& adaptationParameters() {
   static const std::vector<Parameter> parameters{
       {"generations", "", "generations of one adaptation of the simulator", 1, 1e5, 10, {}, true},

@@ -10,6 +10,7 @@
 #include "ui/common/number_edit.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/parameter_form.h"
+#include "ui/experiment/search_start.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -95,6 +96,41 @@ class TestExperimentForm : public QObject {
     QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(spec)));
     spec.realityLearner.settings["epsilon_nobody"] = 1;
     QVERIFY_EXCEPTION_THROWN(form.setSpec(spec), InputError);
+  }
+
+  void theVectorThatASearchBeginsAroundGoesInAndOut() {
+    ExperimentOffers offers = someOffers();
+    offers.startsOf["kick"] =
+        startOffers({{"height_mm", "mm", "of the hip", 50, 120, 90}, {"points", "", "", 2, 9, 4, {}, true}});
+    ExperimentForm form(offers);
+    form.setSpec(aSpec());
+    QVERIFY(!form.spec().start);
+    ExperimentSpec spec = aSpec();
+    spec.start = SearchStart{{{"height_mm", 101.5}, {"points", 3}}, 0.5, 0.1};
+    form.setSpec(spec);
+    QVERIFY2(form.isValid(), qPrintable(form.problems().join('\n')));
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(spec)));
+
+    auto* height = form.findChild<QWidget*>("searchStart")->findChild<NumberEdit*>("height_mm");
+    QVERIFY(height);
+    type(height->findChild<QLineEdit*>(), "130");
+    QVERIFY(!form.isValid());
+    QVERIFY2(form.problems().join('\n').contains("120"), qPrintable(form.problems().join('\n')));
+    form.undoStack().undo();
+    QVERIFY(form.isValid());
+    QCOMPARE(form.spec().start->parameters.at("height_mm"), 101.5);
+
+    spec.start->parameters["nobody"] = 1;
+    QVERIFY_THROWS_EXCEPTION(InputError, form.setSpec(spec));
+  }
+
+  void moreDisagreeingThanMeasuredIndividualsIsSaid() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.stages["disagreeing_individuals"] = 6;
+    form.setSpec(spec);
+    QVERIFY(!form.isValid());
+    QVERIFY(form.problems().join('\n').contains("at most the 5 measured"));
   }
 
   void aLearnersStepsFollowTheController() {

@@ -185,7 +185,7 @@ class TestFitnessAndGapCharts : public QObject {
     first.before = 0.4, first.after = 0.1, first.newBefore = 0.45, first.standardError = 0.03;
     second.stage = 2, second.simulatorBefore = 11, second.simulatorAfter = 12;
     second.before = 0.2, second.after = 0.05, second.newBefore = 0.3;
-    second.heldOutBefore = 0.25, second.heldOutAfter = 0.15;
+    second.heldOutBefore = 0.25, second.heldOutAfter = 0.15, second.heldOutStandardError = 0.02;
     const PlotData plot = gapPlot({first, second}, example().simulators, true, "m");
 
     QCOMPARE(series(plot, "before the update").points, (Points{{1, 0.4}, {2, 0.2}}));
@@ -194,6 +194,7 @@ class TestFitnessAndGapCharts : public QObject {
     QCOMPARE(series(plot, "new individuals").points, (Points{{1, 0.45}, {2, 0.3}}));
     QCOMPARE(series(plot, "held out, before").points, (Points{{2, 0.25}}));
     QCOMPARE(series(plot, "held out, after").points, (Points{{2, 0.15}}));
+    QCOMPARE(series(plot, "held out, after").errors, (std::vector<double>{0.02}));
     QCOMPARE(plot.segments.size(), std::size_t(3));
     QCOMPARE(plot.xLabels.value(1), QString("1: 0 → 1"));
     QCOMPARE(plot.xLabels.value(2), QString("2: 1 → 2"));

@@ -433,6 +433,23 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(asked[0][2].toString(), QString("typed wrongly"));
   }
 
+  void theReasonIsShownWithoutNumbersThatWouldTellTheSimulatedFitness() {
+    Stored s(2);
+    std::vector<MeasurementTask> two = tasks(2);
+    two[0].rank = 3;
+    two[1].disagreement = 0.21;
+    two[1].candidates = 6;
+    s.sheet.setTasks(two);
+    const int reason = s.model().reasonColumn();
+    // Drawn order runs backwards: the second task is the first row.
+    QCOMPARE(s.text(0, reason), QString("candidate simulators disagree"));
+    QCOMPARE(s.text(1, reason), QString("best"));
+    s.sheet.setMeasurements({saved(1, 101, 0.5), saved(2, 102, 0.4)});
+    QCOMPARE(s.text(0, reason), QString("candidate simulators disagree: ± 0.21 m over 6"));
+    QCOMPARE(s.text(1, reason), QString("best, rank 3"));
+    QVERIFY(!(s.model().flags(s.model().index(0, reason)) & Qt::ItemIsEditable));
+  }
+
   void learningGoesOnWhenAllIsMeasuredOrVoidAndSaved() {
     Stored s(2);
     QSignalSpy go(&s.sheet, &MeasurementSheet::continueRequested);

@@ -1,6 +1,8 @@
 // The page of L2: what it says of an iteration.
 #include <QComboBox>
 #include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QTest>
@@ -104,6 +106,36 @@ class TestPolicyPage : public QObject {
     page.setReports({});
     QCOMPARE(page.findChild<QTableWidget*>("steps")->rowCount(), 0);
     QVERIFY(page.findChild<QLabel*>("sentence")->text().contains("has not learned in reality"));
+  }
+
+  void endingL2AsksFirstAndIsOfferedOnlyWhileItWaits() {
+    PolicyPage page;
+    page.setReports({report(1, false)});
+    page.show();
+    auto* end = page.findChild<QPushButton*>("endL2");
+    QVERIFY(!end->isVisible());
+    page.setWaiting(true);
+    QVERIFY(end->isVisible());
+    QSignalSpy ended(&page, &PolicyPage::endRequested);
+    end->click();
+    auto* box = page.findChild<QMessageBox*>();
+    QVERIFY(box && box->isVisible());
+    box->reject();
+    QCOMPARE(ended.size(), 0);
+    QTRY_VERIFY(!page.findChild<QMessageBox*>());
+    end->click();
+    page.findChild<QPushButton*>("confirmEnd")->click();
+    QCOMPARE(ended.size(), 1);
+  }
+
+  void anIterationThatAPersonEndedSaysThatNoStepWasTaken() {
+    PolicyPage page;
+    RealityReport ended = report(1, true);
+    ended.wasEnded = true;
+    ended.policies[3].fitness.reset();
+    page.setReports({ended});
+    const QString text = page.findChild<QLabel*>("sentence")->text();
+    QVERIFY2(text.contains("after 8 of 9 policies") && text.contains("no step"), qPrintable(text));
   }
 
   void aPolicyIsReplayedByADoubleClick() {

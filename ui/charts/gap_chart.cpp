@@ -30,11 +30,12 @@ PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<Simulator
 
   using Style = PlotSeries::Style;
   PlotSeries before{GapChart::tr("before the update"), 1, Style::points, {}, {}, false, -0.16};
-  PlotSeries after{GapChart::tr("after the update"), 0, Style::points, {}, {}, false, 0.16};
+  PlotSeries after{GapChart::tr("after the update"), 0, Style::lineWithPoints, {}, {}, false, 0.16};
   PlotSeries unseen{
       GapChart::tr("new individuals, before the update (unseen)"), 3, Style::hollowPoints, {}, {}, false, -0.24};
   PlotSeries heldOutBefore{GapChart::tr("held out, before"), 4, Style::hollowPoints, {}, {}, false, -0.08};
-  PlotSeries heldOutAfter{GapChart::tr("held out, after"), 2, Style::hollowPoints, {}, {}, false, 0.24};
+  PlotSeries heldOutAfter{
+      GapChart::tr("held out, after (never seen by L3)"), 2, Style::lineWithPoints, {}, {}, false, 0.24};
   const auto add = [](PlotSeries& series, int stage, double value) {
     series.points.emplace_back(stage, value);
     return series.drawnAt(series.points.size() - 1);
@@ -44,9 +45,12 @@ PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<Simulator
     plot.segments.push_back({add(before, gap.stage, gap.before), add(after, gap.stage, gap.after), after.name});
     before.errors.push_back(gap.standardError);
     add(unseen, gap.stage, gap.newBefore);
-    if (gap.heldOutBefore && gap.heldOutAfter)
+    if (gap.heldOutBefore && gap.heldOutAfter) {
       plot.segments.push_back({add(heldOutBefore, gap.stage, *gap.heldOutBefore),
                                add(heldOutAfter, gap.stage, *gap.heldOutAfter), heldOutAfter.name});
+      heldOutBefore.errors.push_back(gap.heldOutStandardError);
+      heldOutAfter.errors.push_back(gap.heldOutStandardError);
+    }
     plot.xLabels[x] = GapChart::tr("%1: %2 → %3")
                           .arg(gap.stage)
                           .arg(version(simulators, gap.simulatorBefore), version(simulators, gap.simulatorAfter));

@@ -12,6 +12,7 @@
 #include "ui/common/theme.h"
 #include "ui/experiment/learner_form.h"
 #include "ui/experiment/parameter_form.h"
+#include "ui/experiment/search_start.h"
 
 namespace btr::ui {
 namespace {
@@ -50,8 +51,10 @@ QString changes(int count) { return count == 0 ? QString() : QObject::tr("%1 cha
 
 ExperimentOffers offersOf(const PluginHost& host) {
   ExperimentOffers offers;
-  for (const auto& name : host.controllers())
+  for (const auto& name : host.controllers()) {
     offers.controllers.push_back({QString::fromStdString(name), host.controller(name)->settings(), {}});
+    offers.startsOf[QString::fromStdString(name)] = startOffers(host.controller(name)->genotype());
+  }
   for (const auto& name : host.fitnesses()) {
     const auto fitness = host.fitness(name);
     offers.fitnesses.push_back({QString::fromStdString(name), fitness->settings(),
@@ -79,6 +82,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
       learner_(new LearnerForm(tr("Learner"), offers.learnersOf, offers.learners, undo_, this)),
       realityLearner_(
           new LearnerForm(tr("Learner"), withNone(offers.learnersOf), withNone(offers.learners), undo_, this)),
+      searchStart_(new LearnerForm(tr("Search begins"), offers.startsOf, startOffers({}), undo_, this)),
       stages_(new ParameterForm(stageParameters(), undo_, this)),
       realitySettings_(new ParameterForm(realityLearningParameters(), undo_, this)),
       adaptationSettings_(new ParameterForm(adaptationParameters(), undo_, this)),
@@ -88,6 +92,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   learner_->setObjectName("learner");
   adaptation_->setObjectName("adaptation");
   realityLearner_->setObjectName("realityLearner");
+  searchStart_->setObjectName("searchStart");
   realitySettings_->setObjectName("realitySettings");
   stages_->setObjectName("stages");
   simulator_->setObjectName("simulator");
@@ -120,6 +125,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   add(*column, tr("Task"), controller_, true);
   add(*column, tr("Fitness"), fitness_, true);
   add(*column, tr("L1 · learning in simulation"), learner_, true);
+  add(*column, tr("Start of the search"), searchStart_, false);
   add(*column, tr("Stages and measuring"), stages_, true);
   add(*column, tr("Reality"), makeReality(), true);
   add(*column, tr("L2 · learning in reality"), makeRealityLearning(), false);
@@ -144,7 +150,8 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
     connect(form, &ParameterForm::changed, this, &ExperimentForm::update);
   for (auto* form : {controller_, fitness_, adaptation_})
     connect(form, &PluginForm::changed, this, &ExperimentForm::update);
-  for (auto* form : {learner_, realityLearner_}) connect(form, &LearnerForm::changed, this, &ExperimentForm::update);
+  for (auto* form : {learner_, realityLearner_, searchStart_})
+    connect(form, &LearnerForm::changed, this, &ExperimentForm::update);
   setSpec({});
 }
 
@@ -160,6 +167,7 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.realityLearner, learners, "reality_learning/learner/settings");
   checkSettings(spec.adaptation, offers_.adapters.empty() ? offers_.learners : offers_.adapters,
                 "adaptation/learner/settings");
+  checkSettings(choiceOf(spec.start), startsOf(spec.controller.name), "start");
   shown_ = spec;
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
@@ -168,6 +176,7 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   fitness_->setChoice(spec.fitness);
   followController();
   learner_->setChoice(spec.learner);
+  searchStart_->setChoice(choiceOf(spec.start));
   realityLearner_->setChoice(spec.realityLearner.name.empty() ? PluginChoice{noLearner, {}, {}} : spec.realityLearner);
   realitySettings_->setValues(spec.realitySettings);
   stages_->setValues(spec.stages);
@@ -212,6 +221,7 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.controller = controller_->choice();
   spec.fitness = fitness_->choice();
   spec.learner = learner_->choice();
+  spec.start = startFrom(searchStart_->choice(), startsOf(spec.controller.name));
   spec.realityLearner = realityLearner_->choice();
   if (spec.realityLearner.name == noLearner) spec.realityLearner = {};
   spec.realitySettings = spec.realityLearner.name.empty() ? Values{} : realitySettings_->values();
@@ -237,7 +247,7 @@ QStringList ExperimentForm::problems() const {
   if (name_->text().trimmed().isEmpty()) problems << tr("Name: at least one letter");
   if (scene_->text().trimmed().isEmpty()) problems << tr("Scene: the path of a scene file");
   problems << seed_->problems() << controller_->problems() << fitness_->problems() << learner_->problems()
-           << stages_->problems();
+           << searchStart_->problems() << stages_->problems();
   problems << realityLearner_->problems();
   if (realityLearner_->choice().name != noLearner) problems << realitySettings_->problems();
   if (reality_->currentData().toString() == "stand_in") problems << standIn_->problems();
@@ -247,9 +257,18 @@ QStringList ExperimentForm::problems() const {
   if (problems.isEmpty()) {
     const double heldOut = valueOf(adaptationParameters(), adaptationSettings_->values(), "held_out");
     const double measured = valueOf(stageParameters(), stages_->values(), "measured_individuals");
+    const double disagreeing = valueOf(stageParameters(), stages_->values(), "disagreeing_individuals");
+    if (disagreeing > measured)
+      problems << tr("Disagreeing individuals: at most the %1 measured individuals").arg(measured);
     if (heldOut >= measured) problems << tr("Held out: less than the %1 measured individuals").arg(measured);
   }
   return problems;
+}
+
+const std::vector<PluginForm::Offer>& ExperimentForm::startsOf(const std::string& controller) const {
+  static const std::vector<PluginForm::Offer> ofNone = startOffers({});
+  const auto found = offers_.startsOf.find(QString::fromStdString(controller));
+  return found == offers_.startsOf.end() ? ofNone : found->second;
 }
 
 void ExperimentForm::setReadOnly(const QString& why) {
@@ -260,7 +279,7 @@ void ExperimentForm::setReadOnly(const QString& why) {
   reality_->setEnabled(false);
   for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(true);
   for (auto* form : {controller_, fitness_, adaptation_}) form->setReadOnly(true);
-  for (auto* form : {learner_, realityLearner_}) form->setReadOnly(true);
+  for (auto* form : {learner_, realityLearner_, searchStart_}) form->setReadOnly(true);
   why_->setText(why);
   update();
 }
@@ -268,7 +287,7 @@ void ExperimentForm::setReadOnly(const QString& why) {
 void ExperimentForm::resetAll() {
   undo_.beginMacro(tr("reset all fields"));
   for (auto* form : {controller_, fitness_, adaptation_}) form->resetAll();
-  for (auto* form : {learner_, realityLearner_}) form->resetAll();
+  for (auto* form : {learner_, realityLearner_, searchStart_}) form->resetAll();
   for (auto* form : {stages_, realitySettings_, adaptationSettings_, simulator_, standIn_, recordings_})
     form->resetAll();
   undo_.endMacro();
@@ -296,12 +315,13 @@ void ExperimentForm::update() {
   sections_[1]->setSummary(changes(controller_->changedCount()));
   sections_[2]->setSummary(changes(fitness_->changedCount()));
   sections_[3]->setSummary(changes(learner_->changedCount()));
-  sections_[4]->setSummary(changes(stages_->changedCount()));
+  sections_[4]->setSummary(QString::fromStdString(searchStart_->choice().name));
+  sections_[5]->setSummary(changes(stages_->changedCount()));
   const bool learnsInReality = realityLearner_->choice().name != noLearner;
   realitySettings_->setVisible(learnsInReality);
-  sections_[6]->setSummary(learnsInReality ? QString::fromStdString(realityLearner_->choice().name) : tr("none"));
-  sections_[7]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
-  sections_[8]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
+  sections_[7]->setSummary(learnsInReality ? QString::fromStdString(realityLearner_->choice().name) : tr("none"));
+  sections_[8]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
+  sections_[9]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
 
   const QStringList wrong = readOnly_ ? QStringList() : problems();
   problem_->setText(wrong.isEmpty()

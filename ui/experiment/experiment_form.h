@@ -23,6 +23,7 @@ struct ExperimentOffers {
   std::vector<PluginForm::Offer> controllers, fitnesses, learners;
   std::map<QString, std::vector<PluginForm::Offer>> learnersOf = {};  ///< with what a controller's genotype adds
   std::vector<PluginForm::Offer> adapters = {};                       ///< learners for the simulator's parameters
+  std::map<QString, std::vector<PluginForm::Offer>> startsOf = {};    ///< where a controller's search begins
 };
 ExperimentOffers offersOf(const PluginHost& host);
 
@@ -59,6 +60,7 @@ class ExperimentForm : public QWidget {
   QWidget* makeRealityLearning();
   /// Learners' pages follow the controller: its parameters may have settings of their own.
   void followController();
+  const std::vector<PluginForm::Offer>& startsOf(const std::string& controller) const;
   QWidget* makeRecordings();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
@@ -79,7 +81,7 @@ class ExperimentForm : public QWidget {
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
   QWidget* editBar_ = nullptr;
   PluginForm *controller_, *fitness_, *adaptation_;
-  LearnerForm *learner_, *realityLearner_;
+  LearnerForm *learner_, *realityLearner_, *searchStart_;
   ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr,
                 *recordings_ = nullptr;
   QLabel *concealed_ = nullptr, *recorded_ = nullptr;

@@ -135,7 +135,7 @@ QWidget* ExperimentForm::makeRealityLearning() {
 
 void ExperimentForm::followController() {
   const QString controller = QString::fromStdString(controller_->choice().name);
-  for (auto* form : {learner_, realityLearner_}) form->setGenotype(controller);
+  for (auto* form : {learner_, realityLearner_, searchStart_}) form->setGenotype(controller);
 }
 
 QWidget* ExperimentForm::makeRecordings() {

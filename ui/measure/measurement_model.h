@@ -37,9 +37,11 @@ class MeasurementModel : public QAbstractTableModel {
   int meanColumn() const { return firstRepeat + repeats_; }
   int countColumn() const { return meanColumn() + 1; }
   int voidColumn() const { return meanColumn() + 2; }
-  int noteColumn() const { return meanColumn() + 3; }
+  /// Why it was chosen; a rank or a spread would tell the simulated fitness, so these follow its blindness.
+  int reasonColumn() const { return meanColumn() + 3; }
+  int noteColumn() const { return meanColumn() + 4; }
   /// Without data: the view puts its buttons there.
-  int replayColumn() const { return meanColumn() + 4; }
+  int replayColumn() const { return meanColumn() + 5; }
   bool isRepeat(int column) const { return column >= firstRepeat && column < meanColumn(); }
 
   // ---- unsaved edits; each call is one step of the undo stack

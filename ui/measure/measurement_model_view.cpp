@@ -4,8 +4,9 @@
 #include <QLocale>
 #include <QPalette>
 
-#include "ui/charts/plot_data.h"
+#include "core/run/reality_gap.h"
 #include "core/run/spread.h"
+#include "ui/charts/plot_data.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_model.h"
@@ -30,10 +31,15 @@ QVariant MeasurementModel::headerData(int section, Qt::Orientation orientation, 
     if (section == meanColumn()) return axisTitle(tr("mean ± sd"), unit_);
     if (section == countColumn()) return tr("n");
     if (section == voidColumn()) return tr("void");
+    if (section == reasonColumn()) return tr("chosen as");
     if (section == noteColumn()) return tr("note");
     if (section == replayColumn()) return tr("replay");
   }
   if (role == Qt::ToolTipRole) {
+    if (section == reasonColumn())
+      return tr(
+          "Why it is measured: among the best, or candidate simulators disagree about it, so that its real fitness "
+          "tells them apart. Numbers are shown with the simulated fitness.");
     if (section == positionColumn) return tr("Measure in this order: it was drawn at random");
     if (section == simulatedColumn) return tr("Fitness in the simulator version of that time");
     if (isRepeat(section)) return tr("Real fitness: %1").arg(allowed_.text(unit_));
@@ -62,6 +68,8 @@ QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
     return shortNumber(spread.mean) + (spread.count > 1 ? " ± " + shortNumber(spread.deviation) : QString());
   }
   if (column == countColumn()) return static_cast<int>(values.size());
+  if (column == reasonColumn())
+    return QString::fromStdString(reasonOf(row.task, unit_.toStdString(), isSimulatedVisible()));
   if (column == noteColumn()) {
     if (!row.edit.note.isEmpty()) return row.edit.note;
     QStringList notes;
@@ -136,7 +144,8 @@ QVariant MeasurementModel::data(const QModelIndex& index, int role) const {
       return font;
     }
     case Qt::TextAlignmentRole:
-      return QVariant(column == noteColumn() ? Qt::AlignLeft | Qt::AlignVCenter : Qt::AlignRight | Qt::AlignVCenter);
+      return QVariant(column == noteColumn() || column == reasonColumn() ? Qt::AlignLeft | Qt::AlignVCenter
+                                                                         : Qt::AlignRight | Qt::AlignVCenter);
     case Qt::AccessibleTextRole:
       return headerData(column, Qt::Horizontal, Qt::DisplayRole).toString() + ' ' + textAt(row, column).toString();
     default:

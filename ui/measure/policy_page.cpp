@@ -4,6 +4,8 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -61,6 +63,10 @@ QTableWidget* readingTable(const QString& name, const QString& accessible, const
 QString sentenceOf(const RealityReport& report) {
   const auto known = std::count_if(report.policies.begin(), report.policies.end(),
                                    [](const PolicyRow& p) { return p.fitness.has_value(); });
+  if (report.wasEnded)
+    return PolicyPage::tr("Ended by a person after %1 of %2 policies: what was measured counts, no step was taken.")
+        .arg(known)
+        .arg(report.policies.size());
   if (!report.isFinished)
     return PolicyPage::tr("%1 of %2 policies are measured; the step is taken when all are.")
         .arg(known)
@@ -79,12 +85,19 @@ QString sentenceOf(const RealityReport& report) {
 }
 
 PolicyPage::PolicyPage(QWidget* parent)
-    : QWidget(parent), iteration_(new QComboBox(this)), sentence_(new QLabel(this)) {
+    : QWidget(parent),
+      iteration_(new QComboBox(this)),
+      sentence_(new QLabel(this)),
+      end_(new QPushButton(tr("End L2 here…"), this)) {
   iteration_->setObjectName("iteration");
   iteration_->setAccessibleName(tr("Iteration of L2"));
   iteration_->setToolTip(tr("Which iteration of learning in reality is shown"));
   sentence_->setObjectName("sentence");
   sentence_->setWordWrap(true);
+  end_->setObjectName("endL2");
+  end_->setToolTip(
+      tr("No further policies: the best one measured so far goes back, and the simulator is adapted (L3)"));
+  connect(end_, &QPushButton::clicked, this, &PolicyPage::confirmEnd);
   steps_ = readingTable("steps", tr("Averages and steps"),
                         {tr("Parameter"), tr("Step"), tr("Verdict"), tr("p"), tr("Mean at −ε (policies)"),
                          tr("Unchanged"), tr("Mean at +ε"), tr("Centre"), tr("New centre")},
@@ -108,6 +121,7 @@ PolicyPage::PolicyPage(QWidget* parent)
   bar->setContentsMargins(8, 6, 8, 2);
   bar->addWidget(iteration_);
   bar->addWidget(sentence_, 1);
+  bar->addWidget(end_);
   auto* tables = new QTabWidget(this);
   tables->setDocumentMode(true);
   tables->addTab(steps_, tr("Steps"));
@@ -116,7 +130,8 @@ PolicyPage::PolicyPage(QWidget* parent)
   column->setContentsMargins(0, 0, 0, 0);
   column->addLayout(bar);
   column->addWidget(tables, 1);
-  connect(iteration_, &QComboBox::currentIndexChanged, this, &PolicyPage::show);
+  connect(iteration_, &QComboBox::currentIndexChanged, this, &PolicyPage::showReport);
+  setWaiting(false);
   setReports({});
 }
 
@@ -125,6 +140,25 @@ void PolicyPage::setUnit(const QString& unit) {
   const QString inUnit = unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(unit);
   policies_->horizontalHeaderItem(simulated)->setText(tr("Simulated") + inUnit);
   policies_->horizontalHeaderItem(real)->setText(tr("Real") + inUnit);
+}
+
+void PolicyPage::setWaiting(bool waits) { end_->setVisible(waits); }
+
+void PolicyPage::confirmEnd() {
+  auto* box = new QMessageBox(QMessageBox::Question, tr("End learning in reality"),
+                              tr("End learning in reality in this stage? This cannot be taken back."),
+                              QMessageBox::NoButton, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->setInformativeText(
+      tr("What was measured is kept. An iteration that is not measured completely takes no step. The best goes back "
+         "into the simulator and L3 follows."));
+  auto* end = box->addButton(tr("End L2"), QMessageBox::AcceptRole);
+  end->setObjectName("confirmEnd");
+  box->setDefaultButton(box->addButton(tr("Go on measuring"), QMessageBox::RejectRole));
+  connect(box, &QMessageBox::finished, this, [this, box, end] {
+    if (box->clickedButton() == end) emit endRequested();
+  });
+  box->open();
 }
 
 void PolicyPage::setReports(std::vector<RealityReport> reports) {
@@ -140,10 +174,10 @@ void PolicyPage::setReports(std::vector<RealityReport> reports) {
     iteration_->setCurrentIndex(atNewest ? last : std::min(looked, last));
   }
   iteration_->setEnabled(iteration_->count() > 0);
-  show(iteration_->currentIndex());
+  showReport(iteration_->currentIndex());
 }
 
-void PolicyPage::show(int index) {
+void PolicyPage::showReport(int index) {
   steps_->setRowCount(0);
   policies_->setRowCount(0);
   if (index < 0) {

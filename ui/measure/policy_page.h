@@ -6,6 +6,7 @@
 
 class QComboBox;
 class QLabel;
+class QPushButton;
 class QTableWidget;
 
 namespace btr::ui {
@@ -22,15 +23,19 @@ class PolicyPage : public QWidget {
   /// The newest iteration is shown, unless the user looks at an earlier one that is still there.
   void setReports(std::vector<RealityReport> reports);
   const std::vector<RealityReport>& reports() const { return reports_; }
+  /// Whether L2 waits for a person in the stage shown, so that it may be ended.
+  void setWaiting(bool waits);
 
   enum StepColumn { parameter, step, verdict, pValue, below, same, above, before, after, stepColumns };
   enum PolicyColumn { individual, changes, simulated, real, values, policyColumns };
 
  signals:
   void replayRequested(btr::Id individual);
+  void endRequested();  ///< a person has confirmed that L2 of this stage shall end now
 
  private:
-  void show(int index);
+  void confirmEnd();
+  void showReport(int index);
   void showSteps(const RealityReport& report);
   void showPolicies(const RealityReport& report);
 
@@ -38,6 +43,7 @@ class PolicyPage : public QWidget {
   std::vector<RealityReport> reports_;
   QComboBox* iteration_;
   QLabel* sentence_;
+  QPushButton* end_;
   QTableWidget *steps_, *policies_;
 };
 

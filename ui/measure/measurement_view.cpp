@@ -58,6 +58,9 @@ void MeasurementView::arrangeColumns() {
     if (model_.isRepeat(column)) width = std::max(width, 12 * digit);
     if (column == model_.meanColumn()) width = std::max(width, 18 * digit);
     if (column == model_.replayColumn()) width = std::max(width, 12 * digit);
+    // The reason is a phrase, not a number: none of it may be cut off.
+    for (int row = 0; column == model_.reasonColumn() && row < model_.rowCount(); ++row)
+      width = std::max(width, fontMetrics().horizontalAdvance(model_.index(row, column).data().toString()) + 3 * digit);
     setColumnWidth(column, width);
     horizontalHeader()->setSectionResizeMode(
         column, column == model_.noteColumn() ? QHeaderView::Stretch : QHeaderView::Interactive);

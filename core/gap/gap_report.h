@@ -27,6 +27,7 @@ struct GapReport {
   struct Rival {
     std::string effect, at;
     double heldoutErrorRatio = 1;  ///< its held-out error over that of the effect it competes with
+    std::string with = {};         ///< not empty: only together with this effect at the same place
   };
   /// A candidate that was looked at, accepted or not. Accepted ones are "effects" of the report, all are "tried".
   struct Effect {

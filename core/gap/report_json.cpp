@@ -63,8 +63,10 @@ json toJson(const std::vector<GapReport::Number>& numbers, bool calibrated) {
 
 json toJson(const GapReport::Effect& e) {
   json rivals = json::array();
-  for (const GapReport::Rival& r : e.rivals)
+  for (const GapReport::Rival& r : e.rivals) {
     rivals.push_back({{"effect", r.effect}, {"at", r.at}, {"heldout_error_ratio", finite(r.heldoutErrorRatio)}});
+    if (!r.with.empty()) rivals.back()["together_with"] = r.with;
+  }
   return {{"effect", e.effect},
           {"at", e.at},
           {"parameters", toJson(e.parameters, false)},

@@ -36,8 +36,8 @@ std::string toPlainText(const GapReport& report) {
         text += line("        %-28s %.4g %s [%.4g … %.4g]\n", number.name.c_str(), number.value, number.unit.c_str(),
                      number.ci95.low, number.ci95.high);
     for (const auto& rival : effect.rivals)
-      text += line("        not told from %s at %s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
-                   rival.heldoutErrorRatio);
+      text += line("        not told from %s at %s%s%s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
+                   rival.with.empty() ? "" : " together with ", rival.with.c_str(), rival.heldoutErrorRatio);
   }
   text += "\ncalibrated\n";
   for (const auto& number : report.calibrated)

@@ -70,7 +70,8 @@ GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   e.heldoutErrorReduction = numberOf(r, "heldout_error_reduction");
   e.pValue = numberOf(r, "p_value");
   r.array("indistinguishable_from", [&](JsonReader rival) {
-    e.rivals.push_back({rival.text("effect"), rival.text("at"), numberOf(rival, "heldout_error_ratio")});
+    e.rivals.push_back({rival.text("effect"), rival.text("at"), numberOf(rival, "heldout_error_ratio"),
+                        rival.text("together_with", "")});
     rival.finish();
   });
   e.accepted = r.flag("accepted", false);

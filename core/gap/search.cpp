@@ -10,7 +10,6 @@
 namespace btr {
 namespace {
 
-constexpr double unexplainedExcess = 0.3;   // mean squared error above 1 at which pairs are tried
 constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
 constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
@@ -169,7 +168,7 @@ SearchResult SearchRun::run() {
     if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
     auto tried = tryCandidates(result.final, basesOf(result, linear, stage == 0), candidatesToFit,
-                               stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to);
+                               stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
     if (stage == 0) firstStage_ = tried;
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {

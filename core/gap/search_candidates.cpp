@@ -53,7 +53,7 @@ std::vector<Promise> promisesOf(const std::vector<std::vector<Screened>>& screen
 
 std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const std::vector<Base>& bases,
                                                        std::size_t toFit, const std::string& stage, double from,
-                                                       double to) {
+                                                       double to, bool lastChance) {
   const double part = (to - from) / 3;
   const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
   std::vector<std::vector<Screened>> screened;
@@ -135,7 +135,24 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     if (contained) best.push_back(k);
     return contained;
   });
-  if (!confirm(tried, best, without, stage, from + 2 * part, to)) confirm(tried, next, without, stage, to, to);
+  bool any = confirm(tried, best, without, stage, from + 2 * part, to) || confirm(tried, next, without, stage, to, to);
+  // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
+  // are fitted too.
+  if (!any && lastChance && excessOf(without) > unexplainedExcess) {
+    constexpr std::size_t most = 16, confirmed = 4;
+    constexpr double leastPromise = 0.01;
+    std::vector<std::size_t> rest;
+    for (const Tried& each : tried)
+      if (!each.attempt.fitted && each.attempt.excited && !promises[each.promise].starts.empty() &&
+          each.attempt.share >= leastPromise && rest.size() < most)
+        rest.push_back(static_cast<std::size_t>(&each - tried.data()));
+    for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
+    std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
+    std::stable_sort(rest.begin(), rest.end(),
+                     [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; });
+    if (rest.size() > confirmed) rest.resize(confirmed);
+    confirm(tried, rest, without, stage, to, to);
+  }
   for (Tried& each : tried)
     if (each.attempt.fitted) each.attempt.values = each.fit.model.simulator(problem_).effects.back().parameters;
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {

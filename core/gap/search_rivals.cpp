@@ -96,6 +96,30 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
   return false;
 }
 
+void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others,
+                            Found& found) const {
+  const PlacedEffect& own = found.effect;
+  const std::vector<std::string> names = problem_.library.make(own.effect)->togetherWith();
+  if (names.empty()) return;
+  FitModel model = result.final.fit.model.without(i);
+  for (const EffectCandidate& candidate : candidatesFor(problem_, model, names)) {
+    if (candidate.at != own.at) continue;
+    Values from;
+    for (const Tried& other : others)
+      if (other.attempt.fitted && other.attempt.candidate.text() == candidate.text()) from = other.attempt.values;
+    model = model.with(problem_, candidate.placed(from));
+  }
+  if (model.effects.size() + 1 != result.final.fit.model.effects.size() + names.size()) return;
+  const std::vector<Fit> fits = fitAll({{model, result.final.fit.shifts}}, 15, "rivals", 0.95, 0.95);
+  const Scored scored = scoreAll(fits, "rivals", 0.95, 0.95)[0];
+  if (isWorse(compare(scored.blocks, result.final.blocks))) return;
+  const double ratio = std::sqrt(scored.mean() / std::max(1e-12, result.final.mean()));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
+    found.rivalModels.push_back(fits[0].model);
+  }
+}
+
 void SearchRun::findRivals(SearchResult& result) {
   result.effects.clear();
   // What replaces an effect stands last in the model; the others move up.
@@ -115,6 +139,7 @@ void SearchRun::findRivals(SearchResult& result) {
           {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
       found.rivalModels.push_back(other.fit.model);
     }
+    addTogether(place, result, others, found);
     result.effects.push_back(found);
   }
   // In the order of the final model.

@@ -12,6 +12,9 @@ namespace btr {
 // standard errors), kept: fewer conditions let false effects in.
 inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
 
+inline constexpr double unexplainedExcess =
+    0.3;  // mean squared error above 1 at which more is tried than single effects
+
 inline constexpr int againIterations = 3;  // after the step was halved
 
 /// One search from calibration to rivals.
@@ -57,9 +60,10 @@ class SearchRun {
   Scored converged(const Scored& scored, const std::string& stage, double at);
   /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
   /// ones first, best first. Fits begin from any of the bases, of which the first is that of `without`; `without` is
-  /// scored again where the step becomes finer.
+  /// scored again where the step becomes finer. With `lastChance` all that promise anything are fitted before none is
+  /// said to help.
   std::vector<Tried> tryCandidates(Scored& without, const std::vector<Base>& bases, std::size_t toFit,
-                                   const std::string& stage, double from, double to);
+                                   const std::string& stage, double from, double to, bool lastChance = false);
   /// Fits some of them to the end and scores them; true if one passes.
   bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
                const std::string& stage, double from, double to);
@@ -78,6 +82,8 @@ class SearchRun {
   bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;
   std::vector<Tried> inPlaceOf(std::size_t i, const SearchResult& result, Scored& without);
   bool replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const;
+  /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
+  void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   void findRivals(SearchResult& result);
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;

@@ -34,7 +34,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 3;
+inline constexpr int pluginApiVersion = 4;
 
 }  // namespace btr
 

@@ -56,6 +56,9 @@ class Effect {
   virtual Place place() const = 0;
   /// Names of simpler effects that this one becomes for some of its values: never its rivals.
   virtual std::vector<std::string> contains() const { return {}; }
+  /// Names of simpler effects that at the same place together are the same law for some of its values: no recording of
+  /// these tells one from the other. Empty if there are none.
+  virtual std::vector<std::string> togetherWith() const { return {}; }
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }

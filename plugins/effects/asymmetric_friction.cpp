@@ -17,6 +17,7 @@ class AsymmetricFriction final : public btr::Effect {
   }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction", "viscous_friction"}; }
+  std::vector<std::string> togetherWith() const override { return {"coulomb_friction", "force_offset"}; }
   double torque(const btr::JointState&, std::span<const double> values) const override {
     return (values[1] - values[0]) / 2;
   }

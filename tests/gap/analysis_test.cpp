@@ -117,6 +117,37 @@ TEST(Analysis, HiddenDryFrictionIsNamedPlacedAndMeasured) {
   EXPECT_THAT(report.sentence, HasSubstr("coulomb friction at rig.hinge"));
 }
 
+TEST(Analysis, AStrongSpringIsFoundThoughFarFromItScreeningRanksItLow) {
+  SimulatorSpec truth;
+  truth.effects = {{"joint_spring", "rig.hinge", {{"stiffness_nm_rad", 4.5}, {"rest_rad", -0.4}}}};
+  const GapReport report = analyse(recordedFrom(truth), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  ASSERT_THAT(namesOf(report), testing::ElementsAre("joint_spring at rig.hinge")) << report.sentence;
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) {
+      EXPECT_NEAR(effect.parameters[0].value, 4.5, 0.1) << report.sentence;
+    }
+}
+
+TEST(Analysis, FrictionThatDiffersByDirectionIsTheSameLawAsDryFrictionWithAConstant) {
+  SimulatorSpec truth;
+  truth.effects = {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.06}}},
+                   {"force_offset", "rig.hinge", {{"torque_nm", 0.03}}}};
+  const GapReport report = analyse(recordedFrom(truth), library(), {});
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  std::vector<std::string> named;
+  for (const GapReport::Effect& effect : report.tried) {
+    if (!effect.accepted) continue;
+    named.push_back(effect.effect);
+    for (const GapReport::Rival& rival : effect.rivals) named.push_back(rival.effect);
+  }
+  // Either as one effect or as two, and then the other reading is listed.
+  EXPECT_THAT(named, testing::IsSupersetOf({"coulomb_friction", "force_offset"})) << report.sentence;
+  if (namesOf(report).size() == 1) {
+    EXPECT_THAT(report.sentence, HasSubstr("together with"));
+  }
+}
+
 TEST(Analysis, ADelayIsNotTakenForFriction) {
   const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});

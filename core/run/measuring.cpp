@@ -103,7 +103,7 @@ bool beginMeasuring(RunContext& context, int stage) {
   if (!replies) return false;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (!(*replies)[i].packedTrace.empty())
-      db.setTrace(chosen[i].individual.id, (*replies)[i].packedTrace, (*replies)[i].traceSha256);
+      db.setTrace(chosen[i].individual.id, keptTrace((*replies)[i].packedTrace), (*replies)[i].traceSha256);
 
   // A drawn order, so that neither the operator's skill nor the battery follows the simulated rank. The drawn last ones
   // are held out where the user wants that.

@@ -101,7 +101,7 @@ bool begin(RunContext& context, const RealityIteration& begun, const std::vector
     policy.outcome = reply.outcome;
     policy.detail = reply.detail;
     policy.traceSha256 = reply.traceSha256;
-    traces.push_back(reply.packedTrace);
+    traces.push_back(keptTrace(reply.packedTrace));
   }
   std::vector<std::size_t> order(policies.size());
   std::iota(order.begin(), order.end(), 0u);

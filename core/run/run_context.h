@@ -55,6 +55,13 @@ class RunContext {
 
 /// One generation of L1 after another until `lastGeneration` is stored. False if stopped.
 bool learnUntil(RunContext& context, int lastGeneration);
+/// A packed trace if it is small enough to be stored, else nothing: 20 s of walking are a megabyte, which a replay makes
+/// again with the same bits.
+inline std::string keptTrace(const std::string& packed) {
+  constexpr std::size_t most_bytes = 256 * 1024;
+  return packed.size() <= most_bytes ? packed : std::string();
+}
+
 /// Chooses who is measured after the stage's last generation and stores tasks and traces. False if stopped.
 bool beginMeasuring(RunContext& context, int stage);
 /// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are

@@ -65,7 +65,8 @@ class Database {
   std::vector<IndividualRecord> bestIndividuals(Id run, int count, int firstGeneration, int lastGeneration) const;
   ///< distinct (identityOf), best first, ties by generation and slot; lastGeneration 0: no limit
   IndividualRecord individual(Id id) const;
-  /// Refuses a hash that differs from the one stored with the individual: that would be another trial.
+  /// Refuses a hash that differs from the one stored with the individual: that would be another trial. Of a trace that
+  /// is not to be kept (`packed` empty) the hash alone is stored: a replay makes it again and is checked by it.
   void setTrace(Id individual, const std::string& packed, const std::string& sha256);
   std::optional<std::string> trace(Id individual) const;  ///< packed bytes
 

@@ -164,8 +164,9 @@ void Database::setTrace(Id individual, const std::string& packed, const std::str
                           " is not allowed; that of its trial is " + *stored);
     if (stored->empty())
       Query(*connection_, "UPDATE individual SET trace_sha256 = ? WHERE id = ?").run(hash, individual);
-    Query(*connection_, "INSERT OR IGNORE INTO trace (individual_id, packed) VALUES (?, ?)")
-        .run(individual, Blob{packed});
+    if (!packed.empty())
+      Query(*connection_, "INSERT OR IGNORE INTO trace (individual_id, packed) VALUES (?, ?)")
+          .run(individual, Blob{packed});
   });
 }
 

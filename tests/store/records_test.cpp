@@ -227,6 +227,14 @@ TEST_F(Records, ATraceIsKeptWithItsHashAndNeverReplaced) {
   EXPECT_THAT(refusal([&] { db_.trace(50); }), HasSubstr("individual 50 is not in the database"));
 }
 
+TEST_F(Records, OfATraceThatIsNotKeptTheHashIs) {
+  addGenerations(1);
+  db_.setTrace(1, "", "hash");
+  EXPECT_FALSE(db_.trace(1));
+  EXPECT_EQ("hash", db_.individual(1).traceSha256);
+  EXPECT_THAT(refusal([&] { db_.setTrace(1, "other", "other"); }), HasSubstr("that of its trial is hash"));
+}
+
 TEST_F(Records, MeasurementsAreVoidedButKept) {
   addGenerations(1);
   db_.addMeasurementStage(run_, 1, {{run_, 1, 3, 1, 1.02, 2, false}, {run_, 1, 1, 2, 1.0, 2, true}});

@@ -163,7 +163,7 @@ const std::vector<Parameter>& realityLearningParameters() {
 const std::vector<Parameter>& standInParameters() {
   static const std::vector<Parameter> parameters{
       {"seed", "", "draws the concealed reality and its noise", 0, largestSeed, 1, {}, true},
-      {"noise_m", "m", "standard deviation of one measurement", 0, 10, 0.02},
+      {"noise_m", "", "standard deviation of one measurement, in the unit of the fitness", 0, 10, 0.02},
       {"parameter_error", "", "relative size of the concealed deviations of the simulator's parameters", 0, 0.9, 0.2},
       {"hidden_effects", "", "concealed effects that the simulator lacks", 0, 10, 1, {}, true},
       {"effect_size", "", "how large they are: times the sizes that a robot in good order has", 0.01, 100, 1},

@@ -62,6 +62,11 @@ std::string inWords(std::string name) {
   return name;
 }
 
+std::string inWords(const GapReport::Rival& rival) {
+  return inWords(rival.effect) + " at " + rival.at +
+         (rival.with.empty() ? "" : " together with " + inWords(rival.with));
+}
+
 std::string brief(double value) {
   if (!std::isfinite(value)) return "–";
   std::array<char, 32> text{};

@@ -30,6 +30,8 @@ HeatColour heatColour(double error);
 
 /// "backlash" → "backlash", "velocity_reversal" → "velocity reversal".
 std::string inWords(std::string name);
+/// "dry friction at rig.hinge", and what it is a rival together with.
+std::string inWords(const GapReport::Rival& rival);
 /// Three or four digits that matter; "–" if it is not finite.
 std::string brief(double value);
 /// So many digits that matter: "0.0512", "1230".

@@ -77,9 +77,7 @@ std::string effectsTable(const GapReport& report) {
   for (const GapReport::Effect& e : report.tried) {
     std::string rivals;
     for (const GapReport::Rival& r : e.rivals)
-      rivals += (rivals.empty() ? "" : "; ") + inWords(r.effect) + " at " + r.at +
-                (r.with.empty() ? "" : " together with " + inWords(r.with)) + " (error × " +
-                brief(r.heldoutErrorRatio) + ")";
+      rivals += (rivals.empty() ? "" : "; ") + inWords(r) + " (error × " + brief(r.heldoutErrorRatio) + ")";
     const std::string parameters = parametersText(e);
     html += std::string(e.accepted ? "<tr>" : "<tr class=\"no\">") + cell(inWords(e.effect)) + cell(e.at) + "<td>" +
             (e.accepted ? "<b>accepted</b>" : "rejected") + (e.reason.empty() ? "" : ": " + escaped(e.reason)) +

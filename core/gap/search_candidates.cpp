@@ -110,14 +110,14 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         tried[owner[i]].attempt.fitted = true;
       }
   };
+  const auto byCost = [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
     if (tried[k].attempt.excited && !promises[tried[k].promise].starts.empty() &&
         tried[k].attempt.share >= std::max(0.7 * leastGain, 0.1 * tried[0].attempt.share))
       promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
-  std::stable_sort(promising.begin(), promising.end(),
-                   [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; });
+  std::stable_sort(promising.begin(), promising.end(), byCost);
   if (promising.size() > toFit / 2) promising.resize(toFit / 2);
   fitStarts(promising, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
@@ -135,7 +135,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     if (contained) best.push_back(k);
     return contained;
   });
-  bool any = confirm(tried, best, without, stage, from + 2 * part, to) || confirm(tried, next, without, stage, to, to);
+  const bool any =
+      confirm(tried, best, without, stage, from + 2 * part, to) || confirm(tried, next, without, stage, to, to);
   // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
   // are fitted too.
   if (!any && lastChance && excessOf(without) > unexplainedExcess) {
@@ -148,8 +149,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         rest.push_back(static_cast<std::size_t>(&each - tried.data()));
     for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
-    std::stable_sort(rest.begin(), rest.end(),
-                     [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; });
+    std::stable_sort(rest.begin(), rest.end(), byCost);
     if (rest.size() > confirmed) rest.resize(confirmed);
     confirm(tried, rest, without, stage, to, to);
   }

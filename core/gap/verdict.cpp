@@ -56,9 +56,7 @@ std::string whereText(const GapReport& report) {
 std::string rivalsText(const GapReport::Effect& effect) {
   if (effect.rivals.empty()) return "";
   std::string text;
-  for (const GapReport::Rival& rival : effect.rivals)
-    text += (text.empty() ? "" : ", ") + inWords(rival.effect) + " at " + rival.at +
-            (rival.with.empty() ? "" : " together with " + inWords(rival.with));
+  for (const GapReport::Rival& rival : effect.rivals) text += (text.empty() ? "" : ", ") + inWords(rival);
   return "These recordings cannot tell it from " + text + ". ";
 }
 

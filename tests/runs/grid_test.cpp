@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <map>
@@ -18,6 +17,7 @@
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"
+#include "tests/runs/child_program.h"
 
 namespace btr {
 namespace {
@@ -316,23 +316,12 @@ class KilledGrid : public SmallGrid {
  protected:
   pid_t start(const std::string& db, const char* workers) {
     const std::string file = folder_.write("grid.json", text_.dump());
-    const pid_t pid = fork();
-    if (pid == 0) {
-      if (!freopen("/dev/null", "w", stdout)) _exit(98);
-      execl(BTR_PROGRAM, "btr", "grid", file.c_str(), "--db", db.c_str(), "--workers", workers, "--quiet", nullptr);
-      _exit(99);
-    }
-    return pid;
-  }
-  static int wait(pid_t pid) {
-    int status = 0;
-    waitpid(pid, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return startBtr({"grid", file, "--db", db, "--workers", workers, "--quiet"});
   }
 };
 
 TEST_F(KilledGrid, GoesOnWithTheSameBitsAfterTwelveKillsAndOnAnyNumberOfWorkers) {
-  ASSERT_EQ(0, wait(start(folder_.file("one.db"), "1")));
+  ASSERT_EQ(0, endOf(start(folder_.file("one.db"), "1")));
   const std::string expected = results(folder_.file("one.db"));
   EXPECT_THAT(expected, HasSubstr("\"points\""));
   Random random(20041121);
@@ -342,11 +331,11 @@ TEST_F(KilledGrid, GoesOnWithTheSameBitsAfterTwelveKillsAndOnAnyNumberOfWorkers)
     const pid_t pid = start(db, kills % 2 ? "3" : "1");
     usleep(static_cast<useconds_t>(random.uniform(0, 700'000)));
     kill(pid, SIGKILL);
-    const int end = wait(pid);
+    const int end = endOf(pid);
     ASSERT_TRUE(end == 0 || end == -SIGKILL) << end;
     kills += end == -SIGKILL;
     if (end != 0 && kills < 12) continue;
-    ASSERT_EQ(0, wait(start(db, "2")));
+    ASSERT_EQ(0, endOf(start(db, "2")));
     ASSERT_EQ(expected, results(db)) << "after " << kills << " kills";
     ++runs;
   }

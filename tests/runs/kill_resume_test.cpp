@@ -1,7 +1,6 @@
 // kill -9 at any moment: the run that goes on gives the same bits as the one that nobody disturbed.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "core/spec/json_reader.h"
 #include "core/spec/random.h"
 #include "core/store/database.h"
+#include "tests/runs/child_program.h"
 
 namespace {
 
@@ -61,18 +61,7 @@ class KilledRun : public testing::Test {
   std::string database(const std::string& name) const { return (folder_ / (name + ".db")).string(); }
 
   pid_t start(const std::string& db, const char* jobs) const {
-    const pid_t pid = fork();
-    if (pid == 0) {
-      if (!freopen("/dev/null", "w", stdout)) _exit(98);
-      execl(BTR_PROGRAM, "btr", "run", spec_().c_str(), "--db", db.c_str(), "--jobs", jobs, nullptr);
-      _exit(99);
-    }
-    return pid;
-  }
-  static int wait(pid_t pid) {
-    int status = 0;
-    waitpid(pid, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return startBtr({"run", spec_(), "--db", db, "--jobs", jobs});
   }
 
   /// Everything in the database that is a result, as text; wall-clock times are not.
@@ -122,7 +111,7 @@ class KilledRun : public testing::Test {
         usleep(static_cast<useconds_t>(random.uniform(0, 400'000)));
         kill(pid, SIGKILL);
       }
-      const int end = wait(pid);
+      const int end = endOf(pid);
       if (end == -SIGKILL) {
         ++done;
         continue;
@@ -145,7 +134,7 @@ class KilledWalk : public KilledRun {
 };
 
 TEST_F(KilledRun, GoesOnWithTheSameBitsAfterAtLeastFiftyKills) {
-  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  ASSERT_EQ(0, endOf(start(database("undisturbed"), "1")));
   const std::string expected = results(database("undisturbed"));
 
   killAndCompare(expected, 50);
@@ -153,7 +142,7 @@ TEST_F(KilledRun, GoesOnWithTheSameBitsAfterAtLeastFiftyKills) {
 
 TEST_F(KilledRun, GoesOnWithTheSameBitsAlsoInTheMidstOfLearningInReality) {
   learnInReality();
-  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  ASSERT_EQ(0, endOf(start(database("undisturbed"), "1")));
   killAndCompare(results(database("undisturbed")), 25);
   const Database db = Database::open(database("undisturbed"), Database::Mode::readOnly);
   EXPECT_EQ(4u, db.realityIterations(1).size()) << "two iterations in the first two of three stages";
@@ -168,18 +157,18 @@ TEST_F(KilledRun, GoesOnWithTheSameBitsWhicheverLearnersStandInTheStages) {
   spec["adaptation"]["learner"] = {{"name", "pgrl"}, {"settings", {{"policies", 4}}}};
   spec["reality_learning"]["learner"] = {{"name", "ga"}, {"settings", {{"population", 4}}}};
   writeFile(spec_(), spec.dump());
-  ASSERT_EQ(0, wait(start(database("undisturbed"), "1")));
+  ASSERT_EQ(0, endOf(start(database("undisturbed"), "1")));
   killAndCompare(results(database("undisturbed")), 12);
 }
 
 TEST_F(KilledRun, HasTheSameBitsWithOneAndWithFourWorkers) {
-  ASSERT_EQ(0, wait(start(database("one"), "1")));
-  ASSERT_EQ(0, wait(start(database("four"), "4")));
+  ASSERT_EQ(0, endOf(start(database("one"), "1")));
+  ASSERT_EQ(0, endOf(start(database("four"), "4")));
   EXPECT_EQ(results(database("one")), results(database("four")));
 }
 
 TEST_F(KilledWalk, GoesOnWithTheSameBitsOnAnyNumberOfWorkers) {
-  ASSERT_EQ(0, wait(start(database("one"), "1")));
+  ASSERT_EQ(0, endOf(start(database("one"), "1")));
   const std::string expected = results(database("one"));
   EXPECT_NE(std::string::npos, expected.find("falls 0"));  // what the fitness tells besides is stored, too
   // The search begins around the start gait: it is the first individual, as near as 8 bits allow.
@@ -190,20 +179,20 @@ TEST_F(KilledWalk, GoesOnWithTheSameBitsOnAnyNumberOfWorkers) {
   for (std::size_t i = 0; i < genotype.size(); ++i)
     EXPECT_NEAR(genotype[i].byDefault, first[0].parameters[i],
                 0.51 / 255 * (genotype[i].maximum - genotype[i].minimum));
-  ASSERT_EQ(0, wait(start(database("four"), "4")));
+  ASSERT_EQ(0, endOf(start(database("four"), "4")));
   EXPECT_EQ(expected, results(database("four")));
   killAndCompare(expected, 10);
 }
 
 TEST_F(KilledRun, StopsCleanlyOnInterruptAndGoesOn) {
-  ASSERT_EQ(0, wait(start(database("undisturbed"), "2")));
+  ASSERT_EQ(0, endOf(start(database("undisturbed"), "2")));
   const pid_t pid = start(database("interrupted"), "2");
   usleep(300'000);
   kill(pid, SIGINT);
-  const int end = wait(pid);
+  const int end = endOf(pid);
   // Either it was early enough to be stopped (3), or the run had finished (0).
   EXPECT_TRUE(end == 3 || end == 0) << end;
-  ASSERT_EQ(0, wait(start(database("interrupted"), "2")));
+  ASSERT_EQ(0, endOf(start(database("interrupted"), "2")));
   EXPECT_EQ(results(database("undisturbed")), results(database("interrupted")));
 }
 

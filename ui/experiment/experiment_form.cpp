@@ -161,13 +161,13 @@ ExperimentForm::~ExperimentForm() { undo_.clear(); }
 void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.controller, offers_.controllers, "controller/settings");
   checkSettings(spec.fitness, offers_.fitnesses, "fitness/settings");
-  const auto searched = offers_.learnersOf.find(QString::fromStdString(spec.controller.name));
-  const auto& learners = searched == offers_.learnersOf.end() ? offers_.learners : searched->second;
+  const QString controller = QString::fromStdString(spec.controller.name);
+  const auto& learners = learner_->offersFor(controller);
   checkSettings(spec.learner, learners, "learner/settings");
   checkSettings(spec.realityLearner, learners, "reality_learning/learner/settings");
   checkSettings(spec.adaptation, offers_.adapters.empty() ? offers_.learners : offers_.adapters,
                 "adaptation/learner/settings");
-  checkSettings(choiceOf(spec.start), startsOf(spec.controller.name), "start");
+  checkSettings(choiceOf(spec.start), searchStart_->offersFor(controller), "start");
   shown_ = spec;
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
@@ -221,7 +221,7 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.controller = controller_->choice();
   spec.fitness = fitness_->choice();
   spec.learner = learner_->choice();
-  spec.start = startFrom(searchStart_->choice(), startsOf(spec.controller.name));
+  spec.start = startFrom(searchStart_->choice(), searchStart_->offersFor(controller_->choice().name.c_str()));
   spec.realityLearner = realityLearner_->choice();
   if (spec.realityLearner.name == noLearner) spec.realityLearner = {};
   spec.realitySettings = spec.realityLearner.name.empty() ? Values{} : realitySettings_->values();
@@ -263,12 +263,6 @@ QStringList ExperimentForm::problems() const {
     if (heldOut >= measured) problems << tr("Held out: less than the %1 measured individuals").arg(measured);
   }
   return problems;
-}
-
-const std::vector<PluginForm::Offer>& ExperimentForm::startsOf(const std::string& controller) const {
-  static const std::vector<PluginForm::Offer> ofNone = startOffers({});
-  const auto found = offers_.startsOf.find(QString::fromStdString(controller));
-  return found == offers_.startsOf.end() ? ofNone : found->second;
 }
 
 void ExperimentForm::setReadOnly(const QString& why) {

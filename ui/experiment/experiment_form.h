@@ -60,7 +60,6 @@ class ExperimentForm : public QWidget {
   QWidget* makeRealityLearning();
   /// Learners' pages follow the controller: its parameters may have settings of their own.
   void followController();
-  const std::vector<PluginForm::Offer>& startsOf(const std::string& controller) const;
   QWidget* makeRecordings();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);

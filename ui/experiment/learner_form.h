@@ -17,6 +17,7 @@ class LearnerForm : public QWidget {
   LearnerForm(const QString& what, const std::map<QString, Offers>& byGenotype, const Offers& otherwise,
               QUndoStack& undo, QWidget* parent = nullptr);
 
+  const Offers& offersFor(const QString& genotype) const;
   /// Not an undo step: it follows the choice of the controller, which is one.
   void setGenotype(const QString& name);
   void setChoice(const PluginChoice& choice) { page_->setChoice(choice); }
@@ -32,7 +33,6 @@ class LearnerForm : public QWidget {
  private:
   PluginForm* pageOf(const QString& genotype);
   void show(PluginForm* page);
-  const Offers& offersFor(const QString& genotype) const;
 
   QString what_, genotype_;
   std::map<QString, Offers> byGenotype_;

@@ -58,10 +58,7 @@ void EffectsTable::setReport(const GapReport& report) {
     QStringList numbers, others;
     for (const GapReport::Number& n : e.parameters) numbers << numberText(n);
     for (const GapReport::Rival& r : e.rivals)
-      others << tr("%1 at %2 (error × %3)")
-                    .arg(word(inWords(r.effect)),
-                         r.with.empty() ? word(r.at) : tr("%1 together with %2").arg(word(r.at), word(inWords(r.with))),
-                         word(brief(r.heldoutErrorRatio)));
+      others << tr("%1 (error × %2)").arg(word(inWords(r)), word(brief(r.heldoutErrorRatio)));
     put(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));
     put(*this, row, gain, word(percent(e.heldoutErrorReduction)), true);
     put(*this, row, pValue, word(brief(e.pValue)), true);

@@ -21,7 +21,12 @@ constexpr double legendHeight = 46, leftMargin = 64, topMargin = 26;
 QString degrees(double rad) { return QString::number(std::round(rad * 1800 / M_PI) / 10) + "°"; }
 
 /// Alike as drawn ones (0.6) is thin and faint, equal is thick.
-double strengthOf(double similarity) { return std::clamp((similarity - 0.5) / 0.5, 0.0, 1.0); }
+QPen edgePen(double similarity, const QPalette& palette, Qt::PenCapStyle cap = Qt::SquareCap) {
+  const double strength = std::clamp((similarity - 0.5) / 0.5, 0.0, 1.0);
+  QColor colour = palette.color(QPalette::Text);
+  colour.setAlphaF(static_cast<float>(0.18 + 0.5 * strength));
+  return QPen(colour, 1 + 6 * strength, Qt::SolidLine, cap);
+}
 
 }  // namespace
 
@@ -57,6 +62,11 @@ std::array<std::size_t, 3> CubeView::indexOf(int cell) const {
   const std::size_t directions = summary_.spec.axes[2].size(), bearings = summary_.spec.axes[1].size();
   const auto k = static_cast<std::size_t>(cell - 1);
   return {k / directions / bearings, k / directions % bearings, k % directions};
+}
+
+int CubeView::numberOf(const std::array<std::size_t, 3>& index) const {
+  const auto& axes = summary_.spec.axes;
+  return static_cast<int>((index[0] * axes[1].size() + index[1]) * axes[2].size() + index[2]) + 1;
 }
 
 bool CubeView::shown(int cell) const { return slice_ < 0 || indexOf(cell)[0] == static_cast<std::size_t>(slice_); }
@@ -123,10 +133,7 @@ void CubeView::choose(int cell) {
 void CubeView::paintEdges(QPainter& painter) const {
   for (const GridEdge& edge : summary_.edges) {
     if (!shown(edge.one) || !shown(edge.other)) continue;
-    const double strength = strengthOf(edge.similarity);
-    QColor colour = palette().color(QPalette::Text);
-    colour.setAlphaF(static_cast<float>(0.18 + 0.5 * strength));
-    painter.setPen(QPen(colour, 1 + 6 * strength, Qt::SolidLine, Qt::RoundCap));
+    painter.setPen(edgePen(edge.similarity, palette(), Qt::RoundCap));
     painter.drawLine(centreOf(edge.one), centreOf(edge.other));
   }
 }
@@ -164,20 +171,17 @@ void CubeView::paintCell(QPainter& painter, const GridRow& r) const {
 void CubeView::paintAxes(QPainter& painter) const {
   const auto& axes = summary_.spec.axes;
   const int nearest = slice_ < 0 ? 0 : slice_;
-  const auto number = [&](std::size_t bearing, std::size_t direction, std::size_t distance) {
-    return static_cast<int>((distance * axes[1].size() + bearing) * axes[2].size() + direction) + 1;
-  };
   painter.setPen(palette().color(QPalette::Text));
   const auto front = static_cast<std::size_t>(nearest);
   for (std::size_t b = 0; b < axes[1].size(); ++b)
-    painter.drawText(QRectF(centreOf(number(b, 0, front)).x() - 60, height() - legendHeight - 24, 120, 20),
+    painter.drawText(QRectF(centreOf(numberOf({front, b, 0})).x() - 60, height() - legendHeight - 24, 120, 20),
                      Qt::AlignCenter, tr("β %1").arg(degrees(axes[1][b])));
   for (std::size_t a = 0; a < axes[2].size(); ++a)
-    painter.drawText(QRectF(0, centreOf(number(axes[1].size() - 1, a, front)).y() - 10, leftMargin - 4, 20),
+    painter.drawText(QRectF(0, centreOf(numberOf({front, axes[1].size() - 1, a})).y() - 10, leftMargin - 4, 20),
                      Qt::AlignRight | Qt::AlignVCenter, tr("α %1").arg(degrees(axes[2][a])));
   if (slice_ >= 0 || axes[0].size() == 1) return;
   for (std::size_t d = 0; d < axes[0].size(); ++d) {
-    const QPointF top = centreOf(number(0, axes[2].size() - 1, d));
+    const QPointF top = centreOf(numberOf({d, 0, axes[2].size() - 1}));
     painter.drawText(QRectF(top.x() - 70, top.y() - radius() - 24, 140, 18), Qt::AlignCenter,
                      tr("d %1 m").arg(axes[0][d]));
   }
@@ -193,10 +197,7 @@ void CubeView::paintLegend(QPainter& painter) const {
                    withUnit(highest_, QString::fromStdString(summary_.unit)));
   x += wide + 22;
   for (const double alike : {0.6, 0.8, 1.0}) {
-    const double strength = strengthOf(alike);
-    QColor colour = palette().color(QPalette::Text);
-    colour.setAlphaF(static_cast<float>(0.18 + 0.5 * strength));
-    painter.setPen(QPen(colour, 1 + 6 * strength));
+    painter.setPen(edgePen(alike, palette()));
     painter.drawLine(QPointF(x, top + 6), QPointF(x + 24, top + 6));
     painter.setPen(palette().color(QPalette::Text));
     painter.drawText(QRectF(x - 8, top + 13, 40, 20), Qt::AlignCenter, QString::number(alike));
@@ -270,7 +271,7 @@ void CubeView::keyPressEvent(QKeyEvent* event) {
     default:
       return QWidget::keyPressEvent(event);
   }
-  choose(static_cast<int>((index[0] * axes[1].size() + index[1]) * axes[2].size() + index[2]) + 1);
+  choose(numberOf(index));
 }
 
 bool CubeView::event(QEvent* event) {

@@ -40,6 +40,7 @@ class CubeView : public QWidget {
 
  private:
   std::array<std::size_t, 3> indexOf(int cell) const;
+  int numberOf(const std::array<std::size_t, 3>& index) const;
   const GridRow* row(int cell) const;
   bool shown(int cell) const;
   int cellAt(const QPointF& place) const;

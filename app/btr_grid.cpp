@@ -59,7 +59,9 @@ void printCells(const GridSummary& s) {
     std::string remark = row.failed ? "failed" : "";
     const auto add = [&](const std::string& text) { remark += (remark.empty() ? "" : ", ") + text; };
     if (row.takenFrom) add("has the solution of cell " + std::to_string(row.takenFrom));
-    if (row.mirrorOf) add("mirror image of cell " + std::to_string(row.mirrorOf));
+    if (row.mirrorOf)
+      add("mirror image of cell " + std::to_string(row.mirrorOf) +
+          (row.sourceTookFrom ? ", which has the solution of cell " + std::to_string(row.sourceTookFrom) : ""));
     if (row.begunAt) add("begun at cell " + std::to_string(row.begunAt));
     rows.push_back({std::to_string(row.cell), toText(row.task[0]), degrees(row.task[1]), degrees(row.task[2]),
                     brief(row.fitness), brief(row.similarity), std::to_string(row.run), std::to_string(row.individual),

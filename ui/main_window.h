@@ -23,6 +23,7 @@ class Alarm;
 class ComparePage;
 class ExperimentForm;
 class ExperimentTree;
+struct RunGroup;
 class FitnessChart;
 class GapChart;
 class GapPage;
@@ -149,6 +150,7 @@ class MainWindow : public QMainWindow {
   void makeGridPage();
   void connectGrid();
   void readGrids();
+  std::vector<RunGroup> gridsInTree();
   void playKick(Id grid, double distance_m, double bearing_rad, double direction_rad);
 
   // main_window_gap.cpp

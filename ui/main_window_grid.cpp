@@ -3,6 +3,7 @@
 
 #include "core/run/grid_cells.h"
 #include "core/run/grid_kicks.h"
+#include "ui/experiment/experiment_tree.h"
 #include "ui/grid/grid_page.h"
 #include "ui/main_window.h"
 #include "ui/scene3d/replay_job.h"
@@ -17,6 +18,7 @@ void MainWindow::makeGridPage() {
 
 void MainWindow::connectGrid() {
   connect(gridPage_, &GridPage::failed, this, &MainWindow::report);
+  connect(tree_, &ExperimentTree::gridRequested, this, &MainWindow::showGrid);
   connect(gridPage_, &GridPage::kickRequested, this, &MainWindow::playKick);
   connect(gridPage_, &GridPage::replayRequested, this, [this](Id run, Id individual) {
     selectRun(run);
@@ -25,6 +27,18 @@ void MainWindow::connectGrid() {
   connect(&watcher_, &DatabaseWatcher::runsChanged, this, [this] {
     if (gridPage_->isVisible()) readGrids();
   });
+}
+
+std::vector<RunGroup> MainWindow::gridsInTree() {
+  std::vector<RunGroup> groups;
+  guard([&] {
+    for (const GridRecord& grid : watcher_.database().grids()) {
+      groups.push_back({grid.id, GridPage::nameOf(grid), {}});
+      for (const GridCellRecord& cell : watcher_.database().gridCells(grid.id))
+        if (cell.run) groups.back().cells[cell.run] = cell.number;
+    }
+  });
+  return groups;
 }
 
 void MainWindow::readGrids() {

@@ -33,7 +33,10 @@ void MainWindow::connectShow() {
   });
 
   connect(&watcher_, &DatabaseWatcher::failed, this, &MainWindow::report);
-  connect(&watcher_, &DatabaseWatcher::runsChanged, tree_, &ExperimentTree::setContent);
+  connect(&watcher_, &DatabaseWatcher::runsChanged, this,
+          [this](const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs) {
+            tree_->setContent(experiments, runs, gridsInTree());
+          });
   connect(&watcher_, &DatabaseWatcher::versionsChanged, tree_, &ExperimentTree::setSimulators);
   connect(&watcher_, &DatabaseWatcher::simulatorsChanged, tree_, &ExperimentTree::setSimulators);
   connect(&watcher_, &DatabaseWatcher::activeChanged, this, [this](const std::set<Id>& active) {

@@ -48,6 +48,8 @@ GridSummary summaryOf(const Database& database, const PluginHost& host, Id grid)
     rowOf[k + 1] = &s.rows.back();
   }
   for (GridRow& row : s.rows) {
+    if (row.mirrorOf)
+      if (const GridRow* source = rowOf[static_cast<std::size_t>(row.mirrorOf)]) row.sourceTookFrom = source->takenFrom;
     s.cellMean += row.fitness / static_cast<double>(s.rows.size());
     double sum = 0;
     int count = 0;

@@ -17,6 +17,7 @@ struct GridRow {
   double similarity = 1;         ///< mean to its neighbours' solutions
   bool failed = false;
   int takenFrom = 0, mirrorOf = 0, begunAt = 0;
+  int sourceTookFrom = 0;  ///< of a mirrored cell: takenFrom of the cell that it mirrors
   Id run = 0, individual = 0;
   std::vector<double> parameters;
 };

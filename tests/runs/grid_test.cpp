@@ -158,6 +158,10 @@ TEST_F(SmallGrid, ACellKeepsItsBestAndAFailedOneTakesTheNeighboursThatDoesBestIn
     EXPECT_THAT(neighbours, testing::Contains(row.takenFrom));
     EXPECT_EQ(row.parameters, from.parameters);
   }
+  for (const GridRow& row : summary.rows) {
+    const int source = row.mirrorOf;
+    EXPECT_EQ(row.sourceTookFrom, source ? summary.rows[static_cast<std::size_t>(source - 1)].takenFrom : 0);
+  }
   EXPECT_EQ(failed, good - own.begin());
   EXPECT_GE(taken, 1);
   EXPECT_EQ(summary.spec.axes, spec().axes);

@@ -54,6 +54,43 @@ class TestExperimentTree : public QObject {
     QCOMPARE(model.index(1, 2, first).data().toString(), QString("L3"));
   }
 
+  void putsTheRunsOfAGridsCellsTogether() {
+    StoredRun stored;
+    const Id experiment = stored.addExperiment();
+    const Id alone = stored.addRun(experiment, 1), first = stored.addRun(experiment, 2),
+             second = stored.addRun(experiment, 3);
+    const auto fillWith = [&](ExperimentTree& tree, const std::vector<RunGroup>& groups) {
+      tree.setContent(stored.database.experiments(), stored.database.runs(), groups);
+    };
+    ExperimentTree tree;
+    QAbstractItemModel& model = *tree.view()->model();
+    QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+    fillWith(tree, {});
+    const QModelIndex kick = model.index(0, 0);
+    QCOMPARE(model.rowCount(kick), 3);
+    // The grid has the number of a run: they are not taken for each other.
+    const std::vector<RunGroup> groups{{alone, "The whole kick", {{first, 1}, {second, 2}}}};
+    for (int time = 0; time < 2; ++time) {
+      fillWith(tree, groups);
+      QCOMPARE(model.rowCount(kick), 2);
+      QModelIndex group = model.index(0, 0, kick), single = model.index(1, 0, kick);
+      if (model.rowCount(group) == 0) std::swap(group, single);
+      QCOMPARE(group.data().toString(), QString("The whole kick"));
+      QCOMPARE(single.data().toString(), QString("Run %1 · seed 1").arg(alone));
+      QCOMPARE(model.rowCount(group), 2);
+      QCOMPARE(model.index(1, 0, group).data().toString(), QString("Cell 2 · Run %1 · seed 3").arg(second));
+      tree.selectRun(second);
+      QCOMPARE(tree.selectedRun(), second);
+      QVERIFY(tree.view()->isExpanded(group));
+      QSignalSpy asked(&tree, &ExperimentTree::gridRequested);
+      emit tree.view()->activated(group);
+      QCOMPARE(asked.count(), 1);
+      QCOMPARE(asked[0][0].value<Id>(), alone);
+    }
+    fillWith(tree, {});
+    QCOMPARE(model.rowCount(kick), 3);
+  }
+
   void keepsTheSelectionWhenRunsAreAdded() {
     StoredRun stored;
     const Id experiment = stored.addExperiment();

@@ -62,9 +62,10 @@ ExperimentTree::ExperimentTree(QWidget* parent)
   });
 }
 
-void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs) {
+void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs,
+                                const std::vector<RunGroup>& groups) {
   QStandardItem& root = *model_->invisibleRootItem();
-  std::set<Id> experimentIds, runIds;
+  std::set<Id> experimentIds, runIds, groupIds;
   for (const auto& experiment : experiments) experimentIds.insert(experiment.id);
   keepOnly(root, experimentKind, experimentIds);
   for (const auto& experiment : experiments) {
@@ -82,13 +83,45 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     runs_[run.id] = run;
     runIds.insert(run.id);
   }
+  cells_.clear();
+  std::map<Id, const RunGroup*> groupOf;
+  for (const RunGroup& group : groups) {
+    groupIds.insert(group.grid);
+    for (const auto& [run, cell] : group.cells) {
+      groupOf[run] = &group;
+      cells_[run] = cell;
+    }
+  }
   runItems_.clear();
-  for (int row = 0; row < root.rowCount(); ++row) keepOnly(*root.child(row), runKind, runIds);
+  for (int row = 0; row < root.rowCount(); ++row) {
+    QStandardItem& experiment = *root.child(row);
+    // A run stands either alone or in its group.
+    std::set<Id> alone;
+    for (const Id run : runIds)
+      if (!groupOf.count(run)) alone.insert(run);
+    keepOnly(experiment, runKind, alone);
+    keepOnly(experiment, groupKind, groupIds);
+    for (int k = 0; k < experiment.rowCount(); ++k)
+      if (kindOf(experiment.child(k)->index()) == groupKind) keepOnly(*experiment.child(k), runKind, runIds);
+  }
   for (const auto& run : runs) {
-    QStandardItem* item = child(*child(root, experimentKind, run.experiment), runKind, run.id);
+    QStandardItem* parent = child(root, experimentKind, run.experiment);
+    if (const auto group = groupOf.find(run.id); group != groupOf.end()) {
+      parent = child(*parent, groupKind, group->second->grid);
+      showGroup(*parent, *group->second);
+    }
+    QStandardItem* item = child(*parent, runKind, run.id);
     runItems_[run.id] = item;
     showRun(*item, run);
   }
+}
+
+void ExperimentTree::showGroup(QStandardItem& item, const RunGroup& group) {
+  if (item.text() == group.name) return;
+  item.setText(group.name);
+  item.setIcon(themeIcon("view-grid"));
+  item.setData(tr("%1 cells").arg(group.cells.size()), BadgeDelegate::DetailRole);
+  item.setToolTip(tr("Grid %1: %2\nEnter opens it in “The whole kick”").arg(group.grid).arg(group.name));
 }
 
 void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& simulators) {
@@ -139,7 +172,8 @@ Id ExperimentTree::selectedRun() const {
 // Finds the row by its id or appends it; the three columns exist from the start.
 QStandardItem* ExperimentTree::child(QStandardItem& parent, Kind kind, Id id) {
   for (int row = 0; row < parent.rowCount(); ++row)
-    if (parent.child(row)->data(IdRole).toLongLong() == id) return parent.child(row);
+    if (parent.child(row)->data(KindRole).toInt() == kind && parent.child(row)->data(IdRole).toLongLong() == id)
+      return parent.child(row);
   auto* item = new QStandardItem;
   item->setData(int(kind), KindRole);
   item->setData(qint64(id), IdRole);
@@ -161,7 +195,9 @@ void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
   const auto set = [](QStandardItem* cell, const QString& value) {
     if (cell->text() != value) cell->setText(value);
   };
-  set(&item, runName(run) + (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));
+  const auto cell = cells_.find(run.id);
+  set(&item, (cell == cells_.end() ? runName(run) : tr("Cell %1 · %2").arg(cell->second).arg(runName(run))) +
+                 (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));
   item.setIcon(themeIcon(iconName(face)));
   item.setData(isStandIn(run) ? tr("stand-in") : QString(), BadgeDelegate::BadgeRole);
   item.setToolTip(tr("%1\n%2\nStarted %3, version %4")
@@ -222,6 +258,9 @@ void ExperimentTree::openMenu(const QPoint& position) {
                    [this, id = idOf(index)] { emit experimentNoteRequested(id); });
     menu.addAction(themeIcon("office-chart-line"), tr("Compare its runs"), this,
                    [this, id = idOf(index)] { emit compareRequested(runsOf(id)); });
+  } else if (kindOf(index) == groupKind) {
+    menu.addAction(themeIcon("view-grid"), tr("Show in “The whole kick”"), this,
+                   [this, id = idOf(index)] { emit gridRequested(id); });
   } else if (const Id run = selectedRun()) {
     fillRunMenu(menu, run);
   }
@@ -236,6 +275,7 @@ void ExperimentTree::current(const QModelIndex& index) {
 
 void ExperimentTree::activate(const QModelIndex& index) {
   if (kindOf(index) == runKind) emit specRequested(idOf(index));
+  if (kindOf(index) == groupKind) emit gridRequested(idOf(index));
 }
 
 }  // namespace btr::ui

@@ -14,6 +14,13 @@ class QTreeView;
 
 namespace btr::ui {
 
+/// The runs of a grid's cells, which stand together under their experiment.
+struct RunGroup {
+  Id grid = 0;
+  QString name;
+  std::map<Id, int> cells;  ///< the number of the cell, by its run
+};
+
 /// Experiments, their runs, and the runs' simulator versions. Keeps selection and folding when the content changes;
 /// asks for what the user wants by signals and does nothing itself.
 class ExperimentTree : public QWidget {
@@ -21,7 +28,8 @@ class ExperimentTree : public QWidget {
  public:
   explicit ExperimentTree(QWidget* parent = nullptr);
 
-  void setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs);
+  void setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs,
+                  const std::vector<RunGroup>& groups = {});
   void setSimulators(Id run, const std::vector<SimulatorRecord>& simulators);
   void setActive(const std::set<Id>& active);
   /// Selects the run without telling runSelected() again if it already is.
@@ -42,11 +50,13 @@ class ExperimentTree : public QWidget {
   void experimentNoteRequested(btr::Id experiment);
   void exportRequested(btr::Id run, const QString& what);
   void compareRequested(const std::vector<btr::Id>& runs);
+  void gridRequested(btr::Id grid);
 
  private:
-  enum Kind { experimentKind = 1, runKind, simulatorKind };
+  enum Kind { experimentKind = 1, runKind, simulatorKind, groupKind };
   QStandardItem* child(QStandardItem& parent, Kind kind, Id id);
   void showRun(QStandardItem& item, const RunRecord& run);
+  void showGroup(QStandardItem& item, const RunGroup& group);
   void keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids);
   void openMenu(const QPoint& position);
   std::vector<Id> runsOf(Id experiment) const;
@@ -57,6 +67,7 @@ class ExperimentTree : public QWidget {
   QStandardItemModel* model_;
   std::map<Id, RunRecord> runs_;
   std::map<Id, QStandardItem*> runItems_;
+  std::map<Id, int> cells_;  ///< of grids, by their runs
   std::set<Id> active_;
   bool quiet_ = false;  ///< while the program itself changes the selection
 };

@@ -116,6 +116,7 @@ QString CubeView::describe(int cell) const {
           .arg(cell)
           .arg(QString::fromStdString(nameOfTask(r->task)), withUnit(r->fitness, unit), shortNumber(r->similarity));
   if (r->mirrorOf) text += tr("\nmirror image of cell %1").arg(r->mirrorOf);
+  if (r->sourceTookFrom) text += tr(", which has the solution of cell %1").arg(r->sourceTookFrom);
   if (r->failed) text += tr("\nfailed: its own best was %1").arg(withUnit(r->ownFitness, unit));
   if (r->takenFrom) text += tr("\nhas the solution of cell %1").arg(r->takenFrom);
   if (r->begunAt) text += tr("\nits population began around the best of cell %1").arg(r->begunAt);
@@ -147,7 +148,7 @@ void CubeView::paintCell(QPainter& painter, const GridRow& r) const {
   painter.drawEllipse(centre, size, size);
   painter.setBrush(Qt::NoBrush);
   if (r.failed) {
-    painter.setPen(QPen(tonesOf(palette()).bad, 2.5, r.takenFrom ? Qt::DashLine : Qt::SolidLine));
+    painter.setPen(QPen(tonesOf(palette()).bad, 2.5, r.takenFrom || r.sourceTookFrom ? Qt::DashLine : Qt::SolidLine));
     painter.drawEllipse(centre, size + 4, size + 4);
   }
   painter.setPen(textOn(fill));
@@ -156,10 +157,12 @@ void CubeView::paintCell(QPainter& painter, const GridRow& r) const {
   painter.setFont(small);
   const QRectF box(centre - QPointF(size, size), QSizeF(2 * size, 2 * size));
   painter.drawText(box, Qt::AlignCenter, QString::number(r.fitness, 'f', 2));
-  if (r.takenFrom) {
+  if (r.takenFrom || r.sourceTookFrom) {
     painter.setPen(tonesOf(palette()).bad);
-    painter.drawText(QPointF(centre.x() + size * 0.75, centre.y() - size * 0.85),
-                     QStringLiteral("←%1").arg(r.takenFrom));
+    // In brackets where the cell that it mirrors has taken it.
+    painter.drawText(
+        QPointF(centre.x() + size * 0.75, centre.y() - size * 0.85),
+        r.takenFrom ? QStringLiteral("←%1").arg(r.takenFrom) : QStringLiteral("(←%1)").arg(r.sourceTookFrom));
   }
   if (r.cell == current_) {
     painter.setPen(QPen(palette().color(hasFocus() ? QPalette::Highlight : QPalette::Text), 3));

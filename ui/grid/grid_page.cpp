@@ -176,6 +176,12 @@ void GridPage::choose(Id grid) {
     grid_->setCurrentIndex(index);
 }
 
+QString GridPage::nameOf(const GridRecord& grid) {
+  return tr("%1: %2, seed %3")
+      .arg(QString::fromStdString(grid.name), QString::fromStdString(grid.method))
+      .arg(grid.seed);
+}
+
 void GridPage::setGrids(const QString& database, const std::vector<GridSummary>& grids) {
   const Id before = current();
   if (database != database_) maps_.clear();
@@ -184,11 +190,7 @@ void GridPage::setGrids(const QString& database, const std::vector<GridSummary>&
   {
     const QSignalBlocker quiet(grid_);
     grid_->clear();
-    for (const GridSummary& s : grids_)
-      grid_->addItem(tr("%1: %2, seed %3")
-                         .arg(QString::fromStdString(s.grid.name), QString::fromStdString(s.grid.method))
-                         .arg(s.grid.seed),
-                     static_cast<qlonglong>(s.grid.id));
+    for (const GridSummary& s : grids_) grid_->addItem(nameOf(s.grid), static_cast<qlonglong>(s.grid.id));
     const int index = grid_->findData(static_cast<qlonglong>(before));
     grid_->setCurrentIndex(std::max(index, grids_.empty() ? -1 : 0));
   }

@@ -27,6 +27,7 @@ class GridPage : public QWidget {
 
   /// What there is to choose from; the chosen one stays.
   void setGrids(const QString& database, const std::vector<GridSummary>& grids);
+  static QString nameOf(const GridRecord& grid);  ///< for lists: what it learns, how, and its seed
   Id current() const;
   void choose(Id grid);
 

@@ -205,6 +205,8 @@ SearchResult SearchRun::run() {
     linear = linearise(problem_, result.final.fit);
   }
   prune(result);
+  takeApart(result);
+  prune(result);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
   result.stepChange = stepChange(result.final.fit);

@@ -49,6 +49,57 @@ void SearchRun::prune(SearchResult& result) {
   }
 }
 
+/// The simpler effects of a richer one, side by side, where they have fewer numbers and do as well: friction that was
+/// allowed to differ by direction and does not is dry and viscous friction.
+void SearchRun::takeApart(SearchResult& result) {
+  for (std::size_t i = 0; i < result.final.fit.model.effects.size();) {
+    const FitModel& whole = result.final.fit.model;
+    const PlacedEffect own = whole.effects[i];
+    const std::vector<std::string> names = problem_.library.make(own.effect)->contains();
+    FitModel parts = whole.without(i);
+    const std::size_t others = parts.effects.size();
+    std::vector<EffectCandidate> added;
+    for (const std::string& name : names)
+      for (const EffectCandidate& candidate : candidatesFor(problem_, parts, {name}))
+        if (candidate.at == own.at && isConsidered(name)) {
+          parts = parts.with(problem_, candidate.placed({}));
+          added.push_back(candidate);
+        }
+    if (added.size() < 2 || parts.parameters.size() >= whole.parameters.size() ||
+        static_cast<int>(parts.effects.size()) > options_.maximumEffects) {
+      ++i;
+      continue;
+    }
+    const std::vector<Fit> fits = fitAll({{parts, result.final.fit.shifts}}, 25, "taking apart", 0.86, 0.86);
+    const Scored scored = scoreAll(fits, "taking apart", 0.86, 0.86)[0];
+    if (isWorse(compare(scored.blocks, result.final.blocks))) {
+      ++i;
+      continue;
+    }
+    const std::string ownText = own.effect + " at " + own.at;
+    std::string what = ownText + " →";
+    for (std::size_t k = 0; k < added.size(); ++k) {
+      what += (k ? " and " : " ") + added[k].text();
+      Attempt attempt;
+      attempt.candidate = added[k];
+      attempt.accepted = attempt.fitted = attempt.scored = true;
+      attempt.values =
+          scored.fit.model.simulator(problem_).effects[problem_.given.effects.size() + others + k].parameters;
+      attempt.comparison = compare(result.calibrated.blocks, scored.blocks);
+      attempt.reason = "with the others simpler than " + ownText + " and not worse";
+      remember(result.attempts, attempt);
+    }
+    for (Attempt& attempt : result.attempts)
+      if (attempt.candidate.text() == ownText) {
+        attempt.accepted = false;
+        attempt.reason = "its simpler forms together do as well";
+      }
+    result.final = scored;
+    result.ladder.push_back(step(what, result.final));
+    i = 0;
+  }
+}
+
 /// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
 bool SearchRun::isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const {
   const std::vector<std::string> simpler = problem_.library.make(candidate.effect)->contains();
@@ -73,27 +124,36 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
   const FitModel& model = result.final.fit.model;
   const PlacedEffect own = model.effects[i];
   const std::string ownText = own.effect + " at " + own.at;
+  const auto numbersOf = [](const Tried& other) { return sizeOf(other.fit.model, other.fit.model.effects.size() - 1); };
+  const Tried* chosen = nullptr;
   for (const Tried& other : others) {
-    const std::string text = other.attempt.candidate.text();
     if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
-    const Comparison lost = compare(other.scored.blocks, result.final.blocks);
-    const bool simpler = sizeOf(other.fit.model, other.fit.model.effects.size() - 1) < sizeOf(model, i);
-    const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
-    if (!clearlyBetter && !(simpler && !isWorse(lost))) continue;
-    for (Attempt& attempt : result.attempts) {
-      if (attempt.candidate.text() == ownText) {
-        attempt.accepted = false;
-        attempt.reason = text + (simpler ? " is simpler and does as well" : " does better");
-      }
-      if (attempt.candidate.text() == text) {
-        attempt.accepted = true;
-        attempt.reason = simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText;
-      }
+    if (chosen) {
+      // A simpler one that does as well as the better one.
+      if (numbersOf(other) < numbersOf(*chosen) && !isWorse(compare(other.scored.blocks, chosen->scored.blocks)))
+        chosen = &other;
+      continue;
     }
-    result.final = other.scored;
-    return true;
+    const Comparison lost = compare(other.scored.blocks, result.final.blocks);
+    const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
+    if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && !isWorse(lost))) chosen = &other;
   }
-  return false;
+  if (!chosen) return false;
+  const std::string text = chosen->attempt.candidate.text();
+  const bool simpler = numbersOf(*chosen) < sizeOf(model, i);
+  for (Attempt& attempt : result.attempts) {
+    if (attempt.candidate.text() == ownText) {
+      attempt.accepted = false;
+      attempt.reason = text + (simpler ? " is simpler and does as well" : " does better");
+    }
+    if (attempt.candidate.text() == text) {
+      attempt.accepted = true;
+      attempt.reason = simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText;
+    }
+  }
+  result.final = chosen->scored;
+  result.ladder.push_back(step(ownText + " → " + text, result.final));
+  return true;
 }
 
 void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others,
@@ -120,14 +180,23 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
   }
 }
 
+/// Rivals of each effect beside the others; where an effect was replaced, what stood beside it is asked again.
 void SearchRun::findRivals(SearchResult& result) {
+  constexpr int mostRounds = 3;
+  for (int round = 1; rivalsOfEach(result) && result.effects.size() > 1 && round < mostRounds;) ++round;
+}
+
+bool SearchRun::rivalsOfEach(SearchResult& result) {
+  bool replaced = false;
   result.effects.clear();
   // What replaces an effect stands last in the model; the others move up.
   for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
     Scored without;
     const std::vector<Tried> others = inPlaceOf(i, result, without);
     // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
-    const std::size_t place = replace(i, others, result) ? result.final.fit.model.effects.size() - 1 : i++;
+    const bool changed = replace(i, others, result);
+    replaced = replaced || changed;
+    const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;
     const PlacedEffect own = model.effects[place];
     Found found{own, compare(without.blocks, result.final.blocks), {}, {}};
@@ -152,6 +221,7 @@ void SearchRun::findRivals(SearchResult& result) {
   };
   std::stable_sort(result.effects.begin(), result.effects.end(),
                    [&](const Found& a, const Found& b) { return placeOf(a) < placeOf(b); });
+  return replaced;
 }
 
 }  // namespace btr

@@ -1,5 +1,6 @@
 // Structure search, inside: see search.h.
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -44,6 +45,10 @@ class SearchRun {
     Linearised linear;
   };
 
+  bool isConsidered(const std::string& effect) const {
+    return options_.names.empty() ||
+           std::find(options_.names.begin(), options_.names.end(), effect) != options_.names.end();
+  }
   std::function<bool(std::size_t)> reporter(const std::string& stage, std::size_t count, double from, double to) const {
     if (!options_.progress) return {};
     return [this, stage, count, from, to](std::size_t done) {
@@ -79,12 +84,14 @@ class SearchRun {
   bool tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair);
   void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
+  void takeApart(SearchResult& result);
   bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;
   std::vector<Tried> inPlaceOf(std::size_t i, const SearchResult& result, Scored& without);
   bool replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const;
   /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   void findRivals(SearchResult& result);
+  bool rivalsOfEach(SearchResult& result);  ///< true if an effect was replaced
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;
 

@@ -12,6 +12,8 @@ using Verdict = GapReport::Verdict;
 
 // Mean squared errors in noise floors²: what is at the noise, and what is too much to stay without a name.
 constexpr double atNoise = 1.3, stillNoise = 1.15, unexplained = 1.5, unexplainedShare = 0.2;
+// Where what is left stands well above the noise, a small share of what was there is too much already.
+constexpr double clearlyLeft = 4, clearlyLeftShare = 0.04;
 constexpr double leastMotion = 10;  // noise floors that something must move
 
 /// Largest movement of any compared channel about its mean, in noise floors.
@@ -76,7 +78,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
       compare(found.given.blocks, found.calibrated.blocks).t > 2.5 && given - calibrated > std::max(0.02 * given, 0.02);
   const bool named = !found.effects.empty();
   const bool tooMuchLeft =
-      named ? beyondStep > stillNoise && (curveIsBetter || leftBeyondStep > unexplainedShare * excess)
+      named ? beyondStep > stillNoise && (curveIsBetter || leftBeyondStep > unexplainedShare * excess ||
+                                          (beyondStep > clearlyLeft && leftBeyondStep > clearlyLeftShare * excess))
             : beyondStep > unexplained;
 
   // What stands still although the simulator moves tells a lot.
@@ -101,9 +104,15 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     std::string partly;
     for (const GapReport::Effect& effect : report.tried)
       if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
-    report.sentence =
-        whereText(report) + error + "No effect of the library explains what is missing" +
-        (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
+    if (named && leftBeyondStep <= unexplainedShare * excess)
+      report.sentence = whereText(report) + error + "Most of it, " + wholePercent(report.remainder.explainedShare) +
+                        " of the squared error, is taken up by " + partly + ", but what is left, " +
+                        digits(std::sqrt(final)) + floors +
+                        ", no effect of the library explains: the cause may be another. ";
+    else
+      report.sentence =
+          whereText(report) + error + "No effect of the library explains what is missing" +
+          (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
   } else if (!calibrationHelps && given <= atNoise) {
     report.verdict = Verdict::noMismatch;
     report.sentence = "The simulator as given agrees with these recordings within " + digits(std::sqrt(given)) +

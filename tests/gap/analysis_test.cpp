@@ -148,6 +148,21 @@ TEST(Analysis, FrictionThatDiffersByDirectionIsTheSameLawAsDryFrictionWithAConst
   }
 }
 
+TEST(Analysis, FrictionThatMightDifferByDirectionButDoesNotIsDryAndViscousFriction) {
+  SimulatorSpec truth;
+  truth.effects = {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.04}}},
+                   {"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 0.03}}}};
+  AnalysisOptions options;
+  options.effects = {"asymmetric_friction", "coulomb_friction", "viscous_friction"};
+  GapProblem problem = recordedFrom(truth);
+  problem.scene.calibrate.pop_back();  // a servo's d is viscous friction, too
+  const GapReport report = analyse(problem, library(), options);
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  EXPECT_THAT(namesOf(report),
+              testing::UnorderedElementsAre("coulomb_friction at rig.hinge", "viscous_friction at rig.hinge"))
+      << toPlainText(report);
+}
+
 TEST(Analysis, ADelayIsNotTakenForFriction) {
   const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});

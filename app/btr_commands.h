@@ -29,7 +29,7 @@ struct Shell {
 void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, stand-in
 void addCompareCommand(CLI::App& app, Shell& shell);   ///< compare
 void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import
-void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export
+void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export, merge
 void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 /// gap adopt|revert|recordings, below "gap"

@@ -1,4 +1,4 @@
-// btr replay, export.
+// btr replay, export, merge.
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -14,8 +14,9 @@ namespace btr::cli {
 namespace {
 
 struct DataArguments {
-  std::string database, csv, what;
+  std::string database, csv, what, from;
   Id run = 0, individual = 0;
+  std::size_t largestTrace_kib = 256;
 };
 
 void replayCommand(const DataArguments& a, Shell& shell) {
@@ -49,6 +50,20 @@ void exportCommand(const DataArguments& a, Shell& shell) {
   writeOut(a.csv, exportCsv(db, a.run, a.what, prepared.genotype, prepared.fitness->unit()));
 }
 
+void mergeCommand(const DataArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::create);
+  const MergedRuns merged = db.merge(a.from, 1024 * a.largestTrace_kib);
+  if (shell.json)
+    std::cout << nlohmann::json{{"experiments", merged.experiments},
+                                {"runs", merged.runs},
+                                {"individuals", merged.individuals}}
+                     .dump(1)
+              << '\n';
+  else
+    std::printf("%d runs with %d individuals and %d experiments copied from %s\n", merged.runs, merged.individuals,
+                merged.experiments, a.from.c_str());
+}
+
 }  // namespace
 
 void addDataCommands(CLI::App& app, Shell& shell) {
@@ -71,6 +86,15 @@ void addDataCommands(CLI::App& app, Shell& shell) {
       ->required()
       ->check(CLI::IsMember({"generations", "individuals", "gaps", "simulators", "measurements", "policies", "steps"}));
   exportApp->callback([a, &shell] { exportCommand(*a, shell); });
+
+  CLI::App* mergeApp = app.add_subcommand("merge", "copy all runs of another database into this one");
+  mergeApp->add_option("from", a->from, "database that is read")->required();
+  mergeApp->add_option("--db", a->database, "database that takes them; made if it is not there")->required();
+  mergeApp
+      ->add_option("--largest-trace-kib", a->largestTrace_kib, "larger traces stay behind; a replay makes them again")
+      ->check(CLI::Range(0, 1 << 20))
+      ->capture_default_str();
+  mergeApp->callback([a, &shell] { mergeCommand(*a, shell); });
 }
 
 }  // namespace btr::cli

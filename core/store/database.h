@@ -12,6 +12,11 @@ namespace btr {
 
 class Connection;
 
+/// What a merge has added.
+struct MergedRuns {
+  int experiments = 0, runs = 0, individuals = 0;
+};
+
 /// The experiment database: one SQLite file (WAL, foreign keys, STRICT tables, numbered migrations, synchronous =
 /// FULL). All SQL of the program stands behind this class. One Database belongs to one thread; open another for another
 /// thread or process, a forked one too. Every writing call is one transaction: all of it is stored or nothing. Errors:
@@ -133,6 +138,13 @@ class Database {
   std::vector<GridBest> gridBests(Id grid) const;          ///< by cell and generation
   std::vector<GridSolution> gridSolutions(Id grid) const;  ///< by cell
   std::vector<GridPoint> gridPoints(Id grid) const;        ///< by number
+
+  // ---- other databases
+  /// Copies all experiments, runs, grids and recordings of another database, with new numbers; experiments of the same
+  /// name and specification become one. The other file is only read. Traces of more than `largestTrace` bytes stay
+  /// behind (their hashes come along: a replay makes them again). Refuses, and copies nothing, where a run or grid is
+  /// in both.
+  MergedRuns merge(const std::string& path, std::size_t largestTrace);
 
  private:
   explicit Database(std::unique_ptr<Connection> connection);

@@ -1,0 +1,187 @@
+// Runs of another database: its rows with their numbers moved behind ours. What refers to what is read from the schema,
+// so a table that a later migration adds comes along by itself.
+#include <SQLiteCpp/Database.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/spec/error.h"
+#include "core/store/connection.h"
+#include "core/store/database.h"
+
+namespace btr {
+namespace {
+
+/// The other file under the name "other", as long as this lives.
+class Attached {
+ public:
+  Attached(const Connection& connection, const std::string& path) : connection_(connection) {
+    Query(connection, "ATTACH ? AS other", path).next();
+  }
+  ~Attached() { connection_.database().tryExec("DETACH other"); }
+  Attached(const Attached&) = delete;
+  Attached& operator=(const Attached&) = delete;
+
+ private:
+  const Connection& connection_;
+};
+
+struct Column {
+  std::string name, table;  ///< table: whose id it holds; empty: none's
+};
+
+class Schema {
+ public:
+  explicit Schema(const Connection& connection) : connection_(connection) {
+    Query names(connection, "SELECT name FROM main.sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite_%'");
+    std::string name;
+    while (names.next()) {
+      names.get(name);
+      tables_.push_back(name);
+    }
+    for (const std::string& table : tables_) read(table);
+  }
+  const std::vector<std::string>& tables() const { return tables_; }
+  bool hasId(const std::string& table) const { return std::ranges::count(columns_.at(table), std::string("id")) > 0; }
+  /// With the table whose id each holds, also through keys of several columns.
+  std::vector<Column> columns(const std::string& table) const {
+    std::vector<Column> list;
+    for (const std::string& name : columns_.at(table)) list.push_back({name, owner(table, name)});
+    return list;
+  }
+
+ private:
+  struct Key {
+    std::string table, to;
+  };
+  void read(const std::string& table) {
+    Query columns(connection_, "SELECT name FROM pragma_table_info(?)", table);
+    std::string name;
+    while (columns.next()) {
+      columns.get(name);
+      columns_[table].push_back(name);
+    }
+    Query keys(connection_, "SELECT \"from\", \"table\", \"to\" FROM pragma_foreign_key_list(?)", table);
+    Key key;
+    while (keys.next()) {
+      keys.get(name, key.table, key.to);
+      keys_[{table, name}].push_back(key);
+    }
+  }
+  std::string owner(const std::string& table, const std::string& column) const {
+    if (column == "id") return table;
+    const auto found = keys_.find({table, column});
+    if (found == keys_.end()) return "";
+    for (const Key& key : found->second) {
+      if (key.table == table && key.to == column) continue;
+      if (const std::string of = owner(key.table, key.to); !of.empty()) return of;
+    }
+    return "";
+  }
+
+  const Connection& connection_;
+  std::vector<std::string> tables_;
+  std::map<std::string, std::vector<std::string>> columns_;
+  std::map<std::pair<std::string, std::string>, std::vector<Key>> keys_;
+};
+
+/// Numbers inside an evidence text: ["individuals", …] and ["recordings", …] of JSON objects.
+std::string movedEvidence(const std::map<std::string, std::int64_t>& offsets) {
+  std::string text = "evidence";
+  for (const auto& [key, table] : {std::pair{"individuals", "individual"}, {"recordings", "recording"}}) {
+    const std::string path = std::string("'$.") + key + "'";
+    text = "CASE WHEN json_valid(evidence) AND json_type(evidence, " + path + ") = 'array' THEN json_set(" + text +
+           ", " + path + ", (SELECT json_group_array(value + " + std::to_string(offsets.at(table)) +
+           ") FROM json_each(evidence, " + path + "))) ELSE " + text + " END";
+  }
+  return text;
+}
+
+void refuseWhatIsThere(const Connection& connection, const std::string& path) {
+  Id ours = 0, theirs = 0;
+  Query runs(connection,
+             "SELECT a.id, b.id FROM main.run a JOIN other.run b ON a.spec_sha256 = b.spec_sha256 AND a.seed = b.seed "
+             "AND a.started_at = b.started_at ORDER BY b.id LIMIT 1");
+  if (runs.next()) {
+    runs.get(ours, theirs);
+    connection.refuse("run " + std::to_string(ours) + " is run " + std::to_string(theirs) + " of " + path +
+                      " (the same experiment, seed and start); nothing was copied");
+  }
+  Query grids(connection,
+              "SELECT a.id, b.id FROM main.grid a JOIN other.grid b ON a.spec_sha256 = b.spec_sha256 "
+              "AND a.method = b.method AND a.seed = b.seed ORDER BY b.id LIMIT 1");
+  if (grids.next()) {
+    grids.get(ours, theirs);
+    connection.refuse("grid " + std::to_string(ours) + " learns what grid " + std::to_string(theirs) + " of " + path +
+                      " learns (the same points, method and seed); nothing was copied");
+  }
+}
+
+}  // namespace
+
+MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
+  std::string source;
+  {
+    // Refuses what is no database of ours, an older or a damaged one, and says why.
+    const Database other = open(path, Mode::readOnly);
+    source = other.connection_->database().getFilename();
+  }
+  if (source == connection_->database().getFilename()) connection_->refuse("its own runs are there already");
+  const Connection& c = *connection_;
+  const Attached attached(c, source);
+  const Schema schema(c);
+  return c.write([&] {
+    refuseWhatIsThere(c, path);
+    c.database().exec("PRAGMA defer_foreign_keys = ON");
+    std::map<std::string, std::int64_t> offsets;
+    for (const std::string& table : schema.tables())
+      if (schema.hasId(table))
+        offsets[table] = *Query(c, ("SELECT ifnull(max(id), 0) FROM main." + table).c_str()).value<std::int64_t>();
+
+    // Experiments of the same name and specification are one.
+    std::map<Id, Id> same;
+    Query known(c,
+                "SELECT b.id, max(a.id) FROM main.experiment a JOIN other.experiment b ON a.name = b.name "
+                "AND a.spec_json = b.spec_json GROUP BY b.id");
+    Id ours = 0, theirs = 0;
+    while (known.next()) {
+      known.get(theirs, ours);
+      same[theirs] = ours;
+    }
+    const auto moved = [&](const Column& column) {
+      const std::string by = column.name + " + " + std::to_string(offsets.at(column.table));
+      if (column.table != "experiment" || same.empty()) return by;
+      std::string text = "CASE " + column.name;
+      for (const auto& [from, to] : same) text += " WHEN " + std::to_string(from) + " THEN " + std::to_string(to);
+      return text + " ELSE " + by + " END";
+    };
+
+    MergedRuns merged;
+    for (const std::string& table : schema.tables()) {
+      std::string names, values;
+      for (const Column& column : schema.columns(table)) {
+        names += (names.empty() ? "" : ", ") + column.name;
+        values +=
+            (values.empty() ? "" : ", ") + (table == "simulator" && column.name == "evidence" ? movedEvidence(offsets)
+                                            : column.table.empty()                            ? column.name
+                                                                                              : moved(column));
+      }
+      std::string which;
+      if (table == "experiment")
+        for (const auto& [from, to] : same)
+          which += (which.empty() ? " WHERE id NOT IN (" : ", ") + std::to_string(from);
+      if (!which.empty()) which += ")";
+      if (table == "trace") which = " WHERE length(packed) <= " + std::to_string(largestTrace);
+      // Files are shared by content.
+      const std::string verb = table == "stored_file" ? "INSERT OR IGNORE INTO main." : "INSERT INTO main.";
+      const int count =
+          Query(c, (verb + table + " (" + names + ") SELECT " + values + " FROM other." + table + which).c_str()).run();
+      if (table == "experiment") merged.experiments = count;
+      if (table == "run") merged.runs = count;
+      if (table == "individual") merged.individuals = count;
+    }
+    return merged;
+  });
+}
+
+}  // namespace btr

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QLabel>
@@ -10,6 +11,7 @@
 #include <QTest>
 #include <QTimer>
 #include <QTreeView>
+#include <algorithm>
 
 #include "tests/ui/stored_run.h"
 #include "ui/charts/fitness_chart.h"
@@ -376,6 +378,63 @@ class TestMainWindow : public QObject {
     window->stopRun(run);
     QTRY_VERIFY_WITH_TIMEOUT(window->watcher().activeRuns().empty(), 120000);
     QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
+  }
+
+  // From the form to the end with the real program: L1, two measured, L2 of one iteration, L3, L1, measured again.
+  void aPersonsWalkGoesFromTheFormToItsEnd() {
+    QTemporaryDir folder;
+    const QString database = folder.filePath("walk.db");
+    Desk desk(BTR_PROGRAM);
+    desk.options.isActive = isRunActive;
+    const auto window = desk.open(database);
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/walk-short.json");
+    spec.learner.settings["population"] = 4;
+    spec.stages["first_generations"] = 2;
+    spec.stages["next_generations"] = 1;
+    spec.stages["total_generations"] = 4;
+    spec.stages["measured_individuals"] = 2;
+    spec.adaptation.settings["population"] = 4;
+    spec.adaptationSettings["generations"] = 1;
+    spec.realityLearner.settings["policies"] = 3;
+    spec.realitySettings["iterations"] = 1;
+    window->draft().setSpec(spec);
+    auto* reality = window->draft().findChild<QComboBox*>("reality");
+    QCOMPARE(reality->currentData().toString(), QString("stand_in"));
+    reality->setFocus();
+    QTest::keyClick(reality, Qt::Key_Home);
+    QCOMPARE(reality->currentData().toString(), QString("person"));
+    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
+    QTest::mouseClick(window->draft().findChild<QPushButton*>("start"), Qt::LeftButton);
+
+    auto* sheet = window->findChild<MeasurementSheet*>();
+    const auto stored = [&] { return Database::open(database.toStdString(), Database::Mode::readOnly); };
+    QTRY_VERIFY_WITH_TIMEOUT(window->findChild<ExperimentTree*>()->selectedRun() != 0, 60000);
+    const Id run = window->findChild<ExperimentTree*>()->selectedRun();
+    int entered = 0, visits = 0;
+    for (bool finished = false; !finished && visits < 10; ++visits) {
+      const auto isOpen = [&](const MeasurementRow& row) { return !row.isDone(); };
+      QTRY_VERIFY_WITH_TIMEOUT(
+          window->watcher().activeRuns().empty() &&
+              (stored().run(run).state == RunState::finished || std::ranges::any_of(sheet->model().rows(), isOpen)),
+          120000);
+      QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
+      finished = stored().run(run).state == RunState::finished;
+      if (finished) break;
+      // What a stopwatch might have given, typed into every cell that waits.
+      std::vector<MeasurementModel::Text> texts;
+      for (int row = 0; row < std::ssize(sheet->model().rows()); ++row)
+        for (int repeat = 0; repeat < sheet->model().repeatColumns(); ++repeat)
+          texts.push_back({row, MeasurementModel::firstRepeat + repeat, QString::number(8 + 0.5 * ++entered)});
+      sheet->model().write(texts, "entry");
+      sheet->save();
+    }
+    const RunRecord end = stored().run(run);
+    QCOMPARE(end.state, RunState::finished);
+    QCOMPARE(end.generation, 4);
+    QCOMPARE(stored().realityIterations(run).size(), std::size_t(1));
+    QVERIFY(stored().simulators(run).size() >= 2);
+    QCOMPARE(stored().measurements(run).size(), std::size_t(entered));
+    QVERIFY(!stored().gaps(run).empty());
   }
 };
 

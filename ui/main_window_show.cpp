@@ -116,7 +116,9 @@ void MainWindow::showSpec(const RunRecord& run) {
   shown.standIn = isStandIn(run);
   fitness_->setRun(shown);
   gap_->setStandIn(shown.standIn);
-  const ExperimentSpec spec = experimentFromJson(run.specJson, "run " + std::to_string(run.id), "");
+  ExperimentSpec spec = experimentFromJson(run.specJson, "run " + std::to_string(run.id), "");
+  // Runs of one experiment share its specification; each has a seed of its own.
+  spec.seed = run.seed;
   spec_->setSpec(spec);
   unit_ = QString::fromStdString(host_->fitness(spec.fitness.name)->unit());
   panel_->setUnit(unit_);

@@ -128,6 +128,8 @@ class TestMainWindow : public QObject {
     QVERIFY(table->select(individuals.front().id));
     QCOMPARE(table->selected(), individuals.front().id);
     QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().name, std::string("Kick"));
+    // The specification says 1; the run was made with 5.
+    QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().seed, std::uint64_t(5));
   }
 
   void followsGenerationsThatAnotherProcessStores() {

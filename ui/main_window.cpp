@@ -64,6 +64,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   connectGap();
   connectCompare();
   connectGrid();
+  connectMerge();
   arrangeDocks();
   restoreWindow();
   restoreDraft();

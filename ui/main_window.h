@@ -28,6 +28,7 @@ class FitnessChart;
 class GapChart;
 class GapPage;
 class GridPage;
+class ProgramProcess;
 class MeasurementSheet;
 class MessageBanner;
 class PolicyPage;
@@ -70,6 +71,8 @@ class MainWindow : public QMainWindow {
   /// The page of grids in their place, or the runs again.
   void showGridPage(bool on);
   void showGrid(Id grid);
+  /// Copies all runs of another database into the one that is open.
+  void mergeDatabase(const QString& from);
 
   MessageBanner& banner() { return *banner_; }
   DatabaseWatcher& watcher() { return watcher_; }
@@ -153,6 +156,10 @@ class MainWindow : public QMainWindow {
   std::vector<RunGroup> gridsInTree();
   void playKick(Id grid, double distance_m, double bearing_rad, double direction_rad);
 
+  // main_window_merge.cpp
+  void connectMerge();
+  void mergeWithDialog();
+
   // main_window_gap.cpp
   void makeGapPage();
   void connectGap();
@@ -190,6 +197,8 @@ class MainWindow : public QMainWindow {
   GapChart* gap_ = nullptr;
   GapPage* gapPage_ = nullptr;
   GridPage* gridPage_ = nullptr;
+  ProgramProcess* merging_ = nullptr;
+  QString mergedFrom_;
   ComparePage* comparePage_ = nullptr;
   QAction *gapAction_ = nullptr, *gridAction_ = nullptr;
   QByteArray runsLayout_;                                            ///< of the docks while a page has the window

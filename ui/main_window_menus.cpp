@@ -51,6 +51,7 @@ void MainWindow::makeMenus() {
   });
   recentMenu_ = file->addMenu(themeIcon("document-open-recent"), tr("&Recent databases"));
   fillRecent();
+  add(file, "document-import", tr("Add runs of another data&base…"), {}, [this] { mergeWithDialog(); });
   file->addSeparator();
   QMenu* exports = file->addMenu(themeIcon("document-export"), tr("&Export"));
   for (const auto& [what, label] :

@@ -382,6 +382,24 @@ class TestMainWindow : public QObject {
     QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
   }
 
+  void takesTheRunsOfAnotherDatabase() {
+    StoredRun ours, theirs;
+    const Id own = fullRun(ours);
+    theirs.addGenerations(theirs.addRun(theirs.addExperiment(), 6), 6);
+    Desk desk(BTR_PROGRAM);
+    const auto window = desk.open(ours.qpath());
+    window->mergeDatabase(theirs.qpath());
+    QTRY_COMPARE_WITH_TIMEOUT(message(*window), QString("1 runs with 12 individuals were copied from test.db."), 20000);
+    QTRY_COMPARE(window->findChild<ExperimentTree*>()->view()->model()->rowCount(
+                     window->findChild<ExperimentTree*>()->view()->model()->index(0, 0)),
+                 2);
+    QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), own);
+    // Once more: they are there.
+    window->mergeDatabase(theirs.qpath());
+    QTRY_VERIFY_WITH_TIMEOUT(message(*window).contains("nothing was copied"), 20000);
+    QCOMPARE(ours.database.runs().size(), std::size_t(2));
+  }
+
   // From the form to the end with the real program: L1, two measured, L2 of one iteration, L3, L1, measured again.
   void aPersonsWalkGoesFromTheFormToItsEnd() {
     QTemporaryDir folder;

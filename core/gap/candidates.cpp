@@ -39,8 +39,13 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
 /// Whole numbers are tried one after another, numbers without a neutral value at a few places of their range.
 std::vector<double> triesOf(const Parameter& p) {
   if (p.integer || !p.choices.empty()) {
+    // Small numbers one by one, larger ones by a quarter: a fit goes on to their neighbours.
+    constexpr double wider = 1.25;
+    constexpr std::size_t most = 26;
     std::vector<double> tries;
-    for (double value = std::ceil(p.minimum); value <= p.maximum && tries.size() < 12; ++value) tries.push_back(value);
+    for (double value = std::ceil(p.minimum); value <= p.maximum && tries.size() < most;
+         value = std::max(value + 1, p.integer ? std::round(wider * value) : 0))
+      tries.push_back(value);
     return tries;
   }
   const double range = p.maximum - p.minimum;

@@ -53,9 +53,35 @@ Scored SearchRun::converged(const Scored& scored, const std::string& stage, doub
   constexpr int iterations = 30;
   if (excessOf(scored) < 0.1) return scored;
   std::vector<Fit> fits = fitAll({{scored.fit.model, scored.fit.shifts}}, iterations, stage, at, at);
+  climbWholeNumbers(fits[0], stage, at);
   refineStep(fits, 1, stage, at);
   const Scored better = scoreAll(fits, stage, at, at)[0];
   return better.mean() < scored.mean() ? better : scored;
+}
+
+/// Whole numbers, as of teeth in a turn, are no parameters of a fit: neighbours are tried as long as one fits better.
+void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at) const {
+  constexpr int iterations = 8, mostRounds = 6;
+  constexpr double better = 0.995;
+  const PlacedEffect last = fit.model.effects.back();
+  for (const Parameter& p : problem_.library.make(last.effect)->parameters()) {
+    if (!p.integer) continue;
+    for (int round = 0; round < mostRounds; ++round) {
+      const double here = fit.model.effects.back().parameters.at(p.name);
+      std::vector<FitJob> jobs;
+      for (const double by : {-3, -2, -1, 1, 2, 3}) {
+        if (here + by < p.minimum || here + by > p.maximum) continue;
+        FitModel model = fit.model;
+        model.effects.back().parameters[p.name] = here + by;
+        jobs.push_back({model, fit.shifts});
+      }
+      const std::vector<Fit> fits = fitAll(jobs, iterations, stage, at, at);
+      const auto least =
+          std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+      if (least == fits.end() || !(least->cost < better * fit.cost)) break;
+      fit = *least;
+    }
+  }
 }
 
 GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {

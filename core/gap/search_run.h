@@ -62,6 +62,7 @@ class SearchRun {
                           double to) const;
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
+  void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);
   /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
   /// ones first, best first. Fits begin from any of the bases, of which the first is that of `without`; `without` is

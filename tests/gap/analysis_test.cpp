@@ -163,6 +163,25 @@ TEST(Analysis, FrictionThatMightDifferByDirectionButDoesNotIsDryAndViscousFricti
       << toPlainText(report);
 }
 
+TEST(Analysis, TheTeethOfATorqueRippleAreCounted) {
+  for (const double teeth : {17.0, 33.0}) {
+    const SimulatorSpec truth{
+        {}, {{"torque_ripple", "rig.hinge", {{"amplitude_nm", 0.05}, {"per_turn", teeth}, {"phase_rad", 0.7}}}}};
+    AnalysisOptions options;
+    options.effects = {"torque_ripple", "coulomb_friction"};
+    const GapReport report = analyse(recordedFrom(truth), library(), options);
+    ASSERT_THAT(namesOf(report), testing::ElementsAre("torque_ripple at rig.hinge")) << toPlainText(report);
+    for (const GapReport::Number& number : report.tried[0].parameters) {
+      if (number.name == "per_turn") {
+        EXPECT_EQ(number.value, teeth) << toPlainText(report);
+      } else if (number.name == "amplitude_nm") {
+        EXPECT_NEAR(number.value, 0.05, 0.005) << toPlainText(report);
+      }
+    }
+    EXPECT_LT(report.ladder.back().error, 1.1);
+  }
+}
+
 TEST(Analysis, ADelayIsNotTakenForFriction) {
   const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});

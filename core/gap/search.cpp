@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
 constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
+bool byCost(const Fit& a, const Fit& b) { return a.cost < b.cost; }
+
 }  // namespace
 
 bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
@@ -41,8 +43,7 @@ Scored SearchRun::calibrate() {
     const std::vector<Fit> others = fitAll({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08);
     fits.insert(fits.end(), others.begin(), others.end());
   }
-  std::vector<Fit> best{
-      *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; })};
+  std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), byCost)};
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   refineStep(best, 1, "calibrating", 0.08);
   return scoreAll(best, "calibrating", 0.08, 0.1)[0];
@@ -76,8 +77,7 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
         jobs.push_back({model, fit.shifts});
       }
       const std::vector<Fit> fits = fitAll(jobs, iterations, stage, at, at);
-      const auto least =
-          std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+      const auto least = std::min_element(fits.begin(), fits.end(), byCost);
       if (least == fits.end() || !(least->cost < better * fit.cost)) break;
       fit = *least;
     }

@@ -98,23 +98,21 @@ std::string movedEvidence(const std::map<std::string, std::int64_t>& offsets) {
 }
 
 void refuseWhatIsThere(const Connection& connection, const std::string& path) {
-  Id ours = 0, theirs = 0;
-  Query runs(connection,
-             "SELECT a.id, b.id FROM main.run a JOIN other.run b ON a.spec_sha256 = b.spec_sha256 AND a.seed = b.seed "
-             "AND a.started_at = b.started_at ORDER BY b.id LIMIT 1");
-  if (runs.next()) {
-    runs.get(ours, theirs);
-    connection.refuse("run " + std::to_string(ours) + " is run " + std::to_string(theirs) + " of " + path +
-                      " (the same experiment, seed and start); nothing was copied");
-  }
-  Query grids(connection,
-              "SELECT a.id, b.id FROM main.grid a JOIN other.grid b ON a.spec_sha256 = b.spec_sha256 "
-              "AND a.method = b.method AND a.seed = b.seed ORDER BY b.id LIMIT 1");
-  if (grids.next()) {
-    grids.get(ours, theirs);
-    connection.refuse("grid " + std::to_string(ours) + " learns what grid " + std::to_string(theirs) + " of " + path +
-                      " learns (the same points, method and seed); nothing was copied");
-  }
+  // `same`: the first pair of ids, ours and theirs, of rows that are the same.
+  const auto refuse = [&](const std::string& kind, const std::string& is, const std::string& why, const char* same) {
+    Query pairs(connection, same);
+    if (!pairs.next()) return;
+    Id ours = 0, theirs = 0;
+    pairs.get(ours, theirs);
+    connection.refuse(kind + " " + std::to_string(ours) + " " + is + " " + kind + " " + std::to_string(theirs) +
+                      " of " + path + why + "; nothing was copied");
+  };
+  refuse("run", "is", " (the same experiment, seed and start)",
+         "SELECT a.id, b.id FROM main.run a JOIN other.run b ON a.spec_sha256 = b.spec_sha256 AND a.seed = b.seed "
+         "AND a.started_at = b.started_at ORDER BY b.id LIMIT 1");
+  refuse("grid", "learns what", " learns (the same points, method and seed)",
+         "SELECT a.id, b.id FROM main.grid a JOIN other.grid b ON a.spec_sha256 = b.spec_sha256 "
+         "AND a.method = b.method AND a.seed = b.seed ORDER BY b.id LIMIT 1");
 }
 
 }  // namespace

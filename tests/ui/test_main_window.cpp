@@ -76,6 +76,16 @@ struct Desk {
   WindowOptions options;
 };
 
+/// With the real program, whose runs are those that work.
+struct RealDesk : Desk {
+  RealDesk() : Desk(BTR_PROGRAM) { options.isActive = isRunActive; }
+};
+
+void startDraft(MainWindow& window) {
+  QVERIFY2(window.draft().isValid(), qPrintable(window.draft().problems().join('\n')));
+  QTest::mouseClick(window.draft().findChild<QPushButton*>("start"), Qt::LeftButton);
+}
+
 QString message(MainWindow& window) { return window.banner().text(); }
 
 // A stored run with two stages: measured, adapted, learned on.
@@ -365,16 +375,14 @@ class TestMainWindow : public QObject {
   void aStartedDraftIsStoredAndLearns() {
     QTemporaryDir folder;
     const QString database = folder.filePath("new.db");
-    Desk desk(BTR_PROGRAM);
-    desk.options.isActive = isRunActive;
+    RealDesk desk;
     const auto window = desk.open(database);
     ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
     spec.learner.settings["population"] = 4;
     spec.stages["first_generations"] = 2;
     spec.stages["total_generations"] = 2;
     window->draft().setSpec(spec);
-    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
-    QTest::mouseClick(window->draft().findChild<QPushButton*>("start"), Qt::LeftButton);
+    startDraft(*window);
     QTRY_VERIFY_WITH_TIMEOUT(window->findChild<FitnessChart*>()->run().generations.size() >= 1, 120000);
     const Id run = window->findChild<ExperimentTree*>()->selectedRun();
     window->stopRun(run);
@@ -404,8 +412,7 @@ class TestMainWindow : public QObject {
   void aPersonsWalkGoesFromTheFormToItsEnd() {
     QTemporaryDir folder;
     const QString database = folder.filePath("walk.db");
-    Desk desk(BTR_PROGRAM);
-    desk.options.isActive = isRunActive;
+    RealDesk desk;
     const auto window = desk.open(database);
     ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/walk-short.json");
     spec.learner.settings["population"] = 4;
@@ -423,23 +430,21 @@ class TestMainWindow : public QObject {
     reality->setFocus();
     QTest::keyClick(reality, Qt::Key_Home);
     QCOMPARE(reality->currentData().toString(), QString("person"));
-    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
-    QTest::mouseClick(window->draft().findChild<QPushButton*>("start"), Qt::LeftButton);
+    startDraft(*window);
 
     auto* sheet = window->findChild<MeasurementSheet*>();
     const auto stored = [&] { return Database::open(database.toStdString(), Database::Mode::readOnly); };
     QTRY_VERIFY_WITH_TIMEOUT(window->findChild<ExperimentTree*>()->selectedRun() != 0, 60000);
     const Id run = window->findChild<ExperimentTree*>()->selectedRun();
     int entered = 0, visits = 0;
-    for (bool finished = false; !finished && visits < 10; ++visits) {
+    for (; visits < 10; ++visits) {
       const auto isOpen = [&](const MeasurementRow& row) { return !row.isDone(); };
       QTRY_VERIFY_WITH_TIMEOUT(
           window->watcher().activeRuns().empty() &&
               (stored().run(run).state == RunState::finished || std::ranges::any_of(sheet->model().rows(), isOpen)),
           120000);
       QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
-      finished = stored().run(run).state == RunState::finished;
-      if (finished) break;
+      if (stored().run(run).state == RunState::finished) break;
       // What a stopwatch might have given, typed into every cell that waits.
       std::vector<MeasurementModel::Text> texts;
       for (int row = 0; row < std::ssize(sheet->model().rows()); ++row)

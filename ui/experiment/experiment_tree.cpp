@@ -92,13 +92,13 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
       cells_[run] = cell;
     }
   }
+  // A run stands either alone or in its group.
+  std::set<Id> alone;
+  for (const Id run : runIds)
+    if (!groupOf.count(run)) alone.insert(run);
   runItems_.clear();
   for (int row = 0; row < root.rowCount(); ++row) {
     QStandardItem& experiment = *root.child(row);
-    // A run stands either alone or in its group.
-    std::set<Id> alone;
-    for (const Id run : runIds)
-      if (!groupOf.count(run)) alone.insert(run);
     keepOnly(experiment, runKind, alone);
     keepOnly(experiment, groupKind, groupIds);
     for (int k = 0; k < experiment.rowCount(); ++k)

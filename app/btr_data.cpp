@@ -16,7 +16,7 @@ namespace {
 struct DataArguments {
   std::string database, csv, what, from;
   Id run = 0, individual = 0;
-  std::size_t largestTrace_kib = 256;
+  std::size_t largestTrace_kib = largestKeptTrace_bytes / 1024;
 };
 
 void replayCommand(const DataArguments& a, Shell& shell) {

@@ -55,11 +55,9 @@ class RunContext {
 
 /// One generation of L1 after another until `lastGeneration` is stored. False if stopped.
 bool learnUntil(RunContext& context, int lastGeneration);
-/// A packed trace if it is small enough to be stored, else nothing: 20 s of walking are a megabyte, which a replay makes
-/// again with the same bits.
+/// A packed trace if it is small enough to be stored, else nothing.
 inline std::string keptTrace(const std::string& packed) {
-  constexpr std::size_t most_bytes = 256 * 1024;
-  return packed.size() <= most_bytes ? packed : std::string();
+  return packed.size() <= largestKeptTrace_bytes ? packed : std::string();
 }
 
 /// Chooses who is measured after the stage's last generation and stores tasks and traces. False if stopped.

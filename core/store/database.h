@@ -12,6 +12,9 @@ namespace btr {
 
 class Connection;
 
+/// Traces above this are stored as their hash alone: 20 s of walking are a megabyte, which a replay makes again.
+inline constexpr std::size_t largestKeptTrace_bytes = 256 * 1024;
+
 /// What a merge has added.
 struct MergedRuns {
   int experiments = 0, runs = 0, individuals = 0;

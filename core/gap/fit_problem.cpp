@@ -75,7 +75,14 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
 double nonlinearity(const FitProblem& problem, const Segment& segment) {
   const Scene scene = problem.sceneOf(problem.given, segment.trial);
   const auto shifted = [&](double by) {
-    return residualsOf(problem, segment, scene, std::vector<double>(segment.nuisances.size(), by));
+    std::vector<double> shift;
+    for (const Nuisance& nuisance : segment.nuisances) {
+      // What rests is asked where it is, not how much it might move.
+      const bool rests = nuisance.what == Nuisance::What::jointRate &&
+                         segment.start.robots[nuisance.object].rates[nuisance.part] == 0;
+      shift.push_back(rests ? 0 : by);
+    }
+    return residualsOf(problem, segment, scene, shift);
   };
   const std::vector<double> none = shifted(0), once = shifted(0.5), twice = shifted(1);
   double answer = 0, deviation = 0;

@@ -55,13 +55,17 @@ Scored SearchRun::converged(const Scored& scored, const std::string& stage, doub
   if (excessOf(scored) < 0.1) return scored;
   std::vector<Fit> fits = fitAll({{scored.fit.model, scored.fit.shifts}}, iterations, stage, at, at);
   climbWholeNumbers(fits[0], stage, at);
+  const double step_s = problem_.scene.step_s;
   refineStep(fits, 1, stage, at);
   const Scored better = scoreAll(fits, stage, at, at)[0];
-  return better.mean() < scored.mean() ? better : scored;
+  if (better.mean() < scored.mean()) return better;
+  problem_.scene.step_s = step_s;
+  return scored;
 }
 
 /// Whole numbers, as of teeth in a turn, are no parameters of a fit: neighbours are tried as long as one fits better.
 void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at) const {
+  if (fit.model.effects.empty()) return;
   constexpr int iterations = 8, mostRounds = 6;
   constexpr double better = 0.995;
   const PlacedEffect last = fit.model.effects.back();
@@ -233,6 +237,7 @@ SearchResult SearchRun::run() {
   prune(result);
   takeApart(result);
   prune(result);
+  if (!result.final.fit.model.effects.empty()) result.final = converged(result.final, "fitting once more", 0.86);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
   result.stepChange = stepChange(result.final.fit);

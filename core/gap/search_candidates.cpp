@@ -29,7 +29,8 @@ struct Promise {
   std::vector<Start> starts;
 };
 
-std::vector<Promise> promisesOf(const std::vector<std::vector<Screened>>& screened, const std::vector<double>& totals) {
+std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
+                                const std::vector<std::vector<Screened>>& screened, const std::vector<double>& totals) {
   std::vector<Promise> promises(screened[0].size());
   for (std::size_t c = 0; c < promises.size(); ++c) {
     Promise& promise = promises[c];
@@ -45,6 +46,13 @@ std::vector<Promise> promisesOf(const std::vector<std::vector<Screened>>& screen
     for (std::vector<Start>* list : {&promise.starts, &later})
       std::stable_sort(list->begin(), list->end(), [](const Start& a, const Start& b) { return a.left < b.left; });
     promise.starts.insert(promise.starts.end(), later.begin(), later.end());
+    // No fit gets from one whole number to another: the second start has another one.
+    const auto other = std::find_if(promise.starts.begin(), promise.starts.end(), [&](const Start& start) {
+      return std::any_of(candidates[c].declared.begin(), candidates[c].declared.end(), [&](const Parameter& p) {
+        return p.integer && start.from->effect.at(p.name) != promise.starts[0].from->effect.at(p.name);
+      });
+    });
+    if (other != promise.starts.end()) std::rotate(promise.starts.begin() + 1, other, other + 1);
   }
   return promises;
 }
@@ -65,7 +73,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         reporter("screening" + stage, candidates.size(), begin, begin + part / static_cast<double>(bases.size()))));
     totals.push_back(base.linear.profiled.squaredNorm());
   }
-  const std::vector<Promise> promises = promisesOf(screened, totals);
+  const std::vector<Promise> promises = promisesOf(candidates, screened, totals);
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -217,9 +225,11 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
   std::vector<Fit> fits = fitAll(jobs, lastIterations, "confirming" + stage, from, (from + to) / 2);
   shake(fits, "confirming" + stage, (from + to) / 2);
+  for (Fit& fit : fits) climbWholeNumbers(fit, "confirming" + stage, (from + to) / 2);
   // Effects may need finer steps than the simulator without them: friction at reversals, play.
   const double step_s = problem_.scene.step_s;
   refineStep(fits, 2, "confirming" + stage, (from + to) / 2);
+  const Scored before = without;
   if (problem_.scene.step_s < step_s) without = scoreAll({without.fit}, "confirming" + stage, to, to)[0];
   const std::vector<Scored> scored = scoreAll(fits, "confirming" + stage, (from + to) / 2, to);
   bool any = false;
@@ -231,6 +241,10 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     each.passes =
         passes(without, each.scored, each.fit.model.effects.size() - 1, each.attempt.comparison, each.attempt.reason);
     any = any || each.passes;
+  }
+  if (!any) {  // what needed the finer step is not there
+    problem_.scene.step_s = step_s;
+    without = before;
   }
   return any;
 }
@@ -264,6 +278,7 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
 
 bool SearchRun::tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair) {
   bool found = false;
+  const double step_s = problem_.scene.step_s;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
     Scored single = singles[k].scored;
@@ -278,6 +293,7 @@ bool SearchRun::tryPair(Scored& current, const std::vector<Tried>& singles, Scor
     if (!found || seconds[0].scored.mean() < pair.mean()) pair = seconds[0].scored;
     found = true;
   }
+  if (!found) problem_.scene.step_s = step_s;
   return found;
 }
 

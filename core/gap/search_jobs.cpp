@@ -94,9 +94,15 @@ void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std
     return std::sqrt(stepErrorOf(stepChange(fit))) > std::max(hidden, 0.05 * error);
   };
   judged = std::min(judged, fits.size());
-  while (problem_.scene.step_s > finest_s_ &&
-         std::any_of(fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(judged), tooCoarse)) {
-    problem_.scene.step_s /= 2;
+  const auto halve = [&] {
+    const bool halved = problem_.scene.step_s > finest_s_ &&
+                        std::any_of(fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(judged), tooCoarse);
+    if (halved) problem_.scene.step_s /= 2;
+    return halved;
+  };
+  // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
+  while (halve()) {
+    while (halve()) continue;
     std::vector<FitJob> jobs;
     for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
     fits = fitAll(jobs, againIterations, stage, at, at);

@@ -192,9 +192,14 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
   // What replaces an effect stands last in the model; the others move up.
   for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
     Scored without;
+    const double step_s = problem_.scene.step_s;
     const std::vector<Tried> others = inPlaceOf(i, result, without);
     // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
     const bool changed = replace(i, others, result);
+    if (changed)
+      result.final = converged(result.final, "rivals", 0.95);
+    else
+      problem_.scene.step_s = step_s;
     replaced = replaced || changed;
     const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;

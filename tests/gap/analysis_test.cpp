@@ -40,8 +40,9 @@ SceneSpec hingeScene() {
 
 constexpr double noise_rad = 0.0005;
 
-/// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise.
-GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6) {
+/// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise. The hinge moves
+/// from the beginning at `startRate_rad_s`.
+GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0) {
   GapProblem problem;
   problem.scene = hingeScene();
   const TemporaryFolder folder;
@@ -69,7 +70,9 @@ GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6) {
       recording.columns[2].push_back(0);
     }
     const Binding binding = bind(scene, recording);
-    const auto replayed = replayRecording(scene, recording, binding, startState(scene, recording, binding));
+    StartState start = startState(scene, recording, binding);
+    start.robots[0].rates[binding.measured[0].part] = startRate_rad_s;
+    const auto replayed = replayRecording(scene, recording, binding, start);
     EXPECT_EQ(replayed.fault, "");
     for (std::size_t row = 0; row < recording.rows(); ++row)
       recording.columns[2][row] = replayed.values[0][row] + noise_rad * random.normal();
@@ -198,6 +201,15 @@ TEST(Analysis, ASensorThatIsOffFromTheFirstSampleOnIsExplainedDownToTheNoise) {
   ASSERT_THAT(namesOf(report), testing::ElementsAre("position_offset at rig.hinge")) << toPlainText(report);
   EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.1, 0.001);
   EXPECT_LT(report.ladder.back().error, 1.1);
+}
+
+TEST(Analysis, AServoThatStillSwingsTooSlowlyToBeSeenWhenTheRecordingBeginsIsNoMismatch) {
+  const SimulatorSpec truth{{}, {{"rotor_inertia", "rig.hinge", {{"inertia_kg_m2", 1}}}}};
+  GapProblem problem = recordedFrom(truth, 0.6, 0.02);
+  problem.simulator = truth;
+  const GapReport report = analyse(problem, library(), {});
+  EXPECT_EQ(report.verdict, Verdict::noMismatch) << report.sentence;
+  EXPECT_NEAR(report.ladder[0].error, 1, 0.1);
 }
 
 TEST(Analysis, ARecordingInWhichNothingMovesTellsNothing) {

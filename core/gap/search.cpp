@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
 constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
-bool byCost(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 
 }  // namespace
 
@@ -142,9 +141,8 @@ void SearchRun::holdUntold(SearchResult& result) const {
 
 /// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it may
 /// have bent them to take up what is missing.
-std::vector<SearchRun::Base> SearchRun::basesOf(const SearchResult& result, const Linearised& linear,
-                                                bool first) const {
-  std::vector<Base> bases{{result.final.fit, linear}};
+std::vector<Fit> SearchRun::basesOf(const SearchResult& result, bool first) const {
+  std::vector<Fit> bases{result.final.fit};
   if (!first || excessOf(result.final) < 1) return bases;
   const FitModel& model = result.final.fit.model;
   FitModel given = model;
@@ -153,10 +151,7 @@ std::vector<SearchRun::Base> SearchRun::basesOf(const SearchResult& result, cons
     given.values[i] = model.parameters[i].given;
     far = far || std::abs(model.values[i] - given.values[i]) > 2 * model.parameters[i].scale;
   }
-  if (!far) return bases;
-  Fit fit{given, result.given.fit.shifts, 0};
-  Linearised linearHere = linearise(problem_, fit);
-  bases.push_back({std::move(fit), std::move(linearHere)});
+  if (far) bases.push_back({given, result.given.fit.shifts, 0});
   return bases;
 }
 
@@ -187,17 +182,18 @@ SearchResult SearchRun::run() {
   // Never worse than what was given.
   if (result.calibrated.mean() >= result.given.mean()) result.calibrated = result.given;
   result.ladder.push_back(step("calibrated", result.calibrated));
+  search_s_ = problem_.scene.step_s;
   result.calibratedLinear = linearise(problem_, result.calibrated.fit);
   result.calibratedUncertainty = uncertaintyOf(problem_, result.calibrated.fit, result.calibratedLinear);
   result.final = result.calibrated;
   holdUntold(result);
 
-  Linearised linear = result.calibratedLinear;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
     if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    auto tried = tryCandidates(result.final, basesOf(result, linear, stage == 0), candidatesToFit,
+    auto tried = tryCandidates(result.final, basesOf(result, stage == 0),
+                               stage == 0 ? &result.calibratedLinear : nullptr, candidatesToFit,
                                stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
     if (stage == 0) firstStage_ = tried;
     std::size_t winner = tried.size();
@@ -232,7 +228,6 @@ SearchResult SearchRun::run() {
     } else {
       break;
     }
-    linear = linearise(problem_, result.final.fit);
   }
   prune(result);
   takeApart(result);

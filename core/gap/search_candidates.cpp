@@ -59,10 +59,16 @@ std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
 
 }  // namespace
 
-std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const std::vector<Base>& bases,
-                                                       std::size_t toFit, const std::string& stage, double from,
-                                                       double to, bool lastChance) {
+std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const std::vector<Fit>& models,
+                                                       const Linearised* known, std::size_t toFit,
+                                                       const std::string& stage, double from, double to,
+                                                       bool lastChance) {
   const double part = (to - from) / 3;
+  const double judged_s = problem_.scene.step_s;
+  problem_.scene.step_s = stepToSearchWith(models[0]);
+  std::vector<Base> bases;
+  for (const Fit& fit : models)
+    bases.push_back({fit, known && bases.empty() && problem_.scene.step_s == judged_s ? *known : linearise(problem_, fit)});
   const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
   std::vector<std::vector<Screened>> screened;
   std::vector<double> totals;
@@ -143,8 +149,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     if (contained) best.push_back(k);
     return contained;
   });
-  const bool any =
-      confirm(tried, best, without, stage, from + 2 * part, to) || confirm(tried, next, without, stage, to, to);
+  bool any = confirm(tried, best, without, judged_s, stage, from + 2 * part, to) ||
+                   confirm(tried, next, without, judged_s, stage, to, to);
   // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
   // are fitted too.
   if (!any && lastChance && excessOf(without) > unexplainedExcess) {
@@ -159,8 +165,9 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
     std::stable_sort(rest.begin(), rest.end(), byCost);
     if (rest.size() > confirmed) rest.resize(confirmed);
-    confirm(tried, rest, without, stage, to, to);
+    any = confirm(tried, rest, without, judged_s, stage, to, to);
   }
+  if (!any) problem_.scene.step_s = judged_s;
   for (Tried& each : tried)
     if (each.attempt.fitted) each.attempt.values = each.fit.model.simulator(problem_).effects.back().parameters;
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
@@ -219,23 +226,44 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
 }
 
 bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
-                        const std::string& stage, double from, double to) {
+                        double judged_s, const std::string& stage, double from, double to) {
   if (which.empty()) return false;
+  const std::string what = "confirming" + stage;
+  const double half = (from + to) / 2, search_s = problem_.scene.step_s;
   std::vector<FitJob> jobs;
   for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
-  std::vector<Fit> fits = fitAll(jobs, lastIterations, "confirming" + stage, from, (from + to) / 2);
-  shake(fits, "confirming" + stage, (from + to) / 2);
-  for (Fit& fit : fits) climbWholeNumbers(fit, "confirming" + stage, (from + to) / 2);
-  // Effects may need finer steps than the simulator without them: friction at reversals, play.
-  const double step_s = problem_.scene.step_s;
-  refineStep(fits, 2, "confirming" + stage, (from + to) / 2);
+  std::vector<Fit> fits = fitAll(jobs, lastIterations, what, from, half);
+  shake(fits, what, half);
+  for (Fit& fit : fits) climbWholeNumbers(fit, what, half);
+
+  // Effects may need finer steps than the simulator without them: friction at reversals, play. What fits far worse than
+  // the best is no winner at any step.
+  std::vector<std::size_t> close, far;
+  std::vector<Fit> closeFits, farFits;
+  const double least = std::min_element(fits.begin(), fits.end(), byCost)->cost;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const bool isClose = fits[i].cost <= farWorse * least;
+    (isClose ? close : far).push_back(which[i]);
+    (isClose ? closeFits : farFits).push_back(fits[i]);
+  }
+  std::vector<Scored> scored = scoreAll(farFits, what, half, half);
+  if (judged_s < search_s) {
+    problem_.scene.step_s = judged_s;
+    std::vector<FitJob> again;
+    for (const Fit& fit : closeFits) again.push_back({fit.model, fit.shifts});
+    closeFits = fitAll(again, againIterations, what, half, half);
+  }
+  refineStep(closeFits, 2, what, half);
   const Scored before = without;
-  if (problem_.scene.step_s < step_s) without = scoreAll({without.fit}, "confirming" + stage, to, to)[0];
-  const std::vector<Scored> scored = scoreAll(fits, "confirming" + stage, (from + to) / 2, to);
+  if (problem_.scene.step_s < judged_s) without = scoreAll({without.fit}, what, half, half)[0];
+  const std::vector<Scored> ofClose = scoreAll(closeFits, what, half, to);
+
+  scored.insert(scored.end(), ofClose.begin(), ofClose.end());
+  far.insert(far.end(), close.begin(), close.end());
   bool any = false;
-  for (std::size_t i = 0; i < which.size(); ++i) {
-    Tried& each = tried[which[i]];
-    each.fit = fits[i];
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    Tried& each = tried[far[i]];
+    each.fit = scored[i].fit;
     each.scored = scored[i];
     each.attempt.scored = true;
     each.passes =
@@ -243,7 +271,7 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     any = any || each.passes;
   }
   if (!any) {  // what needed the finer step is not there
-    problem_.scene.step_s = step_s;
+    problem_.scene.step_s = search_s;
     without = before;
   }
   return any;
@@ -282,8 +310,7 @@ bool SearchRun::tryPair(Scored& current, const std::vector<Tried>& singles, Scor
   for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
     Scored single = singles[k].scored;
-    const auto seconds = tryCandidates(single, {{single.fit, linearise(problem_, single.fit)}}, candidatesInPairs,
-                                       ", in pairs", 0.5, 0.6);
+    const auto seconds = tryCandidates(single, {single.fit}, nullptr, candidatesInPairs, ", in pairs", 0.5, 0.6);
     if (seconds.empty() || !seconds[0].attempt.scored) continue;
     Comparison comparison;
     std::string reason;

@@ -75,6 +75,21 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
   return result;
 }
 
+std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
+                                           double from, double to) {
+  constexpr int iterations = 12;
+  const double judged_s = problem_.scene.step_s;
+  problem_.scene.step_s = stepToSearchWith(full);
+  std::vector<Fit> fits = fitAll(jobs, iterations, stage, from, (from + to) / 2);
+  std::vector<Scored> scored = scoreAll(fits, stage, (from + to) / 2, to);
+  if (problem_.scene.step_s == judged_s) return scored;
+  problem_.scene.step_s = judged_s;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].cost <= farWorse * full.cost)
+      scored[i] = scoreAll(fitAll({{fits[i].model, fits[i].shifts}}, againIterations, stage, to, to), stage, to, to)[0];
+  return scored;
+}
+
 Eigen::VectorXd SearchRun::stepChange(const Fit& fit) const {
   FitProblem finer = problem_;
   finer.scene.step_s /= 2;
@@ -83,6 +98,19 @@ Eigen::VectorXd SearchRun::stepChange(const Fit& fit) const {
 
 double stepErrorOf(const Eigen::VectorXd& stepChange) {
   return stepChange.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, stepChange.size()));
+}
+
+double SearchRun::stepToSearchWith(const Fit& fit) const {
+  constexpr double harmless = 0.3, ofError = 0.1;  // noise floors; of the error that there is to explain
+  const double judged_s = problem_.scene.step_s;
+  if (search_s_ <= judged_s) return judged_s;
+  const Eigen::VectorXd fine = residualsOf(problem_, fit.model, fit.shifts);
+  const auto count = static_cast<double>(std::max<Eigen::Index>(1, fine.size()));
+  const double most = std::max(harmless, ofError * fine.norm() / std::sqrt(count));
+  FitProblem coarse = problem_;
+  for (coarse.scene.step_s = search_s_; coarse.scene.step_s > 1.01 * judged_s; coarse.scene.step_s /= 2)
+    if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return coarse.scene.step_s;
+  return judged_s;
 }
 
 void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {

@@ -31,8 +31,7 @@ void SearchRun::prune(SearchResult& result) {
     std::vector<FitJob> jobs;
     for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i)
       jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
-    const auto fits = fitAll(jobs, 12, "dropping each in turn", 0.8, 0.83);
-    const auto scored = scoreAll(fits, "dropping each in turn", 0.83, 0.86);
+    const auto scored = fitAndScore(jobs, result.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
       const Comparison comparison = compare(scored[i].blocks, result.final.blocks);
       if (comparison.t >= 2 && comparison.gain >= leastGain) continue;
@@ -113,10 +112,8 @@ std::vector<SearchRun::Tried> SearchRun::inPlaceOf(std::size_t i, const SearchRe
     without = result.calibrated;
     return firstStage_;
   }
-  without = scoreAll(fitAll({{model.without(i), result.final.fit.shifts}}, 12, "rivals", 0.86, 0.87), "rivals", 0.87,
-                     0.88)[0];
-  return tryCandidates(without, {{without.fit, linearise(problem_, without.fit)}}, candidatesAsRivals, ", rivals", 0.88,
-                       0.95);
+  without = fitAndScore({{model.without(i), result.final.fit.shifts}}, result.final.fit, "rivals", 0.86, 0.88)[0];
+  return tryCandidates(without, {without.fit}, nullptr, candidatesAsRivals, ", rivals", 0.88, 0.95);
 }
 
 /// True if another effect took the place of effect `i`: the simpler of equals, or simply a better one.

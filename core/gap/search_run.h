@@ -16,7 +16,10 @@ inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.0
 inline constexpr double unexplainedExcess =
     0.3;  // mean squared error above 1 at which more is tried than single effects
 
-inline constexpr int againIterations = 3;  // after the step was halved
+inline constexpr int againIterations = 3;  // after the step was made finer
+inline constexpr double farWorse = 2;      // by cost: no winner at any step
+
+inline bool byCost(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 
 /// One search from calibration to rivals.
 class SearchRun {
@@ -60,24 +63,33 @@ class SearchRun {
   /// A fit that fails costs infinitely much.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
+  /// Fits models that lack something of `full` with a step that it bears, and scores them; those that come near it are
+  /// fitted on at the present step.
+  std::vector<Scored> fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
+                                  double from, double to);
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);
   /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
-  /// ones first, best first. Fits begin from any of the bases, of which the first is that of `without`; `without` is
-  /// scored again where the step becomes finer. With `lastChance` all that promise anything are fitted before none is
-  /// said to help.
-  std::vector<Tried> tryCandidates(Scored& without, const std::vector<Base>& bases, std::size_t toFit,
-                                   const std::string& stage, double from, double to, bool lastChance = false);
-  /// Fits some of them to the end and scores them; true if one passes.
-  bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
+  /// ones first, best first. Fits begin from any of the models, of which the first is that of `without`, with its
+  /// sensitivities if they are known; `without` is scored again where the step becomes finer. With `lastChance` all that
+  /// promise anything are fitted before none is said to help.
+  std::vector<Tried> tryCandidates(Scored& without, const std::vector<Fit>& models, const Linearised* known,
+                                   std::size_t toFit, const std::string& stage, double from, double to,
+                                   bool lastChance = false);
+  /// Fits some of them to the end and scores them with the step `judged_s` or a finer one; true if one passes. The step
+  /// stays as it was if none does.
+  bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without, double judged_s,
                const std::string& stage, double from, double to);
+  /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
+  /// there, and judged at the present one.
+  double stepToSearchWith(const Fit& fit) const;
   /// Whether the fit's last effect could as well be much larger, though not absent: friction that holds a joint still
   /// is known from below only, and has no standard error.
   bool isAtLeast(const Fit& fit) const;
   void shake(std::vector<Fit>& fits, const std::string& stage, double at) const;
-  std::vector<Base> basesOf(const SearchResult& result, const Linearised& linear, bool first) const;
+  std::vector<Fit> basesOf(const SearchResult& result, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;
   /// Two effects that need each other still show a little alone.
@@ -105,6 +117,7 @@ class SearchRun {
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
   double finest_s_;  ///< an eighth of the scene's step: a servo in and out of saturation needs it
+  double search_s_ = 0;  ///< the step that the calibrated simulator needs
   std::vector<Tried> firstStage_;
 };
 

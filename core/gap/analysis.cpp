@@ -249,6 +249,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   const auto begin = std::chrono::steady_clock::now();
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
   FitProblem problem = makeFitProblem(given, given.recordings, library);
+  problem.jobs = options.jobs;
   SearchOptions search;
   search.jobs = options.jobs;
   search.maximumEffects = options.maximumEffects;
@@ -259,6 +260,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (found.unstable) {
     // A loop near its limit of stability: a hair of a parameter decides where a free run ends.
     problem = makeFitProblem(given, given.recordings, library, 1);
+    problem.jobs = options.jobs;
     problem.notes.push_back("free runs hang on the last digits of the parameters: windows of 1 s instead");
     found = searchEffects(problem, search);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/evaluate_ahead.h"
 #include "core/gap/segment_cost.h"
 
 namespace btr {
@@ -33,12 +34,16 @@ class Prior final : public ceres::CostFunction {
   std::vector<double> centre_, weight_;
 };
 
-/// Says after each iteration whether the next Jacobian is differenced; ends a solve whose Jacobian was only updated as
-/// soon as a step fails.
+/// Says after each iteration whether the next Jacobian is differenced, and whoever waits how far the fit is; ends a
+/// solve whose Jacobian was only updated as soon as a step fails.
 class AgeingJacobian final : public ceres::IterationCallback {
  public:
-  explicit AgeingJacobian(JacobianPolicy& policy) : policy_(policy) {}
+  AgeingJacobian(JacobianPolicy& policy, const FitOptions& options) : policy_(policy), options_(options) {}
+  bool cancelled() const { return cancelled_; }
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (summary.iteration > 0) ++iterations_;
+    cancelled_ = options_.goOn && !options_.goOn(std::min(1.0, static_cast<double>(iterations_) / options_.iterations));
+    if (cancelled_) return ceres::SOLVER_ABORT;
     if (summary.iteration == 0) {
       policy_.difference = false;
       return ceres::SOLVER_CONTINUE;
@@ -52,6 +57,9 @@ class AgeingJacobian final : public ceres::IterationCallback {
 
  private:
   JacobianPolicy& policy_;
+  const FitOptions& options_;
+  int iterations_ = 0;
+  bool cancelled_ = false;
 };
 
 std::vector<double> priorWeights(const FitModel& model) {
@@ -71,14 +79,15 @@ std::vector<std::vector<double>> zeroShifts(const FitProblem& problem) {
 Eigen::VectorXd residualsOf(const FitProblem& problem, const FitModel& model,
                             const std::vector<std::vector<double>>& shifts) {
   SceneCache scenes(problem, model);
+  const auto numbers = bySegment(problem, 1, [&](std::size_t s) {
+    const Segment& segment = problem.segments[s];
+    return residualsOf(problem, segment, scenes.scene(model.values, segment.trial),
+                       shifts.empty() ? std::vector<double>{} : shifts[s]);
+  });
   Eigen::VectorXd all(static_cast<Eigen::Index>(problem.residuals()));
   Eigen::Index at = 0;
-  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
-    const Segment& segment = problem.segments[s];
-    const auto part = residualsOf(problem, segment, scenes.scene(model.values, segment.trial),
-                                  shifts.empty() ? std::vector<double>{} : shifts[s]);
+  for (const std::vector<double>& part : numbers)
     for (const double value : part) all[at++] = value;
-  }
   return all;
 }
 
@@ -99,7 +108,9 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     scaled.push_back(std::clamp(model.values[i], model.parameters[i].minimum, model.parameters[i].maximum) /
                      model.parameters[i].scale);
 
+  EvaluateAhead ahead(problem);
   ceres::Problem::Options ownership;
+  if (problem.jobs > 1) ownership.evaluation_callback = &ahead;
   ceres::Problem least(ownership);
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
     std::vector<double*> blocks;
@@ -108,6 +119,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     if (blocks.empty()) continue;
     // Ceres takes ownership.
     auto cost = std::make_unique<SegmentCost>(problem, model, s, scenes, policy, limit);
+    ahead.add(*cost, blocks);
     least.AddResidualBlock(cost.release(), nullptr, blocks);
     if (fit.shifts[s].empty()) continue;
     const std::size_t count = fit.shifts[s].size();
@@ -140,7 +152,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   solver.linear_solver_type = problem.segments.size() > 8 ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
-  AgeingJacobian ageing(policy);
+  AgeingJacobian ageing(policy, options);
   solver.callbacks.push_back(&ageing);
   ceres::Solver::Summary summary;
   // What updated Jacobians cannot improve any more is tried again with new differences.
@@ -149,6 +161,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     policy.difference = true;
     policy.age = policy.inherited ? 1 : 0;
     ceres::Solve(solver, &least, &summary);
+    if (ageing.cancelled()) throw Cancelled{};
     left -= std::max(1, static_cast<int>(summary.iterations.size()) - 1);
     const bool stale = policy.age > 0;
     policy.inherited = nullptr;

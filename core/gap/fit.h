@@ -17,6 +17,8 @@ struct FitOptions {
   bool startsOnly = false;  ///< the parameters stay; only initial states are fitted
   /// Of a fit whose parameters this model begins with, near where it starts: saves the first differences.
   const Linearised* inherited = nullptr;
+  /// Called after each iteration with the share of all that were allowed; false throws Cancelled.
+  std::function<bool(double)> goOn = {};
 };
 
 /// A model fitted to the recordings.
@@ -71,5 +73,8 @@ std::vector<double> blockScores(const FitProblem& problem, const Eigen::VectorXd
 std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
                                           const std::function<std::vector<double>(std::size_t)>& f,
                                           const std::function<bool(std::size_t)>& goOn = {});
+/// f of every segment, in the problem's worker processes where about `replays` replays of everything are worth them.
+std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
+                                           const std::function<std::vector<double>(std::size_t)>& f);
 
 }  // namespace btr

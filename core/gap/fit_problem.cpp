@@ -1,6 +1,7 @@
 #include "core/gap/fit_problem.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -78,8 +79,8 @@ double nonlinearity(const FitProblem& problem, const Segment& segment) {
     std::vector<double> shift;
     for (const Nuisance& nuisance : segment.nuisances) {
       // What rests is asked where it is, not how much it might move.
-      const bool rests = nuisance.what == Nuisance::What::jointRate &&
-                         segment.start.robots[nuisance.object].rates[nuisance.part] == 0;
+      const bool rests =
+          nuisance.what == Nuisance::What::jointRate && segment.start.robots[nuisance.object].rates[nuisance.part] == 0;
       shift.push_back(rests ? 0 : by);
     }
     return residualsOf(problem, segment, scene, shift);
@@ -200,6 +201,9 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
                             " s from the recorded state: free runs would show where errors have drifted to");
   }
   cutSegments(ready, window_s);
+  const auto begin = std::chrono::steady_clock::now();
+  plainResiduals(ready);
+  ready.replay_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }

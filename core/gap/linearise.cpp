@@ -26,37 +26,59 @@ Eigen::VectorXd Linearised::profile(const FitProblem& problem, const Eigen::Vect
   return left;
 }
 
-Linearised linearise(const FitProblem& problem, const Fit& fit) {
+namespace {
+
+/// Residuals of a segment, then a column for each parameter, then one for each initial state.
+Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::size_t index) {
   const FitModel& model = fit.model;
+  const Segment& segment = problem.segments[index];
+  const std::vector<double>& shift = fit.shifts[index];
   SceneCache scenes(problem, model);
+  const auto count = static_cast<Eigen::Index>(segment.row.size());
+  Eigen::MatrixXd all(count, static_cast<Eigen::Index>(1 + model.parameters.size() + shift.size()));
+  Eigen::Index column = 0;
+  const auto simulate = [&](const std::vector<double>& numbers, const std::vector<double>& shifts) {
+    const auto values = residualsOf(problem, segment, scenes.scene(numbers, segment.trial), shifts);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), count));
+  };
+  all.col(column++) = simulate(model.values, shift);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& parameter = model.parameters[i];
+    std::vector<double> moved = model.values;
+    const double step = parameterStep(problem, parameter, moved[i] / parameter.scale);
+    moved[i] += step * parameter.scale;
+    all.col(column++) = (simulate(moved, shift) - all.col(0)) / step;
+  }
+  for (std::size_t i = 0; i < shift.size(); ++i) {
+    std::vector<double> moved = shift;
+    moved[i] += startStep;
+    all.col(column++) = (simulate(model.values, moved) - all.col(0)) / startStep;
+  }
+  return all;
+}
+
+}  // namespace
+
+Linearised linearise(const FitProblem& problem, const Fit& fit) {
+  const auto parameters = static_cast<Eigen::Index>(fit.model.parameters.size());
+  const int replays =
+      1 + static_cast<int>(parameters) + (fit.shifts.empty() ? 0 : static_cast<int>(fit.shifts[0].size()));
+  const auto numbers = bySegment(problem, replays, [&](std::size_t s) {
+    const Eigen::MatrixXd all = differencesOf(problem, fit, s);
+    return std::vector<double>(all.data(), all.data() + all.size());
+  });
   Linearised result;
   const auto total = static_cast<Eigen::Index>(problem.residuals());
   result.residuals.resize(total);
-  Eigen::MatrixXd& raw = result.raw;
-  raw.resize(total, static_cast<Eigen::Index>(model.parameters.size()));
+  result.raw.resize(total, parameters);
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
-    const Segment& segment = problem.segments[s];
-    const auto count = static_cast<Eigen::Index>(segment.row.size());
-    const auto simulate = [&](const std::vector<double>& numbers, const std::vector<double>& shift) {
-      const auto values = residualsOf(problem, segment, scenes.scene(numbers, segment.trial), shift);
-      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), count));
-    };
-    const Eigen::VectorXd here = simulate(model.values, fit.shifts[s]);
-    result.residuals.segment(at, count) = here;
-    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-      const FitParameter& parameter = model.parameters[i];
-      std::vector<double> moved = model.values;
-      const double step = parameterStep(problem, parameter, moved[i] / parameter.scale);
-      moved[i] += step * parameter.scale;
-      raw.block(at, static_cast<Eigen::Index>(i), count, 1) = (simulate(moved, fit.shifts[s]) - here) / step;
-    }
-    Eigen::MatrixXd starts(count, static_cast<Eigen::Index>(fit.shifts[s].size()));
-    for (std::size_t i = 0; i < fit.shifts[s].size(); ++i) {
-      std::vector<double> moved = fit.shifts[s];
-      moved[i] += startStep;
-      starts.col(static_cast<Eigen::Index>(i)) = (simulate(model.values, moved) - here) / startStep;
-    }
+    const auto count = static_cast<Eigen::Index>(problem.segments[s].row.size());
+    const auto width = 1 + parameters + static_cast<Eigen::Index>(fit.shifts[s].size());
+    const Eigen::Map<const Eigen::MatrixXd> all(numbers[s].data(), count, width);
+    result.residuals.segment(at, count) = all.col(0);
+    result.raw.middleRows(at, count) = all.middleCols(1, parameters);
+    Eigen::MatrixXd starts = all.rightCols(width - 1 - parameters);
     result.first.push_back(at);
     result.rawStarts.push_back(starts);
     if (starts.cols() > 0) {
@@ -73,8 +95,8 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     at += count;
   }
   result.profiled = result.profile(problem, result.residuals);
-  result.columns.resize(total, raw.cols());
-  for (Eigen::Index i = 0; i < raw.cols(); ++i) result.columns.col(i) = result.profile(problem, raw.col(i));
+  result.columns.resize(total, parameters);
+  for (Eigen::Index i = 0; i < parameters; ++i) result.columns.col(i) = result.profile(problem, result.raw.col(i));
   return result;
 }
 

@@ -9,7 +9,7 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
                                           const std::function<std::vector<double>(std::size_t)>& f,
                                           const std::function<bool(std::size_t)>& goOn) {
   std::vector<std::vector<double>> results(count);
-  if (jobs <= 1 || count <= 1) {
+  if (jobs <= 1 || count <= 1 || WorkerPool::inWorker()) {
     for (std::size_t i = 0; i < count; ++i) {
       if (goOn && !goOn(i)) throw Cancelled{};
       results[i] = f(i);
@@ -36,6 +36,17 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
     results[i].resize(replies[i].bytes.size() / sizeof(double));
     if (!results[i].empty()) std::memcpy(results[i].data(), replies[i].bytes.data(), replies[i].bytes.size());
   }
+  return results;
+}
+
+std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
+                                           const std::function<std::vector<double>(std::size_t)>& f) {
+  constexpr double worthAFork_s = 0.02;
+  const bool worth = replays * problem.replay_s > worthAFork_s;
+  auto results = parallel(worth ? problem.jobs : 1, problem.segments.size(), f);
+  // What failed in a worker fails here again, and says why.
+  for (std::size_t s = 0; s < results.size(); ++s)
+    if (results[s].empty()) results[s] = f(s);
   return results;
 }
 

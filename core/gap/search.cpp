@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
 constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
-
 }  // namespace
 
 bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
@@ -192,9 +191,9 @@ SearchResult SearchRun::run() {
     // What the integration itself is wrong by is not physics that was left out.
     if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    auto tried = tryCandidates(result.final, basesOf(result, stage == 0),
-                               stage == 0 ? &result.calibratedLinear : nullptr, candidatesToFit,
-                               stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
+    auto tried =
+        tryCandidates(result.final, basesOf(result, stage == 0), stage == 0 ? &result.calibratedLinear : nullptr,
+                      candidatesToFit, stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
     if (stage == 0) firstStage_ = tried;
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {

@@ -68,7 +68,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   problem_.scene.step_s = stepToSearchWith(models[0]);
   std::vector<Base> bases;
   for (const Fit& fit : models)
-    bases.push_back({fit, known && bases.empty() && problem_.scene.step_s == judged_s ? *known : linearise(problem_, fit)});
+    bases.push_back(
+        {fit, known && bases.empty() && problem_.scene.step_s == judged_s ? *known : linearise(problem_, fit)});
   const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
   std::vector<std::vector<Screened>> screened;
   std::vector<double> totals;
@@ -150,7 +151,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     return contained;
   });
   bool any = confirm(tried, best, without, judged_s, stage, from + 2 * part, to) ||
-                   confirm(tried, next, without, judged_s, stage, to, to);
+             confirm(tried, next, without, judged_s, stage, to, to);
   // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
   // are fitted too.
   if (!any && lastChance && excessOf(without) > unexplainedExcess) {

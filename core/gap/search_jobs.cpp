@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/gap/search_run.h"
+#include "core/sim/worker_pool.h"
 
 namespace btr {
 namespace {
@@ -30,14 +31,22 @@ void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
 
 }  // namespace
 
+int SearchRun::workersFor(std::size_t count) const {
+  return 2 * static_cast<int>(count) <= options_.jobs ? 1 : options_.jobs;
+}
+
 std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
                                    double from, double to) const {
-  const auto numbers = parallel(
-      options_.jobs, jobs.size(),
-      [&](std::size_t i) {
-        return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, {iterations, false, jobs[i].inherited}));
-      },
-      reporter(stage, jobs.size(), from, to));
+  const auto fitOne = [&](std::size_t i) {
+    FitOptions options{iterations, false, jobs[i].inherited, {}};
+    if (options_.progress && !WorkerPool::inWorker())
+      options.goOn = [&, i](double share) {
+        const double done = (static_cast<double>(i) + share) / static_cast<double>(jobs.size());
+        return options_.progress(stage, from + (to - from) * done);
+      };
+    return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, options));
+  };
+  const auto numbers = parallel(workersFor(jobs.size()), jobs.size(), fitOne, reporter(stage, jobs.size(), from, to));
   std::vector<Fit> fits;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Fit fit{jobs[i].model, jobs[i].shifts, INFINITY};
@@ -50,7 +59,7 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
 std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
                                         double to) const {
   const auto numbers = parallel(
-      options_.jobs, fits.size(),
+      workersFor(fits.size()), fits.size(),
       [&](std::size_t i) {
         const Scored scored = crossValidate(problem_, fits[i]);
         std::vector<double> list = scored.blocks;

@@ -60,6 +60,8 @@ class SearchRun {
     };
   }
 
+  /// Few jobs run one after another, the segments of each in all workers.
+  int workersFor(std::size_t count) const;
   /// A fit that fails costs infinitely much.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
@@ -73,8 +75,8 @@ class SearchRun {
   Scored converged(const Scored& scored, const std::string& stage, double at);
   /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
   /// ones first, best first. Fits begin from any of the models, of which the first is that of `without`, with its
-  /// sensitivities if they are known; `without` is scored again where the step becomes finer. With `lastChance` all that
-  /// promise anything are fitted before none is said to help.
+  /// sensitivities if they are known; `without` is scored again where the step becomes finer. With `lastChance` all
+  /// that promise anything are fitted before none is said to help.
   std::vector<Tried> tryCandidates(Scored& without, const std::vector<Fit>& models, const Linearised* known,
                                    std::size_t toFit, const std::string& stage, double from, double to,
                                    bool lastChance = false);
@@ -116,7 +118,7 @@ class SearchRun {
 
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
-  double finest_s_;  ///< an eighth of the scene's step: a servo in and out of saturation needs it
+  double finest_s_;      ///< an eighth of the scene's step: a servo in and out of saturation needs it
   double search_s_ = 0;  ///< the step that the calibrated simulator needs
   std::vector<Tried> firstStage_;
 };

@@ -39,34 +39,66 @@ Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
-void SegmentCost::differences(const Eigen::VectorXd& x) const {
+Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const {
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
-  const bool first = jacobian_.size() == 0;
-  jacobian_.resize(here_.size(), x.size());
-  const Linearised* known = first ? policy_.inherited : nullptr;
+  Eigen::MatrixXd jacobian(here.size(), x.size());
+  const Linearised* known = jacobian_.size() == 0 ? policy_.inherited : nullptr;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (known && i < known->raw.cols()) {
-      jacobian_.col(i) = known->raw.block(known->first[index_], i, here_.size(), 1);
+      jacobian.col(i) = known->raw.block(known->first[index_], i, here.size(), 1);
       continue;
     }
     if (known && i >= parameters) {
-      jacobian_.col(i) = known->rawStarts[index_].col(i - parameters);
+      jacobian.col(i) = known->rawStarts[index_].col(i - parameters);
       continue;
     }
     const double step =
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;
     Eigen::VectorXd moved = x;
     moved[i] += step;
-    jacobian_.col(i) = (simulate(moved) - here_) / step;
+    jacobian.col(i) = (simulate(moved) - here) / step;
   }
+  return jacobian;
 }
 
-bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+Eigen::VectorXd SegmentCost::gathered(double const* const* blocks) const {
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
   const auto starts = static_cast<Eigen::Index>(segment_.nuisances.size());
   Eigen::VectorXd x(parameters + starts);
   if (parameters > 0) x.head(parameters) = Eigen::Map<const Eigen::VectorXd>(blocks[0], parameters);
   if (starts > 0) x.tail(starts) = Eigen::Map<const Eigen::VectorXd>(blocks[parameters > 0 ? 1 : 0], starts);
+  return x;
+}
+
+bool SegmentCost::simulatesAt(double const* const* blocks, bool jacobian) const {
+  const Eigen::VectorXd x = gathered(blocks);
+  return last_.size() == 0 || x != last_ || (jacobian && differencesNext() && (aheadAt_.size() == 0 || x != aheadAt_));
+}
+
+std::vector<double> SegmentCost::simulated(double const* const* blocks, bool jacobian) const {
+  const Eigen::VectorXd x = gathered(blocks);
+  const Eigen::VectorXd here = last_.size() > 0 && x == last_ ? here_ : simulate(x);
+  std::vector<double> numbers(here.begin(), here.end());
+  if (!jacobian || !differencesNext()) return numbers;
+  const Eigen::MatrixXd columns = differences(x, here);
+  numbers.insert(numbers.end(), columns.data(), columns.data() + columns.size());
+  return numbers;
+}
+
+void SegmentCost::take(double const* const* blocks, const std::vector<double>& simulated) {
+  const auto rows = static_cast<Eigen::Index>(segment_.row.size());
+  if (std::ssize(simulated) < rows) return;  // it failed there: Evaluate simulates
+  last_ = gathered(blocks);
+  here_ = Eigen::Map<const Eigen::VectorXd>(simulated.data(), rows);
+  if (std::ssize(simulated) != rows * (1 + last_.size())) return;
+  aheadAt_ = last_;
+  ahead_ = Eigen::Map<const Eigen::MatrixXd>(simulated.data() + rows, rows, last_.size());
+}
+
+bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
+  const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
+  const auto starts = static_cast<Eigen::Index>(segment_.nuisances.size());
+  const Eigen::VectorXd x = gathered(blocks);
   // Ceres asks for the residuals first, then for the same with their derivatives.
   if (last_.size() == 0 || x != last_) {
     here_ = simulate(x);
@@ -75,8 +107,9 @@ bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, doubl
   for (Eigen::Index k = 0; k < here_.size(); ++k) residuals[k] = tamed(here_[k], limit_);
   if (!jacobians) return true;
 
-  if (policy_.difference || jacobian_.size() == 0) {
-    differences(x);
+  if (differencesNext()) {
+    jacobian_ = aheadAt_.size() > 0 && x == aheadAt_ ? ahead_ : differences(x, here_);
+    aheadAt_.resize(0);  // what it was may have been inherited: not for a second time
   } else if (const Eigen::VectorXd step = x - base_; step.squaredNorm() > 0) {
     jacobian_ += (here_ - residuals_ - jacobian_ * step) * step.transpose() / step.squaredNorm();
   }

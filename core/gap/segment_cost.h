@@ -27,9 +27,21 @@ class SegmentCost final : public ceres::CostFunction {
               const JacobianPolicy& policy, double limit);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
+  std::size_t segment() const { return index_; }
+  std::size_t parameters() const { return model_.parameters.size(); }
+  /// True if Evaluate would simulate at these numbers, given whether derivatives are wanted.
+  bool simulatesAt(double const* const* blocks, bool jacobian) const;
+  /// What Evaluate would simulate at these numbers: residuals, then the columns of the Jacobian that it would
+  /// difference. Changes nothing.
+  std::vector<double> simulated(double const* const* blocks, bool jacobian) const;
+  /// Takes what another process simulated.
+  void take(double const* const* blocks, const std::vector<double>& simulated);
+
  private:
+  Eigen::VectorXd gathered(double const* const* blocks) const;  ///< scaled parameters, then shifts
+  bool differencesNext() const { return policy_.difference || jacobian_.size() == 0; }
   Eigen::VectorXd simulate(const Eigen::VectorXd& x) const;
-  void differences(const Eigen::VectorXd& x) const;
+  Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const;
 
   const FitProblem& problem_;
   const FitModel& model_;
@@ -41,6 +53,8 @@ class SegmentCost final : public ceres::CostFunction {
   mutable Eigen::VectorXd last_, here_;       ///< where it was asked for last, and what it was
   mutable Eigen::VectorXd base_, residuals_;  ///< where the Jacobian belongs
   mutable Eigen::MatrixXd jacobian_;          ///< of the residuals as they are, by scaled parameters, then shifts
+  mutable Eigen::VectorXd aheadAt_;           ///< where `ahead_` was differenced
+  Eigen::MatrixXd ahead_;
 };
 
 }  // namespace btr

@@ -56,10 +56,13 @@ bool receiveMessage(int fd, std::string& bytes) {
   return readAll(fd, bytes.data(), size);
 }
 
+bool thisIsAWorker = false;
+
 /// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply says whether it is
 /// one.
 [[noreturn]] void serve(int socket, const WorkerPool::Work& work) {
   // Ctrl-C reaches the whole group: the parent decides. No file of the parent stays open here (its locks among them).
+  thisIsAWorker = true;
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_DFL);
   dup2(socket, 3);
@@ -139,6 +142,8 @@ WorkerPool::WorkerPool(int workers, Work work, double secondsPerJob)
 }
 
 WorkerPool::~WorkerPool() = default;
+
+bool WorkerPool::inWorker() { return thisIsAWorker; }
 
 int WorkerPool::workers() const { return static_cast<int>(impl_->workers.size()); }
 

@@ -28,6 +28,8 @@ class WorkerPool {
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   int workers() const;
+  /// True in a worker process: what runs there makes no workers of its own.
+  static bool inWorker();
   /// Runs all jobs. Returns nothing if `stop` was raised before all were done (running jobs are abandoned).
   /// `done(n)` is called in this thread after each finished job.
   std::vector<Reply> run(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,

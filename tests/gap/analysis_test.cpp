@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/gap/candidates.h"
@@ -256,6 +257,18 @@ TEST(Analysis, CanBeCancelledAtAnyStage) {
     };
     EXPECT_THROW(analyse(problem, library(), {}, progress), Cancelled);
   }
+}
+
+TEST(Analysis, ALongFitSaysHowFarItIs) {
+  std::vector<double> shares;
+  analyse(recordedFrom({{{"robots.rig.servos.hinge.p", 7}, {"robots.rig.servos.hinge.d", 0.25}}, {}}), library(), {},
+          [&](const std::string& stage, double share) {
+            if (stage == "calibrating") shares.push_back(share);
+            return true;
+          });
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  shares.erase(std::unique(shares.begin(), shares.end()), shares.end());
+  EXPECT_GT(shares.size(), 6u) << "more than one for each of the fits";
 }
 
 TEST(Analysis, WithoutRecordingsItSaysWhatItNeeds) {

@@ -140,10 +140,9 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
     shapeName = name;
   }
   if (next.separation <= 0) return next;
-  const GapReport::Rival& other = doubted->rivals[0];
-  next.why = "separates " + doubted->effect.effect + " at " + doubted->effect.at + " from " + other.effect + " at " +
-             other.at + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " + toText(length_s) +
-             " s)";
+  next.why = "separates " + inWords(GapReport::Rival{doubted->effect.effect, doubted->effect.at}) + " from " +
+             inWords(doubted->rivals[0]) + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +
+             toText(length_s) + " s)";
   return next;
 }
 

@@ -19,6 +19,7 @@ inline constexpr double unexplainedExcess =
 inline constexpr int againIterations = 3;  // after the step was made finer
 inline constexpr double farWorse = 2;      // by cost: no winner at any step
 
+std::string inPercent(double share);  ///< with one digit behind the point
 inline bool byCost(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 
 /// One search from calibration to rivals.

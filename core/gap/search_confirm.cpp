@@ -1,0 +1,141 @@
+// The few candidates that fits promise most of: fitted to the end, scored on what they were not fitted to, accepted or
+// not.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/gap/search_run.h"
+
+namespace btr {
+namespace {
+
+constexpr int lastIterations = 15;
+
+/// The last effect of a model `size` times as large.
+FitModel resized(FitModel model, double size) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect + 1 == static_cast<int>(model.effects.size()) && p.hasNeutral)
+      model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
+  }
+  return model;
+}
+
+}  // namespace
+
+std::string inPercent(double share) { return toText(std::round(1000 * share) / 10) + " %"; }
+
+bool SearchRun::isAtLeast(const Fit& fit) const {
+  constexpr double larger = 1.5, flat = 1e-3;
+  const auto costAt = [&](double size) {
+    return residualsOf(problem_, resized(fit.model, size), fit.shifts).squaredNorm();
+  };
+  const double here = costAt(1);
+  return std::abs(costAt(larger) - here) < flat * (costAt(0) - here);
+}
+
+/// Dry friction and play leave side minima along an effect's size: where another size fits better at once, the fit is
+/// taken up again from there.
+void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
+  constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
+  constexpr double better = 0.995;
+  const auto errors = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
+    std::vector<double> list;
+    for (const double size : sizes)
+      list.push_back(residualsOf(problem_, resized(fits[i].model, size), fits[i].shifts).squaredNorm());
+    return list;
+  });
+  std::vector<FitJob> jobs;
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const auto least = std::min_element(errors[i].begin(), errors[i].end());
+    if (errors[i].empty() || !(*least < better * errors[i][0])) continue;
+    const double size = sizes[static_cast<std::size_t>(least - errors[i].begin())];
+    jobs.push_back({resized(fits[i].model, size), fits[i].shifts});
+    owner.push_back(i);
+  }
+  const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
+  for (std::size_t k = 0; k < again.size(); ++k)
+    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
+}
+
+bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
+                        double judged_s, const std::string& stage, double from, double to) {
+  if (which.empty()) return false;
+  const std::string what = "confirming" + stage;
+  const double half = (from + to) / 2, search_s = problem_.scene.step_s;
+  std::vector<FitJob> jobs;
+  for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
+  std::vector<Fit> fits = fitAll(jobs, lastIterations, what, from, half);
+  shake(fits, what, half);
+  for (Fit& fit : fits) climbWholeNumbers(fit, what, half);
+
+  // Effects may need finer steps than the simulator without them: friction at reversals, play. What fits far worse than
+  // the best is no winner at any step.
+  std::vector<std::size_t> close, far;
+  std::vector<Fit> closeFits, farFits;
+  const double least = std::min_element(fits.begin(), fits.end(), byCost)->cost;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const bool isClose = fits[i].cost <= farWorse * least;
+    (isClose ? close : far).push_back(which[i]);
+    (isClose ? closeFits : farFits).push_back(fits[i]);
+  }
+  std::vector<Scored> scored = scoreAll(farFits, what, half, half);
+  if (judged_s < search_s) {
+    problem_.scene.step_s = judged_s;
+    std::vector<FitJob> again;
+    for (const Fit& fit : closeFits) again.push_back({fit.model, fit.shifts});
+    closeFits = fitAll(again, againIterations, what, half, half);
+  }
+  refineStep(closeFits, 2, what, half);
+  const Scored before = without;
+  if (problem_.scene.step_s < judged_s) without = scoreAll({without.fit}, what, half, half)[0];
+  const std::vector<Scored> ofClose = scoreAll(closeFits, what, half, to);
+
+  scored.insert(scored.end(), ofClose.begin(), ofClose.end());
+  far.insert(far.end(), close.begin(), close.end());
+  bool any = false;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    Tried& each = tried[far[i]];
+    each.fit = scored[i].fit;
+    each.scored = scored[i];
+    each.attempt.scored = true;
+    each.passes =
+        passes(without, each.scored, each.fit.model.effects.size() - 1, each.attempt.comparison, each.attempt.reason);
+    any = any || each.passes;
+  }
+  if (!any) {  // what needed the finer step is not there
+    problem_.scene.step_s = search_s;
+    without = before;
+  }
+  return any;
+}
+
+bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
+                       std::string& reason) const {
+  comparison = compare(without.blocks, with.blocks);
+  const double excess = excessOf(without);
+  const double taken = without.mean() - with.mean();
+  if (comparison.t < leastT) {
+    reason = "not better on held-out blocks (t = " + toText(std::round(10 * comparison.t) / 10) + ")";
+    return false;
+  }
+  if (comparison.gain < leastGain) {
+    reason = "takes only " + inPercent(comparison.gain) + " of the held-out squared error";
+    return false;
+  }
+  if (excess <= 0 || taken < leastShareOfExcess * excess) {
+    reason = "takes only " + inPercent(excess > 0 ? taken / excess : 0) + " of the excess error";
+    return false;
+  }
+  const double errors = with.sizes.at(newEffect);
+  if (errors < leastErrors && !isAtLeast(with.fit)) {
+    reason = "its size is only " + toText(std::round(10 * errors) / 10) + " standard errors";
+    return false;
+  }
+  reason = "takes " + inPercent(comparison.gain) +
+           " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")";
+  return true;
+}
+
+}  // namespace btr

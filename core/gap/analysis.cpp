@@ -298,7 +298,10 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addSeries(report, problem, found, false);
   if (!given.heldOut.empty()) {
     if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
-    addSeries(report, makeFitProblem(given, given.heldOut, library, problem.window_s), found, true);
+    FitProblem heldOut = makeFitProblem(given, given.heldOut, library, problem.window_s);
+    heldOut.scene.step_s = problem.scene.step_s;
+    heldOut.jobs = options.jobs;
+    addSeries(report, heldOut, found, true);
   }
   if (progress && !progress("locating", 0.96)) throw Cancelled{};
   report.located = locate(found.calibrated.fit.model, problem);

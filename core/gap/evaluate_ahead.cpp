@@ -12,6 +12,7 @@ void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
       open[asked.cost->segment()] = &asked;
       if (jacobians) columns = std::max(columns, 1 + asked.cost->parameters());
     }
+  if (std::all_of(open.begin(), open.end(), [](const Asked* asked) { return !asked; })) return;
   const auto numbers = bySegment(problem_, static_cast<int>(columns), [&](std::size_t s) {
     return open[s] ? open[s]->cost->simulated(open[s]->blocks.data(), jacobians) : std::vector<double>{};
   });

@@ -95,14 +95,16 @@ double nonlinearity(const FitProblem& problem, const Segment& segment) {
   return deviation > static_cast<double>(none.size()) ? std::sqrt(deviation / answer) : 0;
 }
 
-/// Residuals of all segments from their estimated starts.
-std::vector<double> plainResiduals(const FitProblem& problem) {
+/// Residuals of all segments from their estimated starts, and how long that takes.
+std::vector<double> plainResiduals(FitProblem& problem) {
+  const auto begin = std::chrono::steady_clock::now();
   std::vector<double> all;
   for (const Segment& segment : problem.segments) {
     const auto part = residualsOf(problem, segment, problem.sceneOf(problem.given, segment.trial),
                                   std::vector<double>(segment.nuisances.size(), 0));
     all.insert(all.end(), part.begin(), part.end());
   }
+  problem.replay_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return all;
 }
 
@@ -201,10 +203,10 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
                             " s from the recorded state: free runs would show where errors have drifted to");
   }
   cutSegments(ready, window_s);
-  const auto begin = std::chrono::steady_clock::now();
-  plainResiduals(ready);
-  ready.replay_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (ready.mayCoarsen) chooseStep(ready);
+  if (ready.mayCoarsen)
+    chooseStep(ready);
+  else
+    plainResiduals(ready);
   return ready;
 }
 

@@ -62,7 +62,7 @@ struct FitProblem {
   double differenceStep = 1e-2;
   std::vector<std::string> notes;
   int jobs = 1;         ///< worker processes for the segments of one evaluation; changes no result
-  double replay_s = 0;  ///< computing time of a replay of all segments when it was made
+  double replay_s = 0;  ///< computing time of a replay of all segments
 
   /// The scene of a trial in a simulator, its own settings over it.
   Scene sceneOf(const SimulatorSpec& simulator, std::size_t trial) const;

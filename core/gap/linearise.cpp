@@ -29,11 +29,10 @@ Eigen::VectorXd Linearised::profile(const FitProblem& problem, const Eigen::Vect
 namespace {
 
 /// Residuals of a segment, then a column for each parameter, then one for each initial state.
-Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::size_t index) {
+Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::size_t index, SceneCache& scenes) {
   const FitModel& model = fit.model;
   const Segment& segment = problem.segments[index];
   const std::vector<double>& shift = fit.shifts[index];
-  SceneCache scenes(problem, model);
   const auto count = static_cast<Eigen::Index>(segment.row.size());
   Eigen::MatrixXd all(count, static_cast<Eigen::Index>(1 + model.parameters.size() + shift.size()));
   Eigen::Index column = 0;
@@ -63,8 +62,9 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
   const auto parameters = static_cast<Eigen::Index>(fit.model.parameters.size());
   const int replays =
       1 + static_cast<int>(parameters) + (fit.shifts.empty() ? 0 : static_cast<int>(fit.shifts[0].size()));
+  SceneCache scenes(problem, fit.model);
   const auto numbers = bySegment(problem, replays, [&](std::size_t s) {
-    const Eigen::MatrixXd all = differencesOf(problem, fit, s);
+    const Eigen::MatrixXd all = differencesOf(problem, fit, s, scenes);
     return std::vector<double>(all.data(), all.data() + all.size());
   });
   Linearised result;

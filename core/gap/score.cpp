@@ -24,6 +24,7 @@ Scored scoreAsIs(const FitProblem& problem, const Fit& fit) {
   scored.fit = fitModel(problem, fit.model, fit.shifts, options);
   scored.heldOut = residualsOf(problem, scored.fit.model, scored.fit.shifts);
   scored.blocks = blockScores(problem, scored.heldOut, Fold::all);
+  scored.step_s = problem.scene.step_s;
   return scored;
 }
 
@@ -64,7 +65,8 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit) {
   Scored scored{fit,
                 std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
                 Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())),
-                {}};
+                {},
+                problem.scene.step_s};
   const Linearised linear = linearise(problem, fit);
   scored.sizes = sizesInErrors(fit.model, uncertaintyOf(problem, fit, linear));
   for (const Fold trained : {Fold::first, Fold::second}) {

@@ -12,6 +12,7 @@ struct Scored {
       blocks;  ///< mean squared error of each block [noise floors²] by the fit to the other fold; −1: none
   Eigen::VectorXd heldOut;    ///< residuals of the same, all samples
   std::vector<double> sizes;  ///< by effect: its furthest parameter from neutral, in standard errors
+  double step_s = 0;          ///< of the replays that were scored
 
   double mean() const;  ///< over the blocks
 };

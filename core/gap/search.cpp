@@ -41,7 +41,7 @@ Scored SearchRun::calibrate() {
     const std::vector<Fit> others = fitAll({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08);
     fits.insert(fits.end(), others.begin(), others.end());
   }
-  std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), byCost)};
+  std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   refineStep(best, 1, "calibrating", 0.08);
   return scoreAll(best, "calibrating", 0.08, 0.1)[0];
@@ -50,15 +50,20 @@ Scored SearchRun::calibrate() {
 /// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
 Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
   constexpr int iterations = 30;
-  if (excessOf(scored) < 0.1) return scored;
+  if (excessOf(scored) < leastToFitOn) return scored;
   std::vector<Fit> fits = fitAll({{scored.fit.model, scored.fit.shifts}}, iterations, stage, at, at);
   climbWholeNumbers(fits[0], stage, at);
-  const double step_s = problem_.scene.step_s;
   refineStep(fits, 1, stage, at);
   const Scored better = scoreAll(fits, stage, at, at)[0];
-  if (better.mean() < scored.mean()) return better;
-  problem_.scene.step_s = step_s;
-  return scored;
+  Scored same = scored;
+  bringToStep(same, stage, at);
+  return better.mean() < same.mean() ? better : same;
+}
+
+void SearchRun::settle(SearchResult& result, bool fitToTheEnd, const std::string& stage, double at) {
+  if (fitToTheEnd) result.final = converged(result.final, stage, at);
+  bringToStep(result.final, stage, at);
+  result.ladder.back() = step(result.ladder.back().what, result.final);
 }
 
 /// Whole numbers, as of teeth in a turn, are no parameters of a fit: neighbours are tried as long as one fits better.
@@ -79,7 +84,7 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
         jobs.push_back({model, fit.shifts});
       }
       const std::vector<Fit> fits = fitAll(jobs, iterations, stage, at, at);
-      const auto least = std::min_element(fits.begin(), fits.end(), byCost);
+      const auto least = std::min_element(fits.begin(), fits.end(), costsLess);
       if (least == fits.end() || !(least->cost < better * fit.cost)) break;
       fit = *least;
     }
@@ -231,7 +236,7 @@ SearchResult SearchRun::run() {
   prune(result);
   takeApart(result);
   prune(result);
-  if (!result.final.fit.model.effects.empty()) result.final = converged(result.final, "fitting once more", 0.86);
+  if (!result.final.fit.model.effects.empty()) settle(result, true, "fitting once more", 0.86);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
   result.stepChange = stepChange(result.final.fit);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/gap/report_figures.h"
 #include "core/gap/search_run.h"
 
 namespace btr {
@@ -97,7 +98,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       each.attempt.reason = "the recordings do not feel it at a typical size";
     else
       each.attempt.reason =
-          "screening: would take away " + inPercent(each.attempt.share) + " of the squared error, others more";
+          "screening: would take away " + percent(each.attempt.share) + " of the squared error, others more";
     tried.push_back(std::move(each));
   }
 
@@ -122,16 +123,25 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         tried[owner[i]].attempt.fitted = true;
       }
   };
-  const auto byCost = [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; };
+  const auto fitsBetter = [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
     if (tried[k].attempt.excited && !promises[tried[k].promise].starts.empty() &&
         tried[k].attempt.share >= std::max(0.7 * leastGain, 0.1 * tried[0].attempt.share))
       promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
-  std::stable_sort(promising.begin(), promising.end(), byCost);
-  if (promising.size() > toFit / 2) promising.resize(toFit / 2);
-  fitStarts(promising, 1, from + 1.6 * part, from + 2 * part);
+  std::stable_sort(promising.begin(), promising.end(), fitsBetter);
+  // The better half once more from elsewhere, and the simpler effects that they contain.
+  const auto isContained = [&](std::size_t k, const std::vector<std::size_t>& in) {
+    return std::any_of(in.begin(), in.end(), [&](std::size_t of) {
+      return isRicher(tried[of].attempt.candidate, tried[k].attempt.candidate.placed({}));
+    });
+  };
+  std::vector<std::size_t> again = promising;
+  if (again.size() > toFit / 2) again.resize(toFit / 2);
+  for (std::size_t k = again.size(); k < promising.size(); ++k)
+    if (isContained(promising[k], again)) again.push_back(promising[k]);
+  fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
 
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
@@ -141,9 +151,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     // What fits far worse than the best after the first iterations is no rival.
     (best.size() < toFit / 2 && tried[k].fit.cost <= hopeless * tried[0].fit.cost ? best : next).push_back(k);
   std::erase_if(next, [&](std::size_t k) {
-    const bool contained = std::any_of(best.begin(), best.end(), [&](std::size_t of) {
-      return isRicher(tried[of].attempt.candidate, tried[k].attempt.candidate.placed({}));
-    });
+    const bool contained = isContained(k, best);
     if (contained) best.push_back(k);
     return contained;
   });
@@ -161,7 +169,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         rest.push_back(static_cast<std::size_t>(&each - tried.data()));
     for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
-    std::stable_sort(rest.begin(), rest.end(), byCost);
+    std::stable_sort(rest.begin(), rest.end(), fitsBetter);
     if (rest.size() > confirmed) rest.resize(confirmed);
     any = confirm(tried, rest, without, judged_s, stage, to, to);
   }
@@ -175,23 +183,29 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   return tried;
 }
 
-bool SearchRun::tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair) {
+bool SearchRun::tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair) {
   bool found = false;
   const double step_s = problem_.scene.step_s;
+  double pair_s = step_s;
   for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
-    Scored single = singles[k].scored;
+    problem_.scene.step_s = step_s;
+    Scored single = singles[k].scored, neither = current;
+    bringToStep(single, "in pairs", 0.5);
     const auto seconds = tryCandidates(single, {single.fit}, nullptr, candidatesInPairs, ", in pairs", 0.5, 0.6);
     if (seconds.empty() || !seconds[0].attempt.scored) continue;
     Comparison comparison;
     std::string reason;
     // Each of the two must be worth it beside the other, and both together.
     if (!passes(single, seconds[0].scored, seconds[0].fit.model.effects.size() - 1, comparison, reason)) continue;
-    if (!passes(current, seconds[0].scored, seconds[0].fit.model.effects.size() - 2, comparison, reason)) continue;
-    if (!found || seconds[0].scored.mean() < pair.mean()) pair = seconds[0].scored;
+    bringToStep(neither, "in pairs", 0.6);
+    if (!passes(neither, seconds[0].scored, seconds[0].fit.model.effects.size() - 2, comparison, reason)) continue;
+    if (found && seconds[0].scored.mean() >= pair.mean()) continue;
+    pair = seconds[0].scored;
+    pair_s = problem_.scene.step_s;
     found = true;
   }
-  if (!found) problem_.scene.step_s = step_s;
+  problem_.scene.step_s = pair_s;
   return found;
 }
 

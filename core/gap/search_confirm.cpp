@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/gap/report_figures.h"
 #include "core/gap/search_run.h"
 
 namespace btr {
@@ -22,8 +23,6 @@ FitModel resized(FitModel model, double size) {
 }
 
 }  // namespace
-
-std::string inPercent(double share) { return toText(std::round(1000 * share) / 10) + " %"; }
 
 bool SearchRun::isAtLeast(const Fit& fit) const {
   constexpr double larger = 1.5, flat = 1e-3;
@@ -63,7 +62,7 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
                         double judged_s, const std::string& stage, double from, double to) {
   if (which.empty()) return false;
   const std::string what = "confirming" + stage;
-  const double half = (from + to) / 2, search_s = problem_.scene.step_s;
+  const double half = (from + to) / 2, fitted_s = problem_.scene.step_s;
   std::vector<FitJob> jobs;
   for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
   std::vector<Fit> fits = fitAll(jobs, lastIterations, what, from, half);
@@ -74,18 +73,16 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   // the best is no winner at any step.
   std::vector<std::size_t> close, far;
   std::vector<Fit> closeFits, farFits;
-  const double least = std::min_element(fits.begin(), fits.end(), byCost)->cost;
+  const double least = std::min_element(fits.begin(), fits.end(), costsLess)->cost;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const bool isClose = fits[i].cost <= farWorse * least;
     (isClose ? close : far).push_back(which[i]);
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
   std::vector<Scored> scored = scoreAll(farFits, what, half, half);
-  if (judged_s < search_s) {
+  if (judged_s < fitted_s) {
     problem_.scene.step_s = judged_s;
-    std::vector<FitJob> again;
-    for (const Fit& fit : closeFits) again.push_back({fit.model, fit.shifts});
-    closeFits = fitAll(again, againIterations, what, half, half);
+    closeFits = fitOn(closeFits, againIterations, what, half, half);
   }
   refineStep(closeFits, 2, what, half);
   const Scored before = without;
@@ -102,10 +99,14 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     each.attempt.scored = true;
     each.passes =
         passes(without, each.scored, each.fit.model.effects.size() - 1, each.attempt.comparison, each.attempt.reason);
+    if (i < farFits.size() && each.passes) {
+      each.passes = false;
+      each.attempt.reason = tried[close[0]].attempt.candidate.text() + " fits far better";
+    }
     any = any || each.passes;
   }
   if (!any) {  // what needed the finer step is not there
-    problem_.scene.step_s = search_s;
+    problem_.scene.step_s = fitted_s;
     without = before;
   }
   return any;
@@ -121,11 +122,11 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
     return false;
   }
   if (comparison.gain < leastGain) {
-    reason = "takes only " + inPercent(comparison.gain) + " of the held-out squared error";
+    reason = "takes only " + percent(comparison.gain) + " of the held-out squared error";
     return false;
   }
   if (excess <= 0 || taken < leastShareOfExcess * excess) {
-    reason = "takes only " + inPercent(excess > 0 ? taken / excess : 0) + " of the excess error";
+    reason = "takes only " + percent(excess > 0 ? taken / excess : 0) + " of the excess error";
     return false;
   }
   const double errors = with.sizes.at(newEffect);
@@ -133,7 +134,7 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
     reason = "its size is only " + toText(std::round(10 * errors) / 10) + " standard errors";
     return false;
   }
-  reason = "takes " + inPercent(comparison.gain) +
+  reason = "takes " + percent(comparison.gain) +
            " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")";
   return true;
 }

@@ -32,7 +32,8 @@ void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
 }  // namespace
 
 int SearchRun::workersFor(std::size_t count) const {
-  return 2 * static_cast<int>(count) <= options_.jobs ? 1 : options_.jobs;
+  const bool inside = 2 * static_cast<int>(count) <= options_.jobs && problem_.segments.size() > count;
+  return inside ? 1 : options_.jobs;
 }
 
 std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
@@ -42,7 +43,7 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
     if (options_.progress && !WorkerPool::inWorker())
       options.goOn = [&, i](double share) {
         const double done = (static_cast<double>(i) + share) / static_cast<double>(jobs.size());
-        return options_.progress(stage, from + (to - from) * done);
+        return tell(stage, from + (to - from) * done);
       };
     return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, options));
   };
@@ -53,7 +54,22 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
     unpack(numbers[i], problem_, fit);
     fits.push_back(std::move(fit));
   }
+  // One that fails is no candidate; where all do, the first says why.
+  const bool any = std::any_of(numbers.begin(), numbers.end(), [](const auto& list) { return !list.empty(); });
+  if (!jobs.empty() && !any) fitOne(0);
   return fits;
+}
+
+std::vector<Fit> SearchRun::fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                                  double to) const {
+  std::vector<FitJob> jobs;
+  for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
+  return fitAll(jobs, iterations, stage, from, to);
+}
+
+void SearchRun::bringToStep(Scored& scored, const std::string& stage, double at) const {
+  if (scored.step_s == problem_.scene.step_s) return;
+  scored = scoreAll(fitOn({scored.fit}, againIterations, stage, at, at), stage, at, at)[0];
 }
 
 std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
@@ -72,7 +88,7 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
   for (std::size_t i = 0; i < fits.size(); ++i) {
     Scored scored{fits[i], std::vector<double>(static_cast<std::size_t>(problem_.blocks), 1e6),
                   Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem_.residuals()), 1e3),
-                  std::vector<double>(fits[i].model.effects.size(), 0)};
+                  std::vector<double>(fits[i].model.effects.size(), 0), problem_.scene.step_s};
     if (!numbers[i].empty()) {
       const auto blocks = static_cast<std::ptrdiff_t>(scored.blocks.size()), sizes = std::ssize(scored.sizes);
       scored.blocks.assign(numbers[i].begin(), numbers[i].begin() + blocks);
@@ -89,13 +105,12 @@ std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, cons
   constexpr int iterations = 12;
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(full);
-  std::vector<Fit> fits = fitAll(jobs, iterations, stage, from, (from + to) / 2);
+  const std::vector<Fit> fits = fitAll(jobs, iterations, stage, from, (from + to) / 2);
   std::vector<Scored> scored = scoreAll(fits, stage, (from + to) / 2, to);
-  if (problem_.scene.step_s == judged_s) return scored;
+  const double cost = residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2;
   problem_.scene.step_s = judged_s;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    if (fits[i].cost <= farWorse * full.cost)
-      scored[i] = scoreAll(fitAll({{fits[i].model, fits[i].shifts}}, againIterations, stage, to, to), stage, to, to)[0];
+    if (fits[i].cost <= farWorse * cost) bringToStep(scored[i], stage, to);
   return scored;
 }
 
@@ -140,9 +155,7 @@ void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std
   // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
   while (halve()) {
     while (halve()) continue;
-    std::vector<FitJob> jobs;
-    for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
-    fits = fitAll(jobs, againIterations, stage, at, at);
+    fits = fitOn(fits, againIterations, stage, at, at);
   }
 }
 

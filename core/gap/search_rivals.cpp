@@ -31,10 +31,15 @@ void SearchRun::prune(SearchResult& result) {
     std::vector<FitJob> jobs;
     for (std::size_t i = 0; i < result.final.fit.model.effects.size(); ++i)
       jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
-    const auto scored = fitAndScore(jobs, result.final.fit, "dropping each in turn", 0.8, 0.86);
+    auto scored = fitAndScore(jobs, result.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
-      const Comparison comparison = compare(scored[i].blocks, result.final.blocks);
-      if (comparison.t >= 2 && comparison.gain >= leastGain) continue;
+      const auto matters = [&](const Scored& dropped) {
+        const Comparison comparison = compare(dropped.blocks, result.final.blocks);
+        return comparison.t >= 2 && comparison.gain >= leastGain;
+      };
+      if (matters(scored[i])) continue;
+      bringToStep(scored[i], "dropping each in turn", 0.86);
+      if (matters(scored[i])) continue;
       const PlacedEffect& dropped = result.final.fit.model.effects[i];
       result.ladder.push_back(step("− " + dropped.effect + " at " + dropped.at, scored[i]));
       for (Attempt& attempt : result.attempts)
@@ -183,20 +188,31 @@ void SearchRun::findRivals(SearchResult& result) {
   for (int round = 1; rivalsOfEach(result) && result.effects.size() > 1 && round < mostRounds;) ++round;
 }
 
+/// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
+/// them needed.
+void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& others) {
+  constexpr int asFar = 30;
+  settle(result, false, "rivals", 0.95);
+  for (Tried& other : others) {
+    if (!other.attempt.scored || other.scored.mean() > farWorse * result.final.mean()) continue;
+    if (excessOf(result.final) >= leastToFitOn)
+      other.scored = scoreAll(fitOn({other.scored.fit}, asFar, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
+    bringToStep(other.scored, "rivals", 0.95);
+    other.fit = other.scored.fit;
+  }
+}
+
 bool SearchRun::rivalsOfEach(SearchResult& result) {
   bool replaced = false;
   result.effects.clear();
   // What replaces an effect stands last in the model; the others move up.
   for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
     Scored without;
-    const double step_s = problem_.scene.step_s;
-    const std::vector<Tried> others = inPlaceOf(i, result, without);
+    std::vector<Tried> others = inPlaceOf(i, result, without);
+    compareAtOneStep(result, others);
     // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
     const bool changed = replace(i, others, result);
-    if (changed)
-      result.final = converged(result.final, "rivals", 0.95);
-    else
-      problem_.scene.step_s = step_s;
+    if (changed) settle(result, true, "rivals", 0.95);
     replaced = replaced || changed;
     const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;

@@ -16,11 +16,11 @@ inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.0
 inline constexpr double unexplainedExcess =
     0.3;  // mean squared error above 1 at which more is tried than single effects
 
-inline constexpr int againIterations = 3;  // after the step was made finer
-inline constexpr double farWorse = 2;      // by cost: no winner at any step
+inline constexpr int againIterations = 3;    // after the step was made finer
+inline constexpr double farWorse = 2;        // by cost: no winner at any step
+inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at which what was accepted is fitted on
 
-std::string inPercent(double share);  ///< with one digit behind the point
-inline bool byCost(const Fit& a, const Fit& b) { return a.cost < b.cost; }
+inline bool costsLess(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 
 /// One search from calibration to rivals.
 class SearchRun {
@@ -57,15 +57,24 @@ class SearchRun {
     if (!options_.progress) return {};
     return [this, stage, count, from, to](std::size_t done) {
       const double share = count > 0 ? static_cast<double>(done) / static_cast<double>(count) : 1;
-      return options_.progress(stage, from + (to - from) * share);
+      return tell(stage, from + (to - from) * share);
     };
   }
 
-  /// Few jobs run one after another, the segments of each in all workers.
+  /// Tells whoever waits; shares never go back.
+  bool tell(const std::string& stage, double share) const {
+    told_ = std::max(told_, share);
+    return options_.progress(stage, told_);
+  }
+  /// Few jobs run one after another, the segments of each in all workers, where there are enough of them.
   int workersFor(std::size_t count) const;
-  /// A fit that fails costs infinitely much.
+  /// A fit that fails costs infinitely much; where all do, the first one's error is thrown.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
+  std::vector<Fit> fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                         double to) const;
+  /// What was scored with another step is fitted on and scored with the present one: only then it can be compared.
+  void bringToStep(Scored& scored, const std::string& stage, double at) const;
   /// Fits models that lack something of `full` with a step that it bears, and scores them; those that come near it are
   /// fitted on at the present step.
   std::vector<Scored> fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
@@ -74,15 +83,17 @@ class SearchRun {
   Scored calibrate();
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);
+  /// The final model converged or brought to the present step, and its rung of the ladder with it.
+  void settle(SearchResult& result, bool fitToTheEnd, const std::string& stage, double at);
   /// All candidates, screened and, where they promise something, fitted, scored and compared with `without`; scored
   /// ones first, best first. Fits begin from any of the models, of which the first is that of `without`, with its
-  /// sensitivities if they are known; `without` is scored again where the step becomes finer. With `lastChance` all
-  /// that promise anything are fitted before none is said to help.
+  /// sensitivities if they are known. Where something passes that needs a finer step, that step stays and `without` is
+  /// scored with it. With `lastChance` all that promise anything are fitted before none is said to help.
   std::vector<Tried> tryCandidates(Scored& without, const std::vector<Fit>& models, const Linearised* known,
                                    std::size_t toFit, const std::string& stage, double from, double to,
                                    bool lastChance = false);
-  /// Fits some of them to the end and scores them with the step `judged_s` or a finer one; true if one passes. The step
-  /// stays as it was if none does.
+  /// Fits some of them to the end and scores those that come near the best with the step `judged_s` or a finer one, of
+  /// which one may pass; true if one does. The step stays as it was if none does.
   bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without, double judged_s,
                const std::string& stage, double from, double to);
   /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
@@ -97,7 +108,7 @@ class SearchRun {
               std::string& reason) const;
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
-  bool tryPair(Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
   void holdUntold(SearchResult& result) const;
   void prune(SearchResult& result);
   void takeApart(SearchResult& result);
@@ -107,6 +118,7 @@ class SearchRun {
   /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   void findRivals(SearchResult& result);
+  void compareAtOneStep(SearchResult& result, std::vector<Tried>& others);
   bool rivalsOfEach(SearchResult& result);  ///< true if an effect was replaced
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;
@@ -121,6 +133,7 @@ class SearchRun {
   const SearchOptions& options_;
   double finest_s_;      ///< an eighth of the scene's step: a servo in and out of saturation needs it
   double search_s_ = 0;  ///< the step that the calibrated simulator needs
+  mutable double told_ = 0;
   std::vector<Tried> firstStage_;
 };
 

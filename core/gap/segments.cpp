@@ -73,7 +73,8 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       add(Nuisance::What::jointPosition, measured.part, std::max(noise, local.known ? local.valueError : noise));
       // A line through the first samples says "at rest" of all that is slower than its noise: a servo with a heavy
       // rotor may still swing then.
-      add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
+      if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
+        add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
       const Local local = localParabola(time, values, row, reach_s, noise);
       if (!local.known) continue;

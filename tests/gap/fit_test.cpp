@@ -1,0 +1,74 @@
+// Fits in worker processes against the same fits without, and what they tell while they run.
+#include "core/gap/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/gap/analysis.h"
+#include "core/spec/error.h"
+#include "tests/gap/recorded_hinge.h"
+
+namespace btr {
+namespace {
+
+/// As long as if a replay took a minute: the workers are always worth it.
+FitProblem slowProblem(int jobs) {
+  FitProblem problem = makeFitProblem(recordedFrom({{{"robots.rig.servos.hinge.p", 7}}, {}}),
+                                      recordedFrom({{{"robots.rig.servos.hinge.p", 7}}, {}}).recordings, library());
+  problem.jobs = jobs;
+  problem.replay_s = 60;
+  return problem;
+}
+
+TEST(Fit, InWorkersGivesTheSameBits) {
+  const FitProblem alone = slowProblem(1), together = slowProblem(3);
+  ASSERT_GT(alone.segments.size(), 3u);
+  const Fit one = fitModel(alone, givenModel(alone), {}, {8}),
+            three = fitModel(together, givenModel(together), {}, {8});
+  EXPECT_EQ(one.cost, three.cost);
+  EXPECT_EQ(one.model.values, three.model.values);
+  EXPECT_EQ(one.shifts, three.shifts);
+  EXPECT_NEAR(one.model.values[0], 7, 0.05);
+  const Linearised a = linearise(alone, one), b = linearise(together, three);
+  EXPECT_EQ(a.raw, b.raw);
+  EXPECT_EQ(a.columns, b.columns);
+  // Another model whose first columns are inherited.
+  const FitModel with = one.model.with(alone, {"coulomb_friction", "rig.hinge", {{"torque_nm", 0.01}}});
+  const Fit inherits = fitModel(alone, with, one.shifts, {8, false, &a}),
+            inheritsToo = fitModel(together, with, three.shifts, {8, false, &b});
+  EXPECT_EQ(inherits.cost, inheritsToo.cost);
+  EXPECT_EQ(inherits.model.values, inheritsToo.model.values);
+}
+
+TEST(Fit, SaysHowFarItIsAndCanBeCancelled) {
+  const FitProblem problem = slowProblem(1);
+  std::vector<double> shares;
+  FitOptions options{8};
+  options.goOn = [&](double share) {
+    shares.push_back(share);
+    return true;
+  };
+  fitModel(problem, givenModel(problem), {}, options);
+  ASSERT_GT(shares.size(), 3u);
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_LE(shares.back(), 1);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  int calls = 0;
+  options.goOn = [&](double) { return ++calls < 2; };
+  EXPECT_THROW(fitModel(problem, givenModel(problem), {}, options), Cancelled);
+  EXPECT_EQ(calls, 2);
+}
+
+TEST(Fit, WhatFailsInAWorkerSaysWhyAsItDoesWithout) {
+  for (const int jobs : {1, 3}) {
+    const FitProblem problem = slowProblem(jobs);
+    FitModel model = givenModel(problem);
+    model.parameters[0].name = "robots.rig.servos.no_such_joint.p";
+    EXPECT_THROW(fitModel(problem, model, {}, {4}), InputError) << jobs;
+  }
+}
+
+}  // namespace
+}  // namespace btr

@@ -248,8 +248,12 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
                   const AnalysisProgress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
-  FitProblem problem = makeFitProblem(given, given.recordings, library);
-  problem.jobs = options.jobs;
+  const auto prepare = [&](const std::vector<Recording>& recordings, double window_s) {
+    FitProblem ready = makeFitProblem(given, recordings, library, window_s);
+    ready.jobs = options.jobs;
+    return ready;
+  };
+  FitProblem problem = prepare(given.recordings, -1);
   SearchOptions search;
   search.jobs = options.jobs;
   search.maximumEffects = options.maximumEffects;
@@ -259,8 +263,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   SearchResult found = searchEffects(problem, search);
   if (found.unstable) {
     // A loop near its limit of stability: a hair of a parameter decides where a free run ends.
-    problem = makeFitProblem(given, given.recordings, library, 1);
-    problem.jobs = options.jobs;
+    problem = prepare(given.recordings, 1);
     problem.notes.push_back("free runs hang on the last digits of the parameters: windows of 1 s instead");
     found = searchEffects(problem, search);
   }
@@ -298,9 +301,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addSeries(report, problem, found, false);
   if (!given.heldOut.empty()) {
     if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
-    FitProblem heldOut = makeFitProblem(given, given.heldOut, library, problem.window_s);
+    FitProblem heldOut = prepare(given.heldOut, problem.window_s);
     heldOut.scene.step_s = problem.scene.step_s;
-    heldOut.jobs = options.jobs;
     addSeries(report, heldOut, found, true);
   }
   if (progress && !progress("locating", 0.96)) throw Cancelled{};

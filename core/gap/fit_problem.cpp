@@ -1,7 +1,6 @@
 #include "core/gap/fit_problem.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -95,16 +94,14 @@ double nonlinearity(const FitProblem& problem, const Segment& segment) {
   return deviation > static_cast<double>(none.size()) ? std::sqrt(deviation / answer) : 0;
 }
 
-/// Residuals of all segments from their estimated starts, and how long that takes.
-std::vector<double> plainResiduals(FitProblem& problem) {
-  const auto begin = std::chrono::steady_clock::now();
+/// Residuals of all segments from their estimated starts.
+std::vector<double> plainResiduals(const FitProblem& problem) {
   std::vector<double> all;
   for (const Segment& segment : problem.segments) {
     const auto part = residualsOf(problem, segment, problem.sceneOf(problem.given, segment.trial),
                                   std::vector<double>(segment.nuisances.size(), 0));
     all.insert(all.end(), part.begin(), part.end());
   }
-  problem.replay_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return all;
 }
 
@@ -144,6 +141,15 @@ std::size_t FitProblem::residuals() const {
   std::size_t count = 0;
   for (const Segment& segment : segments) count += segment.row.size();
   return count;
+}
+
+double FitProblem::steps() const {
+  double length_s = 0;
+  for (const Segment& segment : segments) {
+    const std::vector<double>& time = trials[segment.trial].recording.columns[0];
+    length_s += time[segment.last - 1] - time[segment.first];
+  }
+  return length_s / scene.step_s;
 }
 
 FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording>& recordings,
@@ -203,10 +209,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
                             " s from the recorded state: free runs would show where errors have drifted to");
   }
   cutSegments(ready, window_s);
-  if (ready.mayCoarsen)
-    chooseStep(ready);
-  else
-    plainResiduals(ready);
+  if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }
 

@@ -61,12 +61,13 @@ struct FitProblem {
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
   double differenceStep = 1e-2;
   std::vector<std::string> notes;
-  int jobs = 1;         ///< worker processes for the segments of one evaluation; changes no result
-  double replay_s = 0;  ///< computing time of a replay of all segments
+  int jobs = 1;  ///< worker processes for the segments of one evaluation; changes no result
 
   /// The scene of a trial in a simulator, its own settings over it.
   Scene sceneOf(const SimulatorSpec& simulator, std::size_t trial) const;
   std::size_t residuals() const;
+  /// Simulated steps of a replay of all segments.
+  double steps() const;
 };
 
 /// Binds, estimates noise floors and initial states, decides between free runs and windows (free runs where an error

@@ -140,7 +140,7 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
     shapeName = name;
   }
   if (next.separation <= 0) return next;
-  next.why = "separates " + inWords(GapReport::Rival{doubted->effect.effect, doubted->effect.at}) + " from " +
+  next.why = "separates " + inWords(doubted->effect.effect) + " at " + doubted->effect.at + " from " +
              inWords(doubted->rivals[0]) + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +
              toText(length_s) + " s)";
   return next;

@@ -41,8 +41,8 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
 
 std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
                                            const std::function<std::vector<double>(std::size_t)>& f) {
-  constexpr double worthAFork_s = 0.02;
-  const bool worth = replays * problem.replay_s > worthAFork_s;
+  constexpr double worthAFork = 5000;  // steps of at least 3 µs; a fork takes about a millisecond
+  const bool worth = problem.jobs > 1 && replays * problem.steps() > worthAFork;
   auto results = parallel(worth ? problem.jobs : 1, problem.segments.size(), f);
   // What failed in a worker fails here again, and says why.
   for (std::size_t s = 0; s < results.size(); ++s)

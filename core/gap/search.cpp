@@ -49,9 +49,8 @@ Scored SearchRun::calibrate() {
 
 /// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
 Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
-  constexpr int iterations = 30;
   if (excessOf(scored) < leastToFitOn) return scored;
-  std::vector<Fit> fits = fitAll({{scored.fit.model, scored.fit.shifts}}, iterations, stage, at, at);
+  std::vector<Fit> fits = fitOn({scored.fit}, toTheEnd, stage, at, at);
   climbWholeNumbers(fits[0], stage, at);
   refineStep(fits, 1, stage, at);
   const Scored better = scoreAll(fits, stage, at, at)[0];

@@ -20,6 +20,12 @@ struct Start {
   double left;  ///< squared error that it promises to leave
 };
 
+/// A model that candidates are added to.
+struct Base {
+  Fit fit;
+  Linearised linear;
+};
+
 /// What a candidate promises from all bases together.
 struct Promise {
   bool excited = false;
@@ -123,7 +129,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
         tried[owner[i]].attempt.fitted = true;
       }
   };
-  const auto fitsBetter = [&](std::size_t a, std::size_t b) { return tried[a].fit.cost < tried[b].fit.cost; };
+  const auto fitsBetter = [&](std::size_t a, std::size_t b) { return costsLess(tried[a].fit, tried[b].fit); };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
     if (tried[k].attempt.excited && !promises[tried[k].promise].starts.empty() &&
@@ -142,7 +148,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (std::size_t k = again.size(); k < promising.size(); ++k)
     if (isContained(promising[k], again)) again.push_back(promising[k]);
   fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
-  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.fit.cost < b.fit.cost; });
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
 
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
   // contain; if none of them will do, the next ones.

@@ -64,9 +64,9 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   if (which.empty()) return false;
   const std::string what = "confirming" + stage;
   const double half = (from + to) / 2, fitted_s = problem_.scene.step_s;
-  std::vector<FitJob> jobs;
-  for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
-  std::vector<Fit> fits = fitAll(jobs, lastIterations, what, from, half);
+  std::vector<Fit> fits;
+  for (const std::size_t k : which) fits.push_back(tried[k].fit);
+  fits = fitOn(fits, lastIterations, what, from, half);
   shake(fits, what, half);
 
   // Effects may need finer steps than the simulator without them: friction at reversals, play. What fits far worse than

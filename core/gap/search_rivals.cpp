@@ -191,12 +191,11 @@ void SearchRun::findRivals(SearchResult& result) {
 /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
 /// them needed.
 void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& others) {
-  constexpr int asFar = 30;
   settle(result, false, "rivals", 0.95);
   for (Tried& other : others) {
     if (!other.attempt.scored || other.scored.mean() > farWorse * result.final.mean()) continue;
     if (excessOf(result.final) >= leastToFitOn)
-      other.scored = scoreAll(fitOn({other.scored.fit}, asFar, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
+      other.scored = scoreAll(fitOn({other.scored.fit}, toTheEnd, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
     bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
   }

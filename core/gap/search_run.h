@@ -17,6 +17,7 @@ inline constexpr double unexplainedExcess =
     0.3;  // mean squared error above 1 at which more is tried than single effects
 
 inline constexpr int againIterations = 3;    // after the step was made finer
+inline constexpr int toTheEnd = 30;          // iterations of what was accepted, and of its rivals
 inline constexpr double farWorse = 2;        // by cost: no winner at any step
 inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at which what was accepted is fitted on
 
@@ -43,12 +44,6 @@ class SearchRun {
     std::vector<std::vector<double>> shifts;
     const Linearised* inherited = nullptr;  ///< see FitOptions
   };
-  /// A model that candidates are added to.
-  struct Base {
-    Fit fit;
-    Linearised linear;
-  };
-
   bool isConsidered(const std::string& effect) const {
     return options_.names.empty() ||
            std::find(options_.names.begin(), options_.names.end(), effect) != options_.names.end();

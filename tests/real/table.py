@@ -18,8 +18,7 @@ import subprocess
 import sys
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-SCENES = os.path.join(HERE, "..", "..", "resources", "scenes")
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "scenes")
 
 
 def scene(name):
@@ -38,12 +37,25 @@ class Fold:
 
 
 class Set:
-    """`mapping`: of the analysis alone, beside this file; scores take the scene's own."""
+    """`period_s`: the analysis takes the recordings at that period; scores take all samples."""
 
-    def __init__(self, name, analysed, folds, score, published, chosen, mapping=None):
+    def __init__(self, name, analysed, folds, score, published, chosen, period_s=None):
         self.name, self.analysed, self.folds = name, analysed, folds
         self.score, self.published, self.chosen = score, published, chosen
-        self.mapping = ["--mapping", os.path.join(HERE, mapping)] if mapping else []
+        self.period_s = period_s
+
+    def mapping(self, out):
+        """Words that give the analysis its mapping: the scene's, resampled."""
+        if not self.period_s:
+            return []
+        with open(scene(self.analysed).replace(".json", ".mapping.json"), encoding="utf-8") as file:
+            mapping = json.load(file)
+        mapping["resample"] = {"period_s": self.period_s}
+        os.makedirs(out, exist_ok=True)
+        path = os.path.join(out, self.analysed + ".mapping.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(mapping, file, indent=2)
+        return ["--mapping", path]
 
 
 def cross_validate(files, parts):
@@ -149,7 +161,7 @@ def sets(root):
                   [os.path.join(arms, name + "_freeswing_vad.csv")])],
             root_mean_square(scene("multiarm_" + name), channels), published,
             "root mean square error of each whole validation segment [rad]; analysed at 250 Hz of the recorded 1000",
-            "multiarm_%s_250hz.mapping.json" % name))
+            0.004))
 
     dfki = csv_files(os.path.join(root, "dfki_double_pendulum", "design_C1_sysid_20230629"))
     result.append(Set(
@@ -177,6 +189,7 @@ def mean_of_folds(lists):
 
 def evaluate(program, one, out, as_given_only, lines):
     given, calibrated, repaired, found = [], [], [], []
+    mapping = [] if as_given_only else one.mapping(os.path.join(out, one.name))
     for fold in one.folds:
         given.append(one.score(program, fold, None))
         if as_given_only:
@@ -184,8 +197,8 @@ def evaluate(program, one, out, as_given_only, lines):
         start = time.time()
         folder = os.path.join(out, one.name, fold.name)
         program.analyse(scene(one.analysed), fold, os.path.join(folder, "calibrated"),
-                        ["--maximum-effects", "0"] + one.mapping)
-        report = program.analyse(scene(one.analysed), fold, os.path.join(folder, "with_effects"), one.mapping)
+                        ["--maximum-effects", "0"] + mapping)
+        report = program.analyse(scene(one.analysed), fold, os.path.join(folder, "with_effects"), mapping)
         calibrated.append(one.score(program, fold, os.path.join(folder, "calibrated", "simulator.json")))
         repaired.append(one.score(program, fold, os.path.join(folder, "with_effects", "simulator.json")))
         found.append("%s: %s; %s (%.0f s)" % (

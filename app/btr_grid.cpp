@@ -40,7 +40,7 @@ std::string degrees(double rad) {
   return text;
 }
 
-void showProgress(const GridRecord& grid, const GridProgress& p) {
+void showGridProgress(const GridRecord& grid, const GridProgress& p) {
   std::fprintf(
       stderr, "\r%s, seed %llu: %s, %d/%d generations, mean of the cells' best %.3g, %.0f trials/s, left %.0f s \x1b[K",
       grid.method.c_str(), static_cast<unsigned long long>(grid.seed), p.phase.c_str(), p.done, p.total, p.meanBest,
@@ -131,7 +131,7 @@ void runGrid(const GridArguments& a, Shell& shell) {
       sha = record.specSha256;
       GridOptions options;
       options.workers = a.workers;
-      if (show) options.progress = [&](const GridProgress& p) { showProgress(record, p); };
+      if (show) options.progress = [&](const GridProgress& p) { showGridProgress(record, p); };
       if (a.progress)
         options.progress = [&](const GridProgress& p) {
           const double share = p.total ? static_cast<double>(p.done) / p.total : 0;

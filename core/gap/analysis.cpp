@@ -19,13 +19,6 @@ namespace {
 
 std::string nameOf(const Recording& recording) { return std::filesystem::path(recording.source).filename().string(); }
 
-/// What the three simulators say of a set of recordings.
-struct Simulated {
-  FitProblem problem;
-  std::vector<std::vector<std::vector<double>>>
-      values[3];  ///< as given, calibrated, with effects: by trial, channel, row
-};
-
 std::vector<std::vector<std::vector<double>>> simulateAll(const FitProblem& problem, const FitModel& model,
                                                           const std::vector<std::vector<double>>& shifts) {
   std::vector<std::vector<std::vector<double>>> values;

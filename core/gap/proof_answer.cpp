@@ -6,11 +6,11 @@
 
 namespace btr {
 namespace {
-constexpr const char* format = "uchilsim-concealed-1";
+constexpr const char* answerFormat = "uchilsim-concealed-1";
 }
 
 std::string toJsonText(const ConcealedAnswer& answer) {
-  nlohmann::json document{{"format", format},
+  nlohmann::json document{{"format", answerFormat},
                           {"seed", answer.seed},
                           {"case", answer.number},
                           {"engine", answer.engine},
@@ -35,7 +35,7 @@ std::string toJsonText(const ConcealedAnswer& answer) {
 ConcealedAnswer answerFromJson(const std::string& text, const std::string& place) {
   constexpr double largest = 1e12;
   JsonReader reader = JsonReader::parse(text, place);
-  reader.word("format", {format});
+  reader.word("format", {answerFormat});
   ConcealedAnswer answer;
   answer.seed = reader.seed("seed", 0);
   answer.number = reader.seed("case", 0);

@@ -11,8 +11,8 @@
 namespace btr {
 namespace {
 
-constexpr std::size_t columns = 9;
-using Row = std::array<std::string, columns>;
+constexpr std::size_t tableColumns = 9;
+using Row = std::array<std::string, tableColumns>;
 
 /// Three or four digits that matter, the same in every locale.
 std::string digits(double value) {
@@ -113,13 +113,13 @@ std::string residualTable(const ResidualReport& report) {
   if (overall.size() < report.channels.size())
     for (const ChannelError& mean : overall) rows.push_back(rowOf(mean));
 
-  std::array<std::size_t, columns> widths{};
+  std::array<std::size_t, tableColumns> widths{};
   for (const Row& row : rows)
-    for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], widthOf(row[i]));
+    for (std::size_t i = 0; i < tableColumns; ++i) widths[i] = std::max(widths[i], widthOf(row[i]));
   std::string text;
   for (const Row& row : rows) {
     std::string line;
-    for (std::size_t i = 0; i < columns; ++i) {
+    for (std::size_t i = 0; i < tableColumns; ++i) {
       const std::string space(widths[i] - widthOf(row[i]), ' ');
       line += (i ? "  " : "") + (i < 3 ? row[i] + space : space + row[i]);
     }

@@ -14,7 +14,7 @@ constexpr double hopeless = 4;
 constexpr std::size_t candidatesInPairs = 4;
 
 /// Where the fit of a candidate may begin.
-struct Start {
+struct FitStart {
   const Screened::Start* from;
   std::size_t base;
   double left;  ///< squared error that it promises to leave
@@ -30,7 +30,7 @@ struct Base {
 struct Promise {
   bool excited = false;
   double share = 0;  ///< of the first base's squared error
-  std::vector<Start> starts;
+  std::vector<FitStart> starts;
 };
 
 std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
@@ -38,7 +38,7 @@ std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
   std::vector<Promise> promises(screened[0].size());
   for (std::size_t c = 0; c < promises.size(); ++c) {
     Promise& promise = promises[c];
-    std::vector<Start> later;
+    std::vector<FitStart> later;
     for (std::size_t b = 0; b < screened.size(); ++b) {
       const Screened& of = screened[b][c];
       promise.excited = promise.excited || of.excited;
@@ -47,11 +47,12 @@ std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
         (&start == of.starts.data() ? promise.starts : later).push_back({&start, b, totals[b] * (1 - start.share)});
     }
     // The best that was looked at from each base, then what else was promised.
-    for (std::vector<Start>* list : {&promise.starts, &later})
-      std::stable_sort(list->begin(), list->end(), [](const Start& a, const Start& b) { return a.left < b.left; });
+    for (std::vector<FitStart>* list : {&promise.starts, &later})
+      std::stable_sort(list->begin(), list->end(),
+                       [](const FitStart& a, const FitStart& b) { return a.left < b.left; });
     promise.starts.insert(promise.starts.end(), later.begin(), later.end());
     // No fit gets from one whole number to another: the second start has another one.
-    const auto other = std::find_if(promise.starts.begin(), promise.starts.end(), [&](const Start& start) {
+    const auto other = std::find_if(promise.starts.begin(), promise.starts.end(), [&](const FitStart& start) {
       return std::any_of(candidates[c].declared.begin(), candidates[c].declared.end(), [&](const Parameter& p) {
         return p.integer && start.from->effect.at(p.name) != promise.starts[0].from->effect.at(p.name);
       });
@@ -115,7 +116,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     for (const std::size_t k : which) {
       const Promise& promise = promises[tried[k].promise];
       if (start >= promise.starts.size()) continue;
-      const Start& at = promise.starts[start];
+      const FitStart& at = promise.starts[start];
       const Base& base = bases[at.base];
       FitModel model = base.fit.model.with(problem_, tried[k].attempt.candidate.placed(at.from->effect));
       std::copy(at.from->parameters.begin(), at.from->parameters.end(), model.values.begin());

@@ -10,55 +10,52 @@
 namespace btr {
 namespace {
 
-[[noreturn]] void fail(const std::string& place, int line, const std::string& message) {
-  throw InputError(place + ":" + std::to_string(line) + ": " + message);
-}
-
 /// Eigenvalues must be those of a body with mass: positive, none larger than the sum of the others. Files have few
 /// digits, so a thin plate may miss the second by a ten thousandth.
 void checkInertia(const Link& link, const std::string& place) {
   const Eigen::Matrix3d& inertia = link.inertial.inertia_kg_m2;
   const std::string name = "link " + link.name + ": the inertia ";
-  if (!inertia.allFinite()) fail(place, link.line, name + "must be finite");
+  if (!inertia.allFinite()) throw InputError(place, link.line, name + "must be finite");
   const double size = inertia.cwiseAbs().maxCoeff();
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-6 * size)
-    fail(place, link.line, name + "must be symmetric");
+    throw InputError(place, link.line, name + "must be symmetric");
   // Scaled first: squares of very small moments would vanish.
-  if (!(size > 0)) fail(place, link.line, name + "must be positive definite");
+  if (!(size > 0)) throw InputError(place, link.line, name + "must be positive definite");
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia / size, Eigen::EigenvaluesOnly).eigenvalues();
-  if (!(moments(0) > 1e-9)) fail(place, link.line, name + "must be positive definite");
+  if (!(moments(0) > 1e-9)) throw InputError(place, link.line, name + "must be positive definite");
   if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-4))
-    fail(place, link.line,
-         name + "violates the triangle inequality: principal moments " + toText(moments(0) * size) + ", " +
-             toText(moments(1) * size) + ", " + toText(moments(2) * size) + " kg m2");
+    throw InputError(place, link.line,
+                     name + "violates the triangle inequality: principal moments " + toText(moments(0) * size) + ", " +
+                         toText(moments(1) * size) + ", " + toText(moments(2) * size) + " kg m2");
 }
 
 void checkLink(const Link& link, bool mayBeMassless, const std::string& place) {
   const Inertial& inertial = link.inertial;
   if (mayBeMassless && inertial.mass_kg == 0) return;
   if (!(inertial.mass_kg > 0) || !std::isfinite(inertial.mass_kg))
-    fail(place, link.line,
-         "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; greater than 0 is expected");
+    throw InputError(
+        place, link.line,
+        "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; greater than 0 is expected");
   if (!inertial.centreOfMass_m.allFinite())
-    fail(place, link.line, "link " + link.name + ": centre of mass must be finite");
+    throw InputError(place, link.line, "link " + link.name + ": centre of mass must be finite");
   checkInertia(link, place);
 }
 
 void checkJoint(const Joint& joint, std::size_t number, const std::string& place) {
   const std::string name = "joint " + joint.name + ": ";
   if (joint.parentLink < 0 || static_cast<std::size_t>(joint.parentLink) > number)
-    fail(place, joint.line, name + "its parent link must come before it");
-  if (!joint.origin.matrix().allFinite()) fail(place, joint.line, name + "its place must be finite");
+    throw InputError(place, joint.line, name + "its parent link must come before it");
+  if (!joint.origin.matrix().allFinite()) throw InputError(place, joint.line, name + "its place must be finite");
   if (joint.type == Joint::Type::fixed) return;
   if (!(std::abs(joint.axis.stableNorm() - 1) < 1e-6))
-    fail(place, joint.line,
-         name + "axis " + toText(joint.axis.x()) + " " + toText(joint.axis.y()) + " " + toText(joint.axis.z()) +
-             " is not allowed; a unit vector is expected");
+    throw InputError(place, joint.line,
+                     name + "axis " + toText(joint.axis.x()) + " " + toText(joint.axis.y()) + " " +
+                         toText(joint.axis.z()) + " is not allowed; a unit vector is expected");
   if (!(joint.lower < joint.upper))
-    fail(place, joint.line,
-         name + "limits " + toText(joint.lower) + " and " + toText(joint.upper) +
-             " are not allowed; the lower must be less than the upper");
+    throw InputError(place, joint.line,
+                     name + "limits " + toText(joint.lower) + " and " + toText(joint.upper) +
+                         " are not allowed; the lower must be less than the upper");
 }
 
 /// Finds two things of the same name.
@@ -68,9 +65,9 @@ class Names {
   void add(const std::string& name, int line) {
     const auto [first, isNew] = lines_.try_emplace(name, line);
     if (!isNew)
-      fail(place_, line,
-           "a second " + what_ + " \"" + name + "\" is not allowed; the first is in line " +
-               std::to_string(first->second));
+      throw InputError(place_, line,
+                       "a second " + what_ + " \"" + name + "\" is not allowed; the first is in line " +
+                           std::to_string(first->second));
   }
 
  private:
@@ -90,14 +87,14 @@ void checkModel(const RobotModel& model, const std::string& place) {
   Names links("link", place), joints("joint", place), ids("joint with jointId", place), sensors("sensor", place);
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const Link& link = model.links[i];
-    if (link.name.empty()) fail(place, link.line, "a link without a name is not allowed");
+    if (link.name.empty()) throw InputError(place, link.line, "a link without a name is not allowed");
     links.add(link.name, link.line);
     // A base that stands in the world needs no mass.
     checkLink(link, i == 0 && !model.freeBase, place);
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    if (joint.name.empty()) fail(place, joint.line, "a joint without a name is not allowed");
+    if (joint.name.empty()) throw InputError(place, joint.line, "a joint without a name is not allowed");
     joints.add(joint.name, joint.line);
     if (joint.id >= 0) ids.add(std::to_string(joint.id), joint.line);
     checkJoint(joint, i, place);

@@ -65,9 +65,7 @@ class UrdfReader {
   }
 
  private:
-  [[noreturn]] void fail(int line, const std::string& message) const {
-    throw InputError(place_ + ":" + std::to_string(line) + ": " + message);
-  }
+  [[noreturn]] void fail(int line, const std::string& message) const { throw InputError(place_, line, message); }
   [[noreturn]] void fail(const XMLElement& element, const std::string& message) const {
     fail(element.GetLineNum(), message);
   }

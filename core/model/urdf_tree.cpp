@@ -8,10 +8,6 @@
 namespace btr {
 namespace {
 
-[[noreturn]] void fail(const std::string& place, int line, const std::string& message) {
-  throw InputError(place + ":" + std::to_string(line) + ": " + message);
-}
-
 class TreeMaker {
  public:
   TreeMaker(UrdfTree tree, const std::string& place) : tree_(std::move(tree)), place_(place) {}
@@ -32,7 +28,7 @@ class TreeMaker {
       add(step, open);
     }
     if (reached_.size() != tree_.links.size())
-      fail(place_, lineOfCycle(), "the joints form a cycle; a tree is expected");
+      throw InputError(place_, lineOfCycle(), "the joints form a cycle; a tree is expected");
     model_.freeBase = model_.links.front().inertial.mass_kg > 0;
     return std::move(model_);
   }
@@ -48,7 +44,8 @@ class TreeMaker {
   std::size_t linkOf(const std::string& name, const UrdfJoint& joint) const {
     const auto found = tree_.linkNumber.find(name);
     if (found == tree_.linkNumber.end())
-      fail(place_, joint.joint.line, "joint " + joint.joint.name + ": there is no link \"" + name.substr(0, 40) + "\"");
+      throw InputError(place_, joint.joint.line,
+                       "joint " + joint.joint.name + ": there is no link \"" + name.substr(0, 40) + "\"");
     return found->second;
   }
 
@@ -61,9 +58,9 @@ class TreeMaker {
       const std::size_t child = linkOf(joint.child, joint);
       below_[linkOf(joint.parent, joint)].push_back(i);
       if (parentJoint_[child] != none)
-        fail(place_, joint.joint.line,
-             "link \"" + joint.child.substr(0, 40) + "\" has a second parent; the first is in line " +
-                 std::to_string(tree_.joints[parentJoint_[child]].joint.line));
+        throw InputError(place_, joint.joint.line,
+                         "link \"" + joint.child.substr(0, 40) + "\" has a second parent; the first is in line " +
+                             std::to_string(tree_.joints[parentJoint_[child]].joint.line));
       parentJoint_[child] = i;
     }
   }
@@ -73,11 +70,13 @@ class TreeMaker {
     for (std::size_t i = 0; i < tree_.links.size(); ++i) {
       if (parentJoint_[i] != none) continue;
       if (root != none)
-        fail(place_, tree_.links[i].link.line,
-             "a second root link \"" + tree_.links[i].link.name.substr(0, 40) + "\" is not allowed; one is expected");
+        throw InputError(
+            place_, tree_.links[i].link.line,
+            "a second root link \"" + tree_.links[i].link.name.substr(0, 40) + "\" is not allowed; one is expected");
       root = i;
     }
-    if (root == none) fail(place_, tree_.links.front().link.line, "the joints form a cycle; one root link is expected");
+    if (root == none)
+      throw InputError(place_, tree_.links.front().link.line, "the joints form a cycle; one root link is expected");
     return root;
   }
 
@@ -110,8 +109,8 @@ class TreeMaker {
     reached_.insert(number);
     UrdfLink& child = tree_.links[number];
     if (source.floating)
-      fail(place_, source.joint.line,
-           "joint " + source.joint.name + ": floating is allowed only between an empty root and the base");
+      throw InputError(place_, source.joint.line,
+                       "joint " + source.joint.name + ": floating is allowed only between an empty root and the base");
     const Eigen::Isometry3d origin = step.offset * source.joint.origin;
 
     // Frames without mass, and the mass of a base whose root link is only a name, belong to their parent.

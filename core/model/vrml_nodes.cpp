@@ -212,7 +212,7 @@ void Document::warn(int file, int line, const std::string& text) {
 }
 
 void Document::fail(const Node& node, const std::string& message) const {
-  throw InputError(places[static_cast<std::size_t>(node.file)] + ":" + std::to_string(node.line) + ": " + message);
+  throw InputError(places[static_cast<std::size_t>(node.file)], node.line, message);
 }
 
 }  // namespace btr::vrml

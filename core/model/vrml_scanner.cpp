@@ -49,9 +49,7 @@ Scanner::Scanner(std::string_view text, std::string place, const ModelBudget& bu
   next_ = scan();
 }
 
-void Scanner::fail(int line, const std::string& message) const {
-  throw InputError(place_ + ":" + std::to_string(line) + ": " + message);
-}
+void Scanner::fail(int line, const std::string& message) const { throw InputError(place_, line, message); }
 
 Token Scanner::take() {
   const Token token = next_;

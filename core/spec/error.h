@@ -9,9 +9,13 @@ namespace btr {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  /// "PLACE: VALUE is not allowed; ALLOWED", for example "kick.json /learner/settings/population: 1 is not allowed; 2 to 10000".
+  /// "PLACE: VALUE is not allowed; ALLOWED", for example "kick.json /learner/settings/population: 1 is not allowed; 2
+  /// to 10000".
   InputError(const std::string& place, const std::string& value, const std::string& allowed)
       : std::runtime_error(place + ": " + value + " is not allowed; " + allowed) {}
+  /// "FILE:LINE: MESSAGE".
+  InputError(const std::string& file, int line, const std::string& message)
+      : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 
 }  // namespace btr

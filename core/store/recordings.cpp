@@ -6,7 +6,7 @@
 namespace btr {
 namespace {
 
-constexpr const char* columns =
+constexpr const char* recordingColumns =
     "SELECT id, experiment_id, individual_id, name, sha256, mapping_json, source, added_at FROM recording ";
 
 RecordingRecord recordingOf(const Query& row) {
@@ -37,7 +37,8 @@ Id Database::addRecording(const RecordingRecord& r) {
 std::vector<RecordingRecord> Database::recordings(Id experiment) const {
   return connection_->read([&] {
     std::vector<RecordingRecord> all;
-    for (Query row(*connection_, (std::string(columns) + "WHERE experiment_id = ? ORDER BY id").c_str(), experiment);
+    for (Query row(*connection_, (std::string(recordingColumns) + "WHERE experiment_id = ? ORDER BY id").c_str(),
+                   experiment);
          row.next();)
       all.push_back(recordingOf(row));
     return all;
@@ -46,7 +47,7 @@ std::vector<RecordingRecord> Database::recordings(Id experiment) const {
 
 RecordingRecord Database::recording(Id id) const {
   return connection_->read([&] {
-    Query row(*connection_, (std::string(columns) + "WHERE id = ?").c_str(), id);
+    Query row(*connection_, (std::string(recordingColumns) + "WHERE id = ?").c_str(), id);
     if (!row.next()) refuseUnknown(*connection_, "recording", id);
     RecordingRecord r = recordingOf(row);
     r.csv = Query(*connection_, "SELECT csv FROM recording_data WHERE recording_id = ?", id)

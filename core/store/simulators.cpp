@@ -31,10 +31,10 @@ SimulatorRecord simulatorOf(const Connection& connection, const Query& row) {
   return s;
 }
 
-constexpr const char* columns =
+constexpr const char* simulatorColumns =
     "SELECT id, run_id, number, parent_id, made_by, evidence, made_after_generation, created_at FROM simulator ";
 
-std::string sql(const char* rest) { return std::string(columns) + rest; }
+std::string sql(const char* rest) { return std::string(simulatorColumns) + rest; }
 
 }  // namespace
 

@@ -22,7 +22,7 @@ std::vector<double> timesOf(std::size_t count, double period, double wobble) {
   return times;
 }
 
-Recording recordingOf(const std::vector<double>& times) {
+Recording swingAt(const std::vector<double>& times) {
   Recording recording;
   recording.channels = {"time_s", "leg.knee.position_rad", "remark"};
   recording.columns.resize(3);
@@ -36,7 +36,7 @@ Recording recordingOf(const std::vector<double>& times) {
 
 TEST(Doctor, FindsNothingOddInAnEvenOrSlightlyUnevenRecording) {
   for (const double wobble : {0.0, 0.0004}) {
-    const RecordingHealth health = examine(recordingOf(timesOf(1000, 0.005, wobble)));
+    const RecordingHealth health = examine(swingAt(timesOf(1000, 0.005, wobble)));
     EXPECT_NEAR(health.period_s, 0.005, 3 * wobble + 1e-12);
     EXPECT_THAT(health.gaps, IsEmpty());
     EXPECT_THAT(health.findings, IsEmpty());
@@ -49,7 +49,7 @@ TEST(Doctor, CountsDroppedSamples) {
   std::vector<double> times = timesOf(1000, 0.005, 0.0003);
   times.erase(times.begin() + 700, times.begin() + 707);
   times.erase(times.begin() + 300);
-  const RecordingHealth health = examine(recordingOf(times));
+  const RecordingHealth health = examine(swingAt(times));
   ASSERT_EQ(health.gaps.size(), 2u);
   EXPECT_EQ(health.gaps[0].row, 300u);
   EXPECT_EQ(health.gaps[0].missing, 1);
@@ -64,11 +64,11 @@ TEST(Doctor, TakesAnotherRhythmForNoPause) {
   std::vector<double> times;
   for (double t = 0; t < 2; t += 0.0053) times.push_back(t);
   for (double t = times.back() + 0.0035; t < 6; t += 0.0035) times.push_back(t);
-  EXPECT_THAT(examine(recordingOf(times)).gaps, IsEmpty());
+  EXPECT_THAT(examine(swingAt(times)).gaps, IsEmpty());
 }
 
 TEST(Doctor, NamesCountsEmptyCellsAndHolds) {
-  Recording recording = recordingOf(timesOf(1000, 0.005, 0));
+  Recording recording = swingAt(timesOf(1000, 0.005, 0));
   auto& position = recording.columns[1];
   for (double& value : position) value = std::round(value / 0.0015) * 0.0015;
   for (std::size_t i = 400; i < 500; ++i) position[i] = position[400];

@@ -6,16 +6,13 @@
 
 #include "core/gap/analysis.h"
 #include "core/gap/replay.h"
-#include "core/plugin/plugin_host.h"
 #include "core/spec/random.h"
 #include "tests/gap/scene_of.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 
-inline const PluginHost& host() {
-  static const PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 inline EffectLibrary library() { return {host().effectFactory(), host().effects()}; }
 
 /// The rig's hinge with a servo; p and d are what the user does not trust. The rail stays where it is.

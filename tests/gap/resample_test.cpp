@@ -79,14 +79,14 @@ TEST(Resample, RefusesAFilterThatTheRecordingCannotCarry) {
   EXPECT_THROW(resampled(unevenSine(), {100, 0}), InputError);
 }
 
-Mapping mappingOf(const std::string& more, const std::string& place = "m.json") {
+Mapping mappingWith(const std::string& more, const std::string& place = "m.json") {
   return mappingFromJson(R"({"time_s": {"column": "t"}, )" + more + "}", place);
 }
 
 TEST(Trials, ASegmentColumnDividesTheFile) {
   const TemporaryFolder folder;
   const std::string path = folder.write("swing.csv", "t,q,piece\n0,1,0\n1,2,0\n2,3,4\n3,4,4\n4,5,4\n");
-  const Mapping mapping = mappingOf(R"("leg.knee.position_rad": {"column": "q"}, "segments": {"column": "piece"})");
+  const Mapping mapping = mappingWith(R"("leg.knee.position_rad": {"column": "q"}, "segments": {"column": "piece"})");
   const auto trials = loadTrials(path, &mapping);
   ASSERT_EQ(trials.size(), 2u);
   EXPECT_EQ(trials[0].rows(), 2u);
@@ -99,7 +99,7 @@ TEST(Trials, ASegmentColumnDividesTheFile) {
 TEST(Trials, AMissingSegmentColumnIsNamed) {
   const TemporaryFolder folder;
   const std::string path = folder.write("swing.csv", "t,q\n0,1\n1,2\n");
-  const Mapping mapping = mappingOf(R"("leg.knee.position_rad": {"column": "q"}, "segments": {"column": "piece"})");
+  const Mapping mapping = mappingWith(R"("leg.knee.position_rad": {"column": "q"}, "segments": {"column": "piece"})");
   try {
     loadTrials(path, &mapping);
     FAIL();
@@ -111,14 +111,14 @@ TEST(Trials, AMissingSegmentColumnIsNamed) {
 TEST(Trials, ColumnsAreAddedWithTheirScales) {
   const TemporaryFolder folder;
   const std::string path = folder.write("arm.csv", "t,a,b\n0,1,5\n1,2,7\n");
-  const Mapping mapping = mappingOf(
+  const Mapping mapping = mappingWith(
       R"("arm.elbow.position_rad": {"column": "b", "scale": 2, "offset": 1, "add": [{"column": "a", "scale": -1},
          {"column": "absent", "optional": true}]}, "arm.shoulder.position_rad": {"column": "a", "compare": false})");
   const Recording recording = loadRecording(path, &mapping);
   EXPECT_EQ(recording.columns[static_cast<std::size_t>(recording.column("arm.elbow.position_rad"))],
             (std::vector<double>{2 * 5 + 1 - 1, 2 * 7 + 1 - 2}));
   EXPECT_EQ(recording.notCompared, std::vector<std::string>{"arm.shoulder.position_rad"});
-  const Mapping needed = mappingOf(R"("arm.elbow.position_rad": {"column": "b", "add": [{"column": "absent"}]})");
+  const Mapping needed = mappingWith(R"("arm.elbow.position_rad": {"column": "b", "add": [{"column": "absent"}]})");
   EXPECT_THROW(loadRecording(path, &needed), InputError);
 }
 
@@ -128,7 +128,7 @@ TEST(Trials, AMappingMayResample) {
   for (int i = 0; i < 400; ++i) text += std::to_string(i) + "e-3," + std::to_string(i) + "\n";
   const std::string path = folder.write("arm.csv", text);
   const Mapping mapping =
-      mappingOf(R"("arm.elbow.position_rad": {"column": "q"}, "resample": {"period_s": 0.01, "lowpass_hz": 20})");
+      mappingWith(R"("arm.elbow.position_rad": {"column": "q"}, "resample": {"period_s": 0.01, "lowpass_hz": 20})");
   const Recording recording = loadRecording(path, &mapping);
   ASSERT_EQ(recording.rows(), 40u);
   EXPECT_NEAR(recording.columns[1][20], 200, 1e-2);

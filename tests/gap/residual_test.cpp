@@ -29,7 +29,7 @@ std::vector<double> unevenTimes(std::size_t count) {
   return times;
 }
 
-Recording recordingOf(std::vector<double> times) {
+Recording recordingAt(std::vector<double> times) {
   Recording recording;
   recording.source = "trial.csv";
   recording.channels = {"time_s"};
@@ -81,7 +81,7 @@ const std::string servo = R"("hinge": {"p": 6, "d": 0.05, "max_torque_nm": 1.5},
 
 TEST(Residual, IsZeroForARecordingThatTheSameWorldMade) {
   const Scene scene = rigScene(servo);
-  Recording recording = recordingOf(unevenTimes(400));
+  Recording recording = recordingAt(unevenTimes(400));
   const auto command = addColumn(recording, "rig.hinge.command_rad", [](double t) { return 0.6 * std::sin(7 * t); });
   const Driven driven =
       drive(scene, recording.columns[0], 0, 0, [&](std::size_t row) { return JointInput{.command = command[row]}; });
@@ -100,7 +100,7 @@ TEST(Residual, IsZeroForARecordingThatTheSameWorldMade) {
 TEST(Residual, OfAShiftedSensorIsTheShift) {
   // The joint rests at its command; the sensor says 0.02 rad more after the start.
   const Scene scene = rigScene(servo);
-  Recording recording = recordingOf(unevenTimes(300));
+  Recording recording = recordingAt(unevenTimes(300));
   addColumn(recording, "rig.hinge.command_rad", [](double) { return 0; });
   auto& position = addColumn(recording, "rig.hinge.position_rad", [](double t) { return t > 0.5 ? 0.02 : 0; });
   const auto shifted = static_cast<double>(std::count(position.begin(), position.end(), 0.02));
@@ -115,7 +115,7 @@ TEST(Residual, OfAShiftedSensorIsTheShift) {
 TEST(Residual, OfAConstantForceIsTheParabolaOfTheWrongMass) {
   // Truth: 2.5 kg; the scene says 2 kg. x = F t²/(2m), force held from the first row.
   const Scene scene = rigScene(R"("hinge": {"drive": "none"}, "rail": {"drive": "force"})");
-  Recording recording = recordingOf(unevenTimes(200));
+  Recording recording = recordingAt(unevenTimes(200));
   const double t0 = recording.columns[0][0];
   addColumn(recording, "rig.rail.force_n", [](double) { return 3; });
   addColumn(recording, "rig.rail.position_m", [&](double t) { return 3 * (t - t0) * (t - t0) / (2 * 2.5); });
@@ -130,7 +130,7 @@ TEST(Residual, OfAConstantForceIsTheParabolaOfTheWrongMass) {
 TEST(Residual, TakesTheCommandAtItsTimeHoweverUnevenTheTimes) {
   // A force from 0.5 s to 0.5 s + one long pause: momentum is force × the pause, not force × a nominal period.
   const Scene scene = rigScene(R"("hinge": {"drive": "none"}, "rail": {"drive": "force"})");
-  Recording recording = recordingOf(unevenTimes(200));
+  Recording recording = recordingAt(unevenTimes(200));
   const std::vector<double> times = recording.columns[0];
   auto& force = addColumn(recording, "rig.rail.force_n", [](double) { return 0; });
   force[100] = 10;
@@ -147,7 +147,7 @@ TEST(Residual, TakesTheCommandAtItsTimeHoweverUnevenTheTimes) {
 
 TEST(Residual, HoldsTheLastInputOverEmptyCells) {
   const Scene scene = rigScene(R"("hinge": {"drive": "none"}, "rail": {"drive": "force"})");
-  Recording recording = recordingOf({0, 0.1, 0.2, 0.3});
+  Recording recording = recordingAt({0, 0.1, 0.2, 0.3});
   auto& force = addColumn(recording, "rig.rail.force_n", [](double) { return 4; });
   force[1] = force[2] = nothing;
   addColumn(recording, "rig.rail.velocity_m_s", [](double) { return 0; });
@@ -161,7 +161,7 @@ TEST(Residual, SwingsFreelyWhileTheServoIsSwitchedOff) {
   const Scene scene = rigScene(servo);
   std::vector<double> times;
   for (int i = 0; i < 400; ++i) times.push_back(0.005 * i);
-  Recording recording = recordingOf(times);
+  Recording recording = recordingAt(times);
   addColumn(recording, "rig.hinge.command_rad", [](double) { return 0.4; });
   addColumn(recording, "rig.hinge.enabled", [](double) { return 0; });
   addColumn(recording, "rig.hinge.position_rad", [](double) { return 0.4; });
@@ -185,7 +185,7 @@ TEST(Residual, DrivesAMotorByItsMeasuredVoltageDutyOrFirmware) {
   const auto finalSpeed = [&](const std::string& gain, const std::vector<std::pair<std::string, double>>& columns) {
     std::vector<double> times;
     for (int i = 0; i < 1000; ++i) times.push_back(0.01 * i);
-    Recording recording = recordingOf(times);
+    Recording recording = recordingAt(times);
     for (const auto& [channel, value] : columns) addColumn(recording, channel, [v = value](double) { return v; });
     addColumn(recording, "rig.rail.velocity_m_s", [](double) { return 0; });
     const auto report = residual(rigScene(rail + gain + "}"), {recording});
@@ -209,7 +209,7 @@ TEST(Residual, ScalesTheFirmwaresDutyByTheSupplyOfTheMoment) {
       "torque_constant_nm_per_a": 0.4, "resistance_ohm": 2, "firmware_gain_v_per_rad": 10})");
     std::vector<double> times;
     for (int i = 0; i < 2000; ++i) times.push_back(0.005 * i);
-    Recording recording = recordingOf(times);
+    Recording recording = recordingAt(times);
     addColumn(recording, "rig.hinge.command_rad", [](double) { return 0.5; });
     addColumn(recording, "rig.hinge.voltage_v", [&](double) { return supply; });
     addColumn(recording, "rig.hinge.position_rad", [](double) { return 0; });
@@ -223,7 +223,7 @@ TEST(Residual, ScalesTheFirmwaresDutyByTheSupplyOfTheMoment) {
 
 TEST(Residual, StartsMovingWhereTheRecordingMoves) {
   const Scene scene = rigScene(R"("hinge": {"drive": "none"}, "rail": {"drive": "none"})");
-  Recording recording = recordingOf(unevenTimes(200));
+  Recording recording = recordingAt(unevenTimes(200));
   addColumn(recording, "rig.rail.position_m", [](double t) { return 0.3 + 1.5 * t; });
   const ChannelError error = residual(scene, {recording}).channels.at(0);
   EXPECT_LT(error.maximum, 1e-9);
@@ -234,7 +234,7 @@ TEST(Residual, FollowsAThrownBall) {
                                R"("balls": [{"name": "ball", "position_m": [5, 5, 5]}])");
   std::vector<double> times;
   for (int i = 0; i < 100; ++i) times.push_back(0.01 * i);
-  Recording recording = recordingOf(times);
+  Recording recording = recordingAt(times);
   addColumn(recording, "ball.x_m", [](double t) { return 1 + 2 * t; });
   addColumn(recording, "ball.y_m", [](double) { return 3; });
   addColumn(recording, "ball.z_m", [](double t) { return 2 + 3 * t - 9.81 * t * t / 2; });
@@ -245,7 +245,7 @@ TEST(Residual, FollowsAThrownBall) {
 TEST(Residual, RefusesChannelsThatTheSceneDoesNotHave) {
   const Scene scene = rigScene(servo);
   const auto refusal = [&](const std::string& channel) {
-    Recording recording = recordingOf({0, 1});
+    Recording recording = recordingAt({0, 1});
     addColumn(recording, channel, [](double) { return 0; });
     return refusalOf(scene, recording);
   };
@@ -258,7 +258,7 @@ TEST(Residual, RefusesChannelsThatTheSceneDoesNotHave) {
 }
 
 TEST(Residual, SaysWhatItCouldNotUse) {
-  Recording recording = recordingOf({0, 0.1, 0.2});
+  Recording recording = recordingAt({0, 0.1, 0.2});
   recording.notes = {"column \"x\" is not mapped to a channel; kept, not used"};
   addColumn(recording, "rig.hinge.current_a", [](double) { return 0; });
   addColumn(recording, "rig.hinge.position_rad", [](double) { return 0; });
@@ -273,7 +273,7 @@ TEST(Residual, SaysWhenTheStepIsTooCoarse) {
   Scene scene = rigScene(R"("hinge": {"drive": "none"}, "rail": {"drive": "none"})");
   std::vector<double> times;
   for (int i = 0; i < 600; ++i) times.push_back(0.005 * i);
-  Recording recording = recordingOf(times);
+  Recording recording = recordingAt(times);
   // A fine sensor at rest far from balance: it falls fast.
   addColumn(recording, "rig.hinge.position_rad", [](double t) { return 2 + 1e-7 * std::sin(40 * t); });
   scene.step_s = 0.005;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string scenePath = SOURCE_DIR "/resources/scenes/xl330.json";
+const std::string xl330Scene = SOURCE_DIR "/resources/scenes/xl330.json";
 const std::string mappingPath = SOURCE_DIR "/resources/scenes/xl330.mapping.json";
 const std::string frictionPath = SOURCE_DIR "/resources/scenes/xl330_friction.simulator.json";
 
@@ -90,7 +90,7 @@ double meanAbsolute(const std::vector<double>& a, const std::vector<double>& b) 
 /// Position errors only, by recording.
 std::vector<ChannelError> positionErrors(const std::vector<std::string>& paths, const std::string& simulator) {
   const ResidualReport report =
-      runResidual({.scene = scenePath, .recordings = paths, .mapping = "", .simulator = simulator, .out = ""}, {});
+      runResidual({.scene = xl330Scene, .recordings = paths, .mapping = "", .simulator = simulator, .out = ""}, {});
   std::vector<ChannelError> errors;
   for (const ChannelError& error : report.channels)
     if (error.channel == "xl330.shoulder.position_rad") errors.push_back(error);

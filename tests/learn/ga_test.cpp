@@ -7,17 +7,12 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "tests/learn/genotype.h"
 
 namespace btr {
 namespace {
 
-std::vector<Parameter> genotype(std::size_t count) {
-  std::vector<Parameter> parameters;
-  for (std::size_t i = 0; i < count; ++i) parameters.push_back({"p" + std::to_string(i), "", "", -1, 1, 0});
-  return parameters;
-}
-
-double sphere(const std::vector<double>& x) {
+double nearness(const std::vector<double>& x) {
   double sum = 0;
   for (const double value : x) sum += (value - 0.3) * (value - 0.3);
   return 1 / (1 + sum);
@@ -109,7 +104,7 @@ TEST_F(Ga, ClimbsTheSphereInBothCodings) {
   for (const double coding : {0.0, 1.0}) {
     Random random(4);
     learner->start(genotype(5), {{"population", 60}, {"coding", coding}, {"mutation", 0.005}}, random);
-    const auto means = evolve(80, random, [](const Candidate& c) { return sphere(c.parameters); });
+    const auto means = evolve(80, random, [](const Candidate& c) { return nearness(c.parameters); });
     EXPECT_LT(means.front(), 0.4);
     EXPECT_GT(means.back(), 0.7);
   }
@@ -175,7 +170,7 @@ TEST_F(Ga, KeepsAnOddPopulationOdd) {
   Random random(8);
   for (const double size : {3.0, 7.0, 31.0}) {
     learner->start(genotype(3), {{"population", size}}, random);
-    evolve(3, random, [](const Candidate& c) { return sphere(c.parameters); });
+    evolve(3, random, [](const Candidate& c) { return nearness(c.parameters); });
     EXPECT_EQ(static_cast<std::size_t>(size), learner->ask(random).size());
   }
 }
@@ -210,7 +205,7 @@ TEST_F(Ga, NeverPrefersAFitnessThatIsNotFinite) {
 
 TEST_F(Ga, AResumedSearchGivesTheSameBits) {
   const Values settings{{"population", 21}, {"coding", 1}};
-  const auto fitness = [](const Candidate& c) { return sphere(c.parameters); };
+  const auto fitness = [](const Candidate& c) { return nearness(c.parameters); };
   Random random(13);
   learner->start(genotype(6), settings, random);
   evolve(5, random, fitness);

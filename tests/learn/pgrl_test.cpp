@@ -5,15 +5,10 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "tests/learn/genotype.h"
 
 namespace btr {
 namespace {
-
-std::vector<Parameter> genotype(std::size_t count, double start = 0) {
-  std::vector<Parameter> parameters;
-  for (std::size_t i = 0; i < count; ++i) parameters.push_back({"p" + std::to_string(i), "m", "", -1, 1, start});
-  return parameters;
-}
 
 class Pgrl : public testing::Test {
  protected:

@@ -8,14 +8,12 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace btr {
 namespace {
 
-const PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 std::vector<std::string> gaitFiles() {
   std::vector<std::string> files;

@@ -9,16 +9,14 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
+#include "tests/plugin/built_plugins.h"
 
 namespace {
 
 using namespace btr;
 using testing::HasSubstr;
 
-const PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 PreparedExperiment kick() {
   return prepareFromFiles(loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json"), host());

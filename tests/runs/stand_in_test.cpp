@@ -6,14 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "tests/plugin/built_plugins.h"
+
 namespace {
 
 using namespace btr;
 
-const PluginHost& host() {
-  static PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
+using test::host;
 
 PreparedExperiment kick(int seed, int effects) {
   ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");

@@ -4,18 +4,13 @@
 #include <cmath>
 
 #include "core/model/kinematics.h"
-#include "core/plugin/plugin_host.h"
 #include "core/sim/trial.h"
 #include "core/spec/random.h"
+#include "tests/plugin/built_plugins.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
 namespace {
-
-const PluginHost& host() {
-  static const PluginHost plugins(PLUGIN_DIR);
-  return plugins;
-}
 
 Scene dogScene(double step, const Values& task = {}) {
   static const SceneSpec spec = loadScene(SOURCE_DIR "/resources/scenes/kick.json");

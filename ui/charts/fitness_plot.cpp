@@ -9,18 +9,20 @@
 namespace btr::ui {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("FitnessPlot", text); }
+struct FitnessPlots {
+  Q_DECLARE_TR_FUNCTIONS(FitnessPlot)
+};
 
 PlotData frame(const QString& unit) {
   PlotData plot;
-  plot.title = tr("Fitness by generation");
-  plot.xTitle = tr("generation");
-  plot.yTitle = axisTitle(tr("fitness"), unit);
+  plot.title = FitnessPlots::tr("Fitness by generation");
+  plot.xTitle = FitnessPlots::tr("generation");
+  plot.yTitle = axisTitle(FitnessPlots::tr("fitness"), unit);
   plot.xColumn = "generation";
   plot.yColumn = columnName("fitness", unit);
   plot.wholeX = true;
   plot.xFrom = 0;
-  plot.empty = tr("No generation yet");
+  plot.empty = FitnessPlots::tr("No generation yet");
   return plot;
 }
 
@@ -48,8 +50,8 @@ PlotSeries measured(const FitnessRun& run) {
     if (!measurement.isVoid) values[measurement.individual].push_back(measurement.value);
 
   PlotSeries series;
-  series.name = run.standIn ? tr("measured in stand-in reality (mean ± standard error)")
-                            : tr("measured in reality (mean ± standard error)");
+  series.name = run.standIn ? FitnessPlots::tr("measured in stand-in reality (mean ± standard error)")
+                            : FitnessPlots::tr("measured in reality (mean ± standard error)");
   series.colour = 1;
   series.style = PlotSeries::Style::points;
   for (const IndividualRecord& individual : run.measuredIndividuals) {
@@ -66,7 +68,7 @@ std::vector<PlotMarker> updates(const std::vector<SimulatorRecord>& simulators) 
   std::vector<PlotMarker> markers;
   for (const SimulatorRecord& simulator : simulators) {
     if (simulator.number < 1) continue;
-    QString label = tr("simulator %1").arg(simulator.number);
+    QString label = FitnessPlots::tr("simulator %1").arg(simulator.number);
     if (simulator.madeBy != "L3" && !simulator.madeBy.empty())
       label += " (" + QString::fromStdString(simulator.madeBy) + ')';
     markers.push_back({static_cast<double>(simulator.madeAfterGeneration), label});
@@ -80,7 +82,7 @@ QString groupName(const std::vector<const FitnessRun*>& runs) {
   QStringList ids;
   for (const FitnessRun* run : runs) ids << QString::number(run->run);
   if (ids.size() > 8) ids = ids.mid(0, 3) + QStringList{"…"} + ids.mid(ids.size() - 2);
-  return tr("%1, runs %2").arg(runs.front()->experiment, ids.join(", "));
+  return FitnessPlots::tr("%1, runs %2").arg(runs.front()->experiment, ids.join(", "));
 }
 
 /// Mean and interval over runs of the same group, generation by generation.
@@ -89,7 +91,7 @@ void addJoined(PlotData& plot, const QString& name, const std::vector<const Fitn
   for (const FitnessRun* run : runs)
     for (const GenerationRecord& generation : run->generations) values[generation.number].push_back(generation.best);
   PlotSeries mean;
-  mean.name = tr("%1: maximum, mean of %2 seeds and 95 % interval").arg(name).arg(runs.size());
+  mean.name = FitnessPlots::tr("%1: maximum, mean of %2 seeds and 95 % interval").arg(name).arg(runs.size());
   mean.colour = colour;
   PlotBand band;
   band.name = mean.name;
@@ -108,17 +110,21 @@ void addJoined(PlotData& plot, const QString& name, const std::vector<const Fitn
 
 }  // namespace
 
-QString realityNote(bool standIn) { return standIn ? tr("stand-in reality") : QString(); }
+QString realityNote(bool standIn) { return standIn ? FitnessPlots::tr("stand-in reality") : QString(); }
 
 PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
   PlotData plot = frame(unit);
-  if (!run.name.isEmpty()) plot.title = tr("%1: fitness by generation").arg(run.name);
+  if (!run.name.isEmpty()) plot.title = FitnessPlots::tr("%1: fitness by generation").arg(run.name);
   plot.note = realityNote(run.standIn);
   using Style = PlotSeries::Style;
-  plot.series.push_back({tr("maximum"), 0, Style::line, curve(run.generations, &GenerationRecord::best), {}, false});
-  plot.series.push_back({tr("average"), 2, Style::line, curve(run.generations, &GenerationRecord::mean), {}, false});
-  plot.series.push_back({tr("worst"), 7, Style::thinLine, curve(run.generations, &GenerationRecord::worst), {}, true});
-  plot.series.push_back({tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
+  plot.series.push_back(
+      {FitnessPlots::tr("maximum"), 0, Style::line, curve(run.generations, &GenerationRecord::best), {}, false});
+  plot.series.push_back(
+      {FitnessPlots::tr("average"), 2, Style::line, curve(run.generations, &GenerationRecord::mean), {}, false});
+  plot.series.push_back(
+      {FitnessPlots::tr("worst"), 7, Style::thinLine, curve(run.generations, &GenerationRecord::worst), {}, true});
+  plot.series.push_back(
+      {FitnessPlots::tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
   if (PlotSeries points = measured(run); !points.points.empty()) plot.series.push_back(std::move(points));
   plot.markers = updates(run.simulators);
   return plot;
@@ -126,11 +132,11 @@ PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
 
 PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit, bool joinSeeds) {
   PlotData plot = frame(unit);
-  plot.empty = tr("Tick runs to compare them");
+  plot.empty = FitnessPlots::tr("Tick runs to compare them");
   if (std::any_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; }))
     plot.note = std::all_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; })
                     ? realityNote(true)
-                    : tr("some runs in stand-in reality");
+                    : FitnessPlots::tr("some runs in stand-in reality");
 
   // Groups keep the order in which their first run comes.
   std::vector<std::vector<const FitnessRun*>> groups;
@@ -148,18 +154,18 @@ PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit
   for (const auto& group : groups) {
     const FitnessRun& first = *group.front();
     const QString plain = group.size() > 1 ? groupName(group) : first.name;
-    const QString name = first.standIn ? tr("%1 (stand-in)").arg(plain) : plain;
+    const QString name = first.standIn ? FitnessPlots::tr("%1 (stand-in)").arg(plain) : plain;
     if (group.size() > 1) {
       addJoined(plot, name, group, colour++);
       continue;
     }
-    plot.series.push_back({tr("%1: maximum").arg(name),
+    plot.series.push_back({FitnessPlots::tr("%1: maximum").arg(name),
                            colour,
                            Style::line,
                            curve(first.generations, &GenerationRecord::best),
                            {},
                            false});
-    plot.series.push_back({tr("%1: average").arg(name),
+    plot.series.push_back({FitnessPlots::tr("%1: average").arg(name),
                            colour,
                            Style::thinLine,
                            curve(first.generations, &GenerationRecord::mean),

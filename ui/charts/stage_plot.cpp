@@ -8,21 +8,23 @@
 namespace btr::ui {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("StagePlot", text); }
+struct StagePlots {
+  Q_DECLARE_TR_FUNCTIONS(StagePlot)
+};
 
 }  // namespace
 
 PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, bool standIn) {
   PlotData plot;
-  plot.title = tr("Reality gap and real fitness by measurement stage");
+  plot.title = StagePlots::tr("Reality gap and real fitness by measurement stage");
   plot.note = realityNote(standIn);
-  plot.xTitle = tr("measurement stage");
-  plot.yTitle = axisTitle(tr("fitness, or its gap"), unit);
+  plot.xTitle = StagePlots::tr("measurement stage");
+  plot.yTitle = axisTitle(StagePlots::tr("fitness, or its gap"), unit);
   plot.xColumn = "stage";
   plot.yColumn = columnName("fitness_or_gap", unit);
   plot.wholeX = true;
   plot.yFromZero = true;
-  plot.empty = tr("Tick runs with finished measurement stages to compare them");
+  plot.empty = StagePlots::tr("Tick runs with finished measurement stages to compare them");
 
   // Marks of different arms stand beside each other, those of an arm above each other.
   constexpr double apart = 0.06;
@@ -32,11 +34,16 @@ PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, bo
     const QString name = QString::fromStdString(arm.name);
     const int colour = static_cast<int>(a), seeds = static_cast<int>(arm.runs.size());
     const double shift = first + apart * static_cast<double>(a);
-    const QString over = seeds > 1 ? tr(", mean and 95 % interval of %1 seeds").arg(seeds) : QString();
+    const QString over = seeds > 1 ? StagePlots::tr(", mean and 95 % interval of %1 seeds").arg(seeds) : QString();
     using Style = PlotSeries::Style;
-    PlotSeries gap{
-        tr("%1: gap on unseen individuals%2").arg(name, over), colour, Style::lineWithPoints, {}, {}, false, shift};
-    PlotSeries real{tr("%1: real fitness%2").arg(name, over), colour, Style::dotted, {}, {}, false, shift};
+    PlotSeries gap{StagePlots::tr("%1: gap on unseen individuals%2").arg(name, over),
+                   colour,
+                   Style::lineWithPoints,
+                   {},
+                   {},
+                   false,
+                   shift};
+    PlotSeries real{StagePlots::tr("%1: real fitness%2").arg(name, over), colour, Style::dotted, {}, {}, false, shift};
     PlotBand band{real.name, colour, {}, {}, {}};
     for (const ComparedStage& stage : arm.stages) {
       gap.points.emplace_back(stage.stage, stage.gap.mean);

@@ -1,7 +1,11 @@
 #pragma once
 #include <QString>
+#include <string>
 
 namespace btr::ui {
+
+/// A word of the core.
+inline QString word(const std::string& text) { return QString::fromStdString(text); }
 
 /// A number for people: four significant digits, C locale, "–" if it is not finite.
 QString shortNumber(double value);

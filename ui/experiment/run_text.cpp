@@ -6,7 +6,9 @@
 namespace btr::ui {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("run", text); }
+struct RunTexts {
+  Q_DECLARE_TR_FUNCTIONS(run)
+};
 
 }  // namespace
 
@@ -34,25 +36,25 @@ RunFace faceOf(const RunRecord& run, bool active) {
 QString stageText(RunFace face, const RunProgress& progress) {
   switch (face) {
     case RunFace::ready:
-      return tr("Ready to start");
+      return RunTexts::tr("Ready to start");
     case RunFace::learning:
-      return progress.stage == "L3"   ? tr("L3 · adapting the simulator")
-             : progress.stage == "L2" ? tr("L2 · learning in reality")
-                                      : tr("L1 · learning in simulation");
+      return progress.stage == "L3"   ? RunTexts::tr("L3 · adapting the simulator")
+             : progress.stage == "L2" ? RunTexts::tr("L2 · learning in reality")
+                                      : RunTexts::tr("L1 · learning in simulation");
     case RunFace::adapting:
-      return tr("L3 · adapting the simulator");
+      return RunTexts::tr("L3 · adapting the simulator");
     case RunFace::waiting:
-      return tr("Waiting for real fitness");
+      return RunTexts::tr("Waiting for real fitness");
     case RunFace::stopping:
-      return tr("Stopping …");
+      return RunTexts::tr("Stopping …");
     case RunFace::interrupted:
-      return tr("Interrupted");
+      return RunTexts::tr("Interrupted");
     case RunFace::stopped:
-      return tr("Stopped");
+      return RunTexts::tr("Stopped");
     case RunFace::finished:
-      return tr("Finished");
+      return RunTexts::tr("Finished");
     case RunFace::failed:
-      return tr("Failed");
+      return RunTexts::tr("Failed");
   }
   return {};
 }
@@ -100,42 +102,42 @@ MeasuringCount countMeasured(const RunRecord& run, const std::vector<Measurement
 QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring) {
   switch (face) {
     case RunFace::ready:
-      return tr("Press Start: the learner begins with its first generation.");
+      return RunTexts::tr("Press Start: the learner begins with its first generation.");
     case RunFace::learning:
     case RunFace::adapting:
       if (face == RunFace::adapting || progress.stage == "L3")
-        return tr("Then the new simulator version is stored and learning goes on in it.");
-      if (progress.stage == "L2") return tr("Then the step is taken, and the next policies are proposed.");
+        return RunTexts::tr("Then the new simulator version is stored and learning goes on in it.");
+      if (progress.stage == "L2") return RunTexts::tr("Then the step is taken, and the next policies are proposed.");
       if (progress.stageTotal > progress.stageDone && progress.generation < progress.totalGenerations)
-        return isStandIn(run) ? tr("In %1 generations the best are measured by the stand-in reality.")
+        return isStandIn(run) ? RunTexts::tr("In %1 generations the best are measured by the stand-in reality.")
                                     .arg(progress.stageTotal - progress.stageDone)
-                              : tr("In %1 generations the best wait for real fitness.")
+                              : RunTexts::tr("In %1 generations the best wait for real fitness.")
                                     .arg(progress.stageTotal - progress.stageDone);
-      return tr("Learning goes on in simulation.");
+      return RunTexts::tr("Learning goes on in simulation.");
     case RunFace::waiting:
       if (isStandIn(run))
-        return tr("The stand-in reality answers the measurements; press Continue if nothing happens.");
+        return RunTexts::tr("The stand-in reality answers the measurements; press Continue if nothing happens.");
       if (measuring.wanted > 0 && measuring.settled >= measuring.wanted)
-        return (measuring.iteration > 0 ? tr("All %1 are measured: press Continue to take the step.")
-                                        : tr("All %1 are measured: press Continue to adapt the simulator."))
+        return (measuring.iteration > 0 ? RunTexts::tr("All %1 are measured: press Continue to take the step.")
+                                        : RunTexts::tr("All %1 are measured: press Continue to adapt the simulator."))
             .arg(measuring.wanted);
-      return tr("Measure on the real robot and enter the values in the measurement sheet (%1 of %2 done).")
+      return RunTexts::tr("Measure on the real robot and enter the values in the measurement sheet (%1 of %2 done).")
           .arg(measuring.settled)
           .arg(measuring.wanted);
     case RunFace::stopping:
-      return tr("The running trials end, then everything is stored.");
+      return RunTexts::tr("The running trials end, then everything is stored.");
     case RunFace::interrupted:
-      return tr("No process works on it. Press Continue: it goes on with the same bits.");
+      return RunTexts::tr("No process works on it. Press Continue: it goes on with the same bits.");
     case RunFace::stopped:
-      return tr("Press Continue: it goes on exactly where it stopped.");
+      return RunTexts::tr("Press Continue: it goes on exactly where it stopped.");
     case RunFace::finished:
-      return tr("Nothing is left to do. Replay the best individuals or export the tables.");
+      return RunTexts::tr("Nothing is left to do. Replay the best individuals or export the tables.");
     case RunFace::failed:
-      return tr("Read the message; Continue tries again from the last stored generation.");
+      return RunTexts::tr("Read the message; Continue tries again from the last stored generation.");
   }
   return {};
 }
 
-QString runName(const RunRecord& run) { return tr("Run %1 · seed %2").arg(run.id).arg(run.seed); }
+QString runName(const RunRecord& run) { return RunTexts::tr("Run %1 · seed %2").arg(run.id).arg(run.seed); }
 
 }  // namespace btr::ui

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "core/gap/report_figures.h"
+#include "ui/common/format.h"
 #include "ui/common/progress.h"
 #include "ui/common/reading_table.h"
 
@@ -16,8 +17,6 @@ namespace btr::ui {
 namespace {
 
 constexpr int fewest = 3;
-
-QString word(const std::string& text) { return QString::fromStdString(text); }
 
 }  // namespace
 

@@ -3,13 +3,12 @@
 #include <QHeaderView>
 
 #include "core/gap/report_figures.h"
+#include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
 namespace {
-
-QString word(const std::string& text) { return QString::fromStdString(text); }
 
 void prepare(QTableWidget& table, const QStringList& headers) {
   setUpForReading(table, headers);

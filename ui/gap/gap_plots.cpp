@@ -6,12 +6,14 @@
 
 #include "core/gap/report_figures.h"
 #include "core/gap/residual.h"
+#include "ui/common/format.h"
 
 namespace btr::ui {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("GapPlots", text); }
-QString word(const std::string& text) { return QString::fromStdString(text); }
+struct GapPlots {
+  Q_DECLARE_TR_FUNCTIONS(GapPlots)
+};
 
 // Colours of the theme: what was recorded stands back, what was repaired stands out.
 enum Colour { repaired = 0, asGiven = 1, noise = 2, calibrated = 4, recorded = 7 };
@@ -49,33 +51,34 @@ bool has(const GapReport& report, std::size_t trial, std::size_t series) {
 }  // namespace
 
 QString trialName(const GapReport::Trial& trial) {
-  return trial.heldOut ? tr("%1 (held out)").arg(word(trial.name)) : word(trial.name);
+  return trial.heldOut ? GapPlots::tr("%1 (held out)").arg(word(trial.name)) : word(trial.name);
 }
 
 PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t series, std::optional<double> cursor_s) {
   PlotData plot;
-  plot.xTitle = tr("time (s)");
+  plot.xTitle = GapPlots::tr("time (s)");
   plot.xColumn = "time_s";
-  plot.empty = tr("Choose a channel in the map above");
+  plot.empty = GapPlots::tr("Choose a channel in the map above");
   if (!has(report, trial, series)) return plot;
   const GapReport::Trial& t = report.trials[trial];
   const GapReport::Series& s = t.series[series];
   plot.title = word(s.channel) + " · " + trialName(t);
   plot.yTitle = axisTitle(quantityOf(s.channel), word(s.unit));
   plot.yColumn = word(s.channel.substr(s.channel.rfind('.') + 1));
-  plot.series = {line(tr("recorded"), recorded, points(t.time_s, s.recorded)),
-                 line(tr("as given"), asGiven, points(t.time_s, s.asGiven), PlotSeries::Style::thinLine),
-                 line(tr("calibrated"), calibrated, points(t.time_s, s.calibrated), PlotSeries::Style::thinLine),
-                 line(tr("with effects"), repaired, points(t.time_s, s.withEffects), PlotSeries::Style::thinLine)};
+  plot.series = {
+      line(GapPlots::tr("recorded"), recorded, points(t.time_s, s.recorded)),
+      line(GapPlots::tr("as given"), asGiven, points(t.time_s, s.asGiven), PlotSeries::Style::thinLine),
+      line(GapPlots::tr("calibrated"), calibrated, points(t.time_s, s.calibrated), PlotSeries::Style::thinLine),
+      line(GapPlots::tr("with effects"), repaired, points(t.time_s, s.withEffects), PlotSeries::Style::thinLine)};
   addCursor(plot, cursor_s);
   return plot;
 }
 
 PlotData errorPlot(const GapReport& report, std::size_t trial, std::size_t series, std::optional<double> cursor_s) {
   PlotData plot;
-  plot.xTitle = tr("time (s)");
+  plot.xTitle = GapPlots::tr("time (s)");
   plot.xColumn = "time_s";
-  plot.yTitle = tr("noise floors");
+  plot.yTitle = GapPlots::tr("noise floors");
   plot.yColumn = "error_noise_floors";
   plot.empty = QString();
   if (!has(report, trial, series)) return plot;
@@ -86,26 +89,26 @@ PlotData errorPlot(const GapReport& report, std::size_t trial, std::size_t serie
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = (simulated[i] - s.recorded[i]) / s.noiseFloor;
     return points(t.time_s, all);
   };
-  plot.title = tr("Simulated − recorded");
-  plot.series = {line(tr("as given"), asGiven, error(s.asGiven), PlotSeries::Style::thinLine),
-                 line(tr("calibrated"), calibrated, error(s.calibrated), PlotSeries::Style::thinLine),
-                 line(tr("with effects"), repaired, error(s.withEffects), PlotSeries::Style::thinLine)};
+  plot.title = GapPlots::tr("Simulated − recorded");
+  plot.series = {line(GapPlots::tr("as given"), asGiven, error(s.asGiven), PlotSeries::Style::thinLine),
+                 line(GapPlots::tr("calibrated"), calibrated, error(s.calibrated), PlotSeries::Style::thinLine),
+                 line(GapPlots::tr("with effects"), repaired, error(s.withEffects), PlotSeries::Style::thinLine)};
   if (t.time_s.size() > 1)
-    plot.bands = {{tr("noise floor"), noise, {t.time_s.front(), t.time_s.back()}, {-1, -1}, {1, 1}}};
+    plot.bands = {{GapPlots::tr("noise floor"), noise, {t.time_s.front(), t.time_s.back()}, {-1, -1}, {1, 1}}};
   addCursor(plot, cursor_s);
   return plot;
 }
 
 PlotData ladderPlot(const GapReport& report) {
   PlotData plot;
-  plot.title = tr("Held-out error, step by step");
-  plot.xTitle = tr("step");
-  plot.yTitle = tr("error (noise floors, RMS)");
+  plot.title = GapPlots::tr("Held-out error, step by step");
+  plot.xTitle = GapPlots::tr("step");
+  plot.yTitle = GapPlots::tr("error (noise floors, RMS)");
   plot.xColumn = "step";
   plot.yColumn = "error_noise_floors";
-  plot.empty = tr("No step was taken");
+  plot.empty = GapPlots::tr("No step was taken");
   plot.yFromZero = true;
-  PlotSeries steps = line(tr("held-out error"), repaired, {}, PlotSeries::Style::lineWithPoints);
+  PlotSeries steps = line(GapPlots::tr("held-out error"), repaired, {}, PlotSeries::Style::lineWithPoints);
   for (std::size_t i = 0; i < report.ladder.size(); ++i) {
     const GapReport::Step& step = report.ladder[i];
     const double x = static_cast<double>(i);
@@ -117,23 +120,24 @@ PlotData ladderPlot(const GapReport& report) {
   if (report.ladder.empty()) return plot;
   plot.xFrom = -0.5;
   plot.xTo = static_cast<double>(report.ladder.size()) - 0.5;
-  plot.series = {steps, line(tr("noise floor"), noise, {{*plot.xFrom, 1}, {*plot.xTo, 1}}, PlotSeries::Style::dotted)};
+  plot.series = {
+      steps, line(GapPlots::tr("noise floor"), noise, {{*plot.xFrom, 1}, {*plot.xTo, 1}}, PlotSeries::Style::dotted)};
   return plot;
 }
 
 PlotData regimePlot(const GapReport& report, std::size_t located) {
   PlotData plot;
-  plot.xTitle = tr("regime");
-  plot.yTitle = tr("share (%)");
+  plot.xTitle = GapPlots::tr("regime");
+  plot.yTitle = GapPlots::tr("share (%)");
   plot.xColumn = "regime";
   plot.yColumn = "share_percent";
   plot.yFromZero = true;
-  plot.empty = tr("No regime stands out");
+  plot.empty = GapPlots::tr("No regime stands out");
   if (located >= report.located.size()) return plot;
   const GapReport::Located& l = report.located[located];
-  plot.title = tr("Where the excess error of %1 lies").arg(word(l.channel));
-  PlotSeries error = line(tr("of the excess error"), asGiven, {}, PlotSeries::Style::points);
-  PlotSeries time = line(tr("of the time"), recorded, {}, PlotSeries::Style::hollowPoints);
+  plot.title = GapPlots::tr("Where the excess error of %1 lies").arg(word(l.channel));
+  PlotSeries error = line(GapPlots::tr("of the excess error"), asGiven, {}, PlotSeries::Style::points);
+  PlotSeries time = line(GapPlots::tr("of the time"), recorded, {}, PlotSeries::Style::hollowPoints);
   for (std::size_t i = 0; i < l.regimes.size(); ++i) {
     const double x = static_cast<double>(i);
     plot.xLabels[x] = word(inWords(l.regimes[i].name));
@@ -151,35 +155,35 @@ PlotData regimePlot(const GapReport& report, std::size_t located) {
 PlotData remainderPlot(const GapReport& report) {
   const GapReport::Remainder& r = report.remainder;
   PlotData plot;
-  plot.title = tr("What has no name");
-  plot.empty = tr("Nothing significant remains");
+  plot.title = GapPlots::tr("What has no name");
+  plot.empty = GapPlots::tr("Nothing significant remains");
   plot.xTitle = axisTitle(word(r.on.empty() ? "" : r.on + " at " + r.at), word(r.unitX));
-  plot.yTitle = axisTitle(tr("force"), word(r.unitY));
+  plot.yTitle = axisTitle(GapPlots::tr("force"), word(r.unitY));
   plot.xColumn = word(r.on);
   plot.yColumn = "force";
   if (r.on.empty() || r.x.size() < 2) return plot;
-  PlotBand band{tr("95 %"), repaired, r.x, r.y, r.y};
+  PlotBand band{GapPlots::tr("95 %"), repaired, r.x, r.y, r.y};
   for (std::size_t i = 0; i < r.x.size(); ++i) {
     const double half = i < r.standardError.size() ? 1.96 * r.standardError[i] : 0;
     band.lower[i] -= half;
     band.upper[i] += half;
   }
   plot.bands = {band};
-  plot.series = {line(tr("learned force"), repaired, points(r.x, r.y))};
+  plot.series = {line(GapPlots::tr("learned force"), repaired, points(r.x, r.y))};
   return plot;
 }
 
 PlotData nextRecordingPlot(const GapReport& report) {
   PlotData plot;
-  plot.title = tr("Suggested next recording");
-  plot.empty = tr("No further recording is asked for");
-  plot.xTitle = tr("time (s)");
+  plot.title = GapPlots::tr("Suggested next recording");
+  plot.empty = GapPlots::tr("No further recording is asked for");
+  plot.xTitle = GapPlots::tr("time (s)");
   plot.xColumn = "time_s";
-  plot.yTitle = tr("command");
+  plot.yTitle = GapPlots::tr("command");
   plot.yColumn = "command";
   const GapReport::NextRecording& next = report.next;
   if (next.columns.size() < 2 || next.channels.size() != next.columns.size()) return plot;
-  plot.yTitle = axisTitle(tr("command"), word(unitOfChannel(next.channels[1])));
+  plot.yTitle = axisTitle(GapPlots::tr("command"), word(unitOfChannel(next.channels[1])));
   for (std::size_t i = 1; i < next.columns.size(); ++i)
     plot.series.push_back(line(word(next.channels[i]), int(i) - 1, points(next.columns[0], next.columns[i])));
   return plot;

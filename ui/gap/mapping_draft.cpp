@@ -18,7 +18,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-QString tr(const char* text) { return QCoreApplication::translate("MappingForm", text); }
+struct MappingTexts {
+  Q_DECLARE_TR_FUNCTIONS(MappingForm)
+};
 
 bool isSpecial(const std::string& key) { return key == "settings" || key == "segments"; }
 
@@ -87,25 +89,29 @@ MappingProblems problemsOf(const MappingDraft& draft, const QStringList& columns
     const auto wrong = [&](MappingField field, const QString& text) { problems[{i, field}] = text; };
     hasTime = hasTime || channel == "time_s";
     if (channel.isEmpty())
-      wrong(MappingField::channel, tr("A channel is needed, for example leg.knee.position_rad"));
+      wrong(MappingField::channel, MappingTexts::tr("A channel is needed, for example leg.knee.position_rad"));
     else if (channel != "time_s" && !parseChannel(channel.toStdString()))
       wrong(MappingField::channel,
-            tr("%1 is not allowed; time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY").arg(channel));
+            MappingTexts::tr("%1 is not allowed; time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY")
+                .arg(channel));
     else if (!taken.insert(channel).second)
-      wrong(MappingField::channel, tr("%1 is there twice").arg(channel));
+      wrong(MappingField::channel, MappingTexts::tr("%1 is there twice").arg(channel));
     if (!columns.contains(row.column))
-      wrong(MappingField::column,
-            row.column.isEmpty() ? tr("Choose a column of the file") : tr("The file has no column %1").arg(row.column));
+      wrong(MappingField::column, row.column.isEmpty() ? MappingTexts::tr("Choose a column of the file")
+                                                       : MappingTexts::tr("The file has no column %1").arg(row.column));
     const auto scale = toNumber(row.scale.trimmed().toStdString()),
                offset = toNumber(row.offset.trimmed().toStdString());
     if (!scale || *scale <= 0 || *scale > 1e12)
-      wrong(MappingField::scale, tr("%1 is not allowed; a number above 0 (Flip turns the sign)").arg(row.scale));
+      wrong(MappingField::scale,
+            MappingTexts::tr("%1 is not allowed; a number above 0 (Flip turns the sign)").arg(row.scale));
     else if (channel == "time_s" && row.flipped)
-      wrong(MappingField::scale, tr("Time cannot run backwards: Flip is not allowed here"));
+      wrong(MappingField::scale, MappingTexts::tr("Time cannot run backwards: Flip is not allowed here"));
     if (!offset || std::abs(*offset) > 1e12)
-      wrong(MappingField::offset, tr("%1 is not allowed; a number in the channel's unit").arg(row.offset));
+      wrong(MappingField::offset,
+            MappingTexts::tr("%1 is not allowed; a number in the channel's unit").arg(row.offset));
   }
-  if (!hasTime) problems[{-1, MappingField::channel}] = tr("time_s is missing: it names the column of time");
+  if (!hasTime)
+    problems[{-1, MappingField::channel}] = MappingTexts::tr("time_s is missing: it names the column of time");
   return problems;
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/gap/report_figures.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/common/format.h"
 #include "ui/common/theme.h"
 #include "ui/gap/effects_table.h"
 #include "ui/gap/gap_plots.h"
@@ -19,8 +20,6 @@
 
 namespace btr::ui {
 namespace {
-
-QString word(const std::string& text) { return QString::fromStdString(text); }
 
 QLabel* paragraph(QWidget* parent) {
   auto* label = new QLabel(parent);

@@ -15,7 +15,7 @@
 namespace btr::ui {
 namespace {
 
-constexpr double leftMargin = 64, rightMargin = 16, topMargin = 8, bottomMargin = 74;
+constexpr double mapLeft = 64, mapRight = 16, mapTop = 8, mapBottom = 74;
 
 QColor colourOf(GridLoss loss) {
   switch (loss) {
@@ -113,8 +113,7 @@ double KickMap::shareOf(GridLoss loss) const {
 }
 
 QRectF KickMap::frame() const {
-  return {leftMargin, topMargin, std::max(10.0, width() - leftMargin - rightMargin),
-          std::max(10.0, height() - topMargin - bottomMargin)};
+  return {mapLeft, mapTop, std::max(10.0, width() - mapLeft - mapRight), std::max(10.0, height() - mapTop - mapBottom)};
 }
 
 QPointF KickMap::placeOf(double bearing, double direction) const {
@@ -150,7 +149,7 @@ QString KickMap::describe(std::size_t point) const {
 }
 
 void KickMap::paintLegend(QPainter& painter) const {
-  const double top = height() - bottomMargin + 32;
+  const double top = height() - mapBottom + 32;
   double x = 8, y = top;
   painter.setPen(palette().color(QPalette::Text));
   if (!shown_.isEmpty()) {
@@ -201,7 +200,7 @@ void KickMap::paintEvent(QPaintEvent*) {
     painter.drawText(QRectF(placeOf(b, 0).x() - 50, frame().bottom() + 3, 100, 20), Qt::AlignCenter,
                      tr("β %1").arg(degrees(b)));
   for (const double a : directions_)
-    painter.drawText(QRectF(0, placeOf(0, a).y() - 10, leftMargin - 4, 20), Qt::AlignRight | Qt::AlignVCenter,
+    painter.drawText(QRectF(0, placeOf(0, a).y() - 10, mapLeft - 4, 20), Qt::AlignRight | Qt::AlignVCenter,
                      tr("α %1").arg(degrees(a)));
   // Rings where cells are; the cross is the point of the preview.
   for (const double b : bearings_)

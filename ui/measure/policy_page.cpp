@@ -13,13 +13,12 @@
 #include <cmath>
 
 #include "core/gap/report_figures.h"
+#include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
 namespace {
-
-QString word(const std::string& text) { return QString::fromStdString(text); }
 
 QString meanText(double mean, double standardError) {
   if (!(standardError > 0)) return word(brief(mean));

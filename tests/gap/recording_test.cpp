@@ -8,6 +8,7 @@
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/temporary_folder.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -23,23 +24,13 @@ Recording recordingOf(const std::string& csv, const Mapping* mapping = nullptr) 
 }
 
 std::string refusalOf(const std::string& csv, const Mapping* mapping = nullptr) {
-  try {
-    recordingOf(csv, mapping);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { recordingOf(csv, mapping); });
 }
 
 Mapping mappingOf(const std::string& json) { return mappingFromJson(json, "m.json"); }
 
 std::string mappingRefusal(const std::string& json) {
-  try {
-    mappingOf(json);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { mappingOf(json); });
 }
 
 TEST(Recording, ReadsContractColumnsWithTimeFirstAndEmptyCellsAsNotANumber) {

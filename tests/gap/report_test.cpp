@@ -13,6 +13,7 @@
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
 #include "tests/gap/temporary_folder.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -30,12 +31,7 @@ void expectSame(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 std::string messageOf(const std::string& folder) {
-  try {
-    loadReport(folder);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { loadReport(folder); });
 }
 
 /// Writes the sample, lets `change` alter report.json, and says what loading then complains of.

@@ -11,6 +11,7 @@
 #include "core/sim/world.h"
 #include "core/spec/error.h"
 #include "tests/gap/scene_of.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -69,12 +70,7 @@ Driven drive(const Scene& scene, const std::vector<double>& times, std::size_t j
 }
 
 std::string refusalOf(const Scene& scene, const Recording& recording) {
-  try {
-    residual(scene, {recording});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { residual(scene, {recording}); });
 }
 
 const std::string servo = R"("hinge": {"p": 6, "d": 0.05, "max_torque_nm": 1.5}, "rail": {"drive": "none"})";

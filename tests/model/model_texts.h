@@ -2,20 +2,9 @@
 #include <string>
 
 #include "core/model/load_model.h"
-#include "core/spec/error.h"
+#include "tests/refusal.h"
 
 namespace btr::test {
-
-/// The message with which the text is refused, or "" if it is read. Any other exception fails the test.
-template <class Read>
-std::string refusal(const Read& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 inline std::string vrmlRefusal(const std::string& text, const ModelBudget& budget = {}) {
   return refusal([&] { parseVrml(text, "robot.wrl", budget); });

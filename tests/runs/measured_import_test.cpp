@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/spec/error.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -22,12 +23,7 @@ std::vector<MeasurementRecord> read(const std::string& text) {
 }
 
 std::string refusalOf(const std::string& text) {
-  try {
-    read(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { read(text); });
 }
 
 TEST(MeasuredImport, ReadsValuesNotesAndVoidsInAnyOrderOfColumns) {

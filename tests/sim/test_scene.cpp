@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/spec/error.h"
+#include "tests/refusal.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -23,12 +24,7 @@ Scene made(const RobotModel& model, const std::string& base, bool mergeFixed = t
 }
 
 std::string refusal(const RobotModel& model, const std::string& base, bool mergeFixed = true) {
-  try {
-    made(model, base, mergeFixed);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { made(model, base, mergeFixed); });
 }
 
 TEST(SceneBase, ARootWithoutMassIsRefusedOnAFreeBaseOnly) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/spec/error.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -25,12 +26,7 @@ std::vector<Row> rowsOf(const std::string& text, CsvLimits limits = {}, std::vec
 }
 
 std::string refusalOf(const std::string& text, CsvLimits limits = {}) {
-  try {
-    rowsOf(text, limits);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { rowsOf(text, limits); });
 }
 
 TEST(CsvReader, ReadsRowsWithEitherLineEndingAndNoneAtTheEnd) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/spec/error.h"
 #include "core/store/database.h"
+#include "tests/refusal.h"
 
 namespace btr {
 
@@ -32,16 +32,7 @@ class StoreTest : public testing::Test {
   std::filesystem::path folder_;
 };
 
-/// What the call is refused with, or "accepted".
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
+using test::refusal;
 
 inline ExperimentRecord kickExperiment() {
   return {.id = 0, .name = "kick", .specJson = R"({"name": "kick"})", .createdAt = "", .note = ""};

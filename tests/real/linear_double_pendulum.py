@@ -4,69 +4,79 @@
     tests/real/linear_double_pendulum.py FOLDER      (python3-numpy, python3-scipy)
 
 FOLDER holds the runs (design_C1_sysid_20230629). Base parameters of the rigid body, then viscous friction, Coulomb
-friction and the elbow's rotor inertia are added in turn; the same four folds, filter (5 Hz, forwards and backwards) and
-every 25th sample as in table.py. Prints the relative torque error of shoulder and elbow [%] on held-out runs.
+friction and the elbow's rotor inertia are added in turn. Folds and treatment are those of table.py and `btr gap residual
+--inverse --lowpass 5 --every 25`: positions low-passed at 5 Hz, torques at 0.9 times what every 25th sample carries.
+Prints the relative torque error of shoulder and elbow [%] on held-out runs.
 
 Equations: the planar double pendulum, for example Spong, Hutchinson and Vidyasagar, Robot Modeling and Control, 7.4, with
 angles from hanging and the second relative to the first.
 """
 import argparse
-import glob
-import os
 
 import numpy as np
-from scipy.signal import butter, filtfilt
+from scipy.signal import butter, sosfiltfilt
+
+from table import cross_validate, csv_files, mean_of_folds
 
 PERIOD_S = 0.002
 LOWPASS_HZ = 5
 EVERY = 25
+ENDS = 10  # compared samples that the filters spoil at either end
 STANDS_STILL_RAD_S = 0.05  # Coulomb friction as tanh of the velocity over this
-FOLDS = 4
 MODELS = ("rigid", "+ viscous", "+ Coulomb", "+ rotor")
 
 
-def load(path):
-    """q1, q2, their first and second derivatives, the two torques."""
-    table = np.genfromtxt(path, delimiter=",", names=True)
-    time = np.arange(table["time"][0], table["time"][-1], PERIOD_S)
-    b, a = butter(4, LOWPASS_HZ * 2 * PERIOD_S)
-    q1, q2, tau1, tau2 = (filtfilt(b, a, np.interp(time, table["time"], table[name]))
-                          for name in ("pos_meas1", "pos_meas2", "tau_meas1", "tau_meas2"))
-    v1, v2 = (np.gradient(q, PERIOD_S) for q in (q1, q2))
-    a1, a2 = (np.gradient(v, PERIOD_S) for v in (v1, v2))
-    edge = 10 * EVERY  # what the filter spoils at both ends
-    return [column[edge:-edge:EVERY] for column in (q1, q2, v1, v2, a1, a2, tau1, tau2)]
+def lowpass(order, cutoff_hz, values):
+    return sosfiltfilt(butter(order, cutoff_hz, fs=1 / PERIOD_S, output="sos"), values)
 
 
-def regressors(run, terms):
-    """One matrix for each joint's torque, columns are parameters."""
-    q1, q2, v1, v2, a1, a2 = run[:6]
-    none = np.zeros_like(q1)
-    coupled = np.cos(q2), np.sin(q2)
-    shoulder = [a1, a1 + a2, coupled[0] * (2 * a1 + a2) - coupled[1] * (2 * v1 * v2 + v2 ** 2), np.sin(q1), np.sin(q1 + q2)]
-    elbow = [none, a1 + a2, coupled[0] * a1 + coupled[1] * v1 ** 2, none, np.sin(q1 + q2)]
+def compared(values):
+    return lowpass(8, 0.45 / PERIOD_S / EVERY, values)[::EVERY][ENDS:-ENDS]
+
+
+def regressors(q, v, a, terms):
+    """One list of columns for each joint's torque; `q`, `v`, `a`: both joints' angles and their derivatives."""
+    cos2, sin2 = np.cos(q[1]), np.sin(q[1])
+    none = np.zeros_like(cos2)
+    shoulder = [a[0], a[0] + a[1], cos2 * (2 * a[0] + a[1]) - sin2 * (2 * v[0] * v[1] + v[1] ** 2),
+                np.sin(q[0]), np.sin(q[0] + q[1])]
+    elbow = [none, a[0] + a[1], cos2 * a[0] + sin2 * v[0] ** 2, none, np.sin(q[0] + q[1])]
     if terms > 0:
-        shoulder += [v1, none]
-        elbow += [none, v2]
+        shoulder += [v[0], none]
+        elbow += [none, v[1]]
     if terms > 1:
-        shoulder += [np.tanh(v1 / STANDS_STILL_RAD_S), none]
-        elbow += [none, np.tanh(v2 / STANDS_STILL_RAD_S)]
+        shoulder += [np.tanh(v[0] / STANDS_STILL_RAD_S), none]
+        elbow += [none, np.tanh(v[1] / STANDS_STILL_RAD_S)]
     if terms > 2:  # the shoulder's rotor is not told from the upper arm's inertia
         shoulder += [none]
-        elbow += [a2]
-    return np.array(shoulder).T, np.array(elbow).T
+        elbow += [a[1]]
+    return shoulder, elbow
 
 
-def held_out_error(runs, fold, terms):
-    train = [run for i, run in enumerate(runs) if i % FOLDS != fold]
-    rest = [run for i, run in enumerate(runs) if i % FOLDS == fold]
-    rows = np.vstack([part for run in train for part in regressors(run, terms)])
-    torques = np.concatenate([part for run in train for part in run[6:]])
+def load(path, terms):
+    """For each joint: the regressors' rows and the recorded torques, at the compared samples."""
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    time = np.arange(table["time"][0], table["time"][-1], PERIOD_S)
+
+    def even(name):
+        return np.interp(time, table["time"], table[name])
+
+    q = [lowpass(4, LOWPASS_HZ, even("pos_meas%d" % joint)) for joint in (1, 2)]
+    v = [np.gradient(angle, PERIOD_S) for angle in q]
+    a = [np.gradient(rate, PERIOD_S) for rate in v]
+    return [(np.array([compared(column) for column in columns]).T, compared(even("tau_meas%d" % joint)))
+            for joint, columns in zip((1, 2), regressors(q, v, a, terms))]
+
+
+def held_out_error(fold, terms):
+    train = [joint for path in fold.train for joint in load(path, terms)]
+    held_out = [load(path, terms) for path in fold.held_out]
+    rows, torques = np.vstack([part for part, _ in train]), np.concatenate([part for _, part in train])
     parameters = np.linalg.lstsq(rows, torques, rcond=None)[0]
     errors = []
-    for joint in (0, 1):
-        recorded = np.concatenate([run[6 + joint] for run in rest])
-        predicted = np.concatenate([regressors(run, terms)[joint] @ parameters for run in rest])
+    for runs in zip(*held_out):
+        recorded = np.concatenate([part for _, part in runs])
+        predicted = np.concatenate([part @ parameters for part, _ in runs])
         errors.append(100 * np.sqrt(np.mean((predicted - recorded) ** 2) / np.mean(recorded ** 2)))
     return errors
 
@@ -74,14 +84,11 @@ def held_out_error(runs, fold, terms):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
-    files = sorted(glob.glob(os.path.join(parser.parse_args().folder, "*.csv")))
-    if len(files) < FOLDS:
-        parser.error("%d runs; at least %d *.csv are needed" % (len(files), FOLDS))
-    runs = [load(path) for path in files]
+    files = csv_files(parser.parse_args().folder)
     for terms, name in enumerate(MODELS):
-        folds = [held_out_error(runs, fold, terms) for fold in range(FOLDS)]
+        folds = [held_out_error(fold, terms) for fold in cross_validate(files, 4)]
         print("%-10s mean %5.1f %5.1f   folds %s" %
-              (name, *np.mean(folds, axis=0), ", ".join("%.1f/%.1f" % tuple(fold) for fold in folds)))
+              (name, *mean_of_folds(folds), ", ".join("%.1f/%.1f" % tuple(fold) for fold in folds)))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@
 
 #include "core/gap/replay.h"
 #include "core/sim/world.h"
-#include "core/spec/error.h"
 #include "tests/gap/scene_of.h"
 #include "tests/refusal.h"
 

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/spec/error.h"
 #include "tests/refusal.h"
 #include "tests/sim/small_worlds.h"
 

@@ -5,7 +5,6 @@
 
 #include <sstream>
 
-#include "core/spec/error.h"
 #include "tests/refusal.h"
 
 namespace btr {

@@ -5,7 +5,6 @@
 #include <bit>
 #include <limits>
 
-#include "core/spec/error.h"
 #include "core/spec/random.h"
 #include "tests/refusal.h"
 

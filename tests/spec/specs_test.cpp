@@ -1,7 +1,6 @@
 // Scenes, simulators and experiments as files: what is written reads back equal, what is wrong is named.
 #include <gtest/gtest.h>
 
-#include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/scene_spec.h"
 #include "core/spec/simulator_spec.h"

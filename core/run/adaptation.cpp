@@ -4,9 +4,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
+#include "core/spec/sha256.h"
 
 namespace btr {
 namespace {
@@ -24,6 +26,20 @@ struct Evidence {
     for (const RealFitness& r : who) jobs.push_back({simulator, r.parameters, trialSeed, false});
     return jobs;
   }
+
+  /// Of what the errors of candidates come from.
+  std::string hash() const {
+    Sha256 sha;
+    const auto add = [&](const double* values, std::size_t count) {
+      sha.add({reinterpret_cast<const char*>(values), count * sizeof(double)});
+    };
+    sha.add(std::to_string(static_cast<int>(norm)));
+    for (const RealFitness& r : shown) {
+      add(r.parameters.data(), r.parameters.size());
+      add(&r.mean, 1);
+    }
+    return sha.finish();
+  }
 };
 
 Evidence collect(const RunContext& context, int stage) {
@@ -38,6 +54,10 @@ Evidence collect(const RunContext& context, int stage) {
     if (r.stage == stage) evidence.own.push_back(r);
     (r.heldOut ? evidence.heldOut : evidence.shown).push_back(std::move(r));
   }
+  // A policy of L2 may repeat an individual that is held out.
+  std::set<std::vector<double>> hidden;
+  for (const RealFitness& r : evidence.heldOut) hidden.insert(r.parameters);
+  std::erase_if(evidence.shown, [&](const RealFitness& r) { return hidden.contains(r.parameters); });
   return evidence;
 }
 
@@ -86,11 +106,34 @@ bool evaluateCandidates(RunContext& context, const Evidence& evidence, const Sim
   return true;
 }
 
+/// What an interrupted adaptation has done already. Where a measured value was corrected since, its candidates are
+/// simulated again: errors of other values are not to be compared.
+struct Done {
+  Error known;
+  std::vector<AdaptationCandidate> all;
+};
+std::optional<Done> doneBefore(RunContext& context, const Evidence& evidence, const SimulatorSpec& base,
+                               const std::vector<AdaptationRecord>& generations) {
+  Done done;
+  std::vector<Candidate> tried;
+  const std::string hash = evidence.hash();
+  for (const AdaptationRecord& generation : generations)
+    for (const AdaptationCandidate& c : generation.candidates) {
+      if (generation.evidenceSha256 == hash) done.known.try_emplace(c.parameters, c.error);
+      tried.push_back({c.chromosome, c.parameters});
+      done.all.push_back(c);
+    }
+  if (!evaluateCandidates(context, evidence, base, tried, done.known)) return std::nullopt;
+  for (AdaptationCandidate& c : done.all) c.error = done.known.at(c.parameters);
+  return done;
+}
+
 std::string evidenceText(const Evidence& evidence, int stage, double error, double startError, bool kept) {
   nlohmann::json individuals = nlohmann::json::array();
   for (const RealFitness& r : evidence.shown) individuals.push_back(r.individual);
   return nlohmann::json{{"stage", stage},
                         {"individuals", individuals},
+                        {"sha256", evidence.hash()},
                         {"error", error},
                         {"error_of_parent", startError},
                         {"note", kept ? "no candidate was better than the parent: its values are kept" : ""}}
@@ -116,19 +159,15 @@ bool adaptSimulator(RunContext& context, int stage) {
     present.push_back(valueOf(simulatorParameters(), parent.simulator.values, p.name));
   learner->beginAt(present, {.share = 0}, random);
 
-  // What an interrupted adaptation has done already.
-  Error known;
-  std::vector<AdaptationCandidate> all;
-  int number = 0;
-  for (const AdaptationRecord& done : db.adaptations(run, stage)) {
-    for (const AdaptationCandidate& c : done.candidates) {
-      known.try_emplace(c.parameters, c.error);
-      all.push_back(c);
-    }
-    random.setState(done.randomState);
-    learner->setState(done.learnerState);
-    number = done.number;
+  const std::vector<AdaptationRecord> earlier = db.adaptations(run, stage);
+  auto done = doneBefore(context, evidence, parent.simulator, earlier);
+  if (!done) return false;
+  auto& [known, all] = *done;
+  if (!earlier.empty()) {
+    random.setState(earlier.back().randomState);
+    learner->setState(earlier.back().learnerState);
   }
+  int number = static_cast<int>(earlier.size());
 
   const int firstNumber = number;
   const auto begun = std::chrono::steady_clock::now();
@@ -156,6 +195,7 @@ bool adaptSimulator(RunContext& context, int stage) {
     record.meanError = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
     record.randomState = random.state();
     record.learnerState = learner->state();
+    record.evidenceSha256 = evidence.hash();
     db.addAdaptation(record);
     all.insert(all.end(), record.candidates.begin(), record.candidates.end());
 

@@ -19,10 +19,18 @@ double squaredDistance(std::span<const Parameter> declared, std::span<const doub
   return sum;
 }
 
-/// The error of the version that an adaptation made, in the adaptation's own norm.
-double errorOf(const SimulatorRecord& version, double otherwise) {
+/// What is stored of the adaptation that made a version.
+struct Made {
+  std::optional<double> error;  ///< of the version, in the adaptation's own norm
+  std::string evidenceSha256;   ///< as in its generations
+};
+Made madeFrom(const SimulatorRecord& version) {
   const auto evidence = nlohmann::json::parse(version.evidence, nullptr, false);
-  return evidence.is_object() ? evidence.value("error", otherwise) : otherwise;
+  Made made;
+  if (!evidence.is_object()) return made;
+  if (evidence.contains("error")) made.error = evidence["error"].get<double>();
+  made.evidenceSha256 = evidence.value("sha256", "");
+  return made;
 }
 
 }  // namespace
@@ -72,10 +80,11 @@ std::vector<SimulatorSpec> candidateSimulators(const RunContext& context, int st
   for (const Parameter& p : adapted) present.push_back(valueOf(simulatorParameters(), newest.simulator.values, p.name));
 
   std::vector<AdaptationCandidate> last;
+  const Made made = madeFrom(newest);
   if (newest.madeBy == "L3")
     for (const AdaptationRecord& generation : context.database.adaptations(context.record.id, stage - 1))
       for (const AdaptationCandidate& c : generation.candidates)
-        if (c.parameters != present) last.push_back(c);
+        if (c.parameters != present && generation.evidenceSha256 == made.evidenceSha256) last.push_back(c);
   std::vector<std::vector<double>> vectors;
   if (last.empty()) {
     Random random = Random::forPurpose(context.record.seed, "candidate simulators", static_cast<std::uint64_t>(stage));
@@ -84,7 +93,7 @@ std::vector<SimulatorSpec> candidateSimulators(const RunContext& context, int st
   } else {
     const double best = std::ranges::min(last, {}, &AdaptationCandidate::error).error;
     const double ratio = valueOf(stageParameters(), context.prepared.spec.stages, "candidate_error_ratio");
-    vectors = equallyGood(last, adapted, others, ratio, errorOf(newest, best));
+    vectors = equallyGood(last, adapted, others, ratio, made.error.value_or(best));
   }
   std::vector<SimulatorSpec> candidates{newest.simulator};
   for (const std::vector<double>& values : vectors)

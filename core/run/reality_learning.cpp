@@ -33,27 +33,37 @@ struct Origin {
   double fitness = -std::numeric_limits<double>::infinity();
 };
 
+/// The best measured so far, or the one of this stage that the simulator thinks best; 0 if there is none. Of a stage's
+/// policies none counts for itself. Where L3 sees policies, L2 stays away from individuals that L3 must not know.
+Id begunAt(const RunContext& context, int stage, const std::vector<RealFitness>& real, bool heldOutToo) {
+  const Database& db = context.database;
+  Id best = 0;
+  double most = 0;
+  const auto consider = [&](Id individual, double value, bool heldOut) {
+    if ((heldOut && !heldOutToo) || (best != 0 && value <= most)) return;
+    best = individual;
+    most = value;
+  };
+  if (context.realitySetting("begins_at") == 1)
+    for (const MeasurementTask& t : db.measurementTasks(context.record.id, stage))
+      if (t.iteration == 0) consider(t.individual, t.simulatedFitness, t.heldOut);
+  if (best == 0)
+    for (const RealFitness& r : real)
+      if (r.iteration == 0 || r.stage < stage) consider(r.individual, r.mean, r.heldOut);
+  return best;
+}
+
 Origin originOf(const RunContext& context, int stage) {
   const Database& db = context.database;
   const Id run = context.record.id;
-  Origin origin;
-  Id best = 0;
-  if (context.realitySetting("begins_at") == 0) {
-    for (const RealFitness& r : realFitness(db.measurementTasks(run), db.measurements(run), stage))
-      if ((r.iteration == 0 || r.stage < stage) && (best == 0 || r.mean > origin.fitness)) {
-        best = r.individual;
-        origin.fitness = r.mean;
-      }
-    if (!isMeasured(context)) origin.fitness = db.individual(best).fitness;
-  } else {
-    const MeasurementTask* top = nullptr;
-    const std::vector<MeasurementTask> tasks = db.measurementTasks(run, stage);
-    for (const MeasurementTask& t : tasks)
-      if (t.iteration == 0 && (!top || t.simulatedFitness > top->simulatedFitness)) top = &t;
-    best = top->individual;
-    if (!isMeasured(context)) origin.fitness = top->simulatedFitness;
-  }
-  origin.parameters = db.individual(best).parameters;
+  const std::vector<RealFitness> real = realFitness(db.measurementTasks(run), db.measurements(run), stage);
+  Id best = begunAt(context, stage, real, context.adaptationSetting("sees_policies") == 0);
+  if (best == 0) best = begunAt(context, stage, real, true);
+  const IndividualRecord individual = db.individual(best);
+  Origin origin{individual.parameters};
+  if (!isMeasured(context)) origin.fitness = individual.fitness;
+  for (const RealFitness& r : real)
+    if (isMeasured(context) && r.individual == best) origin.fitness = r.mean;
   return origin;
 }
 

@@ -112,6 +112,7 @@ class Database {
   /// New simulator version, gap record, stage counter and the state `next`, together. Returns the version's id, which
   /// is also the gap's simulatorAfter. A version's number is the next of its run.
   Id finishStage(const SimulatorRecord& simulator, GapRecord gap, RunState next);
+  void passStage(Id run, int stage, RunState next);  ///< a stage without an individual to measure and without an update
   Id addSimulator(const SimulatorRecord& simulator);  ///< by hand or by gap analysis
   std::vector<SimulatorRecord> simulators(Id run) const;
   SimulatorRecord simulator(Id id) const;

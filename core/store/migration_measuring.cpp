@@ -25,4 +25,9 @@ CREATE TABLE reality_end (
   for (const char* event : {"UPDATE", "DELETE"}) keep(database, "reality_end", event, "");
 }
 
+// A value may be corrected in the middle of L3: errors of other values are not to be compared.
+void evidenceOfAdaptations(SQLite::Database& database) {
+  database.exec("ALTER TABLE adaptation ADD COLUMN evidence_sha256 TEXT NOT NULL DEFAULT ''");
+}
+
 }  // namespace btr

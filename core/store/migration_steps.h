@@ -20,4 +20,7 @@ void gridsOfExperiments(SQLite::Database& database);
 /// Why an individual is measured, the held-out gap's error, and that a person ended L2.
 void reasonsForMeasuring(SQLite::Database& database);
 
+/// From which measured values the errors of L3's candidates come.
+void evidenceOfAdaptations(SQLite::Database& database);
+
 }  // namespace btr

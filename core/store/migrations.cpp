@@ -269,6 +269,7 @@ constexpr std::array steps{
     Migration{"grids of experiments whose runs are learned together", gridsOfExperiments},
     Migration{"why individuals are measured, how sure the held-out gap is, and that a person ended L2",
               reasonsForMeasuring},
+    Migration{"from which measured values the errors of a generation of L3 come", evidenceOfAdaptations},
 };
 
 }  // namespace

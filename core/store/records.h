@@ -16,14 +16,14 @@ using Id = std::int64_t;
 struct ExperimentRecord {
   Id id = 0;
   std::string name;
-  std::string specJson;   ///< the experiment as it was opened, see toJsonText(ExperimentSpec)
+  std::string specJson;  ///< the experiment as it was opened, see toJsonText(ExperimentSpec)
   std::string createdAt;
   std::string note;
 };
 
 /// A file that a run depends on (robot models), stored by content so that a run can be replayed anywhere.
 struct StoredFile {
-  std::string name;    ///< as the scene names it
+  std::string name;  ///< as the scene names it
   std::string sha256;
   std::string content;
 };
@@ -37,18 +37,18 @@ struct RunRecord {
   Id experiment = 0;
   std::uint64_t seed = 0;
   std::string specJson;
-  std::string specSha256;      ///< of specJson + sceneJson + model files: the same spec and seed is the same run
+  std::string specSha256;  ///< of specJson + sceneJson + model files: the same spec and seed is the same run
   std::string sceneJson;
   std::vector<StoredFile> files;
   RunState state = RunState::ready;
-  int stage = 0;               ///< measurement stages completed so far
-  int generation = 0;          ///< L1 generations completed
-  std::string reality;         ///< "person" or "stand_in"; a stand-in is labelled wherever this run is shown
+  int stage = 0;        ///< measurement stages completed so far
+  int generation = 0;   ///< L1 generations completed
+  std::string reality;  ///< "person" or "stand_in"; a stand-in is labelled wherever this run is shown
   std::string programVersion;
   std::string startedAt, updatedAt;
   std::string note;
-  std::string message;         ///< why it failed or what it waits for
-  std::string progressJson;    ///< latest RunProgress of the runner, "" if none
+  std::string message;       ///< why it failed or what it waits for
+  std::string progressJson;  ///< latest RunProgress of the runner, "" if none
   bool stopRequested = false;
 };
 
@@ -56,34 +56,34 @@ struct RunRecord {
 struct IndividualRecord {
   Id id = 0;
   Id run = 0;
-  int generation = 0;             ///< 1, 2, …
-  int slot = 0;                   ///< place in the population, 0, 1, …
+  int generation = 0;  ///< 1, 2, …
+  int slot = 0;        ///< place in the population, 0, 1, …
   Id simulator = 0;
-  std::string chromosome;         ///< "0101…"
-  std::vector<double> parameters; ///< in the order of the controller's genotype
+  std::string chromosome;          ///< "0101…"
+  std::vector<double> parameters;  ///< in the order of the controller's genotype
   double fitness = 0;
   std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
   std::string detail;
-  Id sameAs = 0;                  ///< not simulated: the fitness is that of this earlier individual (see sameAsSlot)
+  Id sameAs = 0;  ///< not simulated: the fitness is that of this earlier individual (see sameAsSlot)
   std::uint64_t trialSeed = 0;
-  std::string traceSha256;        ///< of the trial's trace, "" if it was not recorded
-  int iteration = 0;              ///< 0: evolved by L1; n: a policy of the n-th iteration of L2 after this generation
+  std::string traceSha256;  ///< of the trial's trace, "" if it was not recorded
+  int iteration = 0;        ///< 0: evolved by L1; n: a policy of the n-th iteration of L2 after this generation
 };
 
 /// The same text for two individuals that are the same: of a learner without chromosomes its parameters tell.
 std::string identityOf(const IndividualRecord& individual);
 
-/// In a generation that is not stored yet, individuals have no ids: `sameAs` of one that equals an earlier slot of the same
-/// generation. Database::addGeneration puts the id in its place.
+/// In a generation that is not stored yet, individuals have no ids: `sameAs` of one that equals an earlier slot of the
+/// same generation. Database::addGeneration puts the id in its place.
 constexpr Id sameAsSlot(int slot) { return -1 - static_cast<Id>(slot); }
 
 struct GenerationRecord {
   Id run = 0;
-  int number = 0;                 ///< 1, 2, …
+  int number = 0;  ///< 1, 2, …
   Id simulator = 0;
   double best = 0, mean = 0, worst = 0;
   int trials = 0, reused = 0, failed = 0;
-  double seconds = 0;             ///< wall time; informative, not part of the result
+  double seconds = 0;                     ///< wall time; informative, not part of the result
   std::string randomState, learnerState;  ///< after tell: where a resumed run goes on
   std::string finishedAt;
   std::vector<IndividualRecord> individuals;  ///< may be empty when read back, see Database
@@ -92,16 +92,16 @@ struct GenerationRecord {
 /// An individual that waits for, or has, real fitness.
 struct MeasurementTask {
   Id run = 0;
-  int stage = 0;                  ///< 1, 2, …
+  int stage = 0;  ///< 1, 2, …
   Id individual = 0;
-  int position = 0;               ///< drawn order in which to measure, 1, 2, …
-  double simulatedFitness = 0;    ///< in the simulator version of that time; hidden from the sheet while blind
+  int position = 0;             ///< drawn order in which to measure, 1, 2, …
+  double simulatedFitness = 0;  ///< in the simulator version of that time; hidden from the sheet while blind
   int wantedRepeats = 1;
-  bool heldOut = false;           ///< not shown to L3; the gap on it is reported apart
-  int iteration = 0;              ///< 0: the stage's own measurement; n: the n-th iteration of L2 in this stage
-  int rank = 0;                   ///< place among those chosen for the same reason, 1 first; 0: not known, or a policy of L2
+  bool heldOut = false;  ///< not shown to L3; the gap on it is reported apart
+  int iteration = 0;     ///< 0: the stage's own measurement; n: the n-th iteration of L2 in this stage
+  int rank = 0;          ///< place among those chosen for the same reason, 1 first; 0: not known, or a policy of L2
   std::optional<double> disagreement = {};  ///< chosen since candidate simulators disagree: their standard deviation
-  int candidates = 0;             ///< how many these were; 0: chosen as one of the best
+  int candidates = 0;                       ///< how many these were; 0: chosen as one of the best
 };
 
 /// One value typed in (or answered by the stand-in). Never deleted: a correction voids the old one.
@@ -109,7 +109,7 @@ struct MeasurementRecord {
   Id id = 0;
   Id run = 0;
   Id individual = 0;
-  double value = 0;               ///< in the fitness plugin's unit
+  double value = 0;  ///< in the fitness plugin's unit
   bool isVoid = false;
   std::string note = {}, who = {};
   std::string source = "person";  ///< "person" or "stand_in"
@@ -128,12 +128,12 @@ struct RealityPolicy {
 struct RealityIteration {
   Id run = 0;
   int stage = 0;
-  int number = 0;                   ///< 1, 2, …
-  std::vector<double> centreBefore; ///< where the learner stood; empty for a learner without such a point
+  int number = 0;                    ///< 1, 2, …
+  std::vector<double> centreBefore;  ///< where the learner stood; empty for a learner without such a point
   std::vector<double> centreAfter;
   std::string randomState, learnerState;  ///< after tell; of one that is only begun: after ask
   std::string finishedAt;
-  std::vector<RealityPolicy> policies;    ///< in the learner's order
+  std::vector<RealityPolicy> policies;  ///< in the learner's order
 };
 
 /// One generation of L3 with its candidates.
@@ -145,21 +145,22 @@ struct AdaptationCandidate {
 struct AdaptationRecord {
   Id run = 0;
   int stage = 0;
-  int number = 0;                  ///< 1, 2, …
+  int number = 0;  ///< 1, 2, …
   double bestError = 0, meanError = 0;
   std::string randomState, learnerState;
   std::vector<AdaptationCandidate> candidates;
+  std::string evidenceSha256;  ///< of the measured values that the errors come from; empty: stored before it was
 };
 
 /// A simulator version: never edited.
 struct SimulatorRecord {
   Id id = 0;
   Id run = 0;
-  int number = 0;                  ///< 0 is the one the run started with
+  int number = 0;  ///< 0 is the one the run started with
   Id parent = 0;
   SimulatorSpec simulator;
-  std::string madeBy;              ///< "start", "L3", "gap analysis", "by hand"
-  std::string evidence;            ///< JSON text: from which stage, individuals, recordings
+  std::string madeBy;    ///< "start", "L3", "gap analysis", "by hand"
+  std::string evidence;  ///< JSON text: from which stage, individuals, recordings
   int madeAfterGeneration = 0;
   std::string createdAt;
 };
@@ -169,12 +170,12 @@ struct GapRecord {
   Id run = 0;
   int stage = 0;
   Id simulatorBefore = 0, simulatorAfter = 0;
-  double before = 0, after = 0;                    ///< over the individuals L3 was shown, of this stage and all earlier ones
+  double before = 0, after = 0;  ///< over the individuals L3 was shown, of this stage and all earlier ones
   std::optional<double> heldOutBefore, heldOutAfter;  ///< over the held-out individuals of all stages so far
-  double newBefore = 0, newAfter = 0;              ///< over this stage's own individuals: before the update they are unseen
-  double standardError = 0;                        ///< of `before`, from repeats; 0 if each was measured once
-  int individuals = 0;                             ///< that L3 was shown
-  double heldOutStandardError = 0;                 ///< of the held-out gaps, from repeats
+  double newBefore = 0, newAfter = 0;  ///< over this stage's own individuals: before the update they are unseen
+  double standardError = 0;            ///< of `before`, from repeats; 0 if each was measured once
+  int individuals = 0;                 ///< that L3 was shown
+  double heldOutStandardError = 0;     ///< of the held-out gaps, from repeats
   int heldOutIndividuals = 0;
 };
 

@@ -108,9 +108,9 @@ void Database::addAdaptation(const AdaptationRecord& a) {
                           " is not allowed; the next of run " + std::to_string(a.run) + " is " +
                           std::to_string(number) + " in stage " + std::to_string(stage));
     insert(*connection_,
-           "INSERT INTO adaptation (run_id, stage, number, best_error, mean_error, random_state, learner_state) "
-           "VALUES (?, ?, ?, ?, ?, ?, ?)",
-           a.run, a.stage, a.number, a.bestError, a.meanError, a.randomState, a.learnerState);
+           "INSERT INTO adaptation (run_id, stage, number, best_error, mean_error, random_state, learner_state, "
+           "evidence_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+           a.run, a.stage, a.number, a.bestError, a.meanError, a.randomState, a.learnerState, a.evidenceSha256);
     Query candidate(*connection_,
                     "INSERT INTO adaptation_candidate (run_id, stage, number, slot, error, chromosome, parameters) "
                     "VALUES (?, ?, ?, ?, ?, ?, ?)");
@@ -124,12 +124,12 @@ std::vector<AdaptationRecord> Database::adaptations(Id run, int stage) const {
   return connection_->read([&] {
     std::vector<AdaptationRecord> all;
     Query row(*connection_,
-              "SELECT run_id, stage, number, best_error, mean_error, random_state, learner_state FROM adaptation "
-              "WHERE run_id = ? AND stage = ? ORDER BY number",
+              "SELECT run_id, stage, number, best_error, mean_error, random_state, learner_state, evidence_sha256 FROM "
+              "adaptation WHERE run_id = ? AND stage = ? ORDER BY number",
               run, stage);
     while (row.next()) {
       AdaptationRecord& a = all.emplace_back();
-      row.get(a.run, a.stage, a.number, a.bestError, a.meanError, a.randomState, a.learnerState);
+      row.get(a.run, a.stage, a.number, a.bestError, a.meanError, a.randomState, a.learnerState, a.evidenceSha256);
       Query candidate(*connection_,
                       "SELECT chromosome, parameters, error FROM adaptation_candidate "
                       "WHERE run_id = ? AND stage = ? AND number = ? ORDER BY slot",
@@ -163,6 +163,18 @@ Id Database::finishStage(const SimulatorRecord& simulator, GapRecord gap, RunSta
     Query(*connection_, "UPDATE run_state SET stage = ?, state = ?, message = '', updated_at = ? WHERE run_id = ?")
         .run(stage, toText(next), utcNow(), gap.run);
     return gap.simulatorAfter;
+  });
+}
+
+void Database::passStage(Id run, int stage, RunState next) {
+  connection_->write([&] {
+    const std::string what = "passing stage " + std::to_string(stage) + " of run " + std::to_string(run);
+    const int due = countersOf(*connection_, run).stage + 1;
+    if (stage != due) connection_->refuse(what + " is not allowed; its next stage is " + std::to_string(due));
+    if (Query(*connection_, "SELECT 1 FROM measurement_task WHERE run_id = ? AND stage = ?", run, stage).next())
+      connection_->refuse(what + " is not allowed; it has individuals to measure");
+    Query(*connection_, "UPDATE run_state SET stage = ?, state = ?, message = '', updated_at = ? WHERE run_id = ?")
+        .run(stage, toText(next), utcNow(), run);
   });
 }
 

@@ -291,6 +291,50 @@ TEST_F(RealityLearning, L3SeesThePoliciesOnlyWhereItIsToldTo) {
   }
 }
 
+TEST_F(RealityLearning, NothingOfAHeldOutIndividualReachesL3ThroughPolicies) {
+  spec_.reality = "person";
+  spec_.stages["total_generations"] = 3;
+  spec_.adaptationSettings["held_out"] = 1;
+  spec_.adaptationSettings["sees_policies"] = 1;
+  // Its first copy is the individual that it begins at, unaltered.
+  spec_.realityLearner = {"ga", {{"population", 4}}, {}};
+  spec_.realitySettings = {{"iterations", 1}, {"repeats", 1}};
+  for (const double beginsAt : {0.0, 1.0}) {
+    spec_.realitySettings["begins_at"] = beginsAt;
+    begin("held out" + std::to_string(static_cast<int>(beginsAt)));
+    ASSERT_EQ(RunEnd::waiting, go());
+    std::vector<double> hidden;
+    for (const MeasurementTask& t : db_->measurementTasks(run_, 1))
+      if (t.heldOut) hidden = db_->individual(t.individual).parameters;
+    ASSERT_FALSE(hidden.empty());
+    // The one that is held out is the best in reality.
+    measure([&](const auto& p) { return p == hidden ? 9.0 : 0.5; });
+    ASSERT_EQ(RunEnd::waiting, go());
+    for (const IndividualRecord& policy : db_->realityPolicies(run_, 1, 1)) EXPECT_NE(hidden, policy.parameters);
+  }
+}
+
+TEST_F(RealityLearning, WhatItBeganAtGoesBackWhereNoPolicyWasBetter) {
+  spec_.reality = "person";
+  spec_.stages["total_generations"] = 3;
+  spec_.realitySettings = {{"iterations", 1}, {"repeats", 1}};
+  const std::vector<Parameter> declared = genotype();
+  for (const double beginsAt : {0.0, 1.0}) {
+    spec_.realitySettings["begins_at"] = beginsAt;
+    begin("origin" + std::to_string(static_cast<int>(beginsAt)));
+    ASSERT_EQ(RunEnd::waiting, go());
+    measure([](const auto&) { return 5.0; });
+    ASSERT_EQ(RunEnd::waiting, go());
+    const std::vector<double> origin = db_->begunRealityIteration(run_, 1)->centreBefore;
+    measure([](const auto&) { return 1.0; });
+    ASSERT_EQ(RunEnd::waiting, go());
+    const IndividualRecord first = db_->individuals(run_, 3).front();
+    for (std::size_t n = 0; n < declared.size(); ++n)
+      EXPECT_NEAR(origin[n], first.parameters[n], 0.51 / 255 * (declared[n].maximum - declared[n].minimum))
+          << declared[n].name;
+  }
+}
+
 TEST_F(RealityLearning, TheReportShowsTheArithmeticOfTheStepsThatWereTaken) {
   ASSERT_EQ(RunEnd::finished, go());
   const std::vector<Parameter> declared = genotype();

@@ -322,10 +322,21 @@ TEST_F(Records, ATaskKeepsWhyItsIndividualIsMeasured) {
   EXPECT_EQ(6, tasks[1].candidates);
 }
 
+TEST_F(Records, AStageWithNobodyToMeasureIsPassedAndOneThatHasSomebodyIsNot) {
+  addGenerations(1);
+  EXPECT_THAT(refusal([&] { db_.passStage(run_, 2, RunState::learning); }), HasSubstr("its next stage is 1"));
+  db_.passStage(run_, 1, RunState::learning);
+  EXPECT_EQ(1, db_.run(run_).stage);
+  EXPECT_TRUE(db_.gaps(run_).empty());
+  db_.addMeasurementStage(run_, 2, {{run_, 2, 1, 1, 1.0, 1, false}});
+  EXPECT_THAT(refusal([&] { db_.passStage(run_, 2, RunState::learning); }), HasSubstr("has individuals to measure"));
+}
+
 TEST_F(Records, AStageEndsWithANewSimulatorItsGapAndTheNextState) {
   addGenerations(1);
-  AdaptationRecord l3{run_, 1, 1, 0.5, 0.75, "r", "l", {{"01", {0.1, -0.0}, 0.5}, {"10", {0.2}, 1.0}}};
+  AdaptationRecord l3{run_, 1, 1, 0.5, 0.75, "r", "l", {{"01", {0.1, -0.0}, 0.5}, {"10", {0.2}, 1.0}}, "e"};
   db_.addAdaptation(l3);
+  EXPECT_EQ("e", db_.adaptations(run_, 1).at(0).evidenceSha256);
   EXPECT_THAT(refusal([&] { db_.addAdaptation(l3); }), HasSubstr("the next of run 1 is 2 in stage 1"));
 
   SimulatorRecord adapted;

@@ -122,7 +122,7 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
     RealityIteration done = begun;
     done.policies = {{policies[0].id, 1.5, 0, 1}};
     database.addRealityIteration(done);
-    database.addAdaptation({id, 1, 1, 0, 0, "", "", {{"01", {1}, 1}}});
+    database.addAdaptation({id, 1, 1, 0, 0, "", "", {{"01", {1}, 1}}, ""});
     start.run = id;
     database.finishStage(start, {id, 1, 1, 0, 1, 1, {}, {}, 1, 1, 0, 1}, RunState::learning);
     database.addRecording({0, 1, 0, "r.csv", "", "", "a,b", "", ""});

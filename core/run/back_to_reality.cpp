@@ -103,6 +103,7 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     if (database.measurementTasks(run, stage).empty()) {
       if (!learnUntil(context, context.measuredAfter(stage))) return stopped();
       if (!beginMeasuring(context, stage)) return stopped();
+      if (database.run(run).stage == stage) continue;  // nobody was left to measure
     }
     if (!completeMeasuring(context, stage)) {
       if (context.stopped()) return stopped();

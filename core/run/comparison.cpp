@@ -12,6 +12,24 @@
 #include "core/spec/experiment_spec.h"
 
 namespace btr {
+namespace {
+
+const StageOutcome* atStage(const std::vector<StageOutcome>& run, int stage) {
+  const auto found = std::ranges::find(run, stage, &StageOutcome::stage);
+  return found == run.end() ? nullptr : &*found;
+}
+
+/// A run may have passed a stage in which nobody was left to measure.
+std::vector<int> commonStages(const std::vector<std::vector<StageOutcome>>& runs) {
+  std::vector<int> stages;
+  if (runs.empty()) return stages;
+  for (const StageOutcome& outcome : runs.front())
+    if (std::ranges::all_of(runs, [&](const auto& run) { return atStage(run, outcome.stage); }))
+      stages.push_back(outcome.stage);
+  return stages;
+}
+
+}  // namespace
 
 std::vector<StageOutcome> stageOutcomes(const Database& database, Id run) {
   const std::vector<MeasurementTask> tasks = database.measurementTasks(run);
@@ -42,23 +60,22 @@ std::vector<StageOutcome> stageOutcomes(const Database& database, Id run) {
 void compareArms(std::vector<ComparedArm>& arms) {
   for (ComparedArm& arm : arms) {
     arm.stages.clear();
-    std::size_t stages = arm.runs.empty() ? 0 : arm.runs.front().size();
-    for (const auto& run : arm.runs) stages = std::min(stages, run.size());
     const std::vector<std::vector<StageOutcome>>& base = arms.front().runs;
-    for (std::size_t s = 0; s < stages; ++s) {
-      const auto over = [&](double StageOutcome::*number) {
+    for (const int number : commonStages(arm.runs)) {
+      const auto over = [&](double StageOutcome::*what) {
         std::vector<double> values;
-        for (const auto& run : arm.runs) values.push_back(run[s].*number);
+        for (const auto& run : arm.runs) values.push_back(atStage(run, number)->*what);
         return spreadOf(values);
       };
-      const auto difference = [&](double StageOutcome::*number) {
+      const auto difference = [&](double StageOutcome::*what) {
         std::vector<double> values;
         for (std::size_t k = 0; k < std::min(arm.runs.size(), base.size()) && &arm != &arms.front(); ++k)
-          if (s < base[k].size()) values.push_back(arm.runs[k][s].*number - base[k][s].*number);
+          if (const StageOutcome* other = atStage(base[k], number))
+            values.push_back(atStage(arm.runs[k], number)->*what - other->*what);
         return spreadOf(values);
       };
       ComparedStage stage;
-      stage.stage = arm.runs.front()[s].stage;
+      stage.stage = number;
       stage.gap = over(&StageOutcome::gap);
       stage.adapted = over(&StageOutcome::adapted);
       stage.realMean = over(&StageOutcome::realMean);

@@ -8,6 +8,7 @@
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
 #include "core/run/stand_in.h"
+#include "core/spec/error.h"
 
 namespace btr {
 namespace {
@@ -20,9 +21,10 @@ struct Chosen {
   int candidates = 0;
 };
 
-/// Those who were not measured before, each parameter vector once: the best, of the stage's last generation and filled
-/// up from the generations before it in this simulator, or of all generations in this simulator; and of the last
-/// generation those about whom candidate simulators disagree most, if they do. Nothing if stopped.
+/// Those whose trial came to its end and who were not measured before, each parameter vector once: the best, of the
+/// stage's last generation and filled up from the generations before it in this simulator, or of all generations in
+/// this simulator; and of the last generation those about whom candidate simulators disagree most, if they do. Nothing
+/// if stopped.
 std::optional<std::vector<Chosen>> chooseMeasured(RunContext& context, int stage) {
   const Database& db = context.database;
   const Id run = context.record.id;
@@ -30,18 +32,19 @@ std::optional<std::vector<Chosen>> chooseMeasured(RunContext& context, int stage
   for (const MeasurementTask& task : db.measurementTasks(run)) taken.insert(db.individual(task.individual).parameters);
   const auto count = static_cast<std::size_t>(context.stageSetting("measured_individuals"));
   const auto disagreeing = static_cast<std::size_t>(context.stageSetting("disagreeing_individuals"));
-  const int ask = static_cast<int>(count + taken.size());
   const int last = context.measuredAfter(stage);
   // A simulator that was taken after the last generation has none of its own yet.
   const int first = std::min(context.simulator().madeAfterGeneration + 1, last);
   const bool lastOnly = context.stageSetting("chosen_from") == 0;
+  const std::string finished = toText(TrialResult::Outcome::finished);
 
   std::vector<Chosen> chosen;
   int rank = 0;
   const auto takeBest = [&](std::size_t until) {
     const auto take = [&](int from) {
-      for (IndividualRecord& i : db.bestIndividuals(run, ask + static_cast<int>(count), from, last))
-        if (chosen.size() < until && taken.insert(i.parameters).second) chosen.push_back({std::move(i), ++rank});
+      for (IndividualRecord& i : db.bestIndividuals(run, std::numeric_limits<int>::max(), from, last))
+        if (chosen.size() < until && i.outcome == finished && taken.insert(i.parameters).second)
+          chosen.push_back({std::move(i), ++rank});
     };
     if (lastOnly) take(last);
     if (chosen.size() < until) take(first);
@@ -62,6 +65,23 @@ std::optional<std::vector<Chosen>> chooseMeasured(RunContext& context, int stage
     takeBest(count);
   }
   return chosen;
+}
+
+/// Everybody was measured before: there is nothing new to adapt the simulator to, and learning goes on. Where no trial
+/// came to its end there is nobody to measure at all.
+void passOver(RunContext& context, int stage) {
+  Database& db = context.database;
+  const Id run = context.record.id;
+  const int last = context.measuredAfter(stage);
+  const std::string finished = toText(TrialResult::Outcome::finished);
+  const std::vector<IndividualRecord> all = db.individuals(run, last);
+  if (std::ranges::none_of(all, [&](const IndividualRecord& i) { return i.outcome == finished; }))
+    throw InputError("run " + std::to_string(run) + ", measurement stage " + std::to_string(stage) +
+                     ": nobody can be measured, as no trial of generation " + std::to_string(last) +
+                     " came to its end (the first: " + all.front().outcome + ", " + all.front().detail +
+                     "); mend the experiment and start it anew");
+  const bool isLast = last >= context.stageSetting("total_generations");
+  db.passStage(run, stage, isLast ? RunState::finished : RunState::learning);
 }
 
 /// The tasks of one measurement: the stage's own, or those of an iteration of L2.
@@ -94,6 +114,10 @@ bool beginMeasuring(RunContext& context, int stage) {
   auto choice = chooseMeasured(context, stage);
   if (!choice) return false;
   std::vector<Chosen>& chosen = *choice;
+  if (chosen.empty()) {
+    passOver(context, stage);
+    return true;
+  }
 
   // Their traces, for replay and for comparing with recordings.
   std::vector<TrialJob> jobs;

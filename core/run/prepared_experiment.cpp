@@ -83,6 +83,21 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   return prepared;
 }
 
+/// A motion that is longer than a trial makes every trial fail.
+void requireTimeForTheMotion(const PreparedExperiment& prepared) {
+  std::vector<double> vector = prepared.start;
+  if (vector.empty())
+    for (const Parameter& p : prepared.genotype) vector.push_back(p.byDefault);
+  const Values& settings = prepared.spec.controller.settings;
+  const Scene scene = prepared.scene(prepared.spec.simulator);
+  const double motion_s = prepared.controller->begin(scene, settings, vector)->duration();
+  const double trial_s = valueOf(stageParameters(), prepared.spec.stages, "trial_maximum_s");
+  if (motion_s > trial_s + scene.controlPeriod_s / 2)
+    throw InputError("stages/trial_maximum_s", toText(trial_s) + " s",
+                     "at least " + toText(motion_s) + " s, the duration of the motion (controller " +
+                         prepared.spec.controller.name + ")");
+}
+
 }  // namespace
 
 Scene PreparedExperiment::scene(const SimulatorSpec& simulator) const {
@@ -154,7 +169,9 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
     std::string hash = sha256(content);
     files.push_back({robot.model, std::move(hash), std::move(content)});
   }
-  return prepare(spec, std::move(scene), std::move(files), host);
+  PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host);
+  requireTimeForTheMotion(prepared);
+  return prepared;
 }
 
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) {

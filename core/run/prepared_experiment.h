@@ -48,8 +48,8 @@ struct PreparedExperiment {
   Values task() const;  ///< all of the controller's settings, defaults filled in
 };
 
-/// Checks everything that can be checked before a run: plugins, settings, scene, models, and that a scene can be built.
-/// Throws InputError.
+/// Checks everything that can be checked before a run: plugins, settings, scene, models, that a scene can be built, and
+/// that a trial is long enough for the motion. Throws InputError.
 PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host);
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
 

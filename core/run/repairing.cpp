@@ -151,6 +151,13 @@ std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorS
   }
 }
 
+/// What was adopted by hand in the meantime names no stage.
+bool isRepairOf(const SimulatorRecord& version, int stage) {
+  if (version.madeBy != "gap analysis") return false;
+  const auto evidence = nlohmann::json::parse(version.evidence, nullptr, false);
+  return evidence.is_object() && evidence.value("stage", 0) == stage;
+}
+
 }  // namespace
 
 StageEnd repairSimulator(RunContext& context, int stage) {
@@ -159,12 +166,13 @@ StageEnd repairSimulator(RunContext& context, int stage) {
   if (static_cast<double>(stage) != settingOf(context, "after_stage")) return StageEnd::done;
   // Done before, or L3 has begun without it.
   const SimulatorRecord parent = context.simulator();
-  const int generation = context.measuredAfter(stage);
-  if (parent.madeBy == "gap analysis" && parent.madeAfterGeneration == generation) return StageEnd::done;
+  if (std::ranges::any_of(db.simulators(run), [&](const SimulatorRecord& s) { return isRepairOf(s, stage); }))
+    return StageEnd::done;
   if (!db.adaptations(run, stage).empty()) return StageEnd::done;
 
   db.setRunState(run, RunState::adapting, "");
   const std::vector<Id> who = whomToRecord(context, stage);
+  if (who.empty()) return StageEnd::done;
   if (context.record.reality == "stand_in" && !recordStandIn(context, who)) return StageEnd::stopped;
   const std::vector<RecordingRecord> recordings = recordingsOf(context, who);
   if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
@@ -187,7 +195,7 @@ StageEnd repairSimulator(RunContext& context, int stage) {
   version.simulator = report->after;
   version.madeBy = "gap analysis";
   version.evidence = evidenceOf(*report, stage, recordings);
-  version.madeAfterGeneration = generation;
+  version.madeAfterGeneration = context.measuredAfter(stage);
   version.createdAt = utcNow();
   db.addSimulator(version);
   context.progress.message.clear();

@@ -109,6 +109,12 @@ std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<Tri
   if (replies.size() != jobs.size()) return std::nullopt;
   std::vector<TrialReply> results;
   results.reserve(replies.size());
+  // What the machine did is no result of the trial.
+  for (const WorkerPool::Reply& reply : replies)
+    if (reply.killed)
+      throw InputError(
+          "a trial's worker process was killed twice (signal 9), as happens when memory runs out; nothing "
+          "of this generation is stored: go on with fewer jobs or when the machine is free");
   for (const WorkerPool::Reply& reply : replies)
     results.push_back(
         reply.ok

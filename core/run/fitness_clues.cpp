@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/gap/report_figures.h"
 #include "core/gap/residual.h"
@@ -119,6 +120,15 @@ class Clues {
     for (std::size_t t = 0; t < tries_.size(); ++t)
       for (std::size_t i = 0; i < count; ++i)
         tries_[t].change.push_back(replies[(t + 1) * count + i].fitness - result_.simulated[i]);
+    // Where a trial did not come to its end, its fitness is no answer to the effect.
+    const std::string finished = toText(TrialResult::Outcome::finished);
+    std::vector<Try> answered;
+    for (std::size_t t = 0; t < tries_.size(); ++t) {
+      const auto of = std::span(replies).subspan((t + 1) * count, count);
+      if (std::ranges::all_of(of, [&](const TrialReply& reply) { return reply.outcome == finished; }))
+        answered.push_back(std::move(tries_[t]));
+    }
+    tries_ = std::move(answered);
   }
 
   /// The largest share over all tries when the differences are dealt out at random, many times.

@@ -1,7 +1,9 @@
 #include "core/run/grid_kicks.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 #include "core/run/evaluator.h"
 #include "core/run/export.h"
@@ -38,6 +40,19 @@ std::vector<double> evenly(const std::vector<double>& axis, int count) {
                          ? axis.back()
                          : axis.front() + (axis.back() - axis.front()) * (count > 1 ? double(k) / (count - 1) : 0.5));
   return values;
+}
+
+/// `ofCells`: the cells' kicks, in their order. Adds nothing where the fitness tells no way.
+void addCellsWays(GridMap& map, const GridSpec& spec, std::span<const TrialReply> ofCells) {
+  const Parameter way{cellsWay, "m", "way of the cells' kicks", 0, std::numeric_limits<double>::max()};
+  std::vector<std::vector<double>> ways;
+  for (const TrialReply& reply : ofCells) {
+    const auto found = reply.figures.find("way_m");
+    ways.push_back({found == reply.figures.end() ? 0 : found->second});
+  }
+  const VectorGrid expected(spec.axes, {way}, std::move(ways));
+  for (GridPoint& point : map.points)
+    if (point.figures.contains("way_m")) point.figures[cellsWay] = expected.at(point.task, GridSpec::axisNames).front();
 }
 
 }  // namespace
@@ -93,6 +108,10 @@ std::optional<GridMap> gridMap(const Database& database, const PluginHost& host,
       jobs.push_back({base.simulator, point.parameters, 1, false, taskOf(point.task)});
       map.points.push_back(std::move(point));
     }
+  // The cells' own kicks, which say what is to be expected between them.
+  const std::vector<GridCell> cells = cellsOf(base.spec);
+  for (const GridCell& cell : cells)
+    jobs.push_back({base.simulator, kicks.at(cell.task, GridSpec::axisNames), 1, false, taskOf(cell.task)});
   Evaluator evaluator(base.prepared, workers);
   const auto replies = evaluator.evaluate(jobs, stop, [&](std::size_t count) {
     if (done) done(static_cast<double>(count) / static_cast<double>(jobs.size()));
@@ -103,6 +122,7 @@ std::optional<GridMap> gridMap(const Database& database, const PluginHost& host,
     map.points[k].outcome = (*replies)[k].outcome;
     map.points[k].figures = (*replies)[k].figures;
   }
+  addCellsWays(map, base.spec, std::span(*replies).subspan(map.points.size()));
   return map;
 }
 

@@ -30,6 +30,8 @@ struct GridMap {
   std::vector<GridPoint> points;                     ///< the direction runs fastest
   std::string unit;                                  ///< of fitness
 };
+/// Figure of a map's point: the way that the kicks of the cells around it have, interpolated as the kicks are.
+inline constexpr const char* cellsWay = "cells_way_m";
 /// `columns` bearings and `rows` directions, 1 … 1000 each, from one end of the grid's axes to the other (an axis
 /// of one value gives that). Nothing if
 /// `stop` was raised. `done(share)` is told from time to time.

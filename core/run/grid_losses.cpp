@@ -1,6 +1,5 @@
 #include "core/run/grid_losses.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace btr {
@@ -10,15 +9,6 @@ std::vector<GridLoss> lossesOf(const GridMap& map) {
     const auto found = point.figures.find(name);
     return found == point.figures.end() ? otherwise : found->second;
   };
-  std::vector<double> ways;
-  for (const GridPoint& point : map.points)
-    if (point.figures.contains("way_m")) ways.push_back(point.figures.at("way_m"));
-  double least = 0;
-  if (!ways.empty()) {
-    std::ranges::sort(ways);
-    const std::size_t middle = ways.size() / 2;
-    least = lostDistanceShare * (ways.size() % 2 ? ways[middle] : (ways[middle - 1] + ways[middle]) / 2);
-  }
   std::vector<GridLoss> losses;
   for (const GridPoint& point : map.points) {
     GridLoss loss = GridLoss::none;
@@ -26,7 +16,7 @@ std::vector<GridLoss> lossesOf(const GridMap& map) {
       loss = GridLoss::trial;
     else if (figure(point, "falls", 0) > 0 || figure(point, "largest_tilt_rad", 0) > lostTilt_rad)
       loss = GridLoss::balance;
-    else if (figure(point, "way_m", least) < least)
+    else if (figure(point, "way_m", 0) < lostDistanceShare * figure(point, cellsWay, 0))
       loss = GridLoss::distance;
     else if (std::abs(figure(point, "off_direction_rad", 0)) > lostDirection_rad)
       loss = GridLoss::direction;

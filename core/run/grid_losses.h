@@ -8,7 +8,7 @@ enum class GridLoss {
   none,
   trial,      ///< it did not finish
   balance,    ///< the robot fell, or its body tilted by more than 45°
-  distance,   ///< less than half of the median way of the map's kicks
+  distance,   ///< less than half of the way that the kicks of the surrounding cells have (cells_way_m)
   direction,  ///< more than 15° off: what k = 7.3 rad⁻² takes for one standard deviation
 };
 constexpr double lostTilt_rad = 0.785398, lostDirection_rad = 0.261799, lostDistanceShare = 0.5;

@@ -155,12 +155,13 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
   std::size_t next = 0, finished = 0;
 
   // Gives the job back, or fails it when it has had its second try.
-  const auto lost = [&](std::size_t job, const std::string& why) {
+  const auto lost = [&](std::size_t job, const std::string& why, bool killed) {
     if (tries[job] < 2) {
       again.push_back(job);
       return;
     }
     replies[job].failure = why;
+    replies[job].killed = killed;
     ++finished;
     if (done) done(finished);
   };
@@ -168,7 +169,8 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
     const auto job = static_cast<std::size_t>(worker.job);
     const int status = Impl::finish(worker, force);
     impl_->start(worker);
-    lost(job, why.empty() ? howItEnded(status) : why);
+    const bool killed = why.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+    lost(job, why.empty() ? howItEnded(status) : why, killed);
   };
 
   while (finished < jobs.size()) {

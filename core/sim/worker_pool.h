@@ -19,6 +19,7 @@ class WorkerPool {
     bool ok = false;
     std::string bytes;    ///< what Work returned
     std::string failure;  ///< why there is no reply, e.g. "the worker died (signal 11)"
+    bool killed = false;  ///< the worker was killed from outside (signal 9), as by a machine without memory
   };
 
   /// `workers` ≥ 1. `secondsPerJob` is wall time, meant as a last resort. Throws InputError if no process can be made.

@@ -64,6 +64,7 @@ GridMap mapOf(double distance) {
     point.task = {distance, map.bearings_rad[k / 2], map.directions_rad[k % 2]};
     point.fitness = 0.1 * static_cast<double>(k);
     point.figures = figures[k];
+    point.figures[cellsWay] = 1;
     map.points.push_back(point);
   }
   return map;
@@ -190,13 +191,17 @@ class TestGridPage : public QObject {
 
   void lossesAreToldByTheirOrder() {
     const auto losses = lossesOf(mapOf(0.14));
-    // The median way is 1 m: 0.4 m is less than half of it. 0.26 rad are just within 15°.
+    // The cells' kicks go 1 m: 0.4 m is less than half of it. 0.26 rad are just within 15°.
     const std::vector wanted{GridLoss::none,    GridLoss::direction, GridLoss::distance,
                              GridLoss::balance, GridLoss::balance,   GridLoss::none};
     QCOMPARE(losses, wanted);
     GridMap failed = mapOf(0.14);
     failed.points[0].outcome = "exploded";
     QCOMPARE(lossesOf(failed)[0], GridLoss::trial);
+    // A map whose kicks all fall short of the cells' has lost them all.
+    GridMap shortOnes = mapOf(0.14);
+    for (GridPoint& point : shortOnes.points) point.figures = {{"way_m", 0.01}, {cellsWay, 1.0}};
+    for (const GridLoss loss : lossesOf(shortOnes)) QCOMPARE(loss, GridLoss::distance);
   }
 
   void aMapIsComputedBesideTheWindowAndKeptForItsDistance() {

@@ -184,7 +184,11 @@ QString GridPage::nameOf(const GridRecord& grid) {
 
 void GridPage::setGrids(const QString& database, const std::vector<GridSummary>& grids) {
   const Id before = current();
-  if (database != database_) maps_.clear();
+  if (database != database_) {
+    // A map on its way is of a grid that may be another one there.
+    cancelMap();
+    maps_.clear();
+  }
   database_ = database;
   grids_ = grids;
   {
@@ -260,7 +264,7 @@ void GridPage::setPoint(const std::array<double, 3>& point) {
   showPoint();
 }
 
-/// The map of the distance that is nearest to the chosen one, if one was computed.
+/// The map of the chosen distance, if one was computed.
 void GridPage::showPoint() {
   const auto at = point();
   map_->setPoint(at[1], at[2]);

@@ -20,8 +20,9 @@ struct LegLimits {
 /// What inverse kinematics found.
 struct LegSolution {
   LegAngles angles{};
-  bool reached = true;       ///< false: the point lay out of reach and was replaced by the nearest that the leg reaches
-  bool withinLimits = true;  ///< false: no solution kept the limits; the one that broke them least was clamped
+  bool reached = true;       ///< false: the point lay out of reach; the leg is stretched or folded towards it
+  bool withinLimits = true;  ///< false: no solution kept the limits; of the one that broke them least each angle was
+                             ///< clamped by itself, which is not the nearest point that the foot could take
 
   bool feasible() const { return reached && withinLimits; }
 };

@@ -92,6 +92,9 @@ PreparedGait prepareGait(const GaitSpec& gait, const PluginHost& host) {
   experiment.scene = gait.scene;
   experiment.controller = gait.controller;
   experiment.fitness = gait.fitness;
+  // Who measured a real dog's speed did not count points out of reach.
+  if (find(host.fitness(gait.fitness.name)->settings(), "infeasible_penalty"))
+    experiment.fitness.settings.try_emplace("infeasible_penalty", 0);
   experiment.learner.name = experiment.adaptation.name = "ga";
   experiment.directory = gait.directory;
   experiment.stages["trial_maximum_s"] = 600;  // a gait's own duration ends it

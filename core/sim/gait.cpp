@@ -137,6 +137,12 @@ void GaitMotion::command(double time, const RobotReadings&, std::span<JointInput
     }
 }
 
+double infeasibleShare(const Values& remarks) {
+  const auto points = remarks.find("points"), infeasible = remarks.find("infeasible_points");
+  if (points == remarks.end() || infeasible == remarks.end() || points->second <= 0) return 0;
+  return infeasible->second / points->second;
+}
+
 Values GaitMotion::remarks() const { return {{"points", gait_.points()}, {"infeasible_points", gait_.infeasible()}}; }
 
 }  // namespace btr

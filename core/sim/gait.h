@@ -11,7 +11,7 @@ struct FootPoint {
 };
 
 /// A cycle of four feet, solved by inverse kinematics at the given points; between them joint angles go straight.
-/// A point that a leg cannot reach within its joints' limits is replaced by the nearest it can, and counted.
+/// A point that a leg cannot reach within its joints' limits is replaced (LegSolution says by what), and counted.
 class Gait {
  public:
   /// `paths[i]` of leg i: frames increase from 0 and stay below `period`; the path closes. Leg i is `late[i]` control
@@ -29,6 +29,9 @@ class Gait {
   std::vector<std::array<LegAngles, 4>> frames_;
   int points_ = 0, infeasible_ = 0;
 };
+
+/// Share of a gait's points that no leg could take, from the remarks of its motion; 0 of other motions.
+double infeasibleShare(const Values& remarks);
 
 /// How a gait moves over the ground and how long: what all walking controllers let the user fix.
 ///   duration_s   time of the trial, the first step included

@@ -1,11 +1,13 @@
 /// Fitness of turning on the spot: mean rate in rad/s over the trial, to the left positive, or to the right where
-/// `side` says so. A robot that falls has turned no further than to where it fell, and the time runs on.
-/// Recorded beside it: falls.
+/// `side` says so. A robot that falls has turned no further than to where it fell, and the time runs on. A gait with
+/// points out of a leg's reach is worth less, as in walk_speed.
+/// Recorded beside it: falls, infeasible_share.
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "core/plugin/plugin.h"
+#include "core/sim/gait.h"
 
 namespace {
 
@@ -20,7 +22,8 @@ class TurnSpeed final : public btr::Fitness {
 
   std::vector<btr::Parameter> settings() const override {
     return {{"side", "", "the wanted side", 0, 1, 0, {}, false, {"left", "right"}},
-            {"skip_s", "s", "time at the start that is not counted", 0, 600, 0}};
+            {"skip_s", "s", "time at the start that is not counted", 0, 600, 0},
+            {"infeasible_penalty", "", "share of the rate lost if no point of the gait can be reached", 0, 10, 1}};
   }
 
   double evaluate(const btr::TrialResult& result, const btr::Values& settings, const btr::Values&) const override {
@@ -32,8 +35,10 @@ class TurnSpeed final : public btr::Fitness {
     double turned = 0;
     for (std::size_t i = first; i + 1 < poses.size() && poses[i + 1].up >= fallenUp; ++i)
       turned += std::remainder(poses[i + 1].yaw_rad - poses[i].yaw_rad, 2 * std::numbers::pi);
-    const double rate = turned / (static_cast<double>(poses.size() - 1 - first) * result.controlPeriod_s);
-    return value[0] == 1 ? -rate : rate;
+    const double left = turned / (static_cast<double>(poses.size() - 1 - first) * result.controlPeriod_s);
+    const double rate = value[0] == 1 ? -left : left;
+    // Turning the wrong way does not gain from the penalty.
+    return rate > 0 ? rate * std::max(0.0, 1 - value[2] * btr::infeasibleShare(result.remarks)) : rate;
   }
 
   btr::Values figures(const btr::TrialResult& result, const btr::Values&, const btr::Values&) const override {
@@ -43,7 +48,7 @@ class TurnSpeed final : public btr::Fitness {
       if (pose.up < fallenUp && !fallen) ++falls;
       fallen = pose.up < fallenUp;
     }
-    return {{"falls", falls}};
+    return {{"falls", falls}, {"infeasible_share", btr::infeasibleShare(result.remarks)}};
   }
 };
 

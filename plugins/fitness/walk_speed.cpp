@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "core/plugin/plugin.h"
+#include "core/sim/gait.h"
 
 namespace {
 
@@ -57,12 +58,6 @@ struct Walked {
   }
 };
 
-double infeasibleShare(const btr::TrialResult& result) {
-  const auto points = result.remarks.find("points"), infeasible = result.remarks.find("infeasible_points");
-  if (points == result.remarks.end() || infeasible == result.remarks.end() || points->second <= 0) return 0;
-  return infeasible->second / points->second;
-}
-
 class WalkSpeed final : public btr::Fitness {
   std::string unit() const override { return "cm/s"; }
 
@@ -87,9 +82,10 @@ class WalkSpeed final : public btr::Fitness {
     if (walked.time <= 0) return ofFailure();
     const double way = value[0] == 0 ? walked.forward : value[0] == 1 ? walked.distance : walked.path;
     double speed = centimetres * way / walked.time;
+    // A walk backwards does not gain from falling or from the penalty.
+    if (speed <= 0) return speed;
     if (walked.falls > 0) speed *= value[3];
-    // A walk backwards does not gain from the penalty.
-    return speed > 0 ? speed * std::max(0.0, 1 - value[4] * infeasibleShare(result)) : speed;
+    return speed * std::max(0.0, 1 - value[4] * btr::infeasibleShare(result.remarks));
   }
 
   btr::Values figures(const btr::TrialResult& result, const btr::Values& settings, const btr::Values&) const override {
@@ -99,7 +95,7 @@ class WalkSpeed final : public btr::Fitness {
             {"sideways_m", walked.sideways},
             {"turned_rad", walked.turned},
             {"falls", walked.falls},
-            {"infeasible_share", infeasibleShare(result)}};
+            {"infeasible_share", btr::infeasibleShare(result.remarks)}};
   }
 };
 

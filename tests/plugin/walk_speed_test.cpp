@@ -77,6 +77,21 @@ TEST_F(WalkSpeed, AFallEndsTheWayButNotTheTime) {
   EXPECT_NEAR(2.5, speed(), 1e-9);
 }
 
+TEST_F(WalkSpeed, FallingBackwardsGainsNothing) {
+  walked([](double t) { return at(-0.2 * t, 0, 0, t < 4.995 ? 1 : 0.3); });
+  settings["fall_factor"] = 0.25;
+  EXPECT_NEAR(-10, speed(), 1e-9);
+}
+
+TEST_F(WalkSpeed, TurningPaysForPointsOutOfReachAsWalkingDoes) {
+  walked([](double t) { return at(0, 0, 0.2 * M_PI * t); });
+  result.remarks = {{"points", 80}, {"infeasible_points", 20}};
+  EXPECT_NEAR(0.75 * 0.2 * M_PI, turning->evaluate(result, {}, {}), 1e-9);
+  EXPECT_NEAR(0.2 * M_PI, turning->evaluate(result, {{"infeasible_penalty", 0}}, {}), 1e-9);
+  EXPECT_NEAR(-0.2 * M_PI, turning->evaluate(result, {{"side", 1}}, {}), 1e-9) << "the wrong way gains nothing";
+  EXPECT_EQ(0.25, turning->figures(result, {}, {}).at("infeasible_share"));
+}
+
 TEST_F(WalkSpeed, GettingUpAgainCountsEveryFall) {
   walked([](double t) { return at(0.2 * t, 0, 0, std::fmod(t, 3) < 2 ? 1 : 0); });
   EXPECT_EQ(3, figure("falls"));

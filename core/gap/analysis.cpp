@@ -38,7 +38,7 @@ std::vector<std::vector<std::vector<double>>> simulateAll(const FitProblem& prob
 }
 
 /// The model with its numbers fixed, for other recordings.
-Fit carriedOver(const FitProblem& problem, const FitModel& model) { return fitModel(problem, model, {}, {4, true}); }
+Fit carriedOver(const FitProblem& problem, const FitModel& model) { return scoreAsIs(problem, {model, {}, 0}).fit; }
 
 struct Errors {
   double square = 0, absolute = 0, count = 0;
@@ -90,7 +90,9 @@ std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertaint
     const FitParameter& p = model.parameters[i];
     if (p.effect != effect) continue;
     GapReport::Number number{p.name, p.unit, p.given, model.values[i], {}, false, true};
-    const double range = p.maximum - p.minimum, half = normal95 * uncertainty.standardError[i];
+    const double range = p.maximum - p.minimum;
+    const double half =
+        normal95 * uncertainty.standardError[i] + (uncertainty.unsettled.empty() ? 0 : uncertainty.unsettled[i]);
     number.ci95 = {std::max(p.minimum, model.values[i] - half), std::min(p.maximum, model.values[i] + half)};
     number.atBound = model.values[i] - p.minimum < 1e-3 * range || p.maximum - model.values[i] < 1e-3 * range;
     if (effect >= 0 && p.hasNeutral && p.given <= p.minimum)

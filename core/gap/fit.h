@@ -62,8 +62,15 @@ Linearised linearise(const FitProblem& problem, const Fit& fit);
 struct Uncertainty {
   std::vector<double> standardError;  ///< in the parameter's unit; infinite where the recordings do not tell it
   Eigen::MatrixXd correlation;
+  std::vector<double> unsettled;  ///< unsettled(), where it was asked for; else empty
 };
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linearised);
+
+/// How far each parameter may still be from where it belongs, beside what noise does, in its unit: the way that the
+/// step's integration error, felt as residuals, has pushed it, and the way that a further step of the fit would go.
+/// `stepChange`: the fit's residuals less those with half the step.
+std::vector<double> unsettled(const FitProblem& problem, const Fit& fit, const Linearised& linearised,
+                              const Eigen::VectorXd& stepChange);
 
 /// Mean squared residual of each scoring block, −1 for a block without residuals of this fold.
 std::vector<double> blockScores(const FitProblem& problem, const Eigen::VectorXd& residuals, Fold fold);

@@ -100,19 +100,42 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
   return result;
 }
 
+namespace {
+
+/// (JᵀJ)⁻¹ over the parameters' scales. The flat prior keeps it finite where the recordings say nothing.
+Eigen::MatrixXd inverseNormal(const FitModel& model, const Linearised& linear) {
+  const Eigen::Index p = linear.columns.cols();
+  Eigen::MatrixXd normal = linear.columns.transpose() * linear.columns;
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const FitParameter& parameter = model.parameters[static_cast<std::size_t>(i)];
+    const double weight = parameter.scale / (10 * (parameter.maximum - parameter.minimum));
+    normal(i, i) += weight * weight;
+  }
+  return normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+}
+
+}  // namespace
+
+std::vector<double> unsettled(const FitProblem& problem, const Fit& fit, const Linearised& linear,
+                              const Eigen::VectorXd& stepChange) {
+  // An error of first order: halving the step takes half of it away.
+  constexpr double ofHalving = 2;
+  const Eigen::MatrixXd toParameters = inverseNormal(fit.model, linear) * linear.columns.transpose();
+  const Eigen::VectorXd byStep = ofHalving * toParameters * linear.profile(problem, stepChange);
+  const Eigen::VectorXd byFit = toParameters * linear.profiled;
+  std::vector<double> ways;
+  for (Eigen::Index i = 0; i < byStep.size(); ++i)
+    ways.push_back((std::abs(byStep[i]) + std::abs(byFit[i])) *
+                   fit.model.parameters[static_cast<std::size_t>(i)].scale);
+  return ways;
+}
+
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linear) {
   const Eigen::Index p = linear.columns.cols();
   Uncertainty result;
   result.correlation = Eigen::MatrixXd::Identity(p, p);
   if (p == 0) return result;
-  // The flat prior keeps this invertible where the recordings say nothing.
-  Eigen::MatrixXd normal = linear.columns.transpose() * linear.columns;
-  for (Eigen::Index i = 0; i < p; ++i) {
-    const FitParameter& parameter = fit.model.parameters[static_cast<std::size_t>(i)];
-    const double weight = parameter.scale / (10 * (parameter.maximum - parameter.minimum));
-    normal(i, i) += weight * weight;
-  }
-  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  const Eigen::MatrixXd inverse = inverseNormal(fit.model, linear);
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(p, p);
   std::vector<Eigen::VectorXd> scores(static_cast<std::size_t>(problem.blocks), Eigen::VectorXd::Zero(p));
   Eigen::Index at = 0;

@@ -17,9 +17,10 @@ double Scored::mean() const {
 }
 
 Scored scoreAsIs(const FitProblem& problem, const Fit& fit) {
+  constexpr int startIterations = 20;
   Scored scored;
   FitOptions options;
-  options.iterations = 4;
+  options.iterations = startIterations;
   options.startsOnly = true;
   scored.fit = fitModel(problem, fit.model, fit.shifts, options);
   scored.heldOut = residualsOf(problem, scored.fit.model, scored.fit.shifts);

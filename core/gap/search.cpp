@@ -165,10 +165,12 @@ SearchResult SearchRun::run() {
   result.ladder.push_back(step("as given", result.given));
   const double givenStep_s = problem_.scene.step_s;
   result.calibrated = calibrate();
-  if (problem_.scene.step_s < givenStep_s) {
-    result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
-    result.ladder.back() = step("as given", result.given);
-  }
+  if (problem_.scene.step_s < givenStep_s) result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
+  // Where the fit began a trial may suit the numbers as given, too: what they are worth must not hang on where the
+  // search for the initial states began.
+  Scored again = scoreAsIs(problem_, {givenModel(problem_), result.calibrated.fit.shifts, 0});
+  if (again.fit.cost < result.given.fit.cost) result.given = std::move(again);
+  result.ladder.back() = step("as given", result.given);
   const std::vector<double> inside = blockScores(
       problem_, residualsOf(problem_, result.calibrated.fit.model, result.calibrated.fit.shifts), Fold::all);
   double fitted = 0, blocks = 0;
@@ -241,6 +243,7 @@ SearchResult SearchRun::run() {
   result.stepChange = stepChange(result.final.fit);
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
+  result.finalUncertainty.unsettled = unsettled(problem_, result.final.fit, result.finalLinear, result.stepChange);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/gap/report_figures.h"
 
@@ -62,67 +63,195 @@ std::string rivalsText(const GapReport::Effect& effect) {
   return "These recordings cannot tell it from " + text + ". ";
 }
 
+const std::string noiseFloors = " noise floors";
+
+std::string inFloors(double meanSquare) { return digits(std::sqrt(meanSquare)) + noiseFloors; }
+
+/// How alike successive samples are of what the final simulator leaves: noise alone is not (Anderson, Ann. Math. Stat.
+/// 13 (1942) 1: the first serial correlation of white noise scatters by 1/√n).
+struct RestColour {
+  double correlation = 0, pairs = 0;
+  bool stands() const { return correlation > 0.1 && correlation * std::sqrt(pairs) > 4; }
+};
+
+RestColour colourOf(const FitProblem& problem, const Eigen::VectorXd& residuals) {
+  if (residuals.size() != static_cast<Eigen::Index>(problem.residuals())) return {};
+  double products = 0, squares = 0, pairs = 0;
+  Eigen::Index at = 0;
+  for (const Segment& segment : problem.segments) {
+    std::map<std::size_t, std::pair<std::size_t, double>> last;  // by channel: row and residual
+    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
+      const auto [before, isFirst] = last.try_emplace(segment.channel[k], segment.row[k], residuals[at]);
+      squares += residuals[at] * residuals[at];
+      if (isFirst) continue;
+      if (before->second.first + 1 == segment.row[k]) {
+        products += before->second.second * residuals[at];
+        ++pairs;
+      }
+      before->second = {segment.row[k], residuals[at]};
+    }
+  }
+  if (pairs == 0 || squares <= 0) return {};
+  return {products / pairs / (squares / static_cast<double>(residuals.size())), pairs};
+}
+
+/// What the verdict rests on; mean squared errors in noise floors².
+struct Findings {
+  double given = 0, calibrated = 0, final = 0;
+  double step = 0;  ///< what the integration itself is wrong by: no physics that was left out
+  double excess = 0;
+  bool moves = false;             ///< something, by more than a few noise floors
+  bool calibrationHelps = false;  ///< a paired test says so
+  bool named = false;             ///< effects were accepted
+  bool told = false;              ///< a number is told, or an effect would be felt at a typical size
+  bool tried = false;             ///< effects were looked at
+  RestColour colour;
+
+  double beyondStep() const { return final - step; }
+  double leftBeyondStep() const { return std::max(0.0, beyondStep() - 1); }
+};
+
+Findings findingsOf(const GapReport& report, const FitProblem& problem, const SearchResult& found) {
+  Findings e;
+  e.given = found.given.mean();
+  e.calibrated = found.calibrated.mean();
+  e.final = found.final.mean();
+  e.step = stepErrorOf(found.stepChange);
+  e.excess = std::max(0.0, e.calibrated - 1);
+  e.moves = motionOf(problem) >= leastMotion;
+  e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > 2.5 &&
+                       e.given - e.calibrated > std::max(0.02 * e.given, 0.02);
+  e.named = !found.effects.empty();
+  e.told = e.named ||
+           std::any_of(report.calibrated.begin(), report.calibrated.end(),
+                       [](const auto& number) { return number.excited; }) ||
+           std::any_of(found.attempts.begin(), found.attempts.end(), [](const Attempt& a) { return a.excited; });
+  e.tried = !found.attempts.empty();
+  e.colour = colourOf(problem, found.final.heldOut);
+  return e;
+}
+
+/// Standing still although the simulator moves, or numbers that fit better, tell a lot; so does a number that is told.
+bool tellsNothing(const Findings& e) {
+  return e.calibrated <= unexplained && !e.calibrationHelps && !e.told && (!e.moves || e.tried);
+}
+
+std::string tellsNothingText(const Findings& e) {
+  return (e.moves ? "These recordings feel none of the calibrated numbers, and no effect at a typical size"
+                  : "Nothing in these recordings moves by more than " + toText(leastMotion) + noiseFloors) +
+         ": they cannot tell the simulator from reality. Record larger and faster motions, with reversals.";
+}
+
+std::string errorText(const Findings& e) {
+  return "The held-out error falls from " + inFloors(e.given) + " as given over " + digits(std::sqrt(e.calibrated)) +
+         " calibrated to " + digits(std::sqrt(e.final)) + ". ";
+}
+
+/// A large rest weighs more than the share that a name explains, however large that is.
+std::string caveatText(const GapReport& report, const Findings& e) {
+  if (e.beyondStep() <= clearlyLeft) return "";
+  const double share = report.remainder.explainedShare;
+  return "The named effects explain " + (share > 0.99 ? "more than 99 %" : wholePercent(share)) +
+         " of the squared error beyond the noise, yet " + inFloors(e.final) +
+         " are left: the name may be a stand-in for something else. ";
+}
+
+std::string colourText(const Findings& e) {
+  return "successive samples of it correlate by " + digits(e.colour.correlation, 2);
+}
+
+void judgeNamed(GapReport& report, const Findings& e) {
+  report.verdict = Verdict::missingPhysics;
+  std::string list, rivals;
+  for (const GapReport::Effect& effect : report.tried) {
+    if (!effect.accepted) continue;
+    list += (list.empty() ? "" : "; ") + effectText(effect);
+    rivals += rivalsText(effect);
+  }
+  report.sentence =
+      caveatText(report, e) + whereText(report) + "What was left out: " + list + ". " + errorText(e) + rivals;
+}
+
+void judgeUnexplained(GapReport& report, const Findings& e) {
+  report.verdict = Verdict::unexplained;
+  std::string partly;
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
+  if (e.named && e.leftBeyondStep() <= unexplainedShare * e.excess)
+    report.sentence = whereText(report) + errorText(e) + "Most of it, " +
+                      wholePercent(report.remainder.explainedShare) + " of the squared error, is taken up by " +
+                      partly + ", but what is left, " + inFloors(e.final) +
+                      ", no effect of the library explains: the cause may be another. ";
+  else
+    report.sentence =
+        whereText(report) + errorText(e) + "No effect of the library explains what is missing" +
+        (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
+}
+
+void judgeNoMismatch(GapReport& report, const Findings& e) {
+  report.verdict = Verdict::noMismatch;
+  report.sentence = "The simulator as given agrees with these recordings within " + inFloors(e.given) +
+                    ": nothing is missing that they could show. ";
+}
+
+void judgeSufficient(GapReport& report, const Findings& e) {
+  report.verdict = Verdict::parametersSuffice;
+  report.sentence = errorText(e) + "Other numbers for what is calibrated suffice; " +
+                    (report.tried.empty() ? "nothing is left for a missing effect to explain. "
+                                          : "no missing effect improves the held-out error. ");
+  if (e.final > stillNoise && e.colour.stands())
+    report.sentence +=
+        "What is left is small, but not noise alone: " + colourText(e) + ". Something small may be missing. ";
+}
+
+/// Neither other numbers nor an effect are shown to help, and what is left is not much, or the integration hides it.
+void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks) {
+  if (e.final > unexplained) {
+    report.verdict = Verdict::unexplained;
+    report.sentence = errorText(e) + "What is left may be the integration's own error, " + inFloors(e.step) +
+                      " at this step, or hide behind it: a smaller step_s would tell. ";
+  } else if (e.given > unexplained) {
+    report.verdict = Verdict::notExcited;
+    report.sentence = errorText(e) + "That other numbers help is not certain over " + std::to_string(blocks) +
+                      " blocks of recordings: they cannot tell. Record more. ";
+  } else if (e.colour.stands()) {
+    report.verdict = Verdict::unexplained;
+    report.sentence = errorText(e) + "What is left is small, but not noise alone: " + colourText(e) +
+                      ". Neither other numbers nor an effect of the library take it away. ";
+  } else {
+    judgeNoMismatch(report, e);
+    report.sentence += "What is above the noise floor looks like noise: the floor may be larger than was estimated. ";
+  }
+}
+
 }  // namespace
 
 void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter) {
-  const double given = found.given.mean(), calibrated = found.calibrated.mean(), final = found.final.mean();
-  const double excess = std::max(0.0, calibrated - 1), left = std::max(0.0, final - 1);
-  // What the integration itself is wrong by is not physics that was left out.
-  const double beyondStep = final - stepErrorOf(found.stepChange), leftBeyondStep = std::max(0.0, beyondStep - 1);
-  report.remainder.explainedShare = excess > 0 ? std::clamp(1 - left / excess, 0.0, 1.0) : 1;
-  const std::string floors = " noise floors";
-  const std::string error = "The held-out error falls from " + digits(std::sqrt(given)) + floors + " as given over " +
-                            digits(std::sqrt(calibrated)) + " calibrated to " + digits(std::sqrt(final)) + ". ";
-  const bool moves = motionOf(problem) >= leastMotion;
-  const bool calibrationHelps =
-      compare(found.given.blocks, found.calibrated.blocks).t > 2.5 && given - calibrated > std::max(0.02 * given, 0.02);
-  const bool named = !found.effects.empty();
-  const bool tooMuchLeft =
-      named ? beyondStep > stillNoise && (curveIsBetter || leftBeyondStep > unexplainedShare * excess ||
-                                          (beyondStep > clearlyLeft && leftBeyondStep > clearlyLeftShare * excess))
-            : beyondStep > unexplained;
-
-  // What stands still although the simulator moves tells a lot.
-  if (!moves && calibrated <= unexplained) {
+  const Findings e = findingsOf(report, problem, found);
+  report.remainder.explainedShare = e.excess > 0 ? std::clamp(1 - std::max(0.0, e.final - 1) / e.excess, 0.0, 1.0) : 1;
+  if (tellsNothing(e)) {
     report.verdict = Verdict::notExcited;
-    report.sentence =
-        "Nothing in these recordings moves by more than " + toText(leastMotion) +
-        " noise floors: they cannot tell the simulator from reality. Record larger and faster motions, with reversals.";
+    report.sentence = tellsNothingText(e);
     return;
   }
-  if (named && !tooMuchLeft) {
-    report.verdict = Verdict::missingPhysics;
-    std::string list, rivals;
-    for (const GapReport::Effect& effect : report.tried) {
-      if (!effect.accepted) continue;
-      list += (list.empty() ? "" : "; ") + effectText(effect);
-      rivals += rivalsText(effect);
-    }
-    report.sentence = whereText(report) + "What was left out: " + list + ". " + error + rivals;
-  } else if (tooMuchLeft) {
-    report.verdict = Verdict::unexplained;
-    std::string partly;
-    for (const GapReport::Effect& effect : report.tried)
-      if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
-    if (named && leftBeyondStep <= unexplainedShare * excess)
-      report.sentence = whereText(report) + error + "Most of it, " + wholePercent(report.remainder.explainedShare) +
-                        " of the squared error, is taken up by " + partly + ", but what is left, " +
-                        digits(std::sqrt(final)) + floors +
-                        ", no effect of the library explains: the cause may be another. ";
-    else
-      report.sentence =
-          whereText(report) + error + "No effect of the library explains what is missing" +
-          (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
-  } else if (!calibrationHelps && given <= atNoise) {
-    report.verdict = Verdict::noMismatch;
-    report.sentence = "The simulator as given agrees with these recordings within " + digits(std::sqrt(given)) +
-                      floors + ": nothing is missing that they could show. ";
-  } else {
-    report.verdict = Verdict::parametersSuffice;
-    report.sentence = error + "Other numbers for what is calibrated suffice; " +
-                      (report.tried.empty() ? "nothing is left for a missing effect to explain. "
-                                            : "no missing effect improves the held-out error. ");
-  }
+  const bool tooMuchLeft =
+      e.named ? e.beyondStep() > stillNoise &&
+                    (curveIsBetter || e.leftBeyondStep() > unexplainedShare * e.excess ||
+                     (e.beyondStep() > clearlyLeft && e.leftBeyondStep() > clearlyLeftShare * e.excess))
+              : e.beyondStep() > unexplained;
+  if (e.named && !tooMuchLeft)
+    judgeNamed(report, e);
+  else if (tooMuchLeft)
+    judgeUnexplained(report, e);
+  else if (!e.calibrationHelps && e.given <= atNoise)
+    judgeNoMismatch(report, e);
+  else if (e.calibrationHelps && e.final <= unexplained)
+    judgeSufficient(report, e);
+  else
+    judgeTheRest(report, e, found.given.blocks.size());
+  if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
+    report.sentence += "Nothing in the recordings moves by more than " + toText(leastMotion) + noiseFloors +
+                       ": they can show little. ";
   if (!report.remainder.on.empty())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +
                        " would take " + wholePercent(report.remainder.shareOfRest) +

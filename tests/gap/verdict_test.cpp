@@ -7,10 +7,13 @@
 
 #include <cmath>
 
+#include "core/spec/random.h"
+
 namespace btr {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Verdict = GapReport::Verdict;
 
 /// A channel that moves by 70 noise floors, or stands still.
@@ -37,12 +40,12 @@ Scored meanSquared(double value) {
 
 /// Judged with mean squared errors in noise floors²; with `named` an effect was accepted.
 GapReport judged(double given, double calibrated, double final, bool named, bool curveIsBetter = false,
-                 const FitProblem& problem = recorded()) {
-  SearchResult found;
+                 const FitProblem& problem = recorded(), SearchResult found = {}, GapReport report = {}) {
   found.given = meanSquared(given);
   found.calibrated = meanSquared(calibrated);
+  const Eigen::VectorXd rest = found.final.heldOut;
   found.final = meanSquared(final);
-  GapReport report;
+  found.final.heldOut = rest;
   if (named) {
     found.effects.resize(1);
     GapReport::Effect effect;
@@ -80,6 +83,100 @@ TEST(Verdict, AboveTwoNoiseFloorsATwentyFifthOfTheExcessIsTooMuch) {
   EXPECT_THAT(tooMuch.sentence, HasSubstr("94 % of the squared error, is taken up by coulomb friction at rig.hinge"));
   EXPECT_THAT(tooMuch.sentence, HasSubstr("the cause may be another"));
   EXPECT_EQ(judged(600, 501, 16, true).verdict, Verdict::missingPhysics);
+}
+
+/// All samples of the channel compared, in one segment.
+FitProblem compared() {
+  FitProblem problem = recorded();
+  Segment segment;
+  for (std::size_t row = 0; row < 200; ++row) {
+    segment.row.push_back(row);
+    segment.channel.push_back(0);
+  }
+  problem.segments = {segment};
+  return problem;
+}
+
+/// Left by the final simulator: each sample follows the one before it by `alike`.
+SearchResult leaving(double alike) {
+  Random random(7);
+  SearchResult found;
+  found.final.heldOut.resize(200);
+  double last = 0;
+  for (double& value : found.final.heldOut) value = last = alike * last + random.normal();
+  return found;
+}
+
+TEST(Verdict, WithoutAnythingThatHelpsParametersDoNotSuffice) {
+  // 1.16 noise floors, calibrated or not. White: the floor was estimated too low. Coloured: something is left.
+  const GapReport white = judged(1.35, 1.35, 1.35, false, false, compared(), leaving(0));
+  EXPECT_EQ(white.verdict, Verdict::noMismatch) << white.sentence;
+  EXPECT_THAT(white.sentence, HasSubstr("within 1.16 noise floors"));
+  EXPECT_THAT(white.sentence, HasSubstr("the floor may be larger"));
+  const GapReport coloured = judged(1.35, 1.35, 1.35, false, false, compared(), leaving(0.8));
+  EXPECT_EQ(coloured.verdict, Verdict::unexplained) << coloured.sentence;
+  EXPECT_THAT(coloured.sentence, HasSubstr("not noise alone: successive samples of it correlate by 0.8"));
+}
+
+TEST(Verdict, ACalibrationThatLeavesColourSaysSo) {
+  const GapReport report = judged(400, 1.4, 1.4, false, false, compared(), leaving(0.8));
+  EXPECT_EQ(report.verdict, Verdict::parametersSuffice);
+  EXPECT_THAT(report.sentence, HasSubstr("Something small may be missing"));
+  EXPECT_THAT(judged(400, 1.4, 1.4, false, false, compared(), leaving(0)).sentence, Not(HasSubstr("small")));
+}
+
+TEST(Verdict, WhatTheIntegrationHidesIsNotSaidToSuffice) {
+  SearchResult found;
+  found.stepChange = Eigen::VectorXd::Constant(200, 2.0);
+  const double step = stepErrorOf(found.stepChange);
+  const GapReport report = judged(400, 1.2 + step, 1.2 + step, false, false, recorded(), found);
+  EXPECT_EQ(report.verdict, Verdict::unexplained);
+  EXPECT_THAT(report.sentence, HasSubstr("a smaller step_s would tell"));
+}
+
+TEST(Verdict, TwoBlocksAreTooFewToSayThatCalibrationHelps) {
+  SearchResult found;
+  found.given.blocks = {400, 400};
+  found.calibrated.blocks = found.final.blocks = {1, 1};
+  GapReport report;
+  judge(report, recorded(), found, false);
+  EXPECT_EQ(report.verdict, Verdict::notExcited);
+  EXPECT_THAT(report.sentence, HasSubstr("not certain over 2 blocks"));
+}
+
+TEST(Verdict, ANumberThatIsToldOrACalibrationThatHelpsIsExcitedThoughLittleMoves) {
+  GapReport told;
+  told.calibrated = {{"balls.ball.rolling_deceleration_m_s2", "", 0.456, 0.458, {0.44, 0.476}, false, true}};
+  const GapReport helped = judged(11, 1.03, 1.03, false, false, recorded(false), {}, told);
+  EXPECT_EQ(helped.verdict, Verdict::parametersSuffice) << helped.sentence;
+  EXPECT_THAT(helped.sentence, HasSubstr("they can show little"));
+  const GapReport agrees = judged(1, 1, 1, false, false, recorded(false), {}, told);
+  EXPECT_EQ(agrees.verdict, Verdict::noMismatch) << agrees.sentence;
+  told.calibrated[0].excited = false;
+  EXPECT_EQ(judged(1, 1, 1, false, false, recorded(false), {}, told).verdict, Verdict::notExcited);
+}
+
+TEST(Verdict, WhatMovesButFeelsNoNumberAndNoEffectTellsNothing) {
+  SearchResult found;
+  found.attempts.resize(3);
+  for (Attempt& attempt : found.attempts) attempt.excited = false;
+  const GapReport report = judged(1.1, 1.1, 1.1, false, false, recorded(), found);
+  EXPECT_EQ(report.verdict, Verdict::notExcited);
+  EXPECT_THAT(report.sentence, HasSubstr("no effect at a typical size"));
+  found.attempts[1].excited = true;
+  EXPECT_EQ(judged(1.1, 1.1, 1.1, false, false, recorded(), found).verdict, Verdict::noMismatch);
+}
+
+TEST(Verdict, ALargeRestIsSaidBeforeTheName) {
+  // 99.97 % of 1e12 are explained, 17 000 noise floors are left.
+  const GapReport huge = judged(1e12, 1e12, 3e8, true);
+  EXPECT_EQ(huge.verdict, Verdict::missingPhysics);
+  EXPECT_EQ(huge.sentence.find("The named effects explain more than 99 % of the squared error beyond the noise, yet "
+                               "17300 noise floors are left: the name may be a stand-in for something else."),
+            0u)
+      << huge.sentence;
+  EXPECT_THAT(judged(600, 501, 16, true).sentence, HasSubstr("explain 97 % of the squared error"));
+  EXPECT_THAT(judged(400, 100, 1.1, true).sentence, Not(HasSubstr("stand-in")));
 }
 
 TEST(Verdict, ACurveThatDoesBetterThanTheEffectsMakesThemDoubtful) {

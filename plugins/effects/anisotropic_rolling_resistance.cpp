@@ -2,7 +2,9 @@
 ///   v' = −A²·v/|A·v|,   A = a·1 + ax·u·uᵀ + ay·w·wᵀ      [m/s²]
 /// u is the floor's x turned by α about z, w the same of y; a is the resistance that the ball already has. Along u the
 /// ball loses a + ax, along w a + ay; between them it also turns aside, to where it rolls more easily (the ellipse of
-/// greatest dissipation). Acts while the ball lies on the floor. Neutral: ax = ay = 0; α then says nothing.
+/// greatest dissipation). Acts while the ball lies on the floor. The elliptic limit with greatest dissipation is that
+/// of sliding friction (Goyal, Ruina and Papadopoulos 1991, Planar sliding with dry friction), carried over to rolling
+/// by definition. Neutral: ax = ay = 0; α then says nothing.
 #include <cmath>
 #include <memory>
 

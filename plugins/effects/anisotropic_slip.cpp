@@ -1,7 +1,7 @@
 /// What pushes along the floor creeps, but only along one direction u (a carpet's pile, a grooved board):
 ///   v = s·u·uᵀ·F      s in m/(s·N), u: the floor's x turned by α about z; added to what the scene has
-/// With the effect slip beside it, any two speeds of creep along any two crossed axes. Neutral: s = 0; α then says
-/// nothing.
+/// The engine's force-dependent slip (Smith, Open Dynamics Engine User Guide: slip1) along one direction. With the
+/// effect slip beside it, any two speeds of creep along any two crossed axes. Neutral: s = 0; α then says nothing.
 #include <cmath>
 #include <memory>
 

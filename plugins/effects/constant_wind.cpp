@@ -1,7 +1,8 @@
 /// A steady wind u pushes balls: the drag of the air relative to them, less what they would feel in still air (that is
 /// the effect air_drag's business):
 ///   F = D(u − v) − D(−v),   D(w) = ½·ρ·c·π·r²·|w|·w      ρ = 1.2 kg/m³, c = 0.47 (smooth sphere)
-/// Together with air_drag at 0.47 it is exactly the drag in the wind. Robots feel none. Neutral: u = 0.
+/// Newton's drag at the speed relative to the air (Hoerner 1965, Fluid-Dynamic Drag). Together with air_drag at 0.47 it
+/// is exactly the drag in the wind. Robots feel none. Neutral: u = 0.
 #include <memory>
 #include <numbers>
 

@@ -1,7 +1,8 @@
 /// The floor gives way: a softer layer in series with the contact's stiffness k0, and more damping beside it.
 ///   1/k = 1/k0 + c,   d = d0·k/k0 + Δd      c in m/N, d in N·s/m
-/// The contact keeps its relaxation time d0/k0, so a carpet that is only softer does not also become more viscous. For
-/// balls and all parts of robots, at each point of contact. Neutral: c = Δd = 0.
+/// Springs in series (Hooke) beside the engine's spring and damper of a contact (Smith, Open Dynamics Engine User
+/// Guide: ERP and CFM). The contact keeps its relaxation time d0/k0, so a carpet that is only softer does not also
+/// become more viscous. For balls and all parts of robots, at each point of contact. Neutral: c = Δd = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

@@ -1,5 +1,6 @@
 /// A constant torque at a joint: τ = T      T in N·m (N on a slide joint), right-hand rule about the joint's axis
-/// Offset of a current sensor or amplifier, a hanging weight, friction that differs by direction. Neutral: T = 0.
+/// A definition. Offset of a current sensor or amplifier, a hanging weight, friction that differs by direction.
+/// Neutral: T = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

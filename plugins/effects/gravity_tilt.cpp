@@ -1,7 +1,8 @@
 /// The rig was not mounted upright: in its axes gravity is turned by the angle a about x, then b about y (right-hand
 /// rule):
 ///   g' = R_y(b) · R_x(a) · g
-/// For stands and fixed bases. On joints alone it resembles an offset of the position sensor. Neutral: a = b = 0.
+/// A definition; turns as in Craig 1986, Introduction to Robotics, chapter 2. For stands and fixed bases. On joints
+/// alone it resembles an offset of the position sensor. Neutral: a = b = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

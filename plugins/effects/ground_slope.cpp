@@ -1,6 +1,7 @@
 /// The floor is not level. It is tilted by the angle a about x, then b about y (right-hand rule: b > 0 falls towards
-/// +x). Everything is described in the floor's own axes, in which gravity then leans: g' = (R_y(b)·R_x(a))⁻¹ · g. Exact
-/// for all that stands, rolls or falls; the start poses are given relative to the floor, as before. Neutral: a = b = 0.
+/// +x). Everything is described in the floor's own axes, in which gravity then leans: g' = (R_y(b)·R_x(a))⁻¹ · g. A
+/// definition; turns as in Craig 1986, Introduction to Robotics, chapter 2. Exact for all that stands, rolls or falls;
+/// the start poses are given relative to the floor, as before. Neutral: a = b = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

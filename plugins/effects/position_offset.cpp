@@ -1,6 +1,7 @@
 /// The position sensor's zero is wrong by e: it says q + e. The sensor also closes the servo's loop, so the joint
-/// itself settles e below its command: the law acts on c − (q + e). With a level base it resembles a turn of gravity.
-/// Neutral: e = 0.
+/// itself settles e below its command: the law acts on c − (q + e). A definition (the joint offset of Mooring, Roth and
+/// Driels 1991, Fundamentals of Manipulator Calibration). With a level base it resembles a turn of gravity. Neutral: e
+/// = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

@@ -1,7 +1,8 @@
 /// The motor's rotor turns with the joint, n times as fast: as inertia at the joint J = n²·J_rotor, added to what the
 /// scene's drive already has.
 ///   kinetic energy ½·J·ω²      J in kg·m² (kg on a slide joint)
-/// Shows up as slower accelerations that gravity does not know of. Neutral: J = 0.
+/// (Spong, Hutchinson and Vidyasagar 2006, Robot Modeling and Control: the actuator's inertia times the gear ratio
+/// squared.) Shows up as slower accelerations that gravity does not know of. Neutral: J = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

@@ -1,7 +1,8 @@
 /// What pushes along the floor creeps: sliding speed per tangential force, the same in every direction, below the limit
 /// of dry friction:
 ///   v = s·F      s in m/(s·N), added to what the scene has
-/// Rubber feet on a carpet, tyres. Neutral: s = 0.
+/// The engine's force-dependent slip (Smith, Open Dynamics Engine User Guide: slip1, slip2). Rubber feet on a carpet,
+/// tyres. Neutral: s = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

@@ -1,7 +1,8 @@
 /// Cogging: the rotor's poles and the gear's teeth pull the joint to certain angles.
 ///   τ = A·sin(n·q + φ)      A in N·m, n: whole number of teeth or poles per turn of the joint, q in rad
-/// It has an energy, A·cos(n·q + φ)/n, and takes none. On a slide joint n counts per 2π m. Neutral: A = 0; n and φ then
-/// say nothing.
+/// One term of the Fourier series of Holtz and Springob 1996 (Identification and compensation of torque ripple in
+/// high-precision permanent magnet motor drives). It has an energy, A·cos(n·q + φ)/n, and takes none. On a slide joint
+/// n counts per 2π m. Neutral: A = 0; n and φ then say nothing.
 #include <cmath>
 #include <memory>
 

@@ -2,7 +2,8 @@
 /// with the voltage:
 ///   τ' = τ/(1 + s·Σ|τ_j|)      Σ over the robot's drives in the last step [N·m]; s in 1/(N·m)
 /// which is V = V0 − R·I with a current in proportion to the torques and V/V0 = 1/(1 + s·Σ) as its fixed point for
-/// drives whose torque is proportional to the voltage. No more than a step late. Neutral: s = 0.
+/// drives whose torque is proportional to the voltage. (Shepherd 1965, Design of primary and secondary cells II: its
+/// ohmic term alone.) No more than a step late. Neutral: s = 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/unit_at.h"
 #include "core/sim/scene_build.h"
 
 namespace btr {
@@ -49,7 +50,9 @@ FitModel FitModel::with(const FitProblem& problem, const PlacedEffect& effect) c
   model.effects.push_back(effect);
   const std::vector<Parameter> declared = plugin->parameters();
   for (std::size_t i = 0; i < declared.size(); ++i) model.effects.back().parameters[declared[i].name] = numbers[i];
-  for (const FitParameter& parameter : fitParameters(*plugin, index)) {
+  for (FitParameter& parameter : fitParameters(*plugin, index)) {
+    if (const Parameter* known = find(declared, parameter.name))
+      parameter.unit = unitAt(problem.scene, problem.models, effect.at, *known);
     model.parameters.push_back(parameter);
     model.values.push_back(model.effects.back().parameters.at(parameter.name));
   }

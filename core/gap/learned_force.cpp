@@ -14,7 +14,8 @@ class LearnedForceEffect final : public Effect {
     std::vector<Parameter> list;
     for (int i = 0; i < LearnedForce::knots; ++i)
       list.push_back({"force_" + std::to_string(i), force_.along == LearnedForce::Along::joint ? "N·m" : "N",
-                      "force at a knot of the curve", -1e3 * force_.scale, 1e3 * force_.scale, force_.scale, 0.0});
+                      "force at a knot of the curve, N on a slide joint", -1e3 * force_.scale, 1e3 * force_.scale,
+                      force_.scale, 0.0});
     return list;
   }
   Place place() const override { return force_.along == LearnedForce::Along::joint ? Place::joint : Place::ball; }

@@ -1,7 +1,8 @@
 /// Friction of a joint that differs between its two directions: worn flanks, a brush on one side, a cable.
 ///   ω > 0: τ = −T₊ − b₊·ω      ω < 0: τ = T₋ − b₋·ω      at rest −T₊ ≤ τ ≤ T₋, holding
-/// As a mean that the solver holds with, (T₊ + T₋)/2, and a constant (T₋ − T₊)/2, which is exactly this law also at
-/// rest. Only both together take energy away, so it does not call itself dissipative. Neutral: all four 0.
+/// (Armstrong-Hélouvry 1991, Control of Machines with Friction: levels of their own by direction.) As a mean that the
+/// solver holds with, (T₊ + T₋)/2, and a constant (T₋ − T₊)/2, which is exactly this law also at rest. Only both
+/// together take energy away, so it does not call itself dissipative. Neutral: all four 0.
 #include <memory>
 
 #include "core/plugin/plugin.h"
@@ -12,8 +13,10 @@ class AsymmetricFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"torque_positive_nm", "N·m", "dry friction against positive speed, N on a slide joint", 0, 200, 0.05, 0.0},
             {"torque_negative_nm", "N·m", "dry friction against negative speed, N on a slide joint", 0, 200, 0.02, 0.0},
-            {"viscous_positive_nm_s_rad", "N·m·s/rad", "friction per positive speed", 0, 2000, 0.02, 0.0},
-            {"viscous_negative_nm_s_rad", "N·m·s/rad", "friction per negative speed", 0, 2000, 0.01, 0.0}};
+            {"viscous_positive_nm_s_rad", "N·m·s/rad", "friction per positive speed, N·s/m on a slide joint", 0, 2000,
+             0.02, 0.0},
+            {"viscous_negative_nm_s_rad", "N·m·s/rad", "friction per negative speed, N·s/m on a slide joint", 0, 2000,
+             0.01, 0.0}};
   }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction", "viscous_friction"}; }

@@ -22,9 +22,9 @@ namespace {
 
 class Backlash final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {
-        {"width_rad", "rad", "width of the gap, m on a slide joint", 0, 0.2, 0.02, 0.0},
-        {"free_speed_rad_s_nm", "rad/(s·N·m)", "speed of the motor per torque while it crosses the gap", 1, 100, 6}};
+    return {{"width_rad", "rad", "width of the gap, m on a slide joint", 0, 0.2, 0.02, 0.0},
+            {"free_speed_rad_s_nm", "rad/(s·N·m)",
+             "speed of the motor per torque while it crosses the gap, m/(s·N) on a slide joint", 1, 100, 6}};
   }
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 1; }

@@ -8,7 +8,7 @@ namespace {
 
 class JointSpring final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"stiffness_nm_rad", "N·m/rad", "torque per turn", 0, 10000, 0.1, 0.0},
+    return {{"stiffness_nm_rad", "N·m/rad", "torque per turn, N/m on a slide joint", 0, 10000, 0.1, 0.0},
             {"rest_rad", "rad", "position without torque, m on a slide joint", -3.2, 3.2, 0}};
   }
   Place place() const override { return Place::joint; }

@@ -9,7 +9,8 @@ namespace {
 
 class ViscousFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"coefficient_nm_s_rad", "N·m·s/rad", "friction torque per speed", 0, 2000, 0.02, 0.0}};
+    return {
+        {"coefficient_nm_s_rad", "N·m·s/rad", "friction torque per speed, N·s/m on a slide joint", 0, 2000, 0.02, 0.0}};
   }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }

@@ -15,6 +15,7 @@ using Measured = Binding::Measured;
 /// One joint (or ball coordinate) of one trial over time, as a regime sees it.
 struct Motion {
   std::vector<double> time, position, rate, load;  ///< load: command − position, or the torque that was given
+  std::string positionName, rateName, loadName;    ///< what these are; no name: there is none
   std::vector<char> enabled, saturated, onFloor;
   double fast = 0;  ///< its higher speeds
   double low = 0, high = 0;
@@ -33,6 +34,14 @@ std::vector<double> smoothRate(const std::vector<double>& time, const std::vecto
   return rate;
 }
 
+/// Of a joint's position the contract's own name of its velocity; of anything else words.
+std::string rateOf(const std::string& channel) {
+  for (const auto& [position, velocity] :
+       {std::pair{".position_rad", ".velocity_rad_s"}, std::pair{".position_m", ".velocity_m_s"}})
+    if (channel.ends_with(position)) return channel.substr(0, channel.size() - std::string(position).size()) + velocity;
+  return "rate of " + channel;
+}
+
 double quantile(std::vector<double> values, double share) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return 0;
@@ -46,6 +55,7 @@ Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trial
   Motion motion;
   motion.time = trial.recording.columns[0];
   motion.position = trial.recording.columns[measured.column];
+  std::size_t column = measured.column;
   const std::size_t rows = motion.time.size();
   motion.load.assign(rows, 0);
   motion.enabled.assign(rows, 1);
@@ -57,16 +67,20 @@ Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trial
     // A torque channel is seen against its joint's position where that is recorded.
     for (const Measured& other : trial.binding.measured)
       if (other.what == Measured::What::position && other.object == measured.object && other.part == measured.part)
-        motion.position = trial.recording.columns[other.column];
+        column = other.column;
+    motion.position = trial.recording.columns[column];
     const Drive& drive = scene.robots[measured.object].drives[measured.part];
     for (const auto& input : trial.binding.inputs) {
       if (input.robot != measured.object || input.joint != measured.part) continue;
-      const auto& column = trial.recording.columns[input.column];
+      const auto& given = trial.recording.columns[input.column];
+      if (input.what == Binding::Input::What::command)
+        motion.loadName = trial.recording.channels[input.column] +
+                          (drive.kind == Drive::Kind::torque ? "" : " − " + trial.recording.channels[column]);
       for (std::size_t row = 0; row < rows; ++row) {
-        if (!std::isfinite(column[row])) continue;
-        if (input.what == Binding::Input::What::enabled) motion.enabled[row] = column[row] > 0.5;
+        if (!std::isfinite(given[row])) continue;
+        if (input.what == Binding::Input::What::enabled) motion.enabled[row] = given[row] > 0.5;
         if (input.what != Binding::Input::What::command) continue;
-        motion.load[row] = drive.kind == Drive::Kind::torque ? column[row] : column[row] - motion.position[row];
+        motion.load[row] = drive.kind == Drive::Kind::torque ? given[row] : given[row] - motion.position[row];
         if (drive.kind == Drive::Kind::servo)
           motion.saturated[row] = std::abs(drive.p * motion.load[row]) > 0.98 * drive.maxTorque;
       }
@@ -78,6 +92,8 @@ Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trial
           motion.onFloor[row] =
               trial.recording.columns[other.column][row] < 1.05 * scene.balls[measured.object].radius_m;
   }
+  motion.positionName = trial.recording.channels[column];
+  motion.rateName = rateOf(motion.positionName);
   motion.rate = smoothRate(motion.time, motion.position);
   std::vector<double> speeds;
   for (const double rate : motion.rate) speeds.push_back(std::abs(rate));
@@ -223,19 +239,16 @@ double explainedBy(const ChannelExcess& channel, const std::function<double(cons
   return total > 0 ? between / total : 0;
 }
 
-std::vector<std::string> dependencesOf(const ChannelExcess& channel, const std::string& name) {
-  const std::string place = name.substr(0, name.rfind('.'));
-  const bool slides = name.ends_with("_m") || name.ends_with("_n");
-  const bool joint = std::count(name.begin(), name.end(), '.') == 2 && name.find(".base.") == std::string::npos;
+std::vector<std::string> dependencesOf(const ChannelExcess& channel) {
   std::vector<std::pair<double, std::string>> found;
   const auto add = [&](const std::string& what, const std::function<double(const Motion&, std::size_t)>& variable) {
+    if (what.empty()) return;
     if (const double share = explainedBy(channel, variable); share > 0.1) found.push_back({share, what});
   };
-  add(joint ? place + (slides ? ".velocity_m_s" : ".velocity_rad_s") : place + " speed",
-      [](const Motion& m, std::size_t i) { return m.rate[i]; });
-  add(name, [](const Motion& m, std::size_t i) { return m.position[i]; });
-  if (joint)
-    add(place + (slides ? ".command_m" : ".command_rad"), [](const Motion& m, std::size_t i) { return m.load[i]; });
+  const Motion& named = channel.motions.front();
+  add(named.rateName, [](const Motion& m, std::size_t i) { return m.rate[i]; });
+  add(named.positionName, [](const Motion& m, std::size_t i) { return m.position[i]; });
+  add(named.loadName, [](const Motion& m, std::size_t i) { return m.load[i]; });
   add("time_s", [](const Motion& m, std::size_t i) { return m.time[i] - m.time.front(); });
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> names;
@@ -321,7 +334,7 @@ std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProb
       if (place.when.empty() && regime.pValue < 0.02 && regime.shareOfExcess > 1.3 * regime.shareOfTime)
         place.when = regime.name;
     place.windows = windowsOf(channel);
-    place.dependsOn = dependencesOf(channel, name);
+    place.dependsOn = dependencesOf(channel);
     located.push_back(std::move(place));
   }
   std::stable_sort(located.begin(), located.end(),

@@ -11,8 +11,11 @@
 #include "core/gap/remainder.h"
 #include "core/gap/residual.h"
 #include "core/gap/search.h"
+#include "core/gap/unit_at.h"
 #include "core/gap/verdict.h"
 #include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
 
 namespace btr {
 namespace {
@@ -83,6 +86,27 @@ void addErrors(GapReport& report, const FitProblem& problem, const Eigen::Vector
   }
 }
 
+/// An effect that is absent at its lower bound is not "at its bound" there.
+bool isAtBound(double value, const FitParameter& p) {
+  const double close = 1e-3 * (p.maximum - p.minimum);
+  const bool endsInNothing = p.effect >= 0 && p.hasNeutral && p.given <= p.minimum;
+  return p.maximum - value < close || (!endsInNothing && value - p.minimum < close);
+}
+
+/// Of an effect that was fitted and rejected: no interval was asked for.
+std::vector<GapReport::Number> numbersOf(const FitProblem& problem, const Attempt& attempt) {
+  const std::vector<FitParameter> fitted = fitParameters(*problem.library.make(attempt.candidate.effect), 0);
+  std::vector<GapReport::Number> numbers;
+  for (const Parameter& p : attempt.candidate.declared) {
+    const double value = attempt.values.at(p.name);
+    const auto known = std::find_if(fitted.begin(), fitted.end(), [&](const auto& f) { return f.name == p.name; });
+    numbers.push_back({p.name, unitAt(problem.scene, problem.models, attempt.candidate.at, p),
+                       p.neutral.value_or(p.byDefault), value, GapReport::Interval::none(),
+                       known != fitted.end() && isAtBound(value, *known), attempt.excited});
+  }
+  return numbers;
+}
+
 std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertainty& uncertainty, int effect) {
   constexpr double normal95 = 1.96;
   std::vector<GapReport::Number> numbers;
@@ -94,9 +118,7 @@ std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertaint
     const double half =
         normal95 * uncertainty.standardError[i] + (uncertainty.unsettled.empty() ? 0 : uncertainty.unsettled[i]);
     number.ci95 = {std::max(p.minimum, model.values[i] - half), std::min(p.maximum, model.values[i] + half)};
-    number.atBound = model.values[i] - p.minimum < 1e-3 * range || p.maximum - model.values[i] < 1e-3 * range;
-    if (effect >= 0 && p.hasNeutral && p.given <= p.minimum)
-      number.atBound = p.maximum - model.values[i] < 1e-3 * range;
+    number.atBound = isAtBound(model.values[i], p);
     number.excited = half < 0.5 * range;
     numbers.push_back(number);
   }
@@ -152,7 +174,7 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
 }
 
 /// Effects of the final simulator first, then what else was looked at.
-void addEffects(GapReport& report, const SearchResult& found) {
+void addEffects(GapReport& report, const FitProblem& problem, const SearchResult& found) {
   for (std::size_t i = 0; i < found.effects.size(); ++i) {
     const Found& each = found.effects[i];
     GapReport::Effect effect;
@@ -162,6 +184,7 @@ void addEffects(GapReport& report, const SearchResult& found) {
     effect.parameters = numbersOf(found.final.fit.model, found.finalUncertainty, static_cast<int>(i));
     effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - each.comparison.gain));
     effect.pValue = each.comparison.pValue;
+    effect.qValue = each.qValue;
     effect.rivals = each.rivals;
     for (const Attempt& attempt : found.attempts)
       if (attempt.candidate.effect == effect.effect && attempt.candidate.at == effect.at) {
@@ -199,15 +222,8 @@ void addEffects(GapReport& report, const SearchResult& found) {
       effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - attempt->comparison.gain));
       effect.pValue = attempt->comparison.pValue;
     }
-    if (attempt->fitted)
-      for (const Parameter& p : attempt->candidate.declared)
-        effect.parameters.push_back({p.name,
-                                     p.unit,
-                                     p.neutral.value_or(p.byDefault),
-                                     attempt->values.at(p.name),
-                                     {p.minimum, p.maximum},
-                                     false,
-                                     false});
+    effect.qValue = attempt->qValue;
+    if (attempt->fitted) effect.parameters = numbersOf(problem, *attempt);
     report.tried.push_back(effect);
   }
 }
@@ -281,8 +297,10 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   for (GapReport::Number& number : numbersOf(found.calibrated.fit.model, found.calibratedUncertainty, -1))
     if (std::none_of(report.calibrated.begin(), report.calibrated.end(),
                      [&](const GapReport::Number& other) { return other.name == number.name; })) {
+      // It was held as given from there on: what the calibration said of it belongs to another value.
       number.value = number.before;
-      number.excited = false;
+      number.ci95 = GapReport::Interval::none();
+      number.atBound = number.excited = false;
       report.calibrated.push_back(number);
     }
   addErrors(report, problem, found.given.heldOut, &GapReport::Channel::asGiven, &GapReport::Channel::maeAsGiven);
@@ -290,7 +308,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
             &GapReport::Channel::maeCalibrated);
   addErrors(report, problem, found.final.heldOut, &GapReport::Channel::withEffects,
             &GapReport::Channel::maeWithEffects);
-  addEffects(report, found);
+  addEffects(report, problem, found);
   addCorrelations(report, found.final.fit.model, found.finalUncertainty);
   addStepErrors(report, problem, found);
   addSeries(report, problem, found, false);
@@ -307,10 +325,24 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs);
   if (options.designNext) report.next = designNext(problem, found, options.seed);
   judge(report, problem, found, curveIsBetter);
+  if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (progress) progress("done", 1);
   return report;
 }
+
+namespace {
+
+/// A recording that was fitted scores nothing.
+void refuseSeenHeldOut(const GapProblem& problem) {
+  for (const Recording& held : problem.heldOut)
+    for (const Recording& fitted : problem.recordings)
+      if (held.sha256 == fitted.sha256)
+        throw InputError(held.source + " (held out): has the same bytes as " + fitted.source +
+                         ", which is fitted; what is held out is a recording that no fit sees");
+}
+
+}  // namespace
 
 GapProblem loadProblem(const AnalysisRequest& request) {
   GapProblem problem;
@@ -324,11 +356,14 @@ GapProblem loadProblem(const AnalysisRequest& request) {
   };
   load(request.recordings, problem.recordings);
   load(request.heldOut, problem.heldOut);
+  refuseSeenHeldOut(problem);
   return problem;
 }
 
 GapReport runAnalysis(const AnalysisRequest& request, const EffectLibrary& library, const AnalysisProgress& progress) {
-  const GapReport report = analyse(loadProblem(request), library, request.options, progress);
+  GapReport report = analyse(loadProblem(request), library, request.options, progress);
+  report.scene = std::filesystem::absolute(request.scene).lexically_normal().string();
+  report.sceneSha256 = sha256(readFile(request.scene));
   if (!request.out.empty()) writeReport(report, request.out);
   return report;
 }

@@ -1,5 +1,7 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +18,11 @@ struct GapReport {
 
   struct Interval {
     double low = 0, high = 0;
+    /// Where none was found: rejected effects, numbers that were held.
+    static Interval none() {
+      return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+    }
+    bool known() const { return !std::isnan(low) && !std::isnan(high); }
   };
   /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it.
   struct Number {
@@ -34,12 +41,15 @@ struct GapReport {
     std::string effect, at;
     std::vector<Number> parameters;
     bool accepted = false;
-    double heldoutErrorReduction = 0;  ///< 1 − error with it / error without, held out
-    double pValue = 1;                 ///< paired test on held-out error
+    double heldoutErrorReduction = 0;  ///< 1 − error with it / error without, cross-validated (see Channel)
+    double pValue = 1;                 ///< paired test on that error by blocks
     int screenRank = 0;                ///< 1 the best of the screening; 0 was not ranked
     double screenShare = 0;            ///< of the excess error that its sensitivity explains beyond the calibration
     std::string reason;                ///< why it was accepted or rejected, one clause for people
     std::vector<Rival> rivals;         ///< "indistinguishable_from"
+    /// The p-value adjusted for all effects at all places that its round looked at (false discovery rate, see
+    /// search_discoveries.h); NaN: not known.
+    double qValue = std::numeric_limits<double>::quiet_NaN();
   };
   /// Where the error lies that calibration leaves.
   struct Regime {
@@ -56,13 +66,17 @@ struct GapReport {
     double shareOfExcess = 0;
     std::string when;  ///< the regime that stands out most, "" if none does
     std::vector<Regime> regimes;
-    std::vector<Window> windows;         ///< where most of it lies, largest first
-    std::vector<std::string> dependsOn;  ///< channels on which the error depends, strongest first
+    std::vector<Window> windows;  ///< where most of it lies, largest first
+    std::vector<std::string>
+        dependsOn;  ///< channels, or what was made of them, on which the error depends; strongest first
   };
+  /// "Cross-validated": alternate blocks of the trials predict each other, with the numbers as either half would have
+  /// them, one linear step from the fit to everything (score.h). Initial states, and which effects there are, were
+  /// found on everything. As given, nothing but initial states is fitted.
   struct Channel {
     std::string name, unit;
     double noiseFloor = 0;
-    double asGiven = 0, calibrated = 0, withEffects = 0;                       ///< RMSE on held-out blocks
+    double asGiven = 0, calibrated = 0, withEffects = 0;                       ///< RMSE, cross-validated
     double maeAsGiven = 0, maeCalibrated = 0, maeWithEffects = 0;              ///< mean absolute error, the same
     double heldoutAsGiven = 0, heldoutCalibrated = 0, heldoutWithEffects = 0;  ///< RMSE, --held-out recordings
     double heldoutMaeAsGiven = 0, heldoutMaeCalibrated = 0, heldoutMaeWithEffects = 0;  ///< MAE, the same
@@ -71,7 +85,7 @@ struct GapReport {
   /// A rung of the ladder down to the noise floor.
   struct Step {
     std::string what;          ///< "as given", "calibrated", "+ backlash at leg.knee", "− coulomb_friction at …"
-    double error = 0;          ///< held-out error in noise floors
+    double error = 0;          ///< in noise floors, cross-validated (see Channel)
     double standardError = 0;  ///< of it, over blocks
   };
   struct Series {
@@ -84,7 +98,6 @@ struct GapReport {
     bool heldOut = false;  ///< never used in any fit
     std::vector<double> time_s;
     std::vector<Series> series;
-    std::vector<Interval> heldOutBlocks_s;  ///< blocks of a fitted trial that scored it
   };
   /// A force that nobody has named: generalised force at `at` over a variable.
   struct Remainder {
@@ -114,12 +127,16 @@ struct GapReport {
   Remainder remainder;
   NextRecording next;
   std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
-  SimulatorSpec before, after;     ///< as given; calibrated with the accepted effects
+  /// As given; calibrated with the accepted effects. The same where the verdict leaves nothing to adopt.
+  SimulatorSpec before, after;
+  std::string scene, sceneSha256;  ///< file that was analysed (absolute), and its bytes; "" where there was none
   std::uint64_t seed = 1;
   double seconds = 0;  ///< wall time; not part of what must be reproducible
   std::string version;
 };
 
+/// False where the simulator as given agrees with the recordings, or they cannot tell.
+bool leavesSomethingToAdopt(GapReport::Verdict verdict);
 const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters_suffice", …
 
 /// The contract's report.json (this program's additions: resources/formats.md). Without the series, which are in
@@ -132,7 +149,8 @@ std::string toHtml(const GapReport& report);
 
 /// Writes report.json, report.html, simulator.json, overlay/TRIAL.csv (time_s, then CHANNEL:recorded, :as_given,
 /// :calibrated, :with_effects), next_command.csv where there is one, remainder.csv. Each file is replaced at once,
-/// report.json last. Throws InputError if the folder cannot be made or written.
+/// report.json last; then what an earlier report left there and this one does not have is removed, nothing else. Throws
+/// InputError if the folder cannot be made or written.
 void writeReport(const GapReport& report, const std::string& folder);
 /// Reads such a folder back, whole. Throws InputError.
 GapReport loadReport(const std::string& folder);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include "core/gap/gap_report.h"
 #include "core/gap/report_text.h"
@@ -23,6 +24,22 @@ NumberTable overlayTable(const GapReport::Trial& trial) {
       table.columns.push_back(series.*curve.values);
     }
   return table;
+}
+
+/// The tables that a report which is in the folder already has, by its own word; none if it cannot be read.
+std::set<fs::path> overlaysOf(const fs::path& folder) {
+  const std::string place = (folder / "report.json").string();
+  std::vector<std::string> names;
+  std::error_code failure;
+  if (!fs::is_regular_file(place, failure)) return {};
+  try {
+    reportFromJson(readFile(place), place, names);
+  } catch (const InputError&) {
+    return {};
+  }
+  std::set<fs::path> files;
+  for (const std::string& name : names) files.insert(folder / name);
+  return files;
 }
 
 void makeFolder(const fs::path& folder) {
@@ -92,11 +109,19 @@ void writeReport(const GapReport& report, const std::string& folder) {
   const fs::path out(folder);
   makeFolder(out);
   makeFolder(out / "overlay");
-  for (std::size_t i = 0; i < report.trials.size(); ++i)
-    writeFile((out / "overlay" / overlayFileName(report, i)).string(), overlayCsv(report.trials[i]));
-  if (!report.next.columns.empty())
+  std::set<fs::path> stale = overlaysOf(out);
+  for (std::size_t i = 0; i < report.trials.size(); ++i) {
+    const fs::path file = out / "overlay" / overlayFileName(report, i);
+    writeFile(file.string(), overlayCsv(report.trials[i]));
+    stale.erase(file);
+  }
+  if (report.next.columns.empty())
+    stale.insert(out / "next_command.csv");
+  else
     writeFile((out / "next_command.csv").string(), toCsv(NumberTable{report.next.channels, report.next.columns}));
-  if (!report.remainder.on.empty())
+  if (report.remainder.on.empty())
+    stale.insert(out / "remainder.csv");
+  else
     writeFile((out / "remainder.csv").string(),
               toCsv(NumberTable{{report.remainder.on, "force", "standard_error"},
                                 {report.remainder.x, report.remainder.y, report.remainder.standardError}}));
@@ -104,6 +129,8 @@ void writeReport(const GapReport& report, const std::string& folder) {
   writeFile((out / "report.html").string(), toHtml(report));
   // Last: a folder with a report.json is whole.
   writeFile((out / "report.json").string(), toJsonText(report));
+  std::error_code failure;  // what cannot be removed does no harm beside a whole report
+  for (const fs::path& file : stale) fs::remove(file, failure);
 }
 
 GapReport loadReport(const std::string& folder) {

@@ -37,7 +37,7 @@ svg text { font: 12px "DejaVu Sans", Verdana, Helvetica, sans-serif; fill: var(-
 .grid { stroke: var(--line) } .zero { stroke: var(--faint) } .frame { fill: none; stroke: var(--line) }
 .bar { fill: var(--asgiven) } .good { fill: var(--good) } .time { fill: var(--faint); opacity: .5 }
 .whisker { stroke: var(--text); stroke-width: 1.5 } .floor { stroke: var(--good); stroke-width: 1.6; stroke-dasharray: 5 3 }
-.noise { fill: var(--good); opacity: .22 } .block { fill: var(--faint); opacity: .1 } .band { fill: var(--repaired); opacity: .2 }
+.noise { fill: var(--good); opacity: .22 } .band { fill: var(--repaired); opacity: .2 }
 .recorded, .asgiven, .calibrated, .repaired { fill: none; stroke-width: 1.4; stroke-linejoin: round }
 .recorded { stroke: var(--recorded); stroke-width: 2 } .asgiven { stroke: var(--asgiven) }
 .calibrated { stroke: var(--calibrated) } .repaired { stroke: var(--repaired) }
@@ -65,15 +65,17 @@ std::string parametersText(const GapReport::Effect& e) {
   std::string text;
   for (const GapReport::Number& n : e.parameters)
     text += (text.empty() ? "" : "; ") + n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " +
-            brief(n.ci95) + (n.atBound ? ", at its bound" : "") + (n.excited ? "" : ", not excited");
+            (n.ci95.known() ? brief(n.ci95) : "(no interval)") + (n.atBound ? ", at its bound" : "") +
+            (n.excited ? "" : ", not excited");
   return text;
 }
 
 std::string effectsTable(const GapReport& report) {
   if (report.tried.empty()) return "<p>No effect was tried.</p>\n";
   std::string html =
-      "<div class=\"wide\"><table>" +
-      headerRow({"effect", "at", "verdict and reason", "cannot be told from", "held-out gain", "p", "screening"}, 4);
+      "<div class=\"wide\"><table>" + headerRow({"effect", "at", "verdict and reason", "cannot be told from",
+                                                 "cross-validated gain", "p", "q", "screening"},
+                                                4);
   for (const GapReport::Effect& e : report.tried) {
     std::string rivals;
     for (const GapReport::Rival& r : e.rivals)
@@ -82,11 +84,15 @@ std::string effectsTable(const GapReport& report) {
     html += std::string(e.accepted ? "<tr>" : "<tr class=\"no\">") + cell(inWords(e.effect)) + cell(e.at) + "<td>" +
             (e.accepted ? "<b>accepted</b>" : "rejected") + (e.reason.empty() ? "" : ": " + escaped(e.reason)) +
             (parameters.empty() ? "" : "<br><span class=\"faint\">" + escaped(parameters) + "</span>") + "</td>" +
-            cell(rivals) + cell(percent(e.heldoutErrorReduction), true) + number(e.pValue) +
+            cell(rivals) + cell(percent(e.heldoutErrorReduction), true) + number(e.pValue) + number(e.qValue) +
             cell(e.screenRank > 0 ? std::to_string(e.screenRank) + " (" + percent(e.screenShare) + ")" : "–", true) +
             "</tr>\n";
   }
-  return html + "</table></div>\n";
+  return html +
+         "</table></div>\n<p class=\"faint\">Gain: 1 − error with it / error without, cross-validated. p: paired test "
+         "on "
+         "that error by blocks; q: p adjusted for all effects at all places that were looked at together (false "
+         "discovery rate).</p>\n";
 }
 
 std::string calibratedTable(const GapReport& report) {
@@ -98,7 +104,7 @@ std::string calibratedTable(const GapReport& report) {
             cell(!n.excited  ? "the recordings do not tell it"
                  : n.atBound ? "at its bound"
                              : "") +
-            number(n.before) + number(n.value) + cell(brief(n.ci95), true) + "</tr>\n";
+            number(n.before) + number(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) + "</tr>\n";
   html += "</table></div>\n";
   if (!report.strongCorrelations.empty()) {
     html += "<p class=\"faint\">Hardly separated by these recordings: ";
@@ -120,7 +126,11 @@ std::string channelsTable(const GapReport& report) {
             number(c.withEffects) + number(c.maeWithEffects) + number(c.stepError) + "</tr>\n";
     heldOut = heldOut || c.heldoutAsGiven != 0 || c.heldoutCalibrated != 0 || c.heldoutWithEffects != 0;
   }
-  html += "</table></div>\n<p class=\"faint\">Root mean square on blocks that the fit did not see.</p>\n";
+  html +=
+      "</table></div>\n<p class=\"faint\">Root mean square, cross-validated: alternate blocks of the trials predict "
+      "each other, with the numbers as either half would have them (one linear step from the fit to everything). "
+      "Initial states and the choice of effects come from everything; only held-out recordings are new to all of "
+      "it.</p>\n";
   if (!heldOut) return html;
   html +=
       "<div class=\"wide\"><table>" + headerRow({"channel, held-out recordings", "unit", "RMS as given", "calibrated",
@@ -192,7 +202,7 @@ std::string toHtml(const GapReport& report) {
       "<h1>" + escaped(headline(report.verdict)) + "</h1>\n<p class=\"verdict\">" + escaped(report.sentence) + "</p>\n";
   html += "<section><h2>Error, step by step</h2>\n" +
           figure(plots::ladder(report),
-                 "Held-out error after each step, down to what the recordings resolve; bars: "
+                 "Cross-validated error after each step, down to what the recordings resolve; bars: "
                  "standard error over blocks.") +
           channelsTable(report) + "</section>\n";
 
@@ -225,8 +235,7 @@ std::string toHtml(const GapReport& report) {
 
   html += "<h2>Recorded and simulated</h2>\n";
   for (const auto& [trial, series] : overlays)
-    html += figure(plots::overlay(report, trial, series),
-                   "Shaded in time: blocks that the fit did not see. Band: noise floor.");
+    html += figure(plots::overlay(report, trial, series), "Band: noise floor.");
   std::size_t all = 0;
   for (const GapReport::Trial& t : report.trials) all += t.series.size();
   if (all > overlays.size())

@@ -48,7 +48,7 @@ json toJson(const GapReport::Number& n, bool calibrated) {
     number["value"] = finite(n.value);
     number["neutral"] = finite(n.before);
   }
-  number["ci95"] = pairOf(n.ci95);
+  number["ci95"] = n.ci95.known() ? pairOf(n.ci95) : json();
   number["at_bound"] = n.atBound;
   number["excited"] = n.excited;
   number["unit"] = n.unit;
@@ -72,6 +72,7 @@ json toJson(const GapReport::Effect& e) {
           {"parameters", toJson(e.parameters, false)},
           {"heldout_error_reduction", finite(e.heldoutErrorReduction)},
           {"p_value", finite(e.pValue)},
+          {"q_value", finite(e.qValue)},
           {"indistinguishable_from", rivals},
           {"accepted", e.accepted},
           {"reason", e.reason},
@@ -98,12 +99,14 @@ json toJson(const GapReport::Channel& c) {
 }
 
 json toJson(const GapReport::Trial& trial, const std::string& overlay) {
-  json series = json::array(), blocks = json::array();
+  json series = json::array();
   for (const GapReport::Series& s : trial.series)
     series.push_back({{"channel", s.channel}, {"unit", s.unit}, {"noise_floor", finite(s.noiseFloor)}});
-  for (const GapReport::Interval& block : trial.heldOutBlocks_s) blocks.push_back(pairOf(block));
-  return {{"name", trial.name}, {"sha256", trial.sha256}, {"held_out", trial.heldOut},
-          {"overlay", overlay}, {"series", series},       {"held_out_blocks_s", blocks}};
+  return {{"name", trial.name},
+          {"sha256", trial.sha256},
+          {"held_out", trial.heldOut},
+          {"overlay", overlay},
+          {"series", series}};
 }
 
 json toJson(const GapReport::Remainder& r) {
@@ -122,6 +125,10 @@ json toJson(const GapReport::Remainder& r) {
 }
 
 }  // namespace
+
+bool leavesSomethingToAdopt(GapReport::Verdict verdict) {
+  return verdict != GapReport::Verdict::noMismatch && verdict != GapReport::Verdict::notExcited;
+}
 
 const char* toText(GapReport::Verdict verdict) {
   switch (verdict) {
@@ -157,7 +164,9 @@ std::string toJsonText(const GapReport& report) {
   document["provenance"] = {{"seed", report.seed},
                             {"version", report.version},
                             {"recordings_sha256", json::array()},
-                            {"wall_time_s", finite(report.seconds)}};
+                            {"wall_time_s", finite(report.seconds)},
+                            {"scene", report.scene},
+                            {"scene_sha256", report.sceneSha256}};
   for (const GapReport::Trial& trial : report.trials)
     document["provenance"]["recordings_sha256"].push_back(trial.sha256);
 

@@ -14,11 +14,15 @@ std::string line(const char* format, Numbers... numbers) {
   return text;
 }
 
+std::string intervalText(const GapReport::Number& number) {
+  return number.ci95.known() ? line(" [%.4g … %.4g]", number.ci95.low, number.ci95.high) : "";
+}
+
 }  // namespace
 
 std::string toPlainText(const GapReport& report) {
   std::string text = std::string(toText(report.verdict)) + ": " + report.sentence + "\n\n";
-  text += "error in noise floors, held-out blocks\n";
+  text += "error in noise floors, cross-validated\n";
   for (const auto& step : report.ladder)
     text += line("  %8.3f ± %.3f  %s\n", step.error, step.standardError, step.what.c_str());
   text += "\nRMSE by channel        noise floor    as given  calibrated  with effects   (held-out recordings)\n";
@@ -33,16 +37,16 @@ std::string toPlainText(const GapReport& report) {
              effect.at.c_str(), effect.screenRank, 100 * effect.screenShare, effect.reason.c_str());
     if (effect.accepted)
       for (const auto& number : effect.parameters)
-        text += line("        %-28s %.4g %s [%.4g … %.4g]\n", number.name.c_str(), number.value, number.unit.c_str(),
-                     number.ci95.low, number.ci95.high);
+        text += line("        %-28s %.4g %s%s\n", number.name.c_str(), number.value, number.unit.c_str(),
+                     intervalText(number).c_str());
     for (const auto& rival : effect.rivals)
       text += line("        not told from %s at %s%s%s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
                    rival.with.empty() ? "" : " together with ", rival.with.c_str(), rival.heldoutErrorRatio);
   }
   text += "\ncalibrated\n";
   for (const auto& number : report.calibrated)
-    text += line("  %-52s %.5g → %.5g [%.4g … %.4g]%s\n", number.name.c_str(), number.before, number.value,
-                 number.ci95.low, number.ci95.high,
+    text += line("  %-52s %.5g → %.5g%s%s\n", number.name.c_str(), number.before, number.value,
+                 intervalText(number).c_str(),
                  !number.excited  ? " (not told by these recordings)"
                  : number.atBound ? " (at its bound)"
                                   : "");

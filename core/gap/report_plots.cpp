@@ -153,10 +153,6 @@ std::string overlay(const GapReport& report, std::size_t trial, std::size_t seri
     svg += path(kind, "M" + whole(legend) + " 31H" + whole(legend + 26)) + text(legend + 32, 35, name);
     legend += 130;
   }
-  for (const GapReport::Interval& block : t.heldOutBlocks_s) {
-    const double from = std::clamp(x(block.low), x.from, x.to), to = std::clamp(x(block.high), x.from, x.to);
-    svg += bar(from, top, to - from, bottom - top, "block");
-  }
   svg += panel(x, y, 5, false);
   svg += path("recorded", pathOf(t.time_s, s.recorded, x, y, 1));
   svg += path("asgiven", pathOf(t.time_s, s.asGiven, x, y, 1));

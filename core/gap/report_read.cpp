@@ -29,7 +29,7 @@ GapReport::Interval interval(const nlohmann::json& value, const JsonReader& read
 
 GapReport::Interval intervalOf(JsonReader& r, const std::string& key) {
   const nlohmann::json* value = r.any(key);
-  return value ? interval(*value, r, key) : GapReport::Interval{};
+  return value && !value->is_null() ? interval(*value, r, key) : GapReport::Interval::none();
 }
 
 std::vector<GapReport::Interval> intervalsOf(JsonReader& r, const std::string& key) {
@@ -69,6 +69,7 @@ GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
           [&](const std::string& name, JsonReader number) { e.parameters.push_back(numberFrom(number, name, false)); });
   e.heldoutErrorReduction = numberOf(r, "heldout_error_reduction");
   e.pValue = numberOf(r, "p_value");
+  if (r.any("q_value")) e.qValue = numberOf(r, "q_value");
   r.array("indistinguishable_from", [&](JsonReader rival) {
     e.rivals.push_back({rival.text("effect"), rival.text("at"), numberOf(rival, "heldout_error_ratio"),
                         rival.text("together_with", "")});
@@ -140,7 +141,7 @@ GapReport::Trial trialFrom(JsonReader& r, std::vector<std::string>& overlays) {
     trial.series.push_back({s.text("channel"), s.text("unit"), numberOf(s, "noise_floor"), {}, {}, {}, {}});
     s.finish();
   });
-  trial.heldOutBlocks_s = intervalsOf(r, "held_out_blocks_s");
+  r.any("held_out_blocks_s");  // always empty, in reports of the first development versions
   r.finish();
   return trial;
 }
@@ -224,6 +225,8 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
   report.version = provenance.text("version");
   provenance.texts("recordings_sha256");
   report.seconds = numberOf(provenance, "wall_time_s");
+  report.scene = provenance.text("scene", "");
+  report.sceneSha256 = provenance.text("scene_sha256", "");
   provenance.finish();
 
   r.array("ladder", [&](JsonReader step) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct Attempt {
   double share = 0;  ///< of the excess that the screening promised
   bool excited = true;
   bool fitted = false, scored = false, accepted = false;
-  Values values;          ///< of the fit, or of the screening's best start
-  Comparison comparison;  ///< with the model before it
+  Values values;                                             ///< of the fit, or of the screening's best start
+  Comparison comparison;                                     ///< with the model before it
+  double qValue = std::numeric_limits<double>::quiet_NaN();  ///< see GapReport::Effect
   std::string reason;
 };
 
@@ -32,6 +34,7 @@ struct Attempt {
 struct Found {
   PlacedEffect effect;
   Comparison comparison;  ///< with the final simulator without it
+  double qValue = 1;      ///< among all that its place was offered to
   std::vector<GapReport::Rival> rivals;
   std::vector<FitModel> rivalModels;  ///< the whole simulator with each rival in its place
 };

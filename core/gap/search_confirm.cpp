@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/gap/report_figures.h"
+#include "core/gap/search_discoveries.h"
 #include "core/gap/search_run.h"
 
 namespace btr {
@@ -92,7 +93,6 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
 
   scored.insert(scored.end(), ofClose.begin(), ofClose.end());
   far.insert(far.end(), close.begin(), close.end());
-  bool any = false;
   for (std::size_t i = 0; i < far.size(); ++i) {
     Tried& each = tried[far[i]];
     each.fit = scored[i].fit;
@@ -104,13 +104,29 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
       each.passes = false;
       each.attempt.reason = tried[close[0]].attempt.candidate.text() + " fits far better";
     }
-    any = any || each.passes;
   }
+  controlFalseDiscoveries(tried);
+  const bool any = std::any_of(far.begin(), far.end(), [&](std::size_t k) { return tried[k].passes; });
   if (!any) {  // what needed the finer step is not there
     problem_.scene.step_s = fitted_s;
     without = before;
   }
   return any;
+}
+
+void SearchRun::controlFalseDiscoveries(std::vector<Tried>& tried) {
+  // What the screening left behind counts as tested and found to be nothing.
+  std::vector<double> pValues;
+  for (const Tried& each : tried) pValues.push_back(each.attempt.scored ? each.attempt.comparison.pValue : 1);
+  const std::vector<double> rates = falseDiscoveryRates(pValues);
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    tried[k].attempt.qValue = rates[k];
+    if (!tried[k].passes || rates[k] <= mostFalse) continue;
+    tried[k].passes = false;
+    tried[k].attempt.reason =
+        "among " + std::to_string(tried.size()) +
+        " effects and places that were looked at, chance does as well (q = " + digits(rates[k], 2) + ")";
+  }
 }
 
 bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/search_discoveries.h"
 #include "core/gap/search_run.h"
 
 namespace btr {
@@ -182,6 +183,16 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
   }
 }
 
+double SearchRun::rateAmong(const std::vector<Tried>& others, const Found& found) {
+  std::vector<double> pValues{found.comparison.pValue};
+  for (const Tried& other : others) {
+    const EffectCandidate& candidate = other.attempt.candidate;
+    if (candidate.effect != found.effect.effect || candidate.at != found.effect.at)
+      pValues.push_back(other.attempt.scored ? other.attempt.comparison.pValue : 1);
+  }
+  return falseDiscoveryRates(pValues)[0];
+}
+
 /// Rivals of each effect beside the others; where an effect was replaced, what stood beside it is asked again.
 void SearchRun::findRivals(SearchResult& result) {
   constexpr int mostRounds = 3;
@@ -216,7 +227,8 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
     const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;
     const PlacedEffect own = model.effects[place];
-    Found found{own, compare(without.blocks, result.final.blocks), {}, {}};
+    Found found{own, compare(without.blocks, result.final.blocks), 1, {}, {}};
+    found.qValue = rateAmong(others, found);
     for (const Tried& other : others) {
       const EffectCandidate& candidate = other.attempt.candidate;
       if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;

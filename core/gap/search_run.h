@@ -12,6 +12,7 @@ namespace btr {
 // What counts as an effect. From the prototype's experience (1 % of everything, 8 % of the excess, t of 2.5, six
 // standard errors), kept: fewer conditions let false effects in.
 inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
+inline constexpr double mostFalse = 0.05;  // share of false ones among all that are accepted, on average
 
 inline constexpr double unexplainedExcess =
     0.3;  // mean squared error above 1 at which more is tried than single effects
@@ -101,6 +102,10 @@ class SearchRun {
   std::vector<Fit> basesOf(const SearchResult& result, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;
+  /// Adjusts the p-values of a round for all that it looked at; what passes only without that does not pass.
+  static void controlFalseDiscoveries(std::vector<Tried>& tried);
+  /// The p-value of an effect adjusted for all candidates of its place in the model.
+  static double rateAmong(const std::vector<Tried>& others, const Found& found);
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);

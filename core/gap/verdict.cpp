@@ -200,8 +200,8 @@ void judgeSufficient(GapReport& report, const Findings& e) {
                     (report.tried.empty() ? "nothing is left for a missing effect to explain. "
                                           : "no missing effect improves the held-out error. ");
   if (e.final > stillNoise && e.colour.stands())
-    report.sentence +=
-        "What is left is small, but not noise alone: " + colourText(e) + ". Something small may be missing. ";
+    report.sentence += "What is left is small, but not noise alone: " + colourText(e) +
+                       ". Something small may be missing, or the sensor's noise is not white. ";
 }
 
 /// Neither other numbers nor an effect are shown to help, and what is left is not much, or the integration hides it.
@@ -217,7 +217,8 @@ void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks) {
   } else if (e.colour.stands()) {
     report.verdict = Verdict::unexplained;
     report.sentence = errorText(e) + "What is left is small, but not noise alone: " + colourText(e) +
-                      ". Neither other numbers nor an effect of the library take it away. ";
+                      ". Neither other numbers nor an effect of the library take it away; a sensor whose noise is not "
+                      "white would look the same. ";
   } else {
     judgeNoMismatch(report, e);
     report.sentence += "What is above the noise floor looks like noise: the floor may be larger than was estimated. ";

@@ -87,7 +87,9 @@ bool recordStandIn(RunContext& context, const std::vector<Id>& who) {
 nlohmann::json numbersOf(const std::vector<GapReport::Number>& numbers) {
   nlohmann::json all = nlohmann::json::object();
   for (const GapReport::Number& n : numbers)
-    all[n.name] = {{"before", n.before}, {"value", n.value}, {"ci95", {n.ci95.low, n.ci95.high}}};
+    all[n.name] = {{"before", n.before},
+                   {"value", n.value},
+                   {"ci95", n.ci95.known() ? nlohmann::json{n.ci95.low, n.ci95.high} : nlohmann::json()}};
   return all;
 }
 

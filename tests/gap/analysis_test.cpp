@@ -12,6 +12,7 @@
 #include "core/gap/score.h"
 #include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
+#include "tests/refusal.h"
 
 namespace btr {
 namespace {
@@ -212,6 +213,56 @@ TEST(Analysis, WithoutRecordingsItSaysWhatItNeeds) {
   GapProblem problem = recordedFrom({});
   problem.recordings.clear();
   EXPECT_THROW(analyse(problem, library(), {}), InputError);
+}
+
+TEST(Analysis, RejectedEffectsHaveNoIntervalAndSayWhatTheyAre) {
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "force_offset", "command_delay"};
+  const GapReport report =
+      analyse(recordedFrom({{}, {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.05}}}}}), library(), options);
+  int rejected = 0;
+  for (const GapReport::Effect& effect : report.tried) {
+    EXPECT_FALSE(effect.qValue < effect.pValue) << effect.effect;
+    if (effect.accepted) {
+      EXPECT_LE(effect.qValue, 0.05);
+      continue;
+    }
+    for (const GapReport::Number& number : effect.parameters) {
+      ++rejected;
+      const std::vector<Parameter> declared = library().make(effect.effect)->parameters();
+      const Parameter& p = *find(declared, number.name);
+      EXPECT_FALSE(number.ci95.known());
+      EXPECT_TRUE(number.excited) << "what is not felt is not fitted";
+      if (number.value > p.maximum - 1e-4 * (p.maximum - p.minimum)) {
+        EXPECT_TRUE(number.atBound) << effect.effect;
+      }
+    }
+  }
+  EXPECT_GT(rejected, 2);
+}
+
+TEST(Analysis, NothingIsAdoptedFromRecordingsThatTellNothing) {
+  GapProblem problem = recordedFrom({}, 1e-4);
+  problem.simulator.values = {{"robots.rig.servos.hinge.p", 6.5}};
+  const GapReport report = analyse(problem, library(), {});
+  EXPECT_EQ(report.verdict, Verdict::notExcited) << report.sentence;
+  EXPECT_EQ(report.after, problem.simulator);
+}
+
+TEST(Analysis, AFittedFileIsNoHeldOutOne) {
+  const TemporaryFolder folder;
+  folder.write("rig.urdf", rigUrdf);
+  AnalysisRequest request;
+  request.scene = folder.write("scene.json", R"({"format": "uchilsim-scene-1", "robots": [
+    {"name": "rig", "model": "rig.urdf", "base": "fixed", "servos": {"hinge": {"p": 6}}}]})");
+  const std::string text = "time_s,rig.hinge.command_rad,rig.hinge.position_rad\n0,0,0\n0.1,0.1,0\n0.2,0.2,0.1\n";
+  request.recordings = {folder.write("a.csv", text)};
+  request.heldOut = {folder.write("copy.csv", text)};
+  const std::string message = test::refusal([&] { loadProblem(request); });
+  EXPECT_THAT(message, HasSubstr("copy.csv (held out)"));
+  EXPECT_THAT(message, HasSubstr("a.csv, which is fitted"));
+  request.heldOut = {folder.write("other.csv", text + "0.3,0.3,0.2\n")};
+  EXPECT_EQ(test::refusal([&] { loadProblem(request); }), "accepted");
 }
 
 TEST(EffectCandidates, EveryEffectIsTriedAtEveryPlaceThatItFits) {

@@ -104,6 +104,65 @@ TEST(GapReport, AnOpenIntervalStaysOpen) {
   EXPECT_EQ(read.calibrated[1].ci95.high, std::numeric_limits<double>::infinity());
 }
 
+TEST(GapReport, ARejectedEffectHasNoInterval) {
+  const TemporaryFolder folder;
+  writeReport(sampleReport(), folder.file("r"));
+  const auto document = nlohmann::json::parse(readFile(folder.file("r/report.json")));
+  EXPECT_TRUE(document["tried"][2]["parameters"]["torque_nm"]["ci95"].is_null());
+  EXPECT_FALSE(loadReport(folder.file("r")).tried[2].parameters[0].ci95.known());
+  EXPECT_THAT(toHtml(sampleReport()), HasSubstr("torque_nm = 0.004 N·m (no interval)"));
+  GapReport held = sampleReport();
+  held.calibrated[0].ci95 = GapReport::Interval::none();
+  EXPECT_THAT(toPlainText(held), Not(HasSubstr("[nan")));
+  EXPECT_THAT(toHtml(held), Not(HasSubstr("[–")));
+}
+
+TEST(GapReport, OfAnEarlierVersionIsRead) {
+  EXPECT_EQ(afterChange([](auto& d) {
+              for (auto& effect : d["tried"]) effect.erase("q_value");
+              for (auto& trial : d["trials"]) trial["held_out_blocks_s"] = nlohmann::json::array();
+              d["provenance"].erase("scene");
+              d["provenance"].erase("scene_sha256");
+            }),
+            "accepted");
+}
+
+TEST(GapReport, ANewOneLeavesNothingOfTheOneBeforeIt) {
+  const TemporaryFolder folder;
+  writeReport(sampleReport(), folder.file("r"));
+  folder.write("r/overlay/mine.csv", "time_s\n");
+  folder.write("r/notes.txt", "mine");
+  GapReport next = sampleReport();
+  next.trials.resize(1);
+  next.located.clear();
+  next.next = {};
+  next.remainder = {};
+  writeReport(next, folder.file("r"));
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.file("r")))
+    if (entry.is_regular_file())
+      left.push_back(std::filesystem::relative(entry.path(), folder.file("r")).generic_string());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("report.json", "report.html", "simulator.json", "overlay/sine-1.csv",
+                                                  "overlay/mine.csv", "notes.txt"));
+}
+
+TEST(GapReport, TablesStayInAFolderWhoseReportCannotBeRead) {
+  const TemporaryFolder folder;
+  writeReport(sampleReport(), folder.file("r"));
+  folder.write("r/report.json", "{");
+  GapReport next = sampleReport();
+  next.trials.resize(1);
+  next.located.clear();
+  writeReport(next, folder.file("r"));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("r/overlay/sine-2.csv")));
+}
+
+TEST(GapReport, SaysWhatItsErrorsWereMeasuredOn) {
+  const std::string html = toHtml(sampleReport());
+  EXPECT_THAT(html, HasSubstr("alternate blocks of the trials predict each other"));
+  EXPECT_THAT(html, Not(HasSubstr("did not see")));
+}
+
 TEST(GapReport, JsonHasTheContractsKeysAndTypes) {
   const auto document = nlohmann::json::parse(toJsonText(sampleReport()));
   EXPECT_EQ(document["format"], "uchilsim-gap-report-1");
@@ -126,6 +185,7 @@ TEST(GapReport, JsonHasTheContractsKeysAndTypes) {
   EXPECT_EQ(effect["parameters"]["width_rad"]["at_bound"], false);
   EXPECT_EQ(effect["heldout_error_reduction"], 0.71);
   EXPECT_EQ(effect["p_value"], 0.0004);
+  EXPECT_EQ(effect["q_value"], 0.0076);
   EXPECT_EQ(effect["indistinguishable_from"][0]["effect"], "gear_elasticity");
   EXPECT_EQ(effect["indistinguishable_from"][0]["heldout_error_ratio"], 1.02);
 
@@ -220,7 +280,7 @@ TEST(GapReport, HtmlPlotsHaveFiniteNumbersOnly) {
 
 TEST(HeatRow, IsTheRootMeanSquareInNoiseFloors) {
   GapReport report;
-  report.trials.push_back({"t", "", false, {0, 1, 2, 3}, {}, {}});
+  report.trials.push_back({"t", "", false, {0, 1, 2, 3}, {}});
   report.trials[0].series.push_back({"a.b.position_rad", "rad", 0.5, {1, 1, 1, 1}, {2, 1, 1, 4}, {}, {}});
   const HeatRow row = heatRow(report, 0, 0, Simulated::asGiven, 2);
   EXPECT_DOUBLE_EQ(row.error[0], std::sqrt((2.0 * 2.0 + 0) / 2));

@@ -35,6 +35,7 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
                              "held-out error falls in 38 of 40 blocks",
                              {}};
   backlash.rivals = {{"gear_elasticity", knee, 1.02}};
+  backlash.qValue = 0.0076;
   r.tried = {
       backlash,
       {"gear_elasticity",
@@ -49,7 +50,7 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
        {}},
       {"coulomb_friction",
        knee,
-       {{"torque_nm", "N·m", 0, 0.004, {-0.001, 0.009}}},
+       {{"torque_nm", "N·m", 0, 0.004, GapReport::Interval::none()}},
        false,
        0.02,
        0.31,
@@ -75,7 +76,7 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
 
   for (std::size_t k = 0; k < 5; ++k) {
     GapReport::Trial trial{
-        "sine-" + std::to_string(k + 1) + ".csv", std::string(63, 'a') + std::to_string(k), k == 4, {}, {}, {}};
+        "sine-" + std::to_string(k + 1) + ".csv", std::string(63, 'a') + std::to_string(k), k == 4, {}, {}};
     for (int i = 0; i < 500; ++i) trial.time_s.push_back(0.008 * i);
     for (const auto& [channel, share] : {std::pair{knee, 1.0}, std::pair{hip, 0.15}}) {
       GapReport::Series s{channel + ".position_rad", "rad", 0.0016, {}, {}, {}, {}};
@@ -90,7 +91,6 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
       }
       trial.series.push_back(s);
     }
-    if (k < 4) trial.heldOutBlocks_s = {{1, 2}, {3, 3.992}};
     r.trials.push_back(trial);
   }
   r.remainder = {0.98,

@@ -67,16 +67,17 @@ bool MainWindow::openReport(const QString& folder) {
   return gapPage_->openReport(folder);
 }
 
-// The chosen trial in 3D where its scene is known, else whatever replay is there, at that time.
+// The chosen trial in 3D, in the scene that the report was made with; else the pane says why not.
 void MainWindow::showGhosts(std::size_t trial, double time_s) {
-  const AnalysisSetup& setup = gapPage_->setup();
   if (const std::pair wanted(gapPage_->view().report(), trial); ghosts_ != wanted) {
     guard([&] {
-      const auto shown = ghostTrial(*wanted.first, trial, setup.sceneSpec(), setup.models());
-      if (!shown) return;
+      ghosts_ = wanted;
+      const ReportScene known = sceneOf(*wanted.first);
+      if (!known.problem.isEmpty()) return replay_->showMessage(known.problem);
+      const auto shown = ghostTrial(*wanted.first, trial, known.scene, known.models);
+      if (!shown) return replay_->showMessage(tr("Nothing of the report's scene was recorded in this trial."));
       replay_->setReplay(shown->recorded);
       replay_->setGhosts(shown->ghosts);
-      ghosts_ = wanted;
     });
   }
   replay_->showTime(time_s);

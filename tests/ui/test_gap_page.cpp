@@ -14,6 +14,7 @@
 #include "core/gap/recording.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
 #include "tests/gap/sample_report.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/gap/analysis_setup.h"
@@ -190,6 +191,62 @@ class TestGapPage : public QObject {
     bench.page.setRun("run 3", versions(2), {});
     bench.page.revertAction()->trigger();
     QCOMPARE(reverted.size(), 1);
+  }
+
+  void whatFoundNothingIsNotAdopted() {
+    for (const auto& [verdict, why] : {std::pair{GapReport::Verdict::noMismatch, "agrees with the recordings"},
+                                       std::pair{GapReport::Verdict::notExcited, "the recordings cannot tell"}}) {
+      Bench bench;
+      GapReport report = sampleReport();
+      report.verdict = verdict;
+      writeReport(report, bench.folder.filePath("nothing").toStdString());
+      bench.page.setRun("run 3", versions(1), {});
+      QVERIFY(bench.page.adoptAction()->isEnabled());
+      QVERIFY(bench.page.openReport(bench.folder.filePath("nothing")));
+      QVERIFY(!bench.page.adoptAction()->isEnabled());
+      QVERIFY(bench.page.adoptAction()->toolTip().contains(why));
+    }
+  }
+
+  void theGhostsStandInTheReportsOwnScene() {
+    QTemporaryDir folder;
+    GapReport report = sampleReport();
+    QVERIFY(sceneOf(report).problem.contains("does not name its scene"));
+    const QString scene = file(folder, "scene.json", R"({"format": "uchilsim-scene-1", "balls": [
+        {"name": "ball", "mass_kg": 0.1, "radius_m": 0.04, "position_m": [0, 0, 0.04]}]})");
+    report.scene = scene.toStdString();
+    report.sceneSha256 = sha256(readFile(report.scene));
+    const ReportScene known = sceneOf(report);
+    QCOMPARE(known.problem, QString());
+    QCOMPARE(known.scene.balls.size(), std::size_t(1));
+    writeReport(report, folder.filePath("r").toStdString());
+    QCOMPARE(loadReport(folder.filePath("r").toStdString()).scene, report.scene);
+    file(folder, "scene.json", "{}");
+    QVERIFY(sceneOf(report).problem.contains("has changed since the analysis"));
+    QFile::remove(scene);
+    QVERIFY(sceneOf(report).problem.contains("cannot be read"));
+  }
+
+  void aFittedFileIsNoHeldOutOne() {
+    QTemporaryDir folder;
+    AnalysisSetup setup;
+    setup.setScene(SOURCE_DIR "/resources/scenes/xl330.json");
+    const std::string text = "time_s,rig.hinge.position_rad\n0,0\n0.1,0.1\n";
+    setup.addRecordings({file(folder, "a.csv", text), file(folder, "copy.csv", text)});
+    QCOMPARE(setup.problem(), QString());
+    setup.setHeldOut(1, true);
+    QVERIFY(setup.problem().contains("copy.csv is held out, but the same file is fitted"));
+    QVERIFY(!setup.findChild<QPushButton*>("startAnalysis")->isEnabled());
+    setup.setHeldOut(1, false);
+    QCOMPARE(setup.problem(), QString());
+  }
+
+  void theTableSaysWhatItsNumbersAre() {
+    Bench bench;
+    const EffectsTable& table = bench.page.view().effects();
+    QVERIFY(table.horizontalHeaderItem(EffectsTable::gain)->toolTip().contains("cross-validated"));
+    QCOMPARE(table.item(0, EffectsTable::qValue)->text(), QString("0.0076"));
+    QCOMPARE(table.item(2, EffectsTable::parameters)->text(), QString::fromUtf8("torque_nm = 0.004 N·m (no interval)"));
   }
 
   void adoptionSaysWhyItIsNotPossible() {

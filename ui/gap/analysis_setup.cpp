@@ -1,7 +1,9 @@
 #include "ui/gap/analysis_setup.h"
 
 #include <QComboBox>
+#include <QCryptographicHash>
 #include <QDir>
+#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -48,6 +50,15 @@ QStringList channelsOf(const SceneSpec& scene, const ModelSet& models) {
   for (const BallSpec& ball : scene.balls)
     for (const char* quantity : {"x_m", "y_m", "z_m"}) names << QString::fromStdString(ball.name) + '.' + quantity;
   return names;
+}
+
+bool sameBytes(const QString& one, const QString& other) {
+  const auto digest = [](const QString& path) {
+    QFile file(path);
+    QCryptographicHash hash(QCryptographicHash::Sha256);
+    return file.open(QIODevice::ReadOnly) && hash.addData(&file) ? hash.result() : path.toUtf8();
+  };
+  return digest(one) == digest(other);
 }
 
 QWidget* withButton(QLineEdit* edit, QPushButton* button) {
@@ -228,6 +239,7 @@ void AnalysisSetup::removeRecording() {
 
 void AnalysisSetup::setHeldOut(int row, bool on) {
   recordings_->item(row, heldOut)->setCheckState(on ? Qt::Checked : Qt::Unchecked);
+  refresh();
 }
 
 void AnalysisSetup::setSimulators(const QStringList& names, const QStringList& texts) {
@@ -253,6 +265,13 @@ QStringList AnalysisSetup::files(bool held) const {
   return all;
 }
 
+QString AnalysisSetup::seenHeldOut() const {
+  for (const QString& held : files(true))
+    for (const QString& fitted : files(false))
+      if (QFileInfo(held).size() == QFileInfo(fitted).size() && sameBytes(held, fitted)) return held;
+  return {};
+}
+
 AnalysisJob AnalysisSetup::job() const {
   AnalysisJob job;
   job.scene = scene();
@@ -269,6 +288,8 @@ QString AnalysisSetup::problem() const {
   if (scene().isEmpty()) return tr("Choose the scene.");
   if (!QFileInfo(scene()).isFile()) return tr("There is no scene %1.").arg(scene());
   if (files(false).isEmpty()) return tr("Add at least one recording that is not held out.");
+  if (const QString seen = seenHeldOut(); !seen.isEmpty())
+    return tr("%1 is held out, but the same file is fitted.").arg(QFileInfo(seen).fileName());
   if (out_->text().trimmed().isEmpty()) return tr("Choose the report's folder.");
   if (!isSeed) return tr("Seed: %1 is not allowed; a whole number from 0").arg(seed_->text());
   if (!mapping_->recording().isEmpty() && mapping_->isChanged())

@@ -61,6 +61,7 @@ class AnalysisSetup : public QWidget {
   QString mappingOf(const QString& recording) const;
   void refresh();
   QStringList files(bool heldOut) const;
+  QString seenHeldOut() const;  ///< a held-out file whose bytes are fitted, too; empty: none
 
   QLineEdit *scene_, *out_, *seed_;
   QComboBox* simulator_;

@@ -24,8 +24,10 @@ QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& t
   return item;
 }
 
+std::string intervalOf(const GapReport::Number& n) { return n.ci95.known() ? brief(n.ci95) : "(no interval)"; }
+
 QString numberText(const GapReport::Number& n) {
-  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + brief(n.ci95)) +
+  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + intervalOf(n)) +
          (n.atBound ? EffectsTable::tr(", at its bound") : QString()) +
          (n.excited ? QString() : EffectsTable::tr(", not excited"));
 }
@@ -35,10 +37,16 @@ QString numberText(const GapReport::Number& n) {
 EffectsTable::EffectsTable(QWidget* parent) : QTableWidget(parent) {
   setAccessibleName(tr("Effects that were tried"));
   setObjectName("effects");
-  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Reason"), tr("Held-out gain"), tr("p"), tr("Screening"),
-                  tr("Cannot be told from"), tr("Parameters [95 %]")});
-  horizontalHeaderItem(gain)->setToolTip(tr("1 − error with it / error without, on data that no fit has seen"));
-  horizontalHeaderItem(pValue)->setToolTip(tr("Paired test on the held-out error"));
+  prepare(*this, {tr("Effect"), tr("At"), tr("Verdict"), tr("Reason"), tr("Held-out gain"), tr("p"), tr("q"),
+                  tr("Screening"), tr("Cannot be told from"), tr("Parameters [95 %]")});
+  horizontalHeaderItem(gain)->setToolTip(
+      tr("1 − error with it / error without, cross-validated: alternate blocks of the trials predict each other, with "
+         "the numbers as either half would have them (one linear step from the fit to everything; initial states are "
+         "those of that fit). Held-out recordings have no part in it."));
+  horizontalHeaderItem(pValue)->setToolTip(tr("Paired test on the cross-validated error, by blocks"));
+  horizontalHeaderItem(qValue)->setToolTip(
+      tr("p adjusted for all effects at all places that were looked at together (false discovery rate, Benjamini and "
+         "Hochberg 1995): of all that is accepted up to q, a share of q is false on average"));
   horizontalHeaderItem(rank)->setToolTip(
       tr("Rank in the screening, and the share of the excess error that its "
          "sensitivity explains beyond the calibration"));
@@ -61,6 +69,7 @@ void EffectsTable::setReport(const GapReport& report) {
     put(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));
     put(*this, row, gain, word(percent(e.heldoutErrorReduction)), true);
     put(*this, row, pValue, word(brief(e.pValue)), true);
+    put(*this, row, qValue, word(brief(e.qValue)), true);
     put(*this, row, rivals, others.join("; "));
     put(*this, row, rank,
         e.screenRank > 0 ? tr("%1 (%2)").arg(e.screenRank).arg(word(percent(e.screenShare))) : tr("–"), true);
@@ -98,7 +107,7 @@ void CalibratedTable::setReport(const GapReport& report) {
     put(*this, row, name, word(n.name));
     put(*this, row, before, word(brief(n.before)), true);
     put(*this, row, after, word(brief(n.value)), true);
-    put(*this, row, interval, word(brief(n.ci95)), true);
+    put(*this, row, interval, n.ci95.known() ? word(brief(n.ci95)) : tr("–"), true);
     put(*this, row, unit, word(n.unit));
     put(*this, row, remark,
         !n.excited  ? tr("the recordings do not tell it")

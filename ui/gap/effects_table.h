@@ -9,7 +9,7 @@ namespace btr::ui {
 class EffectsTable : public QTableWidget {
   Q_OBJECT
  public:
-  enum Column { effect, at, verdict, reason, gain, pValue, rank, rivals, parameters, columns };
+  enum Column { effect, at, verdict, reason, gain, pValue, qValue, rank, rivals, parameters, columns };
   explicit EffectsTable(QWidget* parent = nullptr);
   void setReport(const GapReport& report);
 };

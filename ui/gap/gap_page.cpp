@@ -18,6 +18,15 @@
 #include "ui/gap/report_view.h"
 
 namespace btr::ui {
+namespace {
+
+QString nothingToAdopt(GapReport::Verdict verdict) {
+  return verdict == GapReport::Verdict::noMismatch
+             ? GapPage::tr("There is nothing to adopt: the simulator as given agrees with the recordings.")
+             : GapPage::tr("There is nothing to adopt: the recordings cannot tell the simulator from reality.");
+}
+
+}  // namespace
 
 GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), process_(program) {
   setup_ = new AnalysisSetup(this);
@@ -149,10 +158,12 @@ void GapPage::setMeasured(const QString& database, Id run, int measured) { clues
 void GapPage::refresh() {
   const bool open = view_->report() != nullptr;
   export_->setEnabled(open);
-  adopt_->setEnabled(open && blocked_.isEmpty() && versions_ > 0);
+  const bool found = open && leavesSomethingToAdopt(view_->report()->verdict);
+  adopt_->setEnabled(found && blocked_.isEmpty() && versions_ > 0);
   revert_->setEnabled(blocked_.isEmpty() && versions_ > 1);
   adopt_->setToolTip(
-      !open ? tr("Open a report first.")
+      !open    ? tr("Open a report first.")
+      : !found ? nothingToAdopt(view_->report()->verdict)
       : blocked_.isEmpty()
           ? tr("The run goes on with the repaired simulator, as a new version; nothing is changed or deleted")
           : blocked_);

@@ -4,10 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
+#include "ui/common/format.h"
 #include "ui/gap/gap_plots.h"
 
 namespace btr::ui {
 namespace {
+
+struct GhostText {
+  Q_DECLARE_TR_FUNCTIONS(GhostText)
+};
 
 using Curve = std::vector<double> GapReport::Series::*;
 
@@ -45,6 +52,26 @@ bool isPlace(const std::string& quantity) {
 }
 
 }  // namespace
+
+ReportScene sceneOf(const GapReport& report) {
+  ReportScene found;
+  const QString file = word(report.scene);
+  if (report.scene.empty()) {
+    found.problem = GhostText::tr("The report does not name its scene: it cannot be shown in 3D.");
+    return found;
+  }
+  try {
+    if (sha256(readFile(report.scene)) != report.sceneSha256) {
+      found.problem = GhostText::tr("%1 has changed since the analysis: it cannot be shown in 3D.").arg(file);
+      return found;
+    }
+    found.scene = loadScene(report.scene);
+    found.models = loadModels(found.scene);
+  } catch (const std::exception& error) {
+    found.problem = GhostText::tr("The report's scene cannot be read: %1").arg(QString::fromUtf8(error.what()));
+  }
+  return found;
+}
 
 std::optional<GhostTrial> ghostTrial(const GapReport& report, std::size_t trial, const SceneSpec& scene,
                                      const ModelSet& models) {

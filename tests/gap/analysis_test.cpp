@@ -217,7 +217,7 @@ TEST(Analysis, WithoutRecordingsItSaysWhatItNeeds) {
 
 TEST(Analysis, RejectedEffectsHaveNoIntervalAndSayWhatTheyAre) {
   AnalysisOptions options;
-  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring", "force_offset", "command_delay"};
+  options.effects = {"coulomb_friction", "stribeck_friction", "viscous_friction"};
   const GapReport report =
       analyse(recordedFrom({{}, {{"coulomb_friction", "rig.hinge", {{"torque_nm", 0.05}}}}}), library(), options);
   int rejected = 0;

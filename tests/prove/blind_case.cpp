@@ -23,22 +23,17 @@ std::string drawKind(Random& random) {
   return u < 0.25 ? "nothing" : u < 0.5 ? "parameters" : u < 0.8 ? "one" : u < 0.9 ? "two" : "outside";
 }
 
-/// Puts a number into the scene's file where its path says.
-void believe(SceneSpec& scene, const std::string& path, double value) {
-  const auto last = path.rfind('.');
-  const std::string number = path.substr(last + 1);
-  if (path == "floor.friction") {
-    scene.floor->friction = value;
-  } else if (path == "floor.restitution") {
-    scene.floor->restitution = value;
-  } else if (path == "gravity_m_s2.z") {
-    scene.gravity_m_s2[2] = value;
-  } else if (path.rfind("balls.", 0) == 0) {
-    scene.balls[0].rollingDeceleration_m_s2 = value;
-  } else {
-    const auto before = path.rfind('.', last - 1);
-    scene.robots[0].servos[path.substr(before + 1, last - before - 1)].numbers[number] = value;
+/// What is true of the numbers that the scene's author gave. The truth is drawn around what is given, not the other way
+/// round: so what is given has the same distribution whether it is right or wrong.
+Values drawTruth(const BlindWorld& world, const std::string& kind, Random random) {
+  const bool sometimes = random.chance(0.7);
+  const bool wrong = kind == "parameters" || (kind != "nothing" && sometimes);
+  Values truth;
+  for (const auto& [path, value] : world.given) {
+    const double error = random.uniform(-1, 1) * mostError(path);
+    truth[path] = wrong ? value * (1 + error) : value;
   }
+  return truth;
 }
 
 std::string drawSalt(Random random) {
@@ -86,7 +81,7 @@ const std::vector<std::string>& caseKinds() {
 
 BlindCase drawCase(const CaseRequest& request, const Hideable& library) {
   const auto purpose = [&](const char* name) { return Random::forPurpose(request.seed, name, request.number); };
-  Random choice = purpose("choice"), bodies = purpose("world"), errors = purpose("errors");
+  Random choice = purpose("choice"), bodies = purpose("world");
   const std::string scene = drawScene(choice, request.engine), kind = drawKind(choice);
   BlindCase blind;
   ConcealedAnswer& answer = blind.answer;
@@ -106,37 +101,32 @@ BlindCase drawCase(const CaseRequest& request, const Hideable& library) {
   constexpr int worlds = 20;
   for (int world = 1;; ++world) {
     blind.world = drawWorld(answer.scene, bodies);
-    blind.simulator = {};
-    blind.simulator.values = blind.world.truth;
-    answer.truth = blind.world.truth;
+    answer.truth = drawTruth(blind.world, answer.kind, purpose("errors"));
+    blind.simulator = {answer.truth, {}};
     answer.hidden.clear();
     if (hide(blind, wanted, names, library, purpose("hidden"))) break;
     // A ball that hardly moves shows nothing: another world.
     if (world == worlds) throw std::runtime_error("no effect acts in any of " + std::to_string(worlds) + " worlds");
   }
   for (const MeasuredColumn& column : blind.world.columns) answer.noise[column.name] = column.floor();
-
-  // What the scene's author got wrong.
-  const bool wrong = answer.kind == "parameters" || (answer.kind != "nothing" && errors.chance(0.7));
-  for (const auto& [path, value] : blind.world.truth) {
-    const double most = path == "gravity_m_s2.z" ? 0.05 : 0.2;
-    const double error = errors.uniform(-most, most);
-    believe(blind.world.scene, path, wrong ? value * (1 + error) : value);
-  }
   answer.salt = drawSalt(purpose("salt"));
   return blind;
 }
 
-std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& library) {
+namespace {
+
+/// CSV text by trial. `purpose` separates the noise of trials that an analyst gets from that of fresh ones.
+std::vector<std::string> record(const BlindCase& blind, const Hideable& library, const std::vector<TrialPlan>& trials,
+                                const char* purpose) {
   const BlindWorld& world = blind.world;
   Scene scene = makeScene(world.scene, world.models, blind.simulator, withOutside(library.make));
   scene.step_s = world.fineStep_s;
   std::vector<std::string> texts;
-  for (std::size_t trial = 0; trial < world.trials.size(); ++trial) {
-    const TrialPlan& plan = world.trials[trial];
+  for (std::size_t trial = 0; trial < trials.size(); ++trial) {
+    const TrialPlan& plan = trials[trial];
     const Truth truth = (blind.answer.engine == "mujoco" ? simulateMujoco : simulateOde)(scene, plan, world.columns);
     if (!truth.fault.empty()) throw std::runtime_error("reality failed: " + truth.fault);
-    Random noise = Random::forPurpose(blind.answer.seed, "noise", blind.answer.number * 100 + trial);
+    Random noise = Random::forPurpose(blind.answer.seed, purpose, blind.answer.number * 100 + trial);
     std::string text = "time_s";
     for (const std::size_t joint : world.commanded) {
       const std::string at = scene.robots[0].name + "." + scene.robots[0].model.joints[joint].name;
@@ -159,6 +149,16 @@ std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& li
     texts.push_back(std::move(text));
   }
   return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& library) {
+  return record(blind, library, blind.world.trials, "noise");
+}
+
+std::vector<std::string> recordFresh(const BlindCase& blind, const Hideable& library) {
+  return record(blind, library, blind.world.fresh, "fresh noise");
 }
 
 }  // namespace btr::prove

@@ -21,7 +21,7 @@ struct CaseRequest {
 
 /// A case, whole: a function of its request and of the library, bit for bit.
 struct BlindCase {
-  BlindWorld world;         ///< `scene` as its author believes it to be, numbers wrong where they were drawn so
+  BlindWorld world;
   SimulatorSpec simulator;  ///< true numbers, hidden effects
   ConcealedAnswer answer;
 };
@@ -33,8 +33,12 @@ const std::vector<std::string>& caseKinds();
 /// The recordings: reality at its fine step, noise and rounding added; CSV text by trial. `faultless` trials only:
 /// throws std::runtime_error if reality itself failed.
 std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& library);
+/// The same of the trials that are kept back.
+std::vector<std::string> recordFresh(const BlindCase& blind, const Hideable& library);
 
 /// Writes scene.json, the models and trial_1.csv … into the folder (made if absent).
 void writeCase(const BlindCase& blind, const Hideable& library, const std::string& folder);
+/// Writes the trials that are kept back as trial_1.csv … into the folder (made if absent).
+void writeFresh(const BlindCase& blind, const Hideable& library, const std::string& folder);
 
 }  // namespace btr::prove

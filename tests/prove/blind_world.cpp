@@ -26,15 +26,31 @@ double drawLog(Random& random, double low, double high) {
   return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
-void calibrate(BlindWorld& world, const std::string& path, double trueValue) {
-  world.truth[path] = trueValue;
-  const double low = 0.4 * std::abs(trueValue), high = 2.5 * std::abs(trueValue);
-  world.scene.calibrate.push_back({path, trueValue < 0 ? -high : low, trueValue < 0 ? -low : high});
+double mostError(const std::string& path) { return path == "gravity_m_s2.z" ? 0.05 : 0.2; }
+
+void calibrate(BlindWorld& world, Random& random, const std::string& path, double given) {
+  world.given[path] = given;
+  const double low = drawLog(random, 0.3, 0.6) * std::abs(given), high = drawLog(random, 1.7, 3.4) * std::abs(given);
+  world.scene.calibrate.push_back({path, given < 0 ? -high : low, given < 0 ? -low : high});
 }
 
-void addColumn(BlindWorld& world, MeasuredColumn::What what, std::size_t part, const std::string& name, double noise,
-               double quantum) {
-  world.columns.push_back({what, part, name, noise, quantum});
+Sensor drawSensor(Random& random, double low, double high, double roundsToo, double coarsest) {
+  constexpr double exact = 1.0 / 6;
+  const double noise = drawLog(random, low, high);
+  const double quantum = random.chance(roundsToo) ? noise * random.uniform(0.3, coarsest) : 0;
+  // The standard deviation of rounding is its step over √12.
+  return random.chance(exact) ? Sensor{0, noise * std::sqrt(12)} : Sensor{noise, quantum};
+}
+
+void addColumn(BlindWorld& world, MeasuredColumn::What what, std::size_t part, const std::string& name,
+               const Sensor& sensor) {
+  world.columns.push_back({what, part, name, sensor.noise, sensor.quantum});
+}
+
+void keepBack(BlindWorld& world, std::size_t count) {
+  const auto from = world.trials.end() - static_cast<std::ptrdiff_t>(count);
+  world.fresh.assign(from, world.trials.end());
+  world.trials.erase(from, world.trials.end());
 }
 
 }  // namespace btr::prove

@@ -32,13 +32,14 @@ struct MeasuredColumn {
   double floor() const;  ///< noise and rounding together
 };
 
-/// Everything of a case but what is hidden in it.
+/// Everything of a case but what is hidden in it and which of its numbers are wrong: the same whatever the case's kind.
 struct BlindWorld {
-  SceneSpec scene;                           ///< as its author believes it to be, true numbers still in place
+  SceneSpec scene;                           ///< as its author believes it to be
   std::map<std::string, std::string> files;  ///< models beside the scene
   ModelSet models;                           ///< the same, read
-  Values truth;                              ///< of the scene's calibrate paths
-  std::vector<TrialPlan> trials;
+  Values given;                              ///< of the scene's calibrate paths, as in `scene`
+  std::vector<TrialPlan> trials;             ///< what an analyst gets
+  std::vector<TrialPlan> fresh;              ///< in the same circumstances; what the verdict is scored on
   std::vector<MeasuredColumn> columns;
   std::vector<std::size_t> commanded;  ///< joints whose command is a column of the recording
   bool showsEnabled = false;           ///< the recording has the columns `enabled`
@@ -53,11 +54,25 @@ BlindWorld drawWorld(const std::string& kind, Random& random);
 /// log-uniform in [low, high).
 double drawLog(Random& random, double low, double high);
 
-/// Declares that the author of the scene does not trust a number: notes its true value, and the range of a fit.
-void calibrate(BlindWorld& world, const std::string& path, double trueValue);
+/// How far a true number may be from the given one, as a share of it.
+double mostError(const std::string& path);
+/// Declares that the author of the scene does not trust a number: notes what it is given as, and draws the range of a
+/// fit around that. The range holds whatever truth mostError() allows, and says nothing of where in it.
+void calibrate(BlindWorld& world, Random& random, const std::string& path, double given);
+
+/// What a sensor adds to the truth.
+struct Sensor {
+  double noise = 0, quantum = 0;  ///< standard deviation, rounding step (0: none)
+};
+/// Noise of `low` to `high`, and with the chance given a rounding of 0.3 to `coarsest` of it. One sensor in six has no
+/// noise at all but rounds, as an encoder does; rounding is then as large as noise would have been.
+Sensor drawSensor(Random& random, double low, double high, double roundsToo, double coarsest);
 /// Noise and rounding of a column.
-void addColumn(BlindWorld& world, MeasuredColumn::What what, std::size_t part, const std::string& name, double noise,
-               double quantum);
+void addColumn(BlindWorld& world, MeasuredColumn::What what, std::size_t part, const std::string& name,
+               const Sensor& sensor);
+
+/// The last `count` trials are kept back from the analyst.
+void keepBack(BlindWorld& world, std::size_t count);
 
 // One a file.
 BlindWorld drawPendulum(Random& random);

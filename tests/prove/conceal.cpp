@@ -26,6 +26,9 @@ int main(int argc, char** argv) {
   make->add_option("--out", folder, "folder of the case")->required();
   CLI::App* open = app.add_subcommand("open", "derive the answer again and print it");
   addCommon(open);
+  CLI::App* fresh = app.add_subcommand("fresh", "write further recordings of the same case, after its verdict");
+  addCommon(fresh);
+  fresh->add_option("--out", folder, "folder of these recordings")->required();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -37,7 +40,9 @@ int main(int argc, char** argv) {
     const BlindCase blind = drawCase(request, library);
     const std::string answer = toJsonText(blind.answer);
     if (make->parsed()) writeCase(blind, library, folder);
-    std::cout << (make->parsed() ? sha256(answer) + "\n" : answer);
+    if (fresh->parsed()) writeFresh(blind, library, folder);
+    if (make->parsed()) std::cout << sha256(answer) << "\n";
+    if (open->parsed()) std::cout << answer;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "conceal: %s\n", error.what());
     return 1;

@@ -1,6 +1,7 @@
 // Rigs that stand still: a servo that swings a pendulum, a leg of three joints on a stand.
 #include <array>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "core/model/load_model.h"
@@ -44,34 +45,46 @@ BlindWorld rig(const std::string& name, const std::string& urdf, Random& random)
 
   const double sample = static_cast<double>(4 + random.below(9)) / 1000;
   world.scene.controlPeriod_s = sample;
-  const double noise = drawLog(random, 3e-4, 3e-3);
-  const double quantum = random.chance(0.7) ? noise * random.uniform(0.3, 2.5) : 0;
+  const Sensor encoder = drawSensor(random, 3e-4, 3e-3, 0.7, 2.5);
   const bool rates = random.chance(0.25);
   const auto& joints = world.models[file]->joints;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const std::string at = name + "." + joints[j].name;
-    addColumn(world, MeasuredColumn::What::position, j, at + ".position_rad", noise, quantum);
+    addColumn(world, MeasuredColumn::What::position, j, at + ".position_rad", encoder);
+    const double perSecond = random.uniform(20, 60);
+    const bool rounds = encoder.noise == 0;
     if (rates)
-      addColumn(world, MeasuredColumn::What::rate, j, at + ".velocity_rad_s", noise * random.uniform(20, 60), 0);
+      addColumn(world, MeasuredColumn::What::rate, j, at + ".velocity_rad_s",
+                {perSecond * encoder.noise, rounds ? perSecond * encoder.quantum : 0});
     world.commanded.push_back(j);
   }
   return world;
 }
 
-void addTrials(BlindWorld& world, Random& random, const std::vector<double>& reach) {
+/// A joint that is told to stay where it is: in all trials, or in most.
+struct Standing {
+  std::size_t joint = 0;
+  bool always = false;
+  bool stands(std::size_t other, int trial) const { return other == joint && (always || trial % 4 != 1); }
+};
+
+void addTrials(BlindWorld& world, Random& random, const std::vector<double>& reach,
+               const std::optional<Standing>& standing = {}) {
+  constexpr int shown = 4, keptBack = 2;
   // Some people hardly move their rig.
   const double effort = random.chance(0.12) ? drawLog(random, 0.03, 0.12) : random.uniform(0.3, 1);
   const bool powerOff = random.chance(0.35);
   world.showsEnabled = powerOff;
   const std::size_t joints = reach.size();
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < shown + keptBack; ++i) {
     TrialPlan trial;
     trial.sample_s = world.scene.controlPeriod_s;
     trial.settle_s = 1.5;
     trial.rows = static_cast<std::size_t>(std::lround(4 / trial.sample_s)) + 1;
     trial.commands.assign(trial.rows, std::vector<double>(joints));
     for (std::size_t j = 0; j < joints; ++j) {
-      const double size = reach[j] * effort * random.uniform(0.5, 1.2);
+      const double moves = standing && standing->stands(j, i) ? 0 : 1;
+      const double size = moves * reach[j] * effort * random.uniform(0.5, 1.2);
       const double rest = reach[j] * effort * random.uniform(-0.3, 0.3);
       const auto command = drawCommand(random, trial.rows, trial.sample_s, rest, size);
       for (std::size_t row = 0; row < trial.rows; ++row) trial.commands[row][j] = command[row];
@@ -81,6 +94,7 @@ void addTrials(BlindWorld& world, Random& random, const std::vector<double>& rea
     if (powerOff && i % 2 == 1) trial.enabled = drawPower(random, trial.rows, trial.sample_s);
     world.trials.push_back(std::move(trial));
   }
+  keepBack(world, keptBack);
 }
 
 /// Gains that give the joint this natural frequency [rad/s] and damping ratio with the inertia it carries.
@@ -93,10 +107,11 @@ ServoSpec servoFor(double inertia, double frequency, double ratio, double most) 
   return servo;
 }
 
-void calibrateServo(BlindWorld& world, const std::string& joint, const std::vector<const char*>& numbers) {
+void calibrateServo(BlindWorld& world, Random& random, const std::string& joint,
+                    const std::vector<const char*>& numbers) {
   const RobotSpec& robot = world.scene.robots[0];
   for (const char* number : numbers)
-    calibrate(world, "robots." + robot.name + ".servos." + joint + "." + number,
+    calibrate(world, random, "robots." + robot.name + ".servos." + joint + "." + number,
               robot.servos.at(joint).numbers.at(number));
 }
 
@@ -115,9 +130,9 @@ BlindWorld drawPendulum(Random& random) {
   world.scene.robots[0].servos["shoulder"] =
       servoFor(inertia, frequency, random.uniform(0.25, 0.8), weight * random.uniform(1.3, 3));
   if (random.chance(0.3)) {
-    calibrateServo(world, "shoulder", {"p", "d"});
+    calibrateServo(world, random, "shoulder", {"p", "d"});
   } else {
-    calibrateServo(world, "shoulder", {"p", "d", "max_torque_nm"});
+    calibrateServo(world, random, "shoulder", {"p", "d", "max_torque_nm"});
   }
   addTrials(world, random, {1.0});
   return world;
@@ -145,8 +160,10 @@ BlindWorld drawLeg(Random& random) {
         servoFor(inertia, random.uniform(18, 35), random.uniform(0.35, 0.9), weight * random.uniform(1.5, 4));
   const bool limits = random.chance(0.5);
   for (const auto& [name, inertia] : joints)
-    calibrateServo(world, name, limits ? std::vector{"p", "d", "max_torque_nm"} : std::vector{"p", "d"});
-  addTrials(world, random, {0.4, 0.8, 0.9});
+    calibrateServo(world, random, name, limits ? std::vector{"p", "d", "max_torque_nm"} : std::vector{"p", "d"});
+  const Standing still{random.below(joints.size()), random.chance(0.5)};
+  constexpr double someStand = 0.3;
+  addTrials(world, random, {0.4, 0.8, 0.9}, random.chance(someStand) ? std::optional(still) : std::nullopt);
   return world;
 }
 

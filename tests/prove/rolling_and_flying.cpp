@@ -6,6 +6,8 @@
 namespace btr::prove {
 namespace {
 
+constexpr int keptBack = 2;
+
 BlindWorld ballWorld(Random& random) {
   BlindWorld world;
   BallSpec ball;
@@ -20,11 +22,9 @@ BlindWorld ballWorld(Random& random) {
   const double sample = static_cast<double>(4 + 2 * random.below(5)) / 1000;
   world.scene.controlPeriod_s = sample;
   world.scene.step_s = random.chance(0.5) ? 0.001 : 0.002;
-  const double noise = drawLog(random, 3e-4, 2e-3);
-  const double quantum = random.chance(0.5) ? noise * random.uniform(0.3, 2) : 0;
+  const Sensor camera = drawSensor(random, 3e-4, 2e-3, 0.5, 2);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    addColumn(world, MeasuredColumn::What::ballPosition, axis, std::string("ball.") + "xyz"[axis] + "_m", noise,
-              quantum);
+    addColumn(world, MeasuredColumn::What::ballPosition, axis, std::string("ball.") + "xyz"[axis] + "_m", camera);
   return world;
 }
 
@@ -44,13 +44,13 @@ BlindWorld drawCarpet(Random& random) {
   // Who knows of rolling resistance measures it; who does not has a ball that never stops.
   if (random.chance(0.6)) {
     world.scene.balls[0].rollingDeceleration_m_s2 = random.uniform(0.15, 0.6);
-    calibrate(world, "balls.ball.rolling_deceleration_m_s2", world.scene.balls[0].rollingDeceleration_m_s2);
-    if (random.chance(0.5)) calibrate(world, "floor.friction", world.scene.floor->friction);
+    calibrate(world, random, "balls.ball.rolling_deceleration_m_s2", world.scene.balls[0].rollingDeceleration_m_s2);
+    if (random.chance(0.5)) calibrate(world, random, "floor.friction", world.scene.floor->friction);
   } else {
-    calibrate(world, "floor.friction", world.scene.floor->friction);
+    calibrate(world, random, "floor.friction", world.scene.floor->friction);
   }
   const double fastest = random.chance(0.12) ? 0.25 : random.uniform(0.8, 2);
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < 7 + keptBack; ++i) {
     TrialPlan trial = ballTrial(world, random.uniform(1.8, 2.6));
     const double speed = fastest * random.uniform(0.3, 1), way = random.uniform(0, 2 * M_PI);
     trial.ball.position_m << random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), trial.ball.radius_m;
@@ -60,6 +60,7 @@ BlindWorld drawCarpet(Random& random) {
     trial.settle_s = 0.1;
     world.trials.push_back(trial);
   }
+  keepBack(world, keptBack);
   return world;
 }
 
@@ -69,14 +70,14 @@ BlindWorld drawFlight(Random& random) {
   if (bounces) {
     world.scene.step_s = 0.0005;  // a bounce is a matter of its instant
     world.scene.floor->restitution = random.uniform(0.4, 0.8);
-    calibrate(world, "floor.restitution", world.scene.floor->restitution);
+    calibrate(world, random, "floor.restitution", world.scene.floor->restitution);
     world.scene.calibrate.back().maximum = 1;
-    if (random.chance(0.4)) calibrate(world, "floor.friction", world.scene.floor->friction);
+    if (random.chance(0.4)) calibrate(world, random, "floor.friction", world.scene.floor->friction);
   } else {
     // The scale of the camera's picture is not trusted.
-    calibrate(world, "gravity_m_s2.z", -9.81);
+    calibrate(world, random, "gravity_m_s2.z", -9.81);
   }
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 8 + keptBack; ++i) {
     TrialPlan trial = ballTrial(world, bounces ? random.uniform(0.7, 1.1) : random.uniform(0.5, 0.7));
     const double way = random.uniform(0, 2 * M_PI), out = random.uniform(0.3, 3);
     const double rise = bounces ? random.uniform(0, 1.5) : random.uniform(2, 3.5);
@@ -84,6 +85,7 @@ BlindWorld drawFlight(Random& random) {
     trial.ball.velocity_m_s << out * std::cos(way), out * std::sin(way), rise;
     world.trials.push_back(trial);
   }
+  keepBack(world, keptBack);
   return world;
 }
 

@@ -42,32 +42,34 @@ BlindWorld drawWalk(Random& random) {
   setStart(world.scene.robots[0], arranged.robots[0]);
   const auto& joints = world.models[file]->joints;
 
-  calibrate(world, "floor.friction", world.scene.floor->friction);
+  calibrate(world, random, "floor.friction", world.scene.floor->friction);
   // Gains of the knees or of the hips: who calibrates a dog's gait rarely frees all twelve.
   const std::string which = random.chance(0.5) ? "_J1" : "_J3";
   for (const char* leg : {"LF", "LR", "RF", "RR"}) {
     const int joint = world.models[file]->findJoint(leg + which);
-    calibrate(world, "robots.dog.servos." + (leg + which) + ".p",
-              arranged.robots[0].drives.at(static_cast<std::size_t>(joint)).p);
+    const double p = arranged.robots[0].drives.at(static_cast<std::size_t>(joint)).p;
+    world.scene.robots[0].servos[leg + which].numbers["p"] = p;
+    calibrate(world, random, "robots.dog.servos." + (leg + which) + ".p", p);
   }
 
-  const double jointNoise = drawLog(random, 4e-3, 1e-2), baseNoise = drawLog(random, 3e-3, 8e-3);
+  const Sensor encoder = drawSensor(random, 4e-3, 1e-2, 0.5, 1);
+  const double baseNoise = drawLog(random, 3e-3, 8e-3);
   const double attitudeNoise = drawLog(random, 8e-3, 2e-2);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const std::string& name = joints[j].name;
     if (name.size() != 5 || name.compare(2, 2, "_J") != 0) continue;
     world.commanded.push_back(j);
-    addColumn(world, MeasuredColumn::What::position, j, "dog." + name + ".position_rad", jointNoise,
-              random.chance(0.5) ? 1e-3 : 0);
+    addColumn(world, MeasuredColumn::What::position, j, "dog." + name + ".position_rad", encoder);
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
-    addColumn(world, MeasuredColumn::What::basePosition, axis, std::string("dog.base.") + "xyz"[axis] + "_m", baseNoise,
-              0);
+    addColumn(world, MeasuredColumn::What::basePosition, axis, std::string("dog.base.") + "xyz"[axis] + "_m",
+              {baseNoise, 0});
   for (std::size_t part = 0; part < 4; ++part)
-    addColumn(world, MeasuredColumn::What::baseOrientation, part, std::string("dog.base.q") + "wxyz"[part],
-              attitudeNoise, 0);
+    addColumn(world, MeasuredColumn::What::baseOrientation, part, std::string("dog.base.q") + "wxyz" [part],
+              { attitudeNoise, 0 });
 
-  for (int i = 0; i < 3; ++i) {
+  constexpr int shown = 3, keptBack = 1;
+  for (int i = 0; i < shown + keptBack; ++i) {
     const Values settings{{"cycle_s", random.uniform(0.4, 0.6)},
                           {"stride_m", random.uniform(0.02, 0.05)},
                           {"lift_m", random.uniform(0.015, 0.03)},
@@ -88,6 +90,7 @@ BlindWorld drawWalk(Random& random) {
     }
     world.trials.push_back(std::move(trial));
   }
+  keepBack(world, keptBack);
   return world;
 }
 

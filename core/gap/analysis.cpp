@@ -293,6 +293,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.ladder = found.ladder;
   report.before = given.simulator;
   report.after = found.final.fit.model.simulator(problem);
+  report.step_s = problem.scene.step_s;
+  report.window_s = problem.window_s;
   report.calibrated = numbersOf(found.final.fit.model, found.finalUncertainty, -1);
   for (GapReport::Number& number : numbersOf(found.calibrated.fit.model, found.calibratedUncertainty, -1))
     if (std::none_of(report.calibrated.begin(), report.calibrated.end(),

@@ -133,6 +133,8 @@ struct GapReport {
   std::uint64_t seed = 1;
   double seconds = 0;  ///< wall time; not part of what must be reproducible
   std::string version;
+  double step_s = 0;    ///< of the replays that scored `after`; 0: the scene's. Not kept in the folder
+  double window_s = 0;  ///< of the same: length of their segments, 0: whole trials. Not kept in the folder
 };
 
 /// False where the simulator as given agrees with the recordings, or they cannot tell.

@@ -9,7 +9,7 @@ namespace btr {
 namespace {
 
 using nlohmann::json;
-constexpr const char* caseFormat = "uchilsim-proved-case-1";
+constexpr const char* caseFormat = "uchilsim-proved-case-2";
 
 json toJson(const Share& share) {
   return {
@@ -29,6 +29,9 @@ json toJson(const ProofGroup& group) {
           {"heldout_within_1_5", toJson(group.heldOutNear)},
           {"outside_confidently_wrong", toJson(group.confidentlyWrong)},
           {"outside_called_unexplained", toJson(group.unexplained)},
+          {"numbers_changed_without_need", toJson(group.numbersChanged)},
+          {"parameters_in_ci95", toJson(group.parametersCovered)},
+          {"calibrated_in_ci95", toJson(group.calibratedCovered)},
           {"median_heldout_over_noise", orNull(middleOf(group.heldOut))},
           {"median_parameter_error", orNull(middleOf(group.parameterErrors))},
           {"median_calibrated_error", orNull(middleOf(group.calibratedErrors))},
@@ -41,6 +44,22 @@ json toJson(const std::vector<std::pair<std::string, ProofGroup>>& groups) {
   return object;
 }
 
+json toJson(const std::map<std::string, ProvedCase::Told>& told) {
+  json object = json::object();
+  for (const auto& [name, number] : told)
+    object[name] = {{"ci95", {number.ci95.low, number.ci95.high}}, {"excited", number.excited}};
+  return object;
+}
+
+std::map<std::string, ProvedCase::Told> toldFrom(JsonReader& reader, const std::string& key) {
+  std::map<std::string, ProvedCase::Told> told;
+  reader.members(key, [&](const std::string& name, JsonReader number) {
+    const std::vector<double> ci95 = number.numbers("ci95", 2);
+    told[name] = {{ci95[0], ci95[1]}, number.flag("excited", true)};
+    number.finish();
+  });
+  return told;
+}
 }  // namespace
 
 std::string toJsonText(const ProvedCase& proved) {
@@ -51,16 +70,18 @@ std::string toJsonText(const ProvedCase& proved) {
                 {"accepted", json::array()},
                 {"remainder_at", proved.remainderAt},
                 {"worst_channel", proved.worstChannel},
-                {"heldout_rmse", proved.heldOut},
+                {"fresh_rmse", proved.fresh},
                 {"calibrated", proved.calibrated},
+                {"calibrated_told", toJson(proved.calibratedTold)},
                 {"seconds", proved.seconds}};
   for (const auto& named : proved.accepted) {
     json entry{{"effect", named.placed.effect},
                {"at", named.placed.at},
                {"parameters", named.placed.parameters},
+               {"told", toJson(named.told)},
                {"rivals", json::array()}};
-    for (const PlacedEffect& rival : named.rivals)
-      entry["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}});
+    for (const auto& rival : named.rivals)
+      entry["rivals"].push_back({{"effect", rival.effect}, {"at", rival.at}, {"together_with", rival.with}});
     document["accepted"].push_back(std::move(entry));
   }
   return document.dump(2) + "\n";
@@ -76,8 +97,9 @@ ProvedCase provedFromJson(const std::string& text, const std::string& place) {
   reader.array("accepted", [&](JsonReader entry) {
     ProvedCase::Named named;
     named.placed = {entry.text("effect"), entry.text("at"), entry.anyValues("parameters")};
+    named.told = toldFrom(entry, "told");
     entry.array("rivals", [&](JsonReader rival) {
-      named.rivals.push_back({rival.text("effect"), rival.text("at"), {}});
+      named.rivals.push_back({rival.text("effect"), rival.text("at"), rival.text("together_with")});
       rival.finish();
     });
     entry.finish();
@@ -85,18 +107,19 @@ ProvedCase provedFromJson(const std::string& text, const std::string& place) {
   });
   proved.remainderAt = reader.text("remainder_at", "");
   proved.worstChannel = reader.text("worst_channel", "");
-  proved.heldOut = reader.anyValues("heldout_rmse");
+  proved.fresh = reader.anyValues("fresh_rmse");
   proved.calibrated = reader.anyValues("calibrated");
+  proved.calibratedTold = toldFrom(reader, "calibrated_told");
   proved.seconds = reader.number("seconds", 0, 1e9);
   reader.finish();
   return proved;
 }
 
 std::string proofJson(const ProofScore& score, const std::vector<ProvedCase>& cases) {
-  json document{{"format", "uchilsim-proof-1"},      {"all", toJson(score.all)},
-                {"by_scene", toJson(score.byScene)}, {"by_kind", toJson(score.byKind)},
-                {"by_cost", toJson(score.byCost)},   {"bars", json::array()},
-                {"confusion", json::array()},        {"cases", json::array()}};
+  json document{
+      {"format", "uchilsim-proof-2"},    {"all", toJson(score.all)},        {"by_scene", toJson(score.byScene)},
+      {"by_kind", toJson(score.byKind)}, {"by_cost", toJson(score.byCost)}, {"bars", json::array()},
+      {"confusion", json::array()},      {"verdicts", json::array()},       {"cases", json::array()}};
   for (const ProofBar& bar : score.bars)
     document["bars"].push_back({{"question", bar.question},
                                 {"wanted", bar.wanted},
@@ -104,6 +127,8 @@ std::string proofJson(const ProofScore& score, const std::vector<ProvedCase>& ca
                                 {"met", bar.asked ? json(bar.met) : json(nullptr)}});
   for (const auto& [pair, count] : score.confusion)
     document["confusion"].push_back({{"hidden", pair.first}, {"said", pair.second}, {"cases", count}});
+  for (const auto& [pair, count] : score.verdicts)
+    document["verdicts"].push_back({{"kind", pair.first}, {"verdict", pair.second}, {"cases", count}});
   for (const ProvedCase& proved : cases) {
     const CaseMarks marks = mark(proved);
     const auto flag = [](const std::optional<bool>& mark) { return mark ? json(*mark) : json(nullptr); };
@@ -116,6 +141,7 @@ std::string proofJson(const ProofScore& score, const std::vector<ProvedCase>& ca
                                  {"named", flag(marks.named)},
                                  {"both_named", flag(marks.bothNamed)},
                                  {"location", flag(marks.location)},
+                                 {"numbers_changed", flag(marks.numbersChanged)},
                                  {"heldout_over_noise", marks.heldOut ? orNull(*marks.heldOut) : json(nullptr)},
                                  {"seconds", proved.seconds}});
   }

@@ -23,12 +23,22 @@ bool isThe(const Hidden& hidden, const PlacedEffect& placed, const std::string& 
   return name(placed.effect) == name(hidden.placed.effect) && placeOf(placed.at) == placeOf(hidden.placed.at);
 }
 
+/// A rival that explains only together with another is a claim of both: it names what is hidden where both are.
+bool isClaimOf(const Hidden& hidden, const ProvedCase::Rival& rival, const ProvedCase& proved) {
+  const std::string& scene = proved.answer.scene;
+  if (!isThe(hidden, {rival.effect, rival.at, {}}, scene)) return false;
+  const auto& all = proved.answer.hidden;
+  return rival.with.empty() || std::any_of(all.begin(), all.end(), [&](const Hidden& other) {
+           return isThe(other, {rival.with, rival.at, {}}, scene);
+         });
+}
+
 bool isNamed(const Hidden& hidden, const ProvedCase& proved) {
   for (const auto& named : proved.accepted) {
     if (isThe(hidden, named.placed, proved.answer.scene)) return true;
     if (named.rivals.size() > mostRivals) continue;
-    for (const PlacedEffect& rival : named.rivals)
-      if (isThe(hidden, rival, proved.answer.scene)) return true;
+    for (const auto& rival : named.rivals)
+      if (isClaimOf(hidden, rival, proved)) return true;
   }
   return false;
 }
@@ -40,7 +50,7 @@ bool isLocated(const Hidden& hidden, const ProvedCase& proved) {
   for (const auto& named : proved.accepted) {
     if (there(named.placed.at)) return true;
     if (named.rivals.size() > mostRivals) continue;
-    for (const PlacedEffect& rival : named.rivals)
+    for (const auto& rival : named.rivals)
       if (there(rival.at)) return true;
   }
   if (there(proved.remainderAt)) return true;
@@ -69,7 +79,7 @@ std::string saidOf(const Hidden& hidden, const ProvedCase& proved) {
 void markHeldOut(const ProvedCase& proved, CaseMarks& marks) {
   double sum = 0, count = 0;
   for (const auto& [channel, noise] : proved.answer.noise)
-    if (const auto found = proved.heldOut.find(channel); found != proved.heldOut.end()) {
+    if (const auto found = proved.fresh.find(channel); found != proved.fresh.end()) {
       sum += std::pow(found->second / noise, 2);
       count += 1;
     }
@@ -77,16 +87,40 @@ void markHeldOut(const ProvedCase& proved, CaseMarks& marks) {
   if (proved.answer.kind != "outside") marks.heldOutNear = marks.heldOut && *marks.heldOut <= nearFloor;
 }
 
+/// What the kind of case asks for; none of what the library does not know.
+bool isRightVerdict(const ProvedCase& proved) {
+  const std::string& kind = proved.answer.kind;
+  if (kind == "nothing") return proved.verdict == "no_mismatch";
+  if (kind == "parameters") return proved.verdict == "parameters_suffice";
+  return (kind == "one" || kind == "two") && proved.verdict == "missing_physics";
+}
+
+/// Counts an interval that the analysis stands by: numbers that it calls unexcited have none, nor have whole numbers,
+/// which are tried and not fitted.
+void markCovered(std::vector<bool>& covered, const std::map<std::string, ProvedCase::Told>& told,
+                 const std::string& number, double truth) {
+  const auto found = told.find(number);
+  if (found == told.end() || !found->second.excited) return;
+  const GapReport::Interval& ci95 = found->second.ci95;
+  if (ci95.high > ci95.low) covered.push_back(truth >= ci95.low && truth <= ci95.high);
+}
+
 void markParameters(const ProvedCase& proved, CaseMarks& marks) {
   for (const Hidden& hidden : proved.answer.hidden) {
     if (hidden.cost <= barCost) continue;
     for (const auto& named : proved.accepted) {
       if (named.placed.effect != hidden.placed.effect || named.placed.at != hidden.placed.at) continue;
-      for (const std::string& size : hidden.sizes)
+      for (const std::string& size : hidden.sizes) {
+        const double truth = hidden.placed.parameters.at(size);
         if (const auto found = named.placed.parameters.find(size); found != named.placed.parameters.end())
-          marks.parameterErrors.push_back(relativeError(found->second, hidden.placed.parameters.at(size)));
+          marks.parameterErrors.push_back(relativeError(found->second, truth));
+        markCovered(marks.parametersCovered, named.told, size, truth);
+      }
     }
   }
+  if (isRightVerdict(proved))
+    for (const auto& [path, truth] : proved.answer.truth)
+      markCovered(marks.calibratedCovered, proved.calibratedTold, path, truth);
   if (proved.answer.kind == "nothing" || proved.answer.kind == "outside") return;
   for (const auto& [path, value] : proved.calibrated)
     if (const auto truth = proved.answer.truth.find(path); truth != proved.answer.truth.end())
@@ -109,6 +143,7 @@ CaseMarks mark(const ProvedCase& proved) {
                                                        : proved.accepted[0].placed.effect;
     marks.confused.emplace_back("(" + answer.kind + ")", said);
   }
+  if (answer.kind == "nothing") marks.numbersChanged = failed || proved.verdict == "parameters_suffice";
   if (answer.hidden.size() == 1 && isAbove(answer.hidden[0])) {
     const Hidden& hidden = answer.hidden[0];
     if (hidden.outside) {
@@ -129,21 +164,27 @@ CaseMarks mark(const ProvedCase& proved) {
   return marks;
 }
 
-ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report) {
+ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const Values& fresh) {
   ProvedCase proved;
   proved.answer = answer;
   proved.verdict = toText(report.verdict);
   for (const GapReport::Effect& effect : report.tried) {
     if (!effect.accepted) continue;
-    ProvedCase::Named named{{effect.effect, effect.at, {}}, {}};
-    for (const GapReport::Number& number : effect.parameters) named.placed.parameters[number.name] = number.value;
-    for (const GapReport::Rival& rival : effect.rivals) named.rivals.push_back({rival.effect, rival.at, {}});
+    ProvedCase::Named named{{effect.effect, effect.at, {}}};
+    for (const GapReport::Number& number : effect.parameters) {
+      named.placed.parameters[number.name] = number.value;
+      named.told[number.name] = {number.ci95, number.excited};
+    }
+    for (const GapReport::Rival& rival : effect.rivals) named.rivals.push_back({rival.effect, rival.at, rival.with});
     proved.accepted.push_back(std::move(named));
   }
   proved.remainderAt = report.remainder.at;
   if (!report.located.empty()) proved.worstChannel = report.located[0].channel;
-  for (const GapReport::Channel& channel : report.channels) proved.heldOut[channel.name] = channel.withEffects;
-  for (const GapReport::Number& number : report.calibrated) proved.calibrated[number.name] = number.value;
+  proved.fresh = fresh;
+  for (const GapReport::Number& number : report.calibrated) {
+    proved.calibrated[number.name] = number.value;
+    proved.calibratedTold[number.name] = {number.ci95, number.excited};
+  }
   proved.seconds = report.seconds;
   return proved;
 }

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/proof_fresh.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -82,6 +83,20 @@ std::vector<std::string> recordingsIn(const fs::path& folder) {
   return paths;
 }
 
+/// The error of what was found in recordings that did not exist when it was found; none where it cannot be replayed.
+Values errorsAfterwards(const ProofRequest& request, std::size_t number, const GapReport& report,
+                        const EffectLibrary& library) {
+  const fs::path folder = folderOf(request, number), fresh = folder / "fresh";
+  auto words = concealWords(request, "fresh", number);
+  words.insert(words.end(), {"--out", fresh.string()});
+  outputOf(words);
+  try {
+    return freshErrors(report, (folder / "scene.json").string(), recordingsIn(fresh), library);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// One case from concealing to the opened seal.
 void proveCase(const ProofRequest& request, std::size_t number, const EffectLibrary& library, const Analyse& analyse) {
   const fs::path folder = folderOf(request, number);
@@ -111,7 +126,8 @@ void proveCase(const ProofRequest& request, std::size_t number, const EffectLibr
   if (sha256(answer) != seal)
     throw InputError((folder / "seal.txt").string(), "the answer that was opened", "only the one that was sealed");
   writeFile((folder / "answer.json").string(), answer);
-  ProvedCase proved = judged(answerFromJson(answer, (folder / "answer.json").string()), report);
+  const Values fresh = failure.empty() ? errorsAfterwards(request, number, report, library) : Values{};
+  ProvedCase proved = judged(answerFromJson(answer, (folder / "answer.json").string()), report, fresh);
   if (!failure.empty()) proved.verdict.clear();
   proved.failure = failure;
   writeFile((folder / "verdict.json").string(), toJsonText(proved));
@@ -122,7 +138,7 @@ void claimFolder(const ProofRequest& request) {
   std::error_code failure;
   fs::create_directories(request.out, failure);
   if (!fs::is_directory(request.out)) throw InputError(request.out + ": the folder cannot be made");
-  const nlohmann::json trial{{"format", "uchilsim-proof-trial-1"},
+  const nlohmann::json trial{{"format", "uchilsim-proof-trial-2"},
                              {"seed", request.seed},
                              {"engine", request.engine},
                              {"scene", request.scene},
@@ -130,7 +146,8 @@ void claimFolder(const ProofRequest& request) {
                              {"analysis_seed", request.options.seed}};
   const std::string text = trial.dump(2) + "\n", path = (fs::path(request.out) / "trial.json").string();
   if (fs::exists(path) && readFile(path) != text)
-    throw InputError(path, "another seed, engine, scene or kind", "the same as in the trial that the folder holds");
+    throw InputError(path, "another generator, seed, engine, scene or kind",
+                     "the same as in the trial that the folder holds");
   writeFile(path, text);
 }
 

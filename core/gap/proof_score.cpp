@@ -39,7 +39,8 @@ std::vector<ProofBar> barsOf(const ProofGroup& all) {
       atLeast("Both of two effects above three noise floors are named", all.bothNamed, 0.85),
       atLeast("The place is right", all.location, 0.97),
       atMost("False alarms where nothing is missing", all.falseAlarms, 0.02),
-      atLeast("Held-out error at most 1.5 times the noise floor", all.heldOutNear, 0.90),
+      atLeast("Error in recordings never given to the analysis at most 1.5 times the noise floor", all.heldOutNear,
+              0.90),
       atMost("An effect from outside the library gets a confident wrong name", all.confidentlyWrong, 0.05)};
   const double error = middleOf(all.parameterErrors);
   const bool asked = !all.parameterErrors.empty();
@@ -95,6 +96,9 @@ void ProofGroup::add(const ProvedCase& proved, const CaseMarks& marks) {
   count(heldOutNear, marks.heldOutNear);
   count(confidentlyWrong, marks.confidentlyWrong);
   count(unexplained, marks.unexplained);
+  count(numbersChanged, marks.numbersChanged);
+  for (const bool covered : marks.parametersCovered) parametersCovered.count(covered);
+  for (const bool covered : marks.calibratedCovered) calibratedCovered.count(covered);
   if (marks.heldOut && proved.answer.kind != "outside") heldOut.push_back(*marks.heldOut);
   append(parameterErrors, marks.parameterErrors);
   append(calibratedErrors, marks.calibratedErrors);
@@ -116,6 +120,7 @@ ProofScore score(const std::vector<ProvedCase>& cases) {
     for (const auto& hidden : proved.answer.hidden) cost = std::max(cost, hidden.cost);
     if (cost > 0) groupOf(total.byCost, costClass(cost)).add(proved, marks);
     for (const auto& pair : marks.confused) ++total.confusion[pair];
+    ++total.verdicts[{proved.answer.kind, proved.failure.empty() ? proved.verdict : "failed"}];
   }
   for (auto* groups : {&total.byScene, &total.byKind, &total.byCost})
     std::erase_if(*groups, [](const auto& entry) { return entry.second.cases == 0; });

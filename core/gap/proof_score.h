@@ -13,9 +13,19 @@ namespace btr {
 /// A blind case after its seal was opened: the answer, and what the analysis had said. What counts as right stands in
 /// tests/prove/README.md.
 struct ProvedCase {
+  /// How sure the analysis was of a number; `excited` is false where the recordings do not tell it.
+  struct Told {
+    GapReport::Interval ci95;
+    bool excited = true;
+  };
+  struct Rival {
+    std::string effect, at;
+    std::string with = {};  ///< not empty: only together with this effect at the same place
+  };
   struct Named {
     PlacedEffect placed;
-    std::vector<PlacedEffect> rivals;  ///< their parameters are empty
+    std::vector<Rival> rivals = {};
+    std::map<std::string, Told> told = {};  ///< by parameter
   };
   ConcealedAnswer answer;
   std::string failure;  ///< why there is no verdict; empty: there is one
@@ -23,15 +33,19 @@ struct ProvedCase {
   std::vector<Named> accepted;
   std::string remainderAt;   ///< where a force without a name was learned
   std::string worstChannel;  ///< with the largest share of the excess error
-  Values heldOut;            ///< by channel: held-out root mean square error with effects
-  Values calibrated;         ///< by path: what was found
+  /// By channel: root mean square error of what was found in recordings that the analysis was never given, starts
+  /// fitted. Empty where it could not be simulated there.
+  Values fresh;
+  Values calibrated;                                ///< by path: what was found
+  std::map<std::string, Told> calibratedTold = {};  ///< by path
   double seconds = 0;
 };
-ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report);
+/// `fresh`: as in ProvedCase.
+ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const Values& fresh);
 std::string toJsonText(const ProvedCase& proved);
 ProvedCase provedFromJson(const std::string& text, const std::string& place);
 
-/// A share of cases with its 95 % interval (Clopper and Pearson 1934).
+/// A share of cases, or of numbers, with its 95 % interval (Clopper and Pearson 1934).
 struct Share {
   int hits = 0, cases = 0;
   double value() const { return cases > 0 ? static_cast<double>(hits) / cases : 0; }
@@ -46,9 +60,12 @@ struct Share {
 /// What one case says of each question; nothing where the question does not arise.
 struct CaseMarks {
   std::optional<bool> falseAlarm, named, alone, bothNamed, location, heldOutNear, confidentlyWrong, unexplained;
+  std::optional<bool> numbersChanged;   ///< though nothing was wrong
   std::optional<double> heldOut;        ///< error over the noise that was added
   std::vector<double> parameterErrors;  ///< relative, of correctly named effects above the bar
   std::vector<double> calibratedErrors;
+  std::vector<bool> parametersCovered;  ///< the truth lies in the 95 % interval: of the same effects
+  std::vector<bool> calibratedCovered;  ///< the same of calibrated numbers, where the verdict is right
   std::vector<std::pair<std::string, std::string>> confused;  ///< true name, what was said
 };
 CaseMarks mark(const ProvedCase& proved);
@@ -56,7 +73,8 @@ CaseMarks mark(const ProvedCase& proved);
 /// Sums over a group of cases.
 struct ProofGroup {
   int cases = 0, failed = 0;
-  Share falseAlarms, named, alone, bothNamed, location, heldOutNear, confidentlyWrong, unexplained;
+  Share falseAlarms, named, alone, bothNamed, location, heldOutNear, confidentlyWrong, unexplained, numbersChanged;
+  Share parametersCovered, calibratedCovered;  ///< of numbers, not of cases
   std::vector<double> heldOut, parameterErrors, calibratedErrors, seconds;
   void add(const ProvedCase& proved, const CaseMarks& marks);
 };
@@ -71,6 +89,7 @@ struct ProofScore {
   ProofGroup all;
   std::vector<std::pair<std::string, ProofGroup>> byScene, byKind, byCost;  ///< cost of the dearest hidden effect
   std::map<std::pair<std::string, std::string>, int> confusion;
+  std::map<std::pair<std::string, std::string>, int> verdicts;  ///< by kind of case and verdict ("failed": none)
   std::vector<ProofBar> bars;
 };
 ProofScore score(const std::vector<ProvedCase>& cases);

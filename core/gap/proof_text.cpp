@@ -47,47 +47,67 @@ Table otherTable(const ProofGroup& all) {
           {"what", "value"},
           {{"one effect named, and nothing else accepted", withInterval(all.alone)},
            {"an effect from outside is called unexplained", withInterval(all.unexplained)},
-           {"held-out error over noise, median", number(middleOf(all.heldOut), "%.3f")},
+           {"numbers changed without need (nothing was wrong)", withInterval(all.numbersChanged)},
+           {"sizes of named effects within their 95 % interval", withInterval(all.parametersCovered)},
+           {"calibrated numbers within theirs, verdict right", withInterval(all.calibratedCovered)},
+           {"error in fresh recordings over noise, median", number(middleOf(all.heldOut), "%.3f")},
            {"calibrated numbers, median error", number(100 * middleOf(all.calibratedErrors), "%.2f %%")},
            {"analyses that failed", std::to_string(all.failed) + " of " + std::to_string(all.cases)},
            {"time of an analysis, median", number(middleOf(all.seconds), "%.1f s")}}};
 }
 
+Share together(const Share& a, const Share& b) { return {a.hits + b.hits, a.cases + b.cases}; }
+
 Table groupTable(const std::string& title, const std::vector<std::pair<std::string, ProofGroup>>& groups) {
-  Table table{title,
-              "Hits of cases. Named, place, both: effects above three noise floors.",
-              {"", "cases", "false alarms", "named", "alone", "both", "place", "held-out ok", "outside wrong",
-               "error/noise", "parameters", "seconds"},
-              {}};
+  Table table{
+      title,
+      "Hits of cases. Named, place, both: effects above three noise floors. Fresh: error in recordings that the "
+      "analysis was never given. Changed: numbers, where nothing was wrong. In interval: of numbers, not cases.",
+      {"", "cases", "false alarms", "named", "alone", "both", "place", "fresh ok", "outside wrong", "changed",
+       "in interval", "error/noise", "parameters", "seconds"},
+      {}};
   for (const auto& [name, group] : groups)
-    table.rows.push_back({name, std::to_string(group.cases), brief(group.falseAlarms), brief(group.named),
-                          brief(group.alone), brief(group.bothNamed), brief(group.location), brief(group.heldOutNear),
-                          brief(group.confidentlyWrong), number(middleOf(group.heldOut), "%.3f"),
-                          number(100 * middleOf(group.parameterErrors), "%.1f %%"),
-                          number(middleOf(group.seconds), "%.1f")});
+    table.rows.push_back(
+        {name, std::to_string(group.cases), brief(group.falseAlarms), brief(group.named), brief(group.alone),
+         brief(group.bothNamed), brief(group.location), brief(group.heldOutNear), brief(group.confidentlyWrong),
+         brief(group.numbersChanged), brief(together(group.parametersCovered, group.calibratedCovered)),
+         number(middleOf(group.heldOut), "%.3f"), number(100 * middleOf(group.parameterErrors), "%.1f %%"),
+         number(middleOf(group.seconds), "%.1f")});
   return table;
 }
 
-Table confusionTable(const ProofScore& score) {
+/// A table of how often each pair was seen.
+Table countTable(const std::string& title, const std::string& note, const std::string& corner,
+                 const std::map<std::pair<std::string, std::string>, int>& counts) {
   std::set<std::string> rows, columns;
-  for (const auto& [pair, count] : score.confusion) {
+  for (const auto& [pair, count] : counts) {
     rows.insert(pair.first);
     columns.insert(pair.second);
   }
-  Table table{"What was hidden (rows) and what was named (columns)",
-              "Effects above three noise floors, and the cases with nothing missing. \"(rival)\": among at most two "
-              "rivals of what was accepted. In brackets: the verdict where no effect was accepted.",
-              {"hidden"},
-              {}};
+  Table table{title, note, {corner}, {}};
   table.header.insert(table.header.end(), columns.begin(), columns.end());
   for (const std::string& row : rows) {
     table.rows.push_back({row});
     for (const std::string& column : columns) {
-      const auto found = score.confusion.find({row, column});
-      table.rows.back().push_back(found == score.confusion.end() ? "" : std::to_string(found->second));
+      const auto found = counts.find({row, column});
+      table.rows.back().push_back(found == counts.end() ? "" : std::to_string(found->second));
     }
   }
   return table;
+}
+
+Table verdictTable(const ProofScore& score) {
+  return countTable("Kind of case (rows) and verdict (columns)",
+                    "Right: nothing – no_mismatch, parameters – parameters_suffice, one and two – missing_physics, "
+                    "outside – unexplained.",
+                    "kind", score.verdicts);
+}
+
+Table confusionTable(const ProofScore& score) {
+  return countTable("What was hidden (rows) and what was named (columns)",
+                    "Effects above three noise floors, and the cases with nothing missing. \"(rival)\": among at most "
+                    "two rivals of what was accepted. In brackets: the verdict where no effect was accepted.",
+                    "hidden", score.confusion);
 }
 
 std::vector<Table> tablesOf(const ProofScore& score) {
@@ -96,6 +116,7 @@ std::vector<Table> tablesOf(const ProofScore& score) {
           groupTable("By scene", score.byScene),
           groupTable("By kind of case", score.byKind),
           groupTable("By cost of leaving the effect out [noise floors]", score.byCost),
+          verdictTable(score),
           confusionTable(score)};
 }
 

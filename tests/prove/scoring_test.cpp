@@ -29,7 +29,7 @@ ProvedCase oneCase(const std::string& effect, double cost = 10) {
   proved.answer.hidden = {hiddenEffect(effect, "leg.knee", cost)};
   proved.answer.hidden[0].alsoAt = "leg.lower";
   proved.answer.noise = {{"leg.knee.position_rad", 0.002}};
-  proved.heldOut = {{"leg.knee.position_rad", 0.003}};
+  proved.fresh = {{"leg.knee.position_rad", 0.003}};
   proved.verdict = "unexplained";
   return proved;
 }
@@ -43,7 +43,7 @@ ProvedCase healthy(const std::string& verdict) {
 }
 
 void accept(ProvedCase& proved, const std::string& effect, const std::string& at, double size = 2,
-            const std::vector<PlacedEffect>& rivals = {}) {
+            const std::vector<ProvedCase::Rival>& rivals = {}) {
   proved.verdict = "missing_physics";
   proved.accepted.push_back({{effect, at, {{"size", size}, {"shape", 7.0}}}, rivals});
 }
@@ -75,8 +75,8 @@ TEST(Marks, AnEffectIsNamedByItselfOrAmongAtMostTwoRivals) {
   EXPECT_TRUE(*mark(proved).named);
   EXPECT_TRUE(*mark(proved).alone);
 
-  const PlacedEffect truth{"backlash", "leg.knee", {}}, other{"joint_spring", "leg.knee", {}},
-      third{"payload", "leg.lower", {}};
+  const ProvedCase::Rival truth{"backlash", "leg.knee"}, other{"joint_spring", "leg.knee"},
+      third{"payload", "leg.lower"};
   ProvedCase rivals = oneCase("backlash");
   accept(rivals, "gear_elasticity", "leg.knee", 1, {truth, other});
   EXPECT_TRUE(*mark(rivals).named);
@@ -86,6 +86,95 @@ TEST(Marks, AnEffectIsNamedByItselfOrAmongAtMostTwoRivals) {
   ProvedCase elsewhere = oneCase("backlash");
   accept(elsewhere, "backlash", "leg.hip");
   EXPECT_FALSE(*mark(elsewhere).named);
+}
+
+TEST(Marks, ARivalThatHoldsOnlyBesideAnotherNamesWhatIsHiddenWhereBothAre) {
+  const ProvedCase::Rival dry{"coulomb_friction", "leg.knee", "force_offset"},
+      constant{"force_offset", "leg.knee", "coulomb_friction"};
+  ProvedCase half = oneCase("coulomb_friction");
+  accept(half, "asymmetric_friction", "leg.knee", 1, {dry, constant});
+  EXPECT_FALSE(*mark(half).named);
+  EXPECT_TRUE(*mark(half).location);
+  EXPECT_EQ("asymmetric_friction", mark(half).confused.at(0).second);
+
+  ProvedCase whole = half;
+  whole.answer.kind = "two";
+  whole.answer.hidden.push_back(hiddenEffect("force_offset", "leg.knee", 5));
+  EXPECT_TRUE(*mark(whole).bothNamed);
+  // Its partner is hidden too, but at another joint.
+  whole.answer.hidden[1].placed.at = "leg.hip";
+  EXPECT_FALSE(*mark(whole).bothNamed);
+  EXPECT_EQ("asymmetric_friction", mark(whole).confused.at(0).second);
+}
+
+TEST(Marks, NumbersThatAreChangedWhereNothingIsWrongAreCounted) {
+  EXPECT_TRUE(*mark(healthy("parameters_suffice")).numbersChanged);
+  EXPECT_FALSE(*mark(healthy("no_mismatch")).numbersChanged);
+  EXPECT_FALSE(*mark(healthy("missing_physics")).numbersChanged);  // a false alarm, which is counted as such
+  ProvedCase wrong = healthy("parameters_suffice");
+  wrong.answer.kind = "parameters";
+  EXPECT_FALSE(mark(wrong).numbersChanged.has_value());
+  ProvedCase broken = healthy("");
+  broken.failure = "it broke";
+  EXPECT_TRUE(*mark(broken).numbersChanged);
+}
+
+TEST(Marks, AnIntervalIsAskedForWhereTheVerdictIsRightAndTheNumberExcited) {
+  ProvedCase proved = healthy("parameters_suffice");
+  proved.answer.kind = "parameters";
+  proved.answer.truth = {{"inside", 1.0}, {"edge", 2.0}, {"outside", 3.0}, {"silent", 4.0}, {"absent", 5.0}};
+  proved.calibratedTold = {{"inside", {{0.9, 1.2}, true}},
+                           {"edge", {{2.0, 2.2}, true}},
+                           {"outside", {{3.1, 3.2}, true}},
+                           {"silent", {{4.1, 4.2}, false}}};
+  // In the order of their names: edge, inside, outside.
+  EXPECT_EQ((std::vector<bool>{true, true, false}), mark(proved).calibratedCovered);
+  proved.verdict = "no_mismatch";
+  EXPECT_TRUE(mark(proved).calibratedCovered.empty());
+  proved.answer.kind = "nothing";
+  EXPECT_EQ(3u, mark(proved).calibratedCovered.size());
+  proved.answer.kind = "outside";
+  EXPECT_TRUE(mark(proved).calibratedCovered.empty());
+}
+
+TEST(Marks, TheIntervalOfASizeIsAskedForWhereItsEffectIsNamedAtItsPlace) {
+  ProvedCase proved = oneCase("backlash");  // its size is 2
+  accept(proved, "backlash", "leg.knee", 2.5);
+  auto& told = proved.accepted[0].told;
+  told = {{"size", {{2.4, 2.6}, true}}, {"shape", {{0.0, 9.0}, true}}};
+  EXPECT_EQ(std::vector<bool>{false}, mark(proved).parametersCovered);
+  told["size"].ci95.low = 1.9;
+  EXPECT_EQ(std::vector<bool>{true}, mark(proved).parametersCovered);
+  told["size"].ci95 = {2, 2};  // a whole number, tried and not fitted
+  EXPECT_TRUE(mark(proved).parametersCovered.empty());
+  told["size"] = {{1.9, 2.6}, false};
+  EXPECT_TRUE(mark(proved).parametersCovered.empty());
+  proved.accepted[0].placed.at = "leg.hip";
+  told["size"].excited = true;
+  EXPECT_TRUE(mark(proved).parametersCovered.empty());
+}
+
+TEST(Marks, WhatIsScoredComesWithTheReportAndTheFreshRecordings) {
+  GapReport report;
+  report.verdict = GapReport::Verdict::missingPhysics;
+  GapReport::Effect effect;
+  effect.effect = "backlash";
+  effect.at = "leg.knee";
+  effect.accepted = true;
+  effect.parameters = {{"size", "rad", 0, 2.5, {2.4, 2.6}, false, true}};
+  effect.rivals = {{"coulomb_friction", "leg.knee", 1, "force_offset"}};
+  report.tried = {effect};
+  report.calibrated = {{"p", "", 1, 1.1, {1.0, 1.2}, false, false}};
+  report.channels.resize(1);
+  report.channels[0].name = "leg.knee.position_rad";
+  report.channels[0].withEffects = 0.002;  // of the cross-validation: not what is scored
+  const ProvedCase proved = judged(oneCase("backlash").answer, report, {{"leg.knee.position_rad", 0.004}});
+  EXPECT_DOUBLE_EQ(2, *mark(proved).heldOut);
+  EXPECT_FALSE(*mark(proved).heldOutNear);
+  EXPECT_EQ("force_offset", proved.accepted.at(0).rivals.at(0).with);
+  EXPECT_EQ(2.4, proved.accepted[0].told.at("size").ci95.low);
+  EXPECT_FALSE(proved.calibratedTold.at("p").excited);
+  EXPECT_FALSE(*mark(judged(oneCase("backlash").answer, report, {})).heldOutNear);
 }
 
 TEST(Marks, ARicherEffectIsNotTheOneItContains) {
@@ -148,7 +237,7 @@ TEST(Scores, CountWhatWasCountedByHand) {
   // Three with one effect: named, named as a rival, missed.
   for (int i = 0; i < 3; ++i) cases.push_back(oneCase("backlash"));
   accept(cases[10], "backlash", "leg.knee", 2.2);
-  accept(cases[11], "joint_spring", "leg.knee", 1, {{"backlash", "leg.knee", {}}});
+  accept(cases[11], "joint_spring", "leg.knee", 1, {{"backlash", "leg.knee"}});
   // Two with two effects: both, and one of two.
   for (int i = 0; i < 2; ++i) {
     cases.push_back(oneCase("backlash"));
@@ -164,6 +253,9 @@ TEST(Scores, CountWhatWasCountedByHand) {
     cases.back().answer.hidden[0].outside = true;
   }
   accept(cases[16], "joint_spring", "leg.knee");
+  cases[10].accepted[0].told = {{"size", {{1.9, 2.5}, true}}};
+  cases[12].answer.truth = cases[13].answer.truth = {{"p", 3.0}};
+  cases[13].calibratedTold = {{"p", {{3.1, 3.3}, true}}};
 
   const ProofScore total = score(cases);
   const auto expect = [](int hits, int of, const Share& share) {
@@ -188,13 +280,32 @@ TEST(Scores, CountWhatWasCountedByHand) {
   EXPECT_EQ(1, total.confusion.at({"command_delay", "command_delay"}));
   EXPECT_EQ(1, total.confusion.at({"command_delay", "(missing_physics)"}));
   EXPECT_EQ(2u, total.byScene.size());
+  // Four of seven had numbers changed, and one analysis broke.
+  expect(5, 10, total.all.numbersChanged);
+  EXPECT_EQ(4, total.verdicts.at({"nothing", "parameters_suffice"}));
+  EXPECT_EQ(3, total.verdicts.at({"nothing", "no_mismatch"}));
+  EXPECT_EQ(1, total.verdicts.at({"nothing", "failed"}));
+  EXPECT_EQ(2, total.verdicts.at({"two", "missing_physics"}));
+  expect(1, 1, total.all.parametersCovered);
+  expect(0, 1, total.all.calibratedCovered);
+  const auto proof = nlohmann::json::parse(proofJson(total, cases));
+  EXPECT_EQ(5, proof["all"]["numbers_changed_without_need"]["hits"]);
+  EXPECT_NEAR(total.all.numbersChanged.low(), proof["all"]["numbers_changed_without_need"]["ci95"][0], 1e-15);
+  EXPECT_EQ(1, proof["all"]["parameters_in_ci95"]["hits"]);
+  EXPECT_EQ(0, proof["all"]["calibrated_in_ci95"]["hits"]);
+  for (const std::string& text : {proofText(total), proofHtml(total)}) {
+    EXPECT_NE(std::string::npos, text.find("5/10 = 50.0 % (18.7 to 81.3)"));
+    EXPECT_NE(std::string::npos, text.find("Kind of case"));
+  }
   for (const ProofBar& bar : total.bars) EXPECT_TRUE(bar.asked) << bar.question;
 }
 
 TEST(Scores, SurviveBeingWrittenAndRead) {
   ProvedCase proved = oneCase("backlash");
-  accept(proved, "joint_spring", "leg.knee", 1, {{"backlash", "leg.knee", {}}});
+  accept(proved, "joint_spring", "leg.knee", 1, {{"backlash", "leg.knee"}, {"slip", "floor", "payload"}});
+  proved.accepted[0].told = {{"size", {{0.9, 1.1}, true}}};
   proved.calibrated = {{"robots.leg.servos.knee.p", 3.7}};
+  proved.calibratedTold = {{"robots.leg.servos.knee.p", {{3.5, 3.9}, false}}};
   proved.seconds = 12.5;
   EXPECT_EQ(toJsonText(proved), toJsonText(provedFromJson(toJsonText(proved), "verdict")));
 }
@@ -204,6 +315,7 @@ GapReport contentAnalyst(const AnalysisRequest& request, const EffectLibrary&) {
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(request.scene).parent_path() / "answer.json"));
   EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(request.scene).parent_path() / "seal.txt"));
   EXPECT_EQ(8u, request.recordings.size());
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(request.scene).parent_path() / "fresh"));
   GapReport report;
   report.verdict = GapReport::Verdict::noMismatch;
   return report;
@@ -231,6 +343,10 @@ TEST(Proof, ConcealsAnalysesOpensAndGoesOnWhereItStopped) {
   const auto proof = nlohmann::json::parse(readFile(folder.file("proof/proof.json")));
   EXPECT_EQ(1, proof["all"]["false_alarms"]["hits"]);
   EXPECT_EQ(3, proof["all"]["false_alarms"]["cases"]);
+  // What is given is true here: in recordings made after the verdict it leaves the noise, and no more.
+  EXPECT_NEAR(1, proof["cases"][0]["heldout_over_noise"], 0.15);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("proof/case_001/fresh/trial_2.csv")));
+  EXPECT_TRUE(proof["cases"][2]["heldout_over_noise"].is_null());
   EXPECT_NE(std::string::npos, readFile(folder.file("proof/proof.html")).find("NOT MET"));
   // Another trial does not fit in.
   request.seed = 4;

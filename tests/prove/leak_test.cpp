@@ -37,7 +37,8 @@ std::string openText(const BlindCase& blind) {
 /// All numbers of the scene's file, by their place in it.
 Values numbersOf(const BlindCase& blind) {
   Values numbers;
-  for (const auto& [place, value] : nlohmann::json::parse(toJsonText(blind.world.scene)).flatten().items())
+  const auto scene = nlohmann::json::parse(toJsonText(blind.world.scene)).flatten();
+  for (const auto& [place, value] : scene.items())
     if (value.is_number() && value.get<double>() != 0) numbers[place] = value.get<double>();
   return numbers;
 }

@@ -22,7 +22,7 @@ struct MappingTexts {
   Q_DECLARE_TR_FUNCTIONS(MappingForm)
 };
 
-bool isSpecial(const std::string& key) { return key == "settings" || key == "segments"; }
+bool isSpecial(const std::string& key) { return key == "settings" || key == "segments" || key == "resample"; }
 
 bool isTime(const QString& column) {
   const QString name = column.toLower();

@@ -16,7 +16,7 @@ struct MappingRow {
 };
 
 /// A mapping while it is being edited: any text may stand in it. What the form does not show (settings, added columns,
-/// "optional", "compare", "segments") stays as the file had it.
+/// "optional", "compare", "segments", "resample") stays as the file had it.
 struct MappingDraft {
   std::vector<MappingRow> rows;
   std::string base = "{}";  ///< the JSON that it was read from

@@ -39,7 +39,7 @@ class Binder {
 
  private:
   [[noreturn]] void refuse(std::size_t column, const std::string& allowed) const {
-    throw InputError(recording_.source, "channel \"" + recording_.channels[column] + "\"", allowed);
+    throw InputError(recording_.atHeader(column), "channel \"" + recording_.channels[column] + "\"", allowed);
   }
 
   std::size_t findRobot(const std::string& name, std::size_t column) const {
@@ -188,7 +188,7 @@ Binding bind(const Scene& scene, const Recording& recording) {
   // A cell that holds the last value needs a first one.
   for (const Input& input : binding.inputs)
     if (!(recording.columns[input.column][0] == recording.columns[input.column][0]))
-      throw InputError(recording.source, "an empty first cell of \"" + recording.channels[input.column] + "\"",
+      throw InputError(recording.at(input.column, 0), "an empty cell",
                        "an input needs a value in the first row; later empty cells hold the last one");
   return binding;
 }

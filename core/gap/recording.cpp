@@ -24,6 +24,7 @@ class HashingBuffer : public std::streambuf {
   explicit HashingBuffer(const std::string& path) : file_(path, std::ios::binary), bytes_(1 << 16) {}
   bool isOpen() const { return file_.is_open(); }
   std::uintmax_t total() const { return total_; }
+  bool endsWithLine() const { return last_ == '\n' || last_ == '\r'; }
   std::string finish() { return hash_.finish(); }
 
  protected:
@@ -34,6 +35,7 @@ class HashingBuffer : public std::streambuf {
     if (count <= 0) return traits_type::eof();
     hash_.add({bytes_.data(), static_cast<std::size_t>(count)});
     total_ += static_cast<std::uintmax_t>(count);
+    last_ = bytes_[static_cast<std::size_t>(count) - 1];
     setg(bytes_.data(), bytes_.data(), bytes_.data() + count);
     return traits_type::to_int_type(bytes_[0]);
   }
@@ -43,6 +45,7 @@ class HashingBuffer : public std::streambuf {
   std::vector<char> bytes_;
   Sha256 hash_;
   std::uintmax_t total_ = 0;
+  char last_ = 0;
 };
 
 std::string trimmed(const std::string& text) {
@@ -92,7 +95,25 @@ struct Use {
   bool strict = true;  ///< a known channel: a cell that is not a number is an error
   std::size_t empty = 0, skipped = 0;
   std::vector<std::pair<std::size_t, double>> added;  ///< further columns of the file, and their scales
+  double lastDigit = 0;                               ///< of the finest number read from `source`, 0: whole numbers
 };
+
+/// What a channel's numbers may be at most: far beyond robots in any unit that a mapping may have forgotten, far below
+/// what a simulation could not compute with. Seconds since 1970 are a time.
+double largestOf(const std::string& channel) {
+  if (channel == "time_s") return 1e11;
+  return parseChannel(channel) ? 1e7 : std::numeric_limits<double>::max();
+}
+
+/// What the last decimal of a number is worth: 0.001 of "0.120", 10 of "1.2e2"; 0 of a number without decimals.
+double lastDigitOf(const char* begin, const char* end) {
+  const char* exponent = std::find_if(begin, end, [](char c) { return c == 'e' || c == 'E'; });
+  const char* point = std::find(begin, exponent, '.');
+  if (point == exponent) return 0;
+  int power = 0;
+  if (exponent != end) std::from_chars(exponent + (exponent[1] == '+' ? 2 : 1), end, power);
+  return std::pow(10, power - static_cast<double>(exponent - point - 1));
+}
 
 std::vector<std::string> readHeader(CsvReader& reader, const std::string& path) {
   std::vector<std::string> header;
@@ -178,7 +199,11 @@ double cellNumber(const std::string& cell, std::size_t source, Use& use, const C
   if (*begin == '+' && end - begin > 1 && begin[1] != '-' && begin[1] != '+') ++begin;
   double number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
-  if (error == std::errc() && stop == end && std::isfinite(number)) return number;
+  if (error == std::errc() && stop == end && std::isfinite(number)) {
+    if (const double digit = source == use.source ? lastDigitOf(begin, end) : 0; digit > 0)
+      use.lastDigit = use.lastDigit > 0 ? std::min(use.lastDigit, digit) : digit;
+    return number;
+  }
   if (use.strict) {
     std::string allowed = "a finite number or an empty cell";
     if (cell.find(',') != std::string::npos) allowed += " (decimals after a point)";
@@ -191,9 +216,9 @@ double cellNumber(const std::string& cell, std::size_t source, Use& use, const C
 double cellValue(const std::vector<std::string>& cells, Use& use, const CsvReader& reader) {
   double value = use.scale * cellNumber(cells[use.source], use.source, use, reader) + use.offset;
   for (const auto& [source, scale] : use.added) value += scale * cellNumber(cells[source], source, use, reader);
-  if (std::isinf(value))
+  if (const double largest = largestOf(use.channel); std::abs(value) > largest)
     throw InputError(reader.at(use.source + 1) + " (" + use.channel + ")", shown(cells[use.source]),
-                     "a number that stays finite in the channel's unit");
+                     "at most " + toText(largest) + " in the channel's unit, either sign");
   return value;
 }
 
@@ -206,6 +231,7 @@ void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size,
       throw InputError(reader.at(), std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns"),
                        "as many as the header has, " + std::to_string(width));
     for (std::size_t i = 0; i < uses.size(); ++i) recording.columns[i].push_back(cellValue(cells, uses[i], reader));
+    recording.places.line.push_back(static_cast<std::uint32_t>(reader.line()));
 
     const std::vector<double>& time = recording.columns[0];
     if (std::isnan(time.back()))
@@ -218,6 +244,7 @@ void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size,
     if (time.size() == rowsForEstimate) {
       const double expected = 1.03 * static_cast<double>(size) / static_cast<double>(file.total()) * rowsForEstimate;
       for (std::vector<double>& column : recording.columns) column.reserve(static_cast<std::size_t>(expected));
+      recording.places.line.reserve(static_cast<std::size_t>(expected));
     }
   }
 }
@@ -227,6 +254,19 @@ void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size,
 int Recording::column(const std::string& name) const {
   const auto found = std::find(channels.begin(), channels.end(), name);
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+}
+
+std::string Recording::at(std::size_t column, std::size_t row) const {
+  const std::string place = places.file.empty() ? source : places.file;
+  const std::string line = row < places.line.size() ? " line " + std::to_string(places.line[row]) : "";
+  const std::string number = column < places.column.size() ? ", column " + std::to_string(places.column[column]) : "";
+  return place + line + number + " (" + channels[column] + ")";
+}
+
+std::string Recording::atHeader(std::size_t column) const {
+  if (column >= places.column.size()) return source;
+  return places.file + " line " + std::to_string(places.headerLine) + ", column " +
+         std::to_string(places.column[column]);
 }
 
 Recording readRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
@@ -246,14 +286,23 @@ Recording readRecording(const std::string& path, const Mapping* mapping, std::si
   std::istream stream(&buffer);
   CsvReader reader(stream, path, ',', {.bytes = limit, .fieldBytes = 4096, .fields = 10'000});
   const std::vector<std::string> header = readHeader(reader, path);
+  recording.places.file = path;
+  recording.places.headerLine = static_cast<std::size_t>(reader.line());
   std::vector<Use> uses = usesOf(header, mapping, recording);
-  for (const Use& use : uses) recording.channels.push_back(use.channel);
+  for (const Use& use : uses) {
+    recording.channels.push_back(use.channel);
+    recording.places.column.push_back(use.source + 1);
+  }
   recording.columns.resize(uses.size());
   readRows(reader, buffer, size, uses, header.size(), recording);
   if (recording.rows() == 0) throw InputError(path + ": there is a header but no row of numbers");
   recording.sha256 = buffer.finish();
+  if (!buffer.endsWithLine())
+    recording.notes.push_back("the last line, " + std::to_string(recording.places.line.back()) +
+                              ", has no line end: it may have been cut off, even inside a number");
 
   for (const Use& use : uses) {
+    recording.places.lastDigit.push_back(std::abs(use.scale) * use.lastDigit);
     const std::string of = " of " + std::to_string(recording.rows()) + " cells of \"" + use.channel + "\"";
     if (use.strict && use.empty > 0) recording.notes.push_back(std::to_string(use.empty) + of + " are empty");
     if (use.skipped > 0) recording.notes.push_back(std::to_string(use.skipped) + of + " are not numbers; left out");

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,15 @@
 #include "core/spec/parameter.h"
 
 namespace btr {
+
+/// Where the numbers of a recording stand in its file, for messages; empty for a recording that no file holds.
+struct FilePlaces {
+  std::string file;
+  std::size_t headerLine = 0;
+  std::vector<std::size_t> column;  ///< by channel, from 1
+  std::vector<std::uint32_t> line;  ///< by row; empty once rows were resampled
+  std::vector<double> lastDigit;  ///< by channel: what the last decimal written is worth [the channel's unit]; 0: none
+};
 
 /// A recorded trial: named columns over time. `channels[0]` is "time_s", strictly increasing.
 struct Recording {
@@ -17,9 +27,13 @@ struct Recording {
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
   std::vector<std::string> notes;            ///< what was skipped or looks odd
+  FilePlaces places;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
   int column(const std::string& name) const;  ///< or −1
+  /// "FILE line 3, column 2 (CHANNEL)" as far as it is known; `row` 0 is the first one.
+  std::string at(std::size_t column, std::size_t row) const;
+  std::string atHeader(std::size_t column) const;
 };
 
 /// The parts of a channel's name: "leg.knee.position_rad", "leg.base.x_m", "ball.x_m" (part is empty).
@@ -69,9 +83,9 @@ Mapping loadMapping(const std::string& path);
 std::optional<std::string> findMapping(const std::string& recordingPath, const std::string& scene = "");
 
 /// Reads a CSV in one pass; memory is that of the numbers. With no mapping given, findMapping() is asked, else the
-/// columns must have contract names. Damaged, empty, unordered, non-numeric files throw InputError with line and
-/// column; files larger than `limit` bytes are refused before they are read. Columns that nobody maps are kept with a
-/// note. A file that its mapping divides into trials is refused here.
+/// columns must have contract names. Damaged, empty, unordered, non-numeric files, numbers that no robot has and clocks
+/// that jump throw InputError with line and column; files larger than `limit` bytes are refused before they are read.
+/// Columns that nobody maps are kept with a note. A file that its mapping divides into trials is refused here.
 Recording loadRecording(const std::string& path, const Mapping* mapping = nullptr, std::size_t limit = 1u << 30);
 
 /// The file's trials, in their order: one, or those that its mapping divides it into, then called "DIR/NAME-1.csv" …

@@ -70,6 +70,7 @@ Recording resampled(const Recording& recording, const Resampling& how) {
   const std::vector<double> fine = grid(time.front(), time.back(), own);
   const std::vector<double> coarse = grid(time.front(), time.back(), period);
   result.columns[0] = coarse;
+  result.places.line.clear();
   for (std::size_t column = 1; column < recording.columns.size(); ++column) {
     std::vector<double>& values = result.columns[column];
     Samples samples(time, recording.columns[column]);

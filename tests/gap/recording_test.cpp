@@ -116,6 +116,52 @@ TEST(Recording, RefusesTimesThatDoNotIncrease) {
   EXPECT_THAT(refusalOf("time_s\n0\n0.5\n0.5\n"), HasSubstr("line 4, column 1 (time_s): 0.5 again"));
 }
 
+TEST(Recording, RefusesNumbersThatNoRobotHas) {
+  EXPECT_THAT(refusalOf("time_s,ball.x_m\n0,1\n1,-1e308\n"),
+              HasSubstr("line 3, column 2 (ball.x_m): \"-1e308\" is not allowed; at most 10000000"));
+  EXPECT_THAT(refusalOf("time_s,ball.x_m\n0,1\n1e12,1\n"), HasSubstr("line 3, column 1 (time_s): \"1e12\""));
+  // Seconds since 1970, and any number in a column that is no channel.
+  EXPECT_EQ(refusalOf("time_s,count\n1763827200.25,1e300\n1763827200.5,2e300\n"), "accepted");
+}
+
+TEST(Recording, RefusesAClockThatJumps) {
+  std::string rows = "time_s\n";
+  for (int i = 0; i < 20; ++i) rows += "0." + std::to_string(100 + i) + "\n";
+  EXPECT_THAT(
+      refusalOf(rows + "20000\n"),
+      HasSubstr("trial.csv line 22, column 1 (time_s): 20000 after 0.119 is not allowed; a pause of at most 1"));
+  EXPECT_EQ(refusalOf(rows + "1.1\n"), "accepted");
+  // Trials of one file may lie hours apart.
+  const Mapping divided = mappingOf(R"({"time_s": {"column": "t"}, "segments": {"column": "piece"}})");
+  const TemporaryFolder folder;
+  const std::string file = folder.write("all.csv", "t,piece\n0,1\n0.01,1\n0.02,1\n9000,2\n9000.01,2\n9000.02,2\n");
+  EXPECT_EQ(loadTrials(file, &divided).size(), 2u);
+}
+
+TEST(Recording, RefusesARowThatBelongsToNoTrial) {
+  const Mapping divided = mappingOf(R"({"time_s": {"column": "t"}, "segments": {"column": "piece"}})");
+  EXPECT_THAT(refusalOf("t,piece\n0,1\n0.01,\n0.02,2\n", &divided),
+              HasSubstr("trial.csv line 3, column 2 (piece): an empty cell is not allowed"));
+}
+
+TEST(Recording, SaysThatALastLineHasNoEnd) {
+  EXPECT_THAT(recordingOf("time_s,ball.x_m\n0,0.25\n1,0.2").notes,
+              ElementsAre("the last line, 3, has no line end: it may have been cut off, even inside a number"));
+  EXPECT_THAT(recordingOf("time_s,ball.x_m\r0,0.25\r1,0.2\r").notes, testing::IsEmpty());
+}
+
+TEST(Recording, KnowsWhereItsNumbersStandAndWhatTheirLastDecimalIsWorth) {
+  const Mapping mapping = mappingOf(R"({"time_s": {"column": "t"}, "ball.x_m": {"column": "x", "scale": -0.001}})");
+  const Recording trial = recordingOf("x,t,ball.y_m,ball.z_m\n\n1.50,0,4,2.5e-3\n1,1,5,3\n", &mapping);
+  EXPECT_THAT(trial.at(1, 1), testing::EndsWith("trial.csv line 4, column 1 (ball.x_m)"));
+  EXPECT_THAT(trial.atHeader(0), testing::EndsWith("trial.csv line 1, column 2"));
+  ASSERT_EQ(trial.places.lastDigit.size(), 4u);
+  EXPECT_EQ(trial.places.lastDigit[0], 0);
+  EXPECT_DOUBLE_EQ(trial.places.lastDigit[1], 1e-5);
+  EXPECT_EQ(trial.places.lastDigit[2], 0);
+  EXPECT_DOUBLE_EQ(trial.places.lastDigit[3], 1e-4);
+}
+
 TEST(Recording, RefusesFilesWithoutContent) {
   EXPECT_THAT(refusalOf(""), HasSubstr("trial.csv: the file is empty"));
   EXPECT_THAT(refusalOf("\n\r\n"), HasSubstr("the file is empty"));

@@ -5,54 +5,12 @@
 #include <filesystem>
 #include <set>
 
-#include "core/gap/doctor.h"
-#include "core/gap/noise_floor.h"
+#include "core/gap/noise_sharing.h"
 #include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
 
 namespace btr {
 namespace {
-
-using Measured = Binding::Measured;
-
-/// The largest of a channel's levels that is still noise: fourth differences or counts, never below a millionth of what
-/// the channel moves.
-double floorOf(std::span<const double> values) {
-  double low = INFINITY, high = -INFINITY;
-  for (const double value : values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  if (!(high >= low)) return 0;
-  return std::max({resolution(values), 1e-6 * (high - low), 1e-9});
-}
-
-/// The same channel has the same noise in all trials: the median of theirs.
-void shareNoiseFloors(std::vector<FitTrial>& trials) {
-  std::map<std::string, std::vector<double>> levels;
-  const auto nameOf = [](const FitTrial& trial, std::size_t i) {
-    return trial.recording.channels[trial.binding.measured[i].column];
-  };
-  for (const FitTrial& trial : trials)
-    for (std::size_t i = 0; i < trial.noiseFloor.size(); ++i)
-      if (trial.noiseFloor[i] > 0) levels[nameOf(trial, i)].push_back(trial.noiseFloor[i]);
-  for (auto& [name, list] : levels) std::sort(list.begin(), list.end());
-  for (FitTrial& trial : trials)
-    for (std::size_t i = 0; i < trial.noiseFloor.size(); ++i)
-      if (trial.noiseFloor[i] > 0) {
-        const auto& list = levels[nameOf(trial, i)];
-        trial.noiseFloor[i] = list[list.size() / 2];
-      }
-}
-
-/// A rate is compared only where the position is not recorded: it is the same motion seen through a filter.
-bool compared(const Binding& binding, const Measured& measured) {
-  if (measured.what != Measured::What::rate) return true;
-  return std::none_of(binding.measured.begin(), binding.measured.end(), [&](const Measured& other) {
-    return other.what == Measured::What::position && other.object == measured.object && other.part == measured.part;
-  });
-}
 
 /// True if something of a fixed rig is not held by a servo and no trial could forget how it began.
 bool swingsFreely(const Scene& scene, const FitTrial& trial) {
@@ -131,6 +89,14 @@ void chooseStep(FitProblem& problem) {
   problem.scene.step_s = asGiven;
 }
 
+/// A trial of which every compared column is empty would agree with anything.
+void refuseWithoutNumbers(const std::vector<FitTrial>& trials) {
+  for (const FitTrial& trial : trials)
+    if (std::none_of(trial.noiseFloor.begin(), trial.noiseFloor.end(), [](double floor) { return floor > 0; }))
+      throw InputError(trial.recording.at(trial.binding.measured[0].column, 0), "a column without any number",
+                       "at least one compared column with numbers");
+}
+
 }  // namespace
 
 Scene FitProblem::sceneOf(const SimulatorSpec& simulator, std::size_t trial) const {
@@ -173,17 +139,14 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       throw InputError(recording.source +
                        ": no column can be compared with the scene; position, velocity, torque, base or "
                        "ball channels are needed");
-    for (const Measured& measured : kept.binding.measured)
-      kept.noiseFloor.push_back(compared(kept.binding, measured) ? floorOf(recording.columns[measured.column]) : 0);
     const std::string name = std::filesystem::path(recording.source).filename().string();
     for (const auto* list :
          std::initializer_list<const std::vector<std::string>*>{&kept.recording.notes, &kept.binding.notes})
       for (const std::string& text : *list)
         if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
-    for (const std::string& text : examine(recording).findings)
-      if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
   }
-  shareNoiseFloors(ready.trials);
+  shareNoiseFloors(ready.trials, ready.notes);
+  refuseWithoutNumbers(ready.trials);
 
   if (window_s < 0) {
     window_s = 0;

@@ -1,0 +1,114 @@
+// What a channel that stands still is known to.
+#include "core/gap/noise_sharing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/gap/noise_floor.h"
+#include "core/spec/random.h"
+#include "tests/gap/recorded_hinge.h"
+#include "tests/refusal.h"
+
+namespace btr {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double count_rad = 2 * M_PI / 4096;
+
+std::vector<double> still(double value) { return std::vector<double>(400, value); }
+
+std::vector<double> quantised() {
+  std::vector<double> values;
+  for (int i = 0; i < 400; ++i) values.push_back(std::round(0.5 * std::sin(0.02 * i) / count_rad) * count_rad);
+  return values;
+}
+
+std::vector<double> noisy(double noise) {
+  Random random(3);
+  std::vector<double> values;
+  for (int i = 0; i < 400; ++i) values.push_back(noise * random.normal());
+  return values;
+}
+
+FitTrial trialOf(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+  FitTrial trial;
+  trial.recording.channels = {"time_s"};
+  trial.recording.columns = {still(0)};
+  for (const auto& [name, values] : columns) {
+    trial.binding.measured.push_back(
+        {Binding::Measured::What::position, 0, trial.binding.measured.size(), trial.recording.channels.size()});
+    trial.recording.channels.push_back(name);
+    trial.recording.columns.push_back(values);
+  }
+  return trial;
+}
+
+std::vector<std::string> shared(std::vector<FitTrial>& trials) {
+  std::vector<std::string> notes;
+  shareNoiseFloors(trials, notes);
+  return notes;
+}
+
+TEST(NoiseSharing, TakesTheMedianOfTheTrialsThatShowTheNoiseHoweverManyStandStill) {
+  std::vector<FitTrial> trials;
+  for (int i = 0; i < 5; ++i) trials.push_back(trialOf({{"leg.knee.position_rad", still(0.25)}}));
+  trials.push_back(trialOf({{"leg.knee.position_rad", noisy(0.001)}}));
+  EXPECT_THAT(shared(trials), IsEmpty());
+  for (const FitTrial& trial : trials) EXPECT_EQ(trial.noiseFloor[0], resolution(noisy(0.001)));
+}
+
+TEST(NoiseSharing, TakesThatOfAnotherJointWhereAJointStandsStillInAllTrials) {
+  std::vector<FitTrial> trials{trialOf({{"leg.knee.position_rad", still(0)},
+                                        {"leg.hip.position_rad", quantised()},
+                                        {"leg.hip.velocity_rad_s", noisy(0.3)}})};
+  EXPECT_THAT(shared(trials), ElementsAre(testing::AllOf(HasSubstr("leg.knee.position_rad: stands still"),
+                                                         HasSubstr("is that of leg.hip.position_rad"))));
+  EXPECT_EQ(trials[0].noiseFloor[0], resolution(quantised()));
+}
+
+TEST(NoiseSharing, TakesTheRoundingOfTheArithmeticForNoNoise) {
+  for (const double value : {-0.012272, 0.1, -1.0 / 3, 77.7}) {
+    std::vector<FitTrial> trials{
+        trialOf({{"leg.knee.position_rad", still(value)}, {"leg.hip.position_rad", noisy(0.01)}})};
+    EXPECT_EQ(shared(trials).size(), 1u) << value;
+    EXPECT_EQ(trials[0].noiseFloor[0], trials[0].noiseFloor[1]) << value;
+  }
+}
+
+TEST(NoiseSharing, TakesTheAxesOfABallAlike) {
+  std::vector<FitTrial> trials{trialOf({{"ball.x_m", noisy(0.002)}, {"ball.z_m", still(0.04)}})};
+  shared(trials);
+  EXPECT_EQ(trials[0].noiseFloor[1], trials[0].noiseFloor[0]);
+}
+
+TEST(NoiseSharing, TakesTheRoundingOfTheFileWhereNothingElseTells) {
+  std::vector<FitTrial> trials{trialOf({{"leg.knee.position_rad", still(0)}})};
+  trials[0].recording.places.lastDigit = {0.01, 0.0001};
+  EXPECT_THAT(shared(trials), ElementsAre(HasSubstr("the rounding of the file's decimals")));
+  EXPECT_NEAR(trials[0].noiseFloor[0], 0.0001 / std::sqrt(12.0), 1e-12);
+  trials[0].recording.places.lastDigit.clear();
+  EXPECT_THAT(shared(trials), ElementsAre(HasSubstr("a guess")));
+  EXPECT_GT(trials[0].noiseFloor[0], 0);
+}
+
+TEST(NoiseSharing, LeavesAColumnWithoutNumbersOut) {
+  std::vector<FitTrial> trials{
+      trialOf({{"leg.knee.position_rad", still(std::nan(""))}, {"leg.hip.position_rad", noisy(0.1)}})};
+  EXPECT_THAT(shared(trials), IsEmpty());
+  EXPECT_EQ(trials[0].noiseFloor[0], 0);
+}
+
+TEST(NoiseSharing, ATrialWithoutAnyNumberIsRefused) {
+  GapProblem problem = recordedFrom({});
+  for (double& value : problem.recordings[1].columns[2]) value = std::nan("");
+  EXPECT_THAT(test::refusal([&] { makeFitProblem(problem, problem.recordings, library(), 0); }),
+              HasSubstr("trial_1.csv (rig.hinge.position_rad): a column without any number is not allowed"));
+}
+
+}  // namespace
+}  // namespace btr

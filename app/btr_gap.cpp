@@ -77,6 +77,8 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
   analyse->add_option("--effects", request->options.effects, "consider these alone")->take_all();
   analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added")
       ->check(CLI::Range(0, 8));
+  analyse->add_flag("--as-recorded", request->options.asRecorded,
+                    "go on although a column is certainly not what its name says");
   analyse->add_flag("--progress", *lines, "a line STAGE SHARE on standard error at every step");
   analyse->callback([request, lines, &shell] { analyseCommand(*request, *lines, shell); });
 }
@@ -122,6 +124,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   residual->add_option("--mapping", request->mapping, "which column is which channel, for all recordings");
   residual->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
   residual->add_option("--out", request->out, "folder for tables and overlay plots");
+  residual->add_flag("--as-recorded", request->asRecorded, "go on although the time is certainly not in seconds");
   CLI::Option* inverse = residual->add_flag("--inverse", arguments->inverse,
                                             "follow the recorded motion and compare the torque that it takes");
   residual->add_option("--lowpass", arguments->filters.lowpass_hz, "of the positions that are followed [Hz]")

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/gap/consultation.h"
 #include "core/gap/locate.h"
 #include "core/gap/next_recording.h"
 #include "core/gap/remainder.h"
@@ -253,12 +254,22 @@ void addStepErrors(GapReport& report, const FitProblem& problem, const SearchRes
                              " s, is not below the noise floor; a smaller step_s would make the analysis sharper");
 }
 
+void refuseUnknownEffects(const AnalysisOptions& options, const EffectLibrary& library) {
+  std::string known;
+  for (const std::string& name : library.names) known += (known.empty() ? "" : ", ") + name;
+  for (const std::string& name : options.effects)
+    if (std::find(library.names.begin(), library.names.end(), name) == library.names.end())
+      throw InputError("effects to consider", "\"" + name + "\"", "one of " + known);
+}
+
 }  // namespace
 
 GapReport analyse(const GapProblem& given, const EffectLibrary& library, const AnalysisOptions& options,
                   const AnalysisProgress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
+  refuseUnknownEffects(options, library);
+  const Consultation consultation = consult(given, library, options.asRecorded);
   const auto prepare = [&](const std::vector<Recording>& recordings, double window_s) {
     FitProblem ready = makeFitProblem(given, recordings, library, window_s);
     ready.jobs = options.jobs;
@@ -289,7 +300,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   GapReport report;
   report.seed = options.seed;
   report.version = UCHILSIM_VERSION;
-  report.notes = problem.notes;
+  report.notes = consultation.notes;
+  report.notes.insert(report.notes.end(), problem.notes.begin(), problem.notes.end());
   report.ladder = found.ladder;
   report.before = given.simulator;
   report.after = found.final.fit.model.simulator(problem);
@@ -328,6 +340,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (options.designNext) report.next = designNext(problem, found, options.seed);
   judge(report, problem, found, curveIsBetter);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
+  report.sentence = consultation.caveat + report.sentence;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (progress) progress("done", 1);
   return report;
@@ -363,6 +376,7 @@ GapProblem loadProblem(const AnalysisRequest& request) {
 }
 
 GapReport runAnalysis(const AnalysisRequest& request, const EffectLibrary& library, const AnalysisProgress& progress) {
+  refuseUnknownEffects(request.options, library);
   GapReport report = analyse(loadProblem(request), library, request.options, progress);
   report.scene = std::filesystem::absolute(request.scene).lexically_normal().string();
   report.sceneSha256 = sha256(readFile(request.scene));

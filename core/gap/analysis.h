@@ -24,6 +24,7 @@ struct AnalysisOptions {
   int maximumEffects = 3;
   std::vector<std::string> effects;  ///< which to consider; empty: all
   bool designNext = true;
+  bool asRecorded = false;  ///< goes on where the doctor is certain that a column is not what its name says
 };
 
 /// Effects by name: what the plugin host offers.
@@ -36,8 +37,9 @@ struct EffectLibrary {
 using AnalysisProgress = std::function<bool(const std::string& stage, double share)>;
 
 /// Steps 1 to 9 of gap analysis: doctor, noise floor, replay, calibrate, locate, screen, confirm, rivals, remainder.
-/// Deterministic for a seed, whatever the number of jobs. Throws InputError for recordings that the scene cannot
-/// replay; throws Cancelled when progress says so.
+/// Deterministic for a seed, whatever the number of jobs. What the doctor has to say leads the sentence and the notes.
+/// Throws InputError for recordings that the scene cannot replay, for those that the doctor refuses (see
+/// consultation.h), for an effect that the library does not have; throws Cancelled when progress says so.
 GapReport analyse(const GapProblem& problem, const EffectLibrary& library, const AnalysisOptions& options,
                   const AnalysisProgress& progress = {});
 

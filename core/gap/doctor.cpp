@@ -1,13 +1,22 @@
 #include "core/gap/doctor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/gap/even_grid.h"
 #include "core/gap/noise_floor.h"
 
 namespace btr {
 namespace {
+
+/// So that the same sensor reads alike in all trials.
+std::string fourDigits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
 
 std::string brief(double value) { return toText(std::round(value * 1e6) / 1e6); }
 
@@ -94,7 +103,7 @@ RecordingHealth examine(const Recording& recording) {
     if (channel.empty > 0)
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");
-    if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + toText(channel.quantisation));
+    if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + fourDigits(channel.quantisation));
     health.channels.push_back(std::move(channel));
   }
   return health;

@@ -36,12 +36,19 @@ struct RecordingHealth {
 /// Looks at a recording before physics is blamed (gap analysis, step 1). Changes nothing.
 RecordingHealth examine(const Recording& recording);
 
+/// Something that the columns say of how they are read.
+struct Finding {
+  std::string channel;   ///< that it is about
+  std::string text;      ///< in words, with its evidence and with what to change in the mapping
+  bool certain = false;  ///< no physics does that: whatever is compared with this channel would mean nothing
+};
+
 /// Whether the columns can be what their names say, by comparing what was commanded with what was measured at each
 /// joint that follows positions: wrong units (degrees, millimetres, milliseconds), turned signs, joints mixed up, a
-/// constant offset of the encoder that no load explains, a position that never changes. Each finding in words, with its
-/// evidence and with what to change in the mapping; nothing is changed. A joint whose command hardly moves, or where
-/// the evidence is ambiguous (the joints move alike, one fast sine), gives none.
-std::vector<std::string> doctor(const Scene& scene, const Recording& recording, const Binding& binding);
+/// constant offset of the encoder that no load explains, a clock that is ahead, a position that never changes. Nothing
+/// is changed. A joint whose command hardly moves, or where the evidence is ambiguous (the joints move alike, one fast
+/// sine), gives none.
+std::vector<Finding> doctor(const Scene& scene, const Recording& recording, const Binding& binding);
 
 /// By how much `measured` runs behind `command`; negative: ahead, which no servo does.
 struct ClockOffset {

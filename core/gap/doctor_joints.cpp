@@ -13,13 +13,14 @@ namespace btr {
 namespace {
 
 constexpr double degree = M_PI / 180;
+constexpr double leastAhead_s = 0.005;
 
 class JointDoctor {
  public:
   JointDoctor(const Scene& scene, const Recording& recording, const Binding& binding)
       : scene_(scene), joints_(jointSeries(scene, recording, binding, period_s_)) {}
 
-  std::vector<std::string> look() {
+  std::vector<Finding> look() {
     std::vector<char> known(joints_.size(), 0);
     findSwaps(known);
     for (std::size_t i = 0; i < joints_.size(); ++i)
@@ -50,12 +51,13 @@ class JointDoctor {
         const JointSeries &a = joints_[i], &b = joints_[j];
         if (known[i] || known[j] || !excited(a) || !excited(b) || !followsOther(a, b) || !followsOther(b, a)) continue;
         known[i] = known[j] = 1;
-        findings_.push_back(a.positionChannel + " follows " + b.commandChannel + " (correlation " +
-                            digits(between(b, a).correlation) + ") and not its own command (" +
-                            digits(between(a, a).correlation) + "), and " + b.positionChannel + " follows " +
-                            a.commandChannel + " (" + digits(between(a, b).correlation) + ", own " +
-                            digits(between(b, b).correlation) +
-                            "): the two joints are mixed up; exchange the two columns in the mapping");
+        const std::string text = a.positionChannel + " follows " + b.commandChannel + " (correlation " +
+                                 digits(between(b, a).correlation) + ") and not its own command (" +
+                                 digits(between(a, a).correlation) + "), and " + b.positionChannel + " follows " +
+                                 a.commandChannel + " (" + digits(between(a, b).correlation) + ", own " +
+                                 digits(between(b, b).correlation) +
+                                 "): the two joints are mixed up; exchange the two columns in the mapping";
+        findings_.push_back({a.positionChannel, text, true});
       }
   }
 
@@ -65,31 +67,54 @@ class JointDoctor {
     // A column that stands still.
     if (series.highest == series.lowest) {
       if (series.commandSpread > (rotary ? 0.1 : 0.01))
-        findings_.push_back(series.positionChannel + " is always " + digits(series.highest, 6) + unit + " while " +
-                            series.commandChannel + " moves with a spread of " + digits(series.commandSpread) + unit +
-                            ": the sensor was not read, or the mapping names a wrong column");
+        add(series, series.positionChannel + " is always " + digits(series.highest, 6) + unit + " while " +
+                        series.commandChannel + " moves with a spread of " + digits(series.commandSpread) + unit +
+                        ": the sensor was not read, or the mapping names a wrong column");
       return;
     }
     if (!excited(series)) return;
     const Following following = between(series, series);
-    if (std::abs(following.correlation) < 0.8) return;
+    if (std::abs(following.correlation) < 0.8) {
+      checkClock(series);
+      return;
+    }
     const std::string evidence = series.positionChannel + " moves " + digits(following.ratio) + " times as far as " +
                                  series.commandChannel + " (correlation " + digits(following.correlation) +
                                  " at a lag of " + digits(following.lag_s) + " s)";
     const bool unitsFine = checkUnits(series, following, evidence);
     const bool turned = following.correlation < 0 && following.highest < -0.5;
     if (turned)
-      findings_.push_back(series.positionChannel + " moves against " + series.commandChannel + " (correlation " +
-                          digits(following.correlation) + " at a lag of " + digits(following.lag_s) +
-                          " s, nowhere above " + digits(following.highest) +
-                          "): a sign is turned; give one of them, the one that is not right-handed about the model's " +
-                          "axis, a negative \"scale\" in the mapping");
-    if (!unitsFine || turned || following.correlation < 0.9) return;
+      add(series,
+          series.positionChannel + " moves against " + series.commandChannel + " (correlation " +
+              digits(following.correlation) + " at a lag of " + digits(following.lag_s) + " s, nowhere above " +
+              digits(following.highest) +
+              "): a sign is turned; give one of them, the one that is not right-handed about the model's " +
+              "axis, a negative \"scale\" in the mapping",
+          following.correlation < -0.9 && following.highest < -0.7);
+    if (!unitsFine || turned) return;
+    checkClock(series);
+    if (following.correlation < 0.9) return;
     if (const auto found = encoderOffset(scene_, joints_, series, following.lag_s, period_s_))
-      findings_.push_back(series.positionChannel + " lies " + digits(std::abs(found->offset)) + " ± " +
-                          digits(found->uncertainty, 2) + unit + (found->offset > 0 ? " above " : " below ") +
-                          series.commandChannel + " throughout, more than its load explains: an offset of the " +
-                          "encoder; add " + digits(-found->offset) + " to its \"offset\" in the mapping");
+      add(series, series.positionChannel + " lies " + digits(std::abs(found->offset)) + " ± " +
+                      digits(found->uncertainty, 2) + unit + (found->offset > 0 ? " above " : " below ") +
+                      series.commandChannel + " throughout, more than its load explains: an offset of the " +
+                      "encoder; add " + digits(-found->offset) + " to its \"offset\" in the mapping");
+  }
+
+  void add(const JointSeries& series, const std::string& text, bool certain = false) {
+    findings_.push_back({series.positionChannel, text, certain});
+  }
+
+  /// A measurement may lag behind its command for many reasons; it cannot be ahead of it.
+  void checkClock(const JointSeries& series) {
+    std::vector<double> time;
+    for (std::size_t i = 0; i < series.command.size(); ++i) time.push_back(static_cast<double>(i) * period_s_);
+    const auto clock = clockOffset(time, series.command, series.position);
+    if (!clock || clock->correlation < 0.9 || clock->offset_s + clock->uncertainty_s > -leastAhead_s) return;
+    add(series, series.positionChannel + " moves " + digits(-clock->offset_s) + " ± " +
+                    digits(clock->uncertainty_s, 2) + " s before " + series.commandChannel + " does (correlation " +
+                    digits(clock->correlation) + "): the two were written by different clocks, or the columns are " +
+                    "shifted against each other; record both by one clock");
   }
 
   /// True if nothing is wrong with them.
@@ -115,14 +140,19 @@ class JointDoctor {
       const bool positionWrong = up == !inReach(series, up);
       const std::string& wrong = positionWrong ? series.positionChannel : series.commandChannel;
       const bool shrink = positionWrong == up;
+      // Even a resonance does not come that near to the ratio of two units; a joint that is held may move too little.
+      const bool certain =
+          std::abs(following.correlation) > 0.95 && nearest < std::log(2) && (up || !inReach(series, up));
       findings_.push_back(
-          evidence + ": " + wrong + " is " +
-          (shrink ? "in " + std::string(named->name) + ", not " + right : right + " taken for " + named->name) +
-          "; multiply its \"scale\" in the mapping by " + digits(shrink ? named->size : 1 / named->size, 6));
+          {wrong,
+           evidence + ": " + wrong + " is " +
+               (shrink ? "in " + std::string(named->name) + ", not " + right : right + " taken for " + named->name) +
+               "; multiply its \"scale\" in the mapping by " + digits(shrink ? named->size : 1 / named->size, 6),
+           certain});
       return false;
     }
     if (std::abs(following.correlation) > 0.9 && (following.ratio > 5 || following.ratio < 0.1)) {
-      findings_.push_back(evidence + ": no servo does that; check the \"scale\" of both in the mapping");
+      add(series, evidence + ": no servo does that; check the \"scale\" of both in the mapping");
       return false;
     }
     // Both alike but nowhere near where the joint can be.
@@ -130,10 +160,10 @@ class JointDoctor {
     const double reach = std::max(std::abs(joint.lower), std::abs(joint.upper));
     const double farthest = std::max(std::abs(series.lowest), std::abs(series.highest));
     if (reach < 1e6 && farthest > 4 * reach + (rotary ? 1 : 0.1)) {
-      findings_.push_back(series.positionChannel + " and " + series.commandChannel + " reach " + digits(farthest) +
-                          ", the model's joint " + digits(reach) + (rotary ? " rad" : " m") + " at most: both are in " +
-                          units.front().name + ", it seems; multiply both \"scale\"s in the mapping by " +
-                          digits(units.front().size, 6));
+      add(series, series.positionChannel + " and " + series.commandChannel + " reach " + digits(farthest) +
+                      ", the model's joint " + digits(reach) + (rotary ? " rad" : " m") + " at most: both are in " +
+                      units.front().name + ", it seems; multiply both \"scale\"s in the mapping by " +
+                      digits(units.front().size, 6));
       return false;
     }
     return true;
@@ -154,17 +184,20 @@ class JointDoctor {
   const Scene& scene_;
   double period_s_ = 0;
   std::vector<JointSeries> joints_;
-  std::vector<std::string> findings_;
+  std::vector<Finding> findings_;
 };
 
 /// Time in milliseconds, places in millimetres.
-void lookAtScales(const Recording& recording, const Binding& binding, std::vector<std::string>& findings) {
+void lookAtScales(const Recording& recording, const Binding& binding, std::vector<Finding>& findings) {
   constexpr double slowest_s = 0.9, farthest_m = 50;
+  constexpr std::size_t enoughRows = 50;  // fewer cost nothing to replay, however long they last
   const double period_s = rhythm(recording);
   if (period_s > slowest_s)
-    findings.push_back("time_s: a sample every " + digits(period_s) +
-                       " s, too slow for a servo's log: milliseconds, it seems; give it the \"scale\" 0.001 in the " +
-                       "mapping");
+    findings.push_back({"time_s",
+                        "time_s: a sample every " + digits(period_s) +
+                            " s, too slow for a servo's log: milliseconds, it seems; give it the \"scale\" 0.001 in "
+                            "the mapping",
+                        recording.rows() >= enoughRows});
   for (const Binding::Measured& measured : binding.measured) {
     if (measured.what != Binding::Measured::What::basePosition &&
         measured.what != Binding::Measured::What::ballPosition)
@@ -173,18 +206,21 @@ void lookAtScales(const Recording& recording, const Binding& binding, std::vecto
     for (const double value : recording.columns[measured.column])
       if (std::isfinite(value)) farthest = std::max(farthest, std::abs(value));
     if (farthest > farthest_m)
-      findings.push_back(recording.channels[measured.column] + " reaches " + digits(farthest) +
-                         " m: millimetres, it seems; multiply its \"scale\" in the mapping by 0.001");
+      findings.push_back({recording.channels[measured.column],
+                          recording.channels[measured.column] + " reaches " + digits(farthest) +
+                              " m: millimetres, it seems; multiply its \"scale\" in the mapping by 0.001"});
   }
 }
 
 }  // namespace
 
-std::vector<std::string> doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
-  std::vector<std::string> findings;
+std::vector<Finding> doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
+  std::vector<Finding> findings;
   if (recording.rows() < 2) return findings;
   lookAtScales(recording, binding, findings);
-  for (std::string& text : JointDoctor(scene, recording, binding).look()) findings.push_back(std::move(text));
+  // What follows compares over lags of a tenth of a second.
+  if (!findings.empty() && findings.front().certain) return findings;
+  for (Finding& finding : JointDoctor(scene, recording, binding).look()) findings.push_back(std::move(finding));
   return findings;
 }
 

@@ -57,6 +57,8 @@ std::vector<JointSeries> jointSeries(const Scene& scene, const Recording& record
     if (measured.what != Measured::What::position) continue;
     const Drive::Kind kind = scene.robots[measured.object].drives[measured.part].kind;
     const Input* command = inputOf(binding, measured, Input::What::command);
+    const std::vector<double>& positions = recording.columns[measured.column];
+    if (std::none_of(positions.begin(), positions.end(), [](double value) { return std::isfinite(value); })) continue;
     if (!command || (kind != Drive::Kind::servo && kind != Drive::Kind::dcMotor)) continue;
     JointSeries series;
     series.robot = measured.object;

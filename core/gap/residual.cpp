@@ -28,15 +28,18 @@ ChannelError compare(const Recording& recording, std::size_t column, const std::
   return error;
 }
 
-void addRecording(const Scene& scene, const Recording& recording, ResidualReport& report) {
+void addRecording(const Scene& scene, const Recording& recording, bool asRecorded, ResidualReport& report) {
   const std::string name = std::filesystem::path(recording.source).filename().string();
   const auto note = [&](const std::string& text) { report.notes.push_back(name + ": " + text); };
   for (const std::string& text : recording.notes) note(text);
-  const RecordingHealth health = examine(recording);
-  if (!health.gaps.empty()) note(health.findings.front());
   const Binding binding = bind(scene, recording);
   for (const std::string& text : binding.notes) note(text);
-  for (const std::string& text : doctor(scene, recording, binding)) note(text);
+  for (const Finding& finding : doctor(scene, recording, binding)) {
+    if (finding.certain && finding.channel == "time_s" && !asRecorded)
+      throw InputError(recording.source + ": " + finding.text + "; --as-recorded replays it regardless");
+    note(finding.text);
+  }
+  for (const std::string& text : examine(recording).findings) note(text);
   if (binding.measured.empty())
     throw InputError(recording.source +
                      ": no column can be compared with the scene; position, velocity, torque, base or "
@@ -62,9 +65,9 @@ void addRecording(const Scene& scene, const Recording& recording, ResidualReport
 
 }  // namespace
 
-ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings) {
+ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings, bool asRecorded) {
   ResidualReport report;
-  for (const Recording& recording : recordings) addRecording(scene, recording, report);
+  for (const Recording& recording : recordings) addRecording(scene, recording, asRecorded, report);
   joinNotes(report.notes);
   return report;
 }
@@ -73,7 +76,7 @@ ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& 
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
   ResidualReport report;
   const bool all = forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial) {
-    addRecording(scene, trial, report);
+    addRecording(scene, trial, request.asRecorded, report);
   });
   if (!all) return report;
   joinNotes(report.notes);

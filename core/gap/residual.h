@@ -26,9 +26,9 @@ struct ResidualReport {
 
 /// Replays the recorded commands of each recording in the scene, free-running from the initial state that its first
 /// samples give, and compares at the recorded times. The scene is used as it is: a recording's own settings must
-/// already be in it. Throws InputError for a channel that the scene does not have and for a recording with nothing to
-/// compare.
-ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings);
+/// already be in it. Throws InputError for a channel that the scene does not have, for a recording with nothing to
+/// compare and, unless `asRecorded`, for milliseconds that are taken for seconds: a replay would take very long.
+ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings, bool asRecorded = false);
 
 /// What `btr gap residual` was asked for.
 struct ResidualRequest {
@@ -37,8 +37,9 @@ struct ResidualRequest {
   /// Path of a mapping for all recordings; "": the one beside the recording, else SCENE.mapping.json beside the scene
   /// (for recordings that have no column time_s of their own).
   std::string mapping;
-  std::string simulator;  ///< path of a simulator.json, "": the scene as given
-  std::string out;        ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
+  std::string simulator;    ///< path of a simulator.json, "": the scene as given
+  bool asRecorded = false;  ///< goes on where the doctor is certain that the time is not in seconds
+  std::string out;          ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
 };
 /// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings; when
 /// it returns false the work ends early with what is done, and nothing is written. Throws InputError.

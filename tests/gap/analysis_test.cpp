@@ -34,6 +34,14 @@ TEST(Analysis, AHealthySimulatorHasNoMismatch) {
   EXPECT_NEAR(report.ladder[0].error, 1, 0.1);
 }
 
+TEST(Analysis, AnEffectThatNobodyKnowsIsRefusedBeforeAnythingIsDone) {
+  AnalysisOptions options;
+  options.effects = {"backlash", "bogus"};
+  const std::string refusal = test::refusal([&] { analyse(recordedFrom({}), library(), options); });
+  EXPECT_THAT(refusal, HasSubstr("\"bogus\" is not allowed; one of "));
+  EXPECT_THAT(refusal, HasSubstr("coulomb_friction"));
+}
+
 TEST(Analysis, WrongNumbersAreMerelyCalibrated) {
   const GapReport report = analyse(
       recordedFrom({{{"robots.rig.servos.hinge.p", 7}, {"robots.rig.servos.hinge.d", 0.25}}, {}}), library(), {});

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -38,6 +39,12 @@ constexpr const char* armUrdf = R"(<robot name="arm">
   <link name="finger"><inertial><mass value="0.02"/><inertia ixx="1e-5" iyy="1e-5" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial></link>
 </robot>)";
 
+std::vector<std::string> textsOf(const std::vector<Finding>& findings) {
+  std::vector<std::string> texts;
+  for (const Finding& finding : findings) texts.push_back(finding.text);
+  return texts;
+}
+
 struct Arm {
   Scene scene;
   Recording recording;
@@ -47,7 +54,8 @@ struct Arm {
   void change(const std::string& name, double scale, double offset = 0) {
     for (double& value : column(name)) value = scale * value + offset;
   }
-  std::vector<std::string> findings() const { return doctor(scene, recording, bind(scene, recording)); }
+  std::vector<Finding> found() const { return doctor(scene, recording, bind(scene, recording)); }
+  std::vector<std::string> findings() const { return textsOf(found()); }
 };
 
 // Twelve seconds of slow, different motions, as the simulator itself would log them with a noise of 2 mrad.
@@ -115,6 +123,56 @@ TEST(JointDoctor, TellsDegreesFromRadiansInEitherColumn) {
   both.change("arm.shoulder.position_rad", 180 / M_PI);
   both.change("arm.shoulder.command_rad", 180 / M_PI);
   EXPECT_THAT(both.findings(), ElementsAre(AllOf(HasSubstr("both are in degrees"), HasSubstr("1.6 rad at most"))));
+}
+
+TEST(JointDoctor, IsCertainOnlyWhereNoPhysicsDoesThat) {
+  const auto isCertain = [](const Arm& made) {
+    const auto found = made.found();
+    EXPECT_EQ(found.size(), 1u);
+    return !found.empty() && found[0].certain;
+  };
+  Arm degrees = arm();
+  degrees.change("arm.shoulder.position_rad", 180 / M_PI);
+  EXPECT_TRUE(isCertain(degrees));
+  Arm turned = arm();
+  turned.change("arm.shoulder.position_rad", -1);
+  EXPECT_TRUE(isCertain(turned));
+  Arm mixed = arm();
+  std::swap(mixed.column("arm.shoulder.position_rad"), mixed.column("arm.elbow.position_rad"));
+  EXPECT_TRUE(isCertain(mixed));
+  Arm slow = arm();
+  for (double& time : slow.recording.columns[0]) time *= 1000;
+  EXPECT_TRUE(isCertain(slow));
+  // A joint that friction holds stands still or hardly moves, and a sensor may be off.
+  Arm still = arm();
+  still.change("arm.elbow.position_rad", 0, 0.6);
+  EXPECT_FALSE(isCertain(still));
+  Arm held = arm();
+  held.change("arm.shoulder.position_rad", M_PI / 180);
+  EXPECT_FALSE(isCertain(held));
+  Arm off = arm();
+  off.change("arm.elbow.position_rad", 1, 0.3);
+  EXPECT_FALSE(isCertain(off));
+}
+
+TEST(JointDoctor, FindsAMeasurementThatIsAheadOfItsCommand) {
+  for (const std::size_t rows : {25u, 40u}) {
+    Arm made = arm();
+    auto& position = made.column("arm.shoulder.position_rad");
+    std::rotate(position.begin(), position.begin() + static_cast<std::ptrdiff_t>(rows), position.end());
+    made.recording.columns[0].resize(position.size() - rows);
+    for (auto& column : made.recording.columns) column.resize(made.recording.rows());
+    EXPECT_THAT(made.findings(),
+                testing::Contains(AllOf(HasSubstr("arm.shoulder.position_rad moves 0."),
+                                        HasSubstr(" s before arm.shoulder.command_rad does"), HasSubstr("clocks"))))
+        << rows;
+  }
+}
+
+TEST(JointDoctor, SaysNothingOfAColumnWithoutNumbers) {
+  Arm made = arm();
+  made.change("arm.elbow.position_rad", std::nan(""));
+  EXPECT_THAT(made.findings(), IsEmpty());
 }
 
 TEST(JointDoctor, TellsMillimetresFromMetres) {
@@ -195,11 +253,11 @@ TEST(JointDoctor, FindsNothingInTheXl330Recordings) {
   for (const auto& entry : fs::directory_iterator(fs::is_directory(folder) ? folder : own)) {
     if (entry.path().extension() != ".csv") continue;
     Recording recording = loadRecording(entry.path().string(), &mapping);
-    EXPECT_THAT(doctor(scene, recording, bind(scene, recording)), IsEmpty()) << entry.path();
+    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording))), IsEmpty()) << entry.path();
     // The same log with a turned sign or in degrees is found out, unless its motion is too fast to tell.
     auto& position = recording.columns[static_cast<std::size_t>(recording.column("xl330.shoulder.position_rad"))];
     for (double& value : position) value *= 180 / M_PI;
-    EXPECT_THAT(doctor(scene, recording, bind(scene, recording)), ElementsAre(HasSubstr("is in degrees")))
+    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording))), ElementsAre(HasSubstr("is in degrees")))
         << entry.path();
     ++logs;
   }

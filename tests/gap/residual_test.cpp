@@ -148,7 +148,7 @@ TEST(Residual, HoldsTheLastInputOverEmptyCells) {
   addColumn(recording, "rig.rail.velocity_m_s", [](double) { return 0; });
   EXPECT_NEAR(residual(scene, {recording}).channels[0].simulated[3], 4 * 0.3 / 2, 4 * 0.0005 / 2);
   recording.columns[1][0] = nothing;
-  EXPECT_THAT(refusalOf(scene, recording), HasSubstr("an empty first cell of \"rig.rail.force_n\""));
+  EXPECT_THAT(refusalOf(scene, recording), HasSubstr("(rig.rail.force_n): an empty cell"));
 }
 
 TEST(Residual, SwingsFreelyWhileTheServoIsSwitchedOff) {
@@ -262,6 +262,14 @@ TEST(Residual, SaysWhatItCouldNotUse) {
       testing::ElementsAre("trial.csv: column \"x\" is not mapped to a channel; kept, not used",
                            "trial.csv: rig.hinge: no command column; its servo holds the starting position",
                            "trial.csv: rig.hinge.current_a: the simulator has no such quantity here; not compared"));
+}
+
+TEST(Residual, TellsMillisecondsBeforeItReplaysThem) {
+  std::vector<double> times;
+  for (int i = 0; i < 60; ++i) times.push_back(10 * i);
+  Recording recording = recordingAt(times);
+  addColumn(recording, "rig.hinge.position_rad", [](double) { return 0; });
+  EXPECT_THAT(refusalOf(rigScene(servo), recording), HasSubstr("milliseconds, it seems"));
 }
 
 TEST(Residual, SaysWhenTheStepIsTooCoarse) {

@@ -1,6 +1,8 @@
 // The gap page: a stored report shown, the map and its plots, effects with their reasons, adoption, the mapping form.
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
@@ -24,6 +26,7 @@
 #include "ui/gap/gap_plots.h"
 #include "ui/gap/ghost_replay.h"
 #include "ui/gap/heat_map.h"
+#include "ui/gap/mapping_draft.h"
 #include "ui/gap/mapping_form.h"
 #include "ui/gap/report_view.h"
 
@@ -299,6 +302,7 @@ class TestGapPage : public QObject {
     const std::string text =
         R"({"time_s": {"column": "t_ms", "scale": 0.001},
             "leg.knee.position_rad": {"column": "q", "scale": -0.5, "offset": 0.25, "optional": true},
+            "segments": {"column": "extra"}, "resample": {"period_s": 0.01, "lowpass_hz": 20},
             "settings": [{"file_contains": "kp8", "values": {"robots.leg.servos.knee.p": 8}}]})";
     file(folder, "swing.mapping.json", text);
     MappingForm form;
@@ -318,6 +322,26 @@ class TestGapPage : public QObject {
       QCOMPARE(after.columns[i].optional, before.columns[i].optional);
     }
     QCOMPARE(after.settings.size(), std::size_t(1));
+    QCOMPARE(after.segmentColumn, before.segmentColumn);
+    QCOMPARE(after.period_s, 0.01);
+    QCOMPARE(after.lowpass_hz, 20.0);
+  }
+
+  void everyShippedMappingCanBeKept() {
+    const QDir folder(SOURCE_DIR "/resources/scenes");
+    const QStringList names = folder.entryList({"*.mapping.json"});
+    QVERIFY(names.size() > 3);
+    for (const QString& name : names) {
+      const Mapping before = loadMapping(folder.filePath(name).toStdString());
+      const MappingDraft draft = MappingDraft::fromJson(readFile(before.source), before.source);
+      QCOMPARE(draft.rows.size(), before.columns.size());
+      const Mapping after = mappingFromJson(draft.toJson(), before.source);
+      QCOMPARE(after.columns.size(), before.columns.size());
+      QCOMPARE(after.settings.size(), before.settings.size());
+      QCOMPARE(after.segmentColumn, before.segmentColumn);
+      QCOMPARE(after.period_s, before.period_s);
+      QCOMPARE(after.lowpass_hz, before.lowpass_hz);
+    }
   }
 
   void whatIsNotAllowedIsMarkedSaidAndNotSaved() {
@@ -396,6 +420,37 @@ class TestGapPage : public QObject {
     QVERIFY(setup.mapping().isValid());
     setup.findChild<QLineEdit*>("seed")->setText("-1");
     QVERIFY(setup.problem().contains("-1 is not allowed"));
+  }
+
+  void whatTheDoctorSaysStandsThereBeforeTheStart() {
+    QTemporaryDir folder;
+    AnalysisSetup setup;
+    setup.setScene(SOURCE_DIR "/resources/scenes/xl330.json");
+    const QString good = SOURCE_DIR "/tests/data/bam_xl330/lift_and_drop_kp200_2026-01-15_10h28m49.csv";
+    const QString bad = folder.filePath("kp200.csv");
+    QVERIFY(QFile::copy(good, bad));
+    setup.addRecordings({good});
+    auto& start = *setup.findChild<QPushButton*>("startAnalysis");
+    auto& said = *setup.findChild<QLabel*>("doctorSays");
+    auto& anyway = *setup.findChild<QCheckBox*>("asRecorded");
+    QVERIFY(start.isEnabled());
+    QVERIFY(!said.text().contains("a sign is turned"));
+    QVERIFY(anyway.isHidden());
+
+    // The same file with a mapping that turns the position's sign.
+    std::string text = readFile(SOURCE_DIR "/resources/scenes/xl330.mapping.json");
+    MappingDraft draft = MappingDraft::fromJson(text, "xl330.mapping.json");
+    for (MappingRow& row : draft.rows)
+      if (row.channel == "xl330.shoulder.position_rad") row.flipped = !row.flipped;
+    file(folder, "kp200.mapping.json", draft.toJson().c_str());
+    setup.addRecordings({bad});
+    QVERIFY(said.text().contains("kp200.csv: xl330.shoulder.position_rad moves against"));
+    QVERIFY(!anyway.isHidden());
+    QVERIFY(!start.isEnabled());
+    QVERIFY(setup.problem().contains("not what its name says"));
+    anyway.setChecked(true);
+    QVERIFY(start.isEnabled());
+    QVERIFY(argumentsOf(setup.job()).contains("--as-recorded"));
   }
 
   void aVersionOfTheRunCanBeWhatIsAnalysed() {

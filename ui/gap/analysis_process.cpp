@@ -9,6 +9,7 @@ QStringList argumentsOf(const AnalysisJob& job) {
   if (!job.mapping.isEmpty()) arguments << "--mapping" << job.mapping;
   if (!job.simulator.isEmpty()) arguments << "--simulator" << job.simulator;
   if (job.jobs > 0) arguments << "--jobs" << QString::number(job.jobs);
+  if (job.asRecorded) arguments << "--as-recorded";
   return arguments << "--seed" << QString::number(job.seed) << "--out" << job.out << "--progress";
 }
 

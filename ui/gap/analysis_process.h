@@ -12,14 +12,15 @@ struct AnalysisJob {
   QString mapping, simulator, out;  ///< empty: none; out is needed
   int jobs = 0;                     ///< 0: as the program decides
   quint64 seed = 1;
+  bool asRecorded = false;  ///< whatever the doctor is certain of
   bool operator==(const AnalysisJob&) const = default;
 };
 
 /// The arguments of "btr gap analyse" for a job.
 QStringList argumentsOf(const AnalysisJob& job);
 
-/// Runs "btr gap analyse" beside the window: ends with the report's folder. An analysis that nobody waits for is started
-/// with btr itself.
+/// Runs "btr gap analyse" beside the window: ends with the report's folder. An analysis that nobody waits for is
+/// started with btr itself.
 class AnalysisProcess : public ProgramProcess {
   Q_OBJECT
  public:

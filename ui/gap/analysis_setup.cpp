@@ -1,5 +1,6 @@
 #include "ui/gap/analysis_setup.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QCryptographicHash>
 #include <QDir>
@@ -162,6 +163,17 @@ QWidget* AnalysisSetup::makeInputs() {
   row->addWidget(recordings_, 1);
   row->addLayout(buttons);
   form->addRow(tr("Recordings"), row);
+  doctorSays_ = new QLabel(inputs);
+  doctorSays_->setObjectName("doctorSays");
+  doctorSays_->setWordWrap(true);
+  doctorSays_->setTextFormat(Qt::PlainText);
+  doctorSays_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  doctorSays_->setAccessibleName(tr("What is odd about the recordings"));
+  asRecorded_ = new QCheckBox(tr("Analyse &as recorded, whatever the columns look like"), inputs);
+  asRecorded_->setObjectName("asRecorded");
+  connect(asRecorded_, &QCheckBox::toggled, this, [this] { refresh(); });
+  form->addRow(doctorSays_);
+  form->addRow(asRecorded_);
   form->addRow(tr("Simu&lator"), simulator_);
   form->addRow(tr("Re&port in"), withButton(out_, button("folder-new", tr("Choose…"), [this] {
                                               const QString chosen = QFileDialog::getExistingDirectory(
@@ -198,6 +210,7 @@ void AnalysisSetup::readScene() {
     ModelSet models = loadModels(spec);
     spec_ = std::move(spec);
     models_ = std::move(models);
+    sceneRead_ = scene();
     mapping_->setChannels(channelsOf(spec_, models_));
     emit sceneChanged(scene());
   } catch (const std::exception& error) {
@@ -279,6 +292,7 @@ AnalysisJob AnalysisSetup::job() const {
   job.heldOut = files(true);
   job.out = out_->text().trimmed();
   job.seed = seed_->text().trimmed().toULongLong();
+  job.asRecorded = certain_ && asRecorded_->isChecked();
   return job;
 }
 
@@ -294,6 +308,8 @@ QString AnalysisSetup::problem() const {
   if (!isSeed) return tr("Seed: %1 is not allowed; a whole number from 0").arg(seed_->text());
   if (!mapping_->recording().isEmpty() && mapping_->isChanged())
     return tr("The mapping has changes that are not saved.");
+  if (certain_ && !asRecorded_->isChecked())
+    return tr("A column is certainly not what its name says: mend the mapping, or analyse as recorded.");
   return {};
 }
 
@@ -324,6 +340,32 @@ void AnalysisSetup::setRunning(bool running) {
   refresh();
 }
 
+// Before physics is blamed: what the columns themselves say, by recording; the same words stand once.
+void AnalysisSetup::askDoctor() {
+  constexpr qsizetype mostLines = 6;
+  QStringList lines;
+  QStringList said;
+  certain_ = false;
+  for (int row = 0; row < recordings_->rowCount() && !spec_.robots.empty(); ++row) {
+    const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
+    const RecordingDoctor::Opinion& opinion = doctor_.of(path, mappingOf(path), sceneRead_, spec_, models_);
+    certain_ = certain_ || opinion.certain;
+    recordings_->item(row, file)->setToolTip((QStringList{path} + opinion.findings).join('\n'));
+    for (const QString& text : opinion.findings) {
+      if (said.contains(text)) continue;
+      said << text;
+      lines << QFileInfo(path).fileName() + ": " + text;
+    }
+  }
+  if (lines.size() > mostLines) {
+    const qsizetype more = lines.size() - mostLines;
+    lines = lines.mid(0, mostLines) << tr("and %1 more, see the recordings' tips").arg(more);
+  }
+  doctorSays_->setText(lines.join('\n'));
+  doctorSays_->setVisible(!lines.isEmpty());
+  asRecorded_->setVisible(certain_);
+}
+
 void AnalysisSetup::refresh() {
   for (int row = 0; row < recordings_->rowCount(); ++row) {
     const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
@@ -331,6 +373,7 @@ void AnalysisSetup::refresh() {
     recordings_->item(row, mapped)->setText(found.isEmpty() ? tr("none") : QFileInfo(found).fileName());
     recordings_->item(row, mapped)->setToolTip(found);
   }
+  askDoctor();
   const QString missing = problem();
   problem_->setText(missing);
   problem_->setVisible(!running_);

@@ -3,7 +3,9 @@
 
 #include "core/sim/scene.h"
 #include "ui/gap/analysis_process.h"
+#include "ui/gap/recording_doctor.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QLineEdit;
@@ -60,6 +62,7 @@ class AnalysisSetup : public QWidget {
   void openMapping();
   QString mappingOf(const QString& recording) const;
   void refresh();
+  void askDoctor();
   QStringList files(bool heldOut) const;
   QString seenHeldOut() const;  ///< a held-out file whose bytes are fitted, too; empty: none
 
@@ -67,11 +70,15 @@ class AnalysisSetup : public QWidget {
   QComboBox* simulator_;
   QTableWidget* recordings_;
   MappingForm* mapping_;
-  QLabel* problem_;
+  QLabel *problem_, *doctorSays_;
+  QCheckBox* asRecorded_;
   QProgressBar* progress_;
   QPushButton *start_, *cancel_;
   SceneSpec spec_;
+  QString sceneRead_;  ///< that spec_ was read from; what is being typed is another
   ModelSet models_;
+  RecordingDoctor doctor_;
+  bool certain_ = false;  ///< the doctor: an analysis would refuse these recordings
   bool running_ = false;
 };
 

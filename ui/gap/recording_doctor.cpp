@@ -1,0 +1,53 @@
+#include "ui/gap/recording_doctor.h"
+
+#include <QDateTime>
+#include <QFileInfo>
+
+#include "core/gap/doctor.h"
+#include "core/gap/trial_scenes.h"
+
+namespace btr::ui {
+namespace {
+
+/// So much is read while the window waits.
+constexpr qint64 mostBytes = 8 << 20;
+
+/// Changes with the file's content, as far as its folder tells.
+QString stateOf(const QString& path) {
+  const QFileInfo info(path);
+  return path + '\n' + QString::number(info.size()) + '\n' + QString::number(info.lastModified().toMSecsSinceEpoch()) +
+         '\n';
+}
+
+RecordingDoctor::Opinion opinionOf(const QString& recording, const QString& mapping, const QString& scene,
+                                   const SceneSpec& spec, const ModelSet& models) {
+  RecordingDoctor::Opinion opinion;
+  if (QFileInfo(recording).size() > mostBytes) return opinion;
+  try {
+    const TrialScenes scenes{spec, models, {}};
+    for (const Recording& trial : loadTrialsFor(recording.toStdString(), mapping.toStdString(), scene.toStdString())) {
+      const Scene world = scenes.of(trial, {});
+      for (const Finding& finding : doctor(world, trial, bind(world, trial))) {
+        opinion.findings << QString::fromStdString(finding.text);
+        opinion.certain = opinion.certain || finding.certain;
+      }
+      for (const std::string& text : examine(trial).findings) opinion.findings << QString::fromStdString(text);
+    }
+  } catch (const std::exception& error) {
+    opinion.findings << QString::fromUtf8(error.what());
+  }
+  opinion.findings.removeDuplicates();
+  return opinion;
+}
+
+}  // namespace
+
+const RecordingDoctor::Opinion& RecordingDoctor::of(const QString& recording, const QString& mapping,
+                                                    const QString& scene, const SceneSpec& spec,
+                                                    const ModelSet& models) {
+  const QString key = stateOf(recording) + stateOf(mapping) + stateOf(scene);
+  const auto found = known_.constFind(key);
+  return found != known_.constEnd() ? *found : *known_.insert(key, opinionOf(recording, mapping, scene, spec, models));
+}
+
+}  // namespace btr::ui

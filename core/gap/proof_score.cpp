@@ -12,24 +12,24 @@ namespace {
 using Binomial = boost::math::binomial_distribution<double>;
 constexpr double tail = 0.025;
 
-std::string percent(double share) {
+std::string tenthPercent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
   return text;
 }
 
 std::string foundText(const Share& share) {
-  return percent(share.value()) + " (" + std::to_string(share.hits) + " of " + std::to_string(share.cases) + "; " +
-         percent(share.low()) + " to " + percent(share.high()) + ")";
+  return tenthPercent(share.value()) + " (" + std::to_string(share.hits) + " of " + std::to_string(share.cases) + "; " +
+         tenthPercent(share.low()) + " to " + tenthPercent(share.high()) + ")";
 }
 
 ProofBar atLeast(const std::string& question, const Share& share, double wanted) {
-  return {question, "at least " + percent(wanted), share.cases ? foundText(share) : "no such case", share.cases > 0,
-          share.cases > 0 && share.value() >= wanted};
+  return {question, "at least " + tenthPercent(wanted), share.cases ? foundText(share) : "no such case",
+          share.cases > 0, share.cases > 0 && share.value() >= wanted};
 }
 
 ProofBar atMost(const std::string& question, const Share& share, double wanted) {
-  return {question, "at most " + percent(wanted), share.cases ? foundText(share) : "no such case", share.cases > 0,
+  return {question, "at most " + tenthPercent(wanted), share.cases ? foundText(share) : "no such case", share.cases > 0,
           share.cases > 0 && share.value() <= wanted};
 }
 
@@ -44,10 +44,11 @@ std::vector<ProofBar> barsOf(const ProofGroup& all) {
       atMost("An effect from outside the library gets a confident wrong name", all.confidentlyWrong, 0.05)};
   const double error = middleOf(all.parameterErrors);
   const bool asked = !all.parameterErrors.empty();
-  bars.insert(bars.begin() + 5,
-              {"Parameters of the effects named, median error", "at most " + percent(0.1),
-               asked ? percent(error) + " (" + std::to_string(all.parameterErrors.size()) + " values)" : "no such case",
-               asked, asked && error <= 0.1});
+  bars.insert(
+      bars.begin() + 5,
+      {"Parameters of the effects named, median error", "at most " + tenthPercent(0.1),
+       asked ? tenthPercent(error) + " (" + std::to_string(all.parameterErrors.size()) + " values)" : "no such case",
+       asked, asked && error <= 0.1});
   // The issue asks for at least 200 cases with nothing missing and 400 in all.
   const int healthy = all.falseAlarms.cases;
   bars.push_back({"Cases in all, and with nothing missing", "at least 400 and 200",

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/gap/proof_score.h"
+#include "core/gap/svg.h"
 
 namespace btr {
 namespace {
@@ -16,22 +17,22 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-std::string number(double value, const char* format) {
+std::string formatted(double value, const char* format) {
   if (!std::isfinite(value)) return "-";
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-std::string brief(const Share& share) {
+std::string hitsText(const Share& share) {
   if (share.cases == 0) return "-";
   return std::to_string(share.hits) + "/" + std::to_string(share.cases);
 }
 
 std::string withInterval(const Share& share) {
   if (share.cases == 0) return "-";
-  return brief(share) + " = " + number(100 * share.value(), "%.1f") + " % (" + number(100 * share.low(), "%.1f") +
-         " to " + number(100 * share.high(), "%.1f") + ")";
+  return hitsText(share) + " = " + formatted(100 * share.value(), "%.1f") + " % (" +
+         formatted(100 * share.low(), "%.1f") + " to " + formatted(100 * share.high(), "%.1f") + ")";
 }
 
 Table barTable(const ProofScore& score) {
@@ -50,10 +51,10 @@ Table otherTable(const ProofGroup& all) {
            {"numbers changed without need (nothing was wrong)", withInterval(all.numbersChanged)},
            {"sizes of named effects within their 95 % interval", withInterval(all.parametersCovered)},
            {"calibrated numbers within theirs, verdict right", withInterval(all.calibratedCovered)},
-           {"error in fresh recordings over noise, median", number(middleOf(all.heldOut), "%.3f")},
-           {"calibrated numbers, median error", number(100 * middleOf(all.calibratedErrors), "%.2f %%")},
+           {"error in fresh recordings over noise, median", formatted(middleOf(all.heldOut), "%.3f")},
+           {"calibrated numbers, median error", formatted(100 * middleOf(all.calibratedErrors), "%.2f %%")},
            {"analyses that failed", std::to_string(all.failed) + " of " + std::to_string(all.cases)},
-           {"time of an analysis, median", number(middleOf(all.seconds), "%.1f s")}}};
+           {"time of an analysis, median", formatted(middleOf(all.seconds), "%.1f s")}}};
 }
 
 Share together(const Share& a, const Share& b) { return {a.hits + b.hits, a.cases + b.cases}; }
@@ -67,12 +68,13 @@ Table groupTable(const std::string& title, const std::vector<std::pair<std::stri
        "in interval", "error/noise", "parameters", "seconds"},
       {}};
   for (const auto& [name, group] : groups)
-    table.rows.push_back(
-        {name, std::to_string(group.cases), brief(group.falseAlarms), brief(group.named), brief(group.alone),
-         brief(group.bothNamed), brief(group.location), brief(group.heldOutNear), brief(group.confidentlyWrong),
-         brief(group.numbersChanged), brief(together(group.parametersCovered, group.calibratedCovered)),
-         number(middleOf(group.heldOut), "%.3f"), number(100 * middleOf(group.parameterErrors), "%.1f %%"),
-         number(middleOf(group.seconds), "%.1f")});
+    table.rows.push_back({name, std::to_string(group.cases), hitsText(group.falseAlarms), hitsText(group.named),
+                          hitsText(group.alone), hitsText(group.bothNamed), hitsText(group.location),
+                          hitsText(group.heldOutNear), hitsText(group.confidentlyWrong), hitsText(group.numbersChanged),
+                          hitsText(together(group.parametersCovered, group.calibratedCovered)),
+                          formatted(middleOf(group.heldOut), "%.3f"),
+                          formatted(100 * middleOf(group.parameterErrors), "%.1f %%"),
+                          formatted(middleOf(group.seconds), "%.1f")});
   return table;
 }
 
@@ -143,23 +145,17 @@ void writeText(std::ostream& out, const Table& table) {
   out << "\n";
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return safe;
-}
-
 void writeHtml(std::ostream& out, const Table& table) {
-  out << "<h2>" << escaped(table.title) << "</h2>\n";
-  if (!table.note.empty()) out << "<p>" << escaped(table.note) << "</p>\n";
+  out << "<h2>" << svg::escaped(table.title) << "</h2>\n";
+  if (!table.note.empty()) out << "<p>" << svg::escaped(table.note) << "</p>\n";
   out << "<table><tr>";
-  for (const auto& cell : table.header) out << "<th>" << escaped(cell) << "</th>";
+  for (const auto& cell : table.header) out << "<th>" << svg::escaped(cell) << "</th>";
   out << "</tr>\n";
   for (const auto& row : table.rows) {
     out << "<tr>";
     for (const auto& cell : row) {
       const std::string kind = cell == "met" ? " class=\"met\"" : cell == "NOT MET" ? " class=\"missed\"" : "";
-      out << "<td" << kind << ">" << escaped(cell) << "</td>";
+      out << "<td" << kind << ">" << svg::escaped(cell) << "</td>";
     }
     out << "</tr>\n";
   }

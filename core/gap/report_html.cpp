@@ -47,7 +47,7 @@ svg text { font: 12px "DejaVu Sans", Verdana, Helvetica, sans-serif; fill: var(-
 std::string cell(const std::string& content, bool isNumber = false) {
   return std::string(isNumber ? "<td class=\"n\">" : "<td>") + escaped(content) + "</td>";
 }
-std::string number(double value) { return cell(brief(value), true); }
+std::string numberCell(double value) { return cell(brief(value), true); }
 
 std::string headerRow(std::initializer_list<const char*> names, std::size_t words) {
   std::string row = "<tr>";
@@ -84,7 +84,7 @@ std::string effectsTable(const GapReport& report) {
     html += std::string(e.accepted ? "<tr>" : "<tr class=\"no\">") + cell(inWords(e.effect)) + cell(e.at) + "<td>" +
             (e.accepted ? "<b>accepted</b>" : "rejected") + (e.reason.empty() ? "" : ": " + escaped(e.reason)) +
             (parameters.empty() ? "" : "<br><span class=\"faint\">" + escaped(parameters) + "</span>") + "</td>" +
-            cell(rivals) + cell(percent(e.heldoutErrorReduction), true) + number(e.pValue) + number(e.qValue) +
+            cell(rivals) + cell(percent(e.heldoutErrorReduction), true) + numberCell(e.pValue) + numberCell(e.qValue) +
             cell(e.screenRank > 0 ? std::to_string(e.screenRank) + " (" + percent(e.screenShare) + ")" : "–", true) +
             "</tr>\n";
   }
@@ -104,7 +104,7 @@ std::string calibratedTable(const GapReport& report) {
             cell(!n.excited  ? "the recordings do not tell it"
                  : n.atBound ? "at its bound"
                              : "") +
-            number(n.before) + number(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) + "</tr>\n";
+            numberCell(n.before) + numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) + "</tr>\n";
   html += "</table></div>\n";
   if (!report.strongCorrelations.empty()) {
     html += "<p class=\"faint\">Hardly separated by these recordings: ";
@@ -122,8 +122,9 @@ std::string channelsTable(const GapReport& report) {
                                                 2);
   bool heldOut = false;
   for (const GapReport::Channel& c : report.channels) {
-    html += "<tr>" + cell(c.name) + cell(c.unit) + number(c.noiseFloor) + number(c.asGiven) + number(c.calibrated) +
-            number(c.withEffects) + number(c.maeWithEffects) + number(c.stepError) + "</tr>\n";
+    html += "<tr>" + cell(c.name) + cell(c.unit) + numberCell(c.noiseFloor) + numberCell(c.asGiven) +
+            numberCell(c.calibrated) + numberCell(c.withEffects) + numberCell(c.maeWithEffects) +
+            numberCell(c.stepError) + "</tr>\n";
     heldOut = heldOut || c.heldoutAsGiven != 0 || c.heldoutCalibrated != 0 || c.heldoutWithEffects != 0;
   }
   html +=
@@ -137,9 +138,9 @@ std::string channelsTable(const GapReport& report) {
                                                  "with effects", "mean |error| as given", "calibrated", "with effects"},
                                                 2);
   for (const GapReport::Channel& c : report.channels)
-    html += "<tr>" + cell(c.name) + cell(c.unit) + number(c.heldoutAsGiven) + number(c.heldoutCalibrated) +
-            number(c.heldoutWithEffects) + number(c.heldoutMaeAsGiven) + number(c.heldoutMaeCalibrated) +
-            number(c.heldoutMaeWithEffects) + "</tr>\n";
+    html += "<tr>" + cell(c.name) + cell(c.unit) + numberCell(c.heldoutAsGiven) + numberCell(c.heldoutCalibrated) +
+            numberCell(c.heldoutWithEffects) + numberCell(c.heldoutMaeAsGiven) + numberCell(c.heldoutMaeCalibrated) +
+            numberCell(c.heldoutMaeWithEffects) + "</tr>\n";
   return html + "</table></div>\n";
 }
 

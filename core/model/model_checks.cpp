@@ -10,6 +10,46 @@
 namespace btr {
 namespace {
 
+// As in scene files: far beyond every robot, and the squares and products of such numbers stay finite.
+constexpr double lightest_kg = 1e-6, largestNumber = 1e6;
+
+void checkLargest(double value, const std::string& what, int line, const std::string& place) {
+  if (!(std::abs(value) <= largestNumber))
+    throw InputError(place, line,
+                     what + " " + toText(value) + " is not allowed; " + toText(-largestNumber) + " to " +
+                         toText(largestNumber) + " is expected");
+}
+
+void checkSizes(const Link& link, const std::string& place) {
+  const std::string name = "link " + link.name + ": ";
+  for (const Shape& shape : link.shapes) {
+    checkLargest(shape.size_m.cwiseAbs().maxCoeff(), name + "the size of a shape", link.line, place);
+    checkLargest(shape.pose.translation().cwiseAbs().maxCoeff(), name + "the place of a shape", link.line, place);
+    for (const Eigen::Vector3f& vertex : shape.vertices)
+      checkLargest(vertex.cwiseAbs().maxCoeff(), name + "a corner of a mesh", link.line, place);
+  }
+}
+
+void checkServo(const Joint& joint, const std::string& place) {
+  const ServoData& s = joint.servo;
+  const std::string name = "joint " + joint.name + ": ";
+  const auto check = [&](const std::optional<double>& value, const char* what) {
+    if (value) checkLargest(*value, name + what, joint.line, place);
+  };
+  check(s.p_nm_rad, "the proportional gain");
+  check(s.i_nm_rad_s, "the integral gain");
+  check(s.d_nm_s_rad, "the damping of the servo");
+  check(s.maxTorque_nm, "the largest torque");
+  check(s.noLoadSpeed_rad_s, "the no-load speed");
+  check(s.coulombFriction_nm, "the dry friction");
+  check(s.viscousFriction_nm_s_rad, "the viscous friction");
+  check(s.backlash_rad, "the backlash");
+  check(s.commandDelay_s, "the delay of commands");
+  check(s.gearRatio, "the gear ratio");
+  check(s.rotorInertia_kg_m2, "the rotor's inertia");
+  check(joint.speedLimit, "the speed limit");
+}
+
 /// Eigenvalues must be those of a body with mass: positive, none larger than the sum of the others. Files have few
 /// digits, so a thin plate may miss the second by a ten thousandth.
 void checkInertia(const Link& link, const std::string& place) {
@@ -19,6 +59,7 @@ void checkInertia(const Link& link, const std::string& place) {
   const double size = inertia.cwiseAbs().maxCoeff();
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-6 * size)
     throw InputError(place, link.line, name + "must be symmetric");
+  checkLargest(size, "link " + link.name + ": the inertia [kg m2]", link.line, place);
   // Scaled first: squares of very small moments would vanish.
   if (!(size > 0)) throw InputError(place, link.line, name + "must be positive definite");
   const Eigen::Vector3d moments =
@@ -33,12 +74,14 @@ void checkInertia(const Link& link, const std::string& place) {
 void checkLink(const Link& link, bool mayBeMassless, const std::string& place) {
   const Inertial& inertial = link.inertial;
   if (mayBeMassless && inertial.mass_kg == 0) return;
-  if (!(inertial.mass_kg > 0) || !std::isfinite(inertial.mass_kg))
-    throw InputError(
-        place, link.line,
-        "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; greater than 0 is expected");
+  if (!(inertial.mass_kg >= lightest_kg && inertial.mass_kg <= largestNumber))
+    throw InputError(place, link.line,
+                     "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; " +
+                         toText(lightest_kg) + " to " + toText(largestNumber) + " kg is expected");
   if (!inertial.centreOfMass_m.allFinite())
     throw InputError(place, link.line, "link " + link.name + ": centre of mass must be finite");
+  checkLargest(inertial.centreOfMass_m.cwiseAbs().maxCoeff(), "link " + link.name + ": the centre of mass [m]",
+               link.line, place);
   checkInertia(link, place);
 }
 
@@ -47,6 +90,8 @@ void checkJoint(const Joint& joint, std::size_t number, const std::string& place
   if (joint.parentLink < 0 || static_cast<std::size_t>(joint.parentLink) > number)
     throw InputError(place, joint.line, name + "its parent link must come before it");
   if (!joint.origin.matrix().allFinite()) throw InputError(place, joint.line, name + "its place must be finite");
+  checkLargest(joint.origin.translation().cwiseAbs().maxCoeff(), name + "its place [m]", joint.line, place);
+  checkServo(joint, place);
   if (joint.type == Joint::Type::fixed) return;
   if (!(std::abs(joint.axis.stableNorm() - 1) < 1e-6))
     throw InputError(place, joint.line,
@@ -90,6 +135,7 @@ void checkModel(const RobotModel& model, const std::string& place) {
     if (link.name.empty()) throw InputError(place, link.line, "a link without a name is not allowed");
     links.add(link.name, link.line);
     // A base that stands in the world needs no mass.
+    checkSizes(link, place);
     checkLink(link, i == 0 && !model.freeBase, place);
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {

@@ -265,7 +265,9 @@ class UrdfReader {
     }
     const auto notNegative = [&](const XMLElement* from, const char* name) {
       const auto value = numberIfAny(from, name);
-      if (value && *value < 0) fail(*from, std::string(name) + " must not be negative");
+      if (value && *value < 0)
+        fail(*from, "joint " + shown(joint.name) + ": " + name + " " + toText(*value) +
+                        " is not allowed; 0 or more is expected");
       return value;
     };
     if (const auto effort = notNegative(limit, "effort"); effort && *effort > 0) joint.servo.maxTorque_nm = effort;

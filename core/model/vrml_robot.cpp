@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/model/kinematics.h"
 #include "core/model/vrml_scanner.h"
 #include "core/model/vrml_shapes.h"
 #include "core/spec/error.h"
+#include "core/spec/parameter.h"
 
 namespace btr::vrml {
 namespace {
@@ -141,7 +143,8 @@ class RobotBuilder {
       if (moments->numbers.size() != 9) document_.fail(node, "Segment.momentsOfInertia: 9 numbers are expected");
       own.inertia_kg_m2 = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(moments->numbers.data());
     }
-    if (own.mass_kg < 0) document_.fail(node, "Segment.mass must not be negative");
+    if (own.mass_kg < 0)
+      document_.fail(node, "Segment.mass " + toText(own.mass_kg) + " is not allowed; 0 or more is expected");
     model_.links[at].inertial = combined(model_.links[at].inertial, carried(own, pose));
 
     Place inner = place;
@@ -274,24 +277,26 @@ Vector3d RobotBuilder::readAxis(const Node& node) const {
 }
 
 ServoData RobotBuilder::readServo(const Node& node) const {
-  const auto number = [&](const char* field, double least) -> std::optional<double> {
+  const auto number = [&](const char* field) -> std::optional<double> {
     if (!node.given(field)) return std::nullopt;
     const double value = realField(document_, node, field, 0);
-    if (value < least) document_.fail(node, std::string("Joint.") + field + " must not be negative");
+    if (value < 0 && std::string_view(field) != "gearRatio")
+      document_.fail(node,
+                     std::string("Joint.") + field + " " + toText(value) + " is not allowed; 0 or more is expected");
     return value;
   };
   ServoData servo;
-  servo.p_nm_rad = number("pGain", 0);
-  servo.i_nm_rad_s = number("iGain", 0);
-  servo.d_nm_s_rad = number("dGain", 0);
-  servo.maxTorque_nm = number("maxTorque", 0);
-  servo.noLoadSpeed_rad_s = number("noLoadSpeed", 0);
-  servo.coulombFriction_nm = number("coulombFriction", 0);
-  servo.viscousFriction_nm_s_rad = number("viscousFriction", 0);
-  servo.backlash_rad = number("backlash", 0);
-  servo.commandDelay_s = number("commandDelay", 0);
-  servo.gearRatio = number("gearRatio", -1e9);
-  servo.rotorInertia_kg_m2 = number("rotorInertia", 0);
+  servo.p_nm_rad = number("pGain");
+  servo.i_nm_rad_s = number("iGain");
+  servo.d_nm_s_rad = number("dGain");
+  servo.maxTorque_nm = number("maxTorque");
+  servo.noLoadSpeed_rad_s = number("noLoadSpeed");
+  servo.coulombFriction_nm = number("coulombFriction");
+  servo.viscousFriction_nm_s_rad = number("viscousFriction");
+  servo.backlash_rad = number("backlash");
+  servo.commandDelay_s = number("commandDelay");
+  servo.gearRatio = number("gearRatio");
+  servo.rotorInertia_kg_m2 = number("rotorInertia");
   return servo;
 }
 

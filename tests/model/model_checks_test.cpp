@@ -20,9 +20,25 @@ TEST(ModelChecks, AcceptTheSmallestRobot) {
 }
 
 TEST(ModelChecks, MassMustBePositive) {
-  EXPECT_THAT(refusedSegment("mass 0"), HasSubstr("robot.wrl:5: link ARM: mass 0 kg is not allowed; greater than 0"));
-  EXPECT_THAT(refusedSegment("mass -1"), HasSubstr("mass must not be negative"));
+  EXPECT_THAT(refusedSegment("mass 0"),
+              HasSubstr("robot.wrl:5: link ARM: mass 0 kg is not allowed; 1e-06 to 1000000 kg"));
+  EXPECT_THAT(refusedSegment("mass -1"), HasSubstr("mass -1 is not allowed; 0 or more"));
   EXPECT_THAT(vrmlRefusal(robotWithJoint("jointType \"rotate\" children Shape { }")), HasSubstr("twice"));
+}
+
+TEST(ModelChecks, NumbersAreThoseOfRobots) {
+  const std::string inertia = " momentsOfInertia [ 1 0 0 0 1 0 0 0 1 ]";
+  EXPECT_THAT(refusedSegment("mass 1e300" + inertia),
+              HasSubstr("link ARM: mass 1e+300 kg is not allowed; 1e-06 to 1000000"));
+  EXPECT_THAT(refusedSegment("mass 1e-7" + inertia), HasSubstr("mass 1e-07 kg is not allowed"));
+  EXPECT_THAT(refusedSegment("mass 1 momentsOfInertia [ 1e7 0 0 0 1e7 0 0 0 1e7 ]"),
+              HasSubstr("link ARM: the inertia [kg m2] 10000000 is not allowed; -1000000 to 1000000"));
+  EXPECT_THAT(refusedSegment("mass 1 centerOfMass 0 1e7 0" + inertia), HasSubstr("link ARM: the centre of mass [m]"));
+  EXPECT_THAT(refusedJoint("jointType \"rotate\" maxTorque 1e7"),
+              HasSubstr("the largest torque 10000000 is not allowed"));
+  EXPECT_THAT(refusedJoint("jointType \"rotate\" gearRatio -1e7"), HasSubstr("the gear ratio -10000000"));
+  EXPECT_THAT(refusedJoint("jointType \"rotate\" translation 1e30 0 0"), HasSubstr("its place [m]"));
+  EXPECT_THAT(vrmlRefusal(robotWith("Shape { geometry Sphere { radius 1e30 } }")), HasSubstr("the size of a shape"));
 }
 
 TEST(ModelChecks, ABaseThatStandsInTheWorldNeedsNoMass) {
@@ -110,7 +126,8 @@ TEST(ModelChecks, NothingWithMassStandsBelowAScale) {
 }
 
 TEST(ModelChecks, ServoNumbersAndSensorsHaveRanges) {
-  EXPECT_THAT(refusedJoint("jointType \"rotate\" maxTorque -1"), HasSubstr("Joint.maxTorque must not be negative"));
+  EXPECT_THAT(refusedJoint("jointType \"rotate\" maxTorque -1"),
+              HasSubstr("Joint.maxTorque -1 is not allowed; 0 or more"));
   EXPECT_THAT(vrmlRefusal(robotWith("VisionSensor { width 0 }")), HasSubstr("width and height from 1"));
   EXPECT_THAT(vrmlRefusal(robotWith("VisionSensor { fieldOfView 4 }")), HasSubstr("fieldOfView"));
   EXPECT_THAT(vrmlRefusal(robotWith("Shape { geometry Box { size 1 0 1 } }")),

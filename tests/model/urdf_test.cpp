@@ -202,7 +202,7 @@ TEST(HostileUrdf, JointsAreChecked) {
   EXPECT_THAT(with("revolute", "<axis xyz='0 2 0'/><limit lower='-1' upper='1'/>"), HasSubstr("unit vector"));
   EXPECT_THAT(with("planar", ""), HasSubstr("joint type \"planar\" is not allowed"));
   EXPECT_THAT(with("floating", ""), HasSubstr("floating is allowed only"));
-  EXPECT_THAT(with("revolute", "<dynamics damping='-1'/>"), HasSubstr("damping must not be negative"));
+  EXPECT_THAT(with("revolute", "<dynamics damping='-1'/>"), HasSubstr(": damping -1 is not allowed; 0 or more"));
   EXPECT_THAT(refused(link("a") + "<joint name='j' type='fixed'><parent link='a'/></joint>"),
               HasSubstr("needs a <child>"));
 }

@@ -107,7 +107,11 @@ std::vector<MeasurementRecord> readMeasuredCsv(std::istream& stream, const std::
 
 std::vector<MeasurementRecord> readMeasuredCsv(const std::string& path, const std::vector<MeasurementTask>* tasks) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a folder; a CSV file is needed");
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) throw InputError(path + ": is a folder; a CSV file is needed");
+  // Opening a pipe that nobody writes to would wait for ever.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError(path + ": is not a regular file; a CSV file is needed");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path + ": cannot be read (" + std::strerror(errno) + ")");
   return readMeasuredCsv(stream, path, tasks);

@@ -65,7 +65,7 @@ RealAnswer StandIn::measure(const std::vector<double>& parameters, int repeat, c
   while (sent < request.size()) {
     const ssize_t n = write(impl_->toChild, request.data() + sent, request.size() - sent);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw InputError("the stand-in reality has ended before it was asked");
+    if (n <= 0) break;  // it has ended; what it said before comes below
     sent += static_cast<std::size_t>(n);
   }
   std::size_t end;
@@ -78,7 +78,9 @@ RealAnswer StandIn::measure(const std::vector<double>& parameters, int repeat, c
   }
   JsonReader answer = JsonReader::parse(impl_->pending.substr(0, end), "answer of the stand-in reality");
   impl_->pending.erase(0, end + 1);
-  return {answer.number("fitness", -1e9, 1e9), answer.flag("void", false), answer.text("note", "")};
+  if (answer.has("error")) throw InputError("the stand-in reality: " + answer.text("error"));
+  return {answer.number("fitness", -largestFitness, largestFitness), answer.flag("void", false),
+          answer.text("note", "")};
 }
 
 std::string StandIn::programFor(const ExperimentSpec& spec) {

@@ -1,6 +1,7 @@
 #include "core/spec/csv.h"
 
 #include "core/spec/error.h"
+#include "core/spec/utf8.h"
 
 namespace btr {
 
@@ -101,6 +102,7 @@ bool CsvReader::next(std::vector<std::string>& fields) {
         append(field, static_cast<char>(take()), count);
       }
     }
+    requireUtf8(field, at(count));
     if (peek() != endOfFile && peek() == separator_) {
       take();
       continue;

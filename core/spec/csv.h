@@ -16,8 +16,8 @@ struct CsvLimits {
 /// Reads a table of comma-separated values (RFC 4180) row by row, in one pass and in constant memory. A byte order
 /// mark, empty lines and either line ending (LF, CRLF, also a lone CR) are accepted; quoted fields may hold separators,
 /// line breaks and doubled quotes. Spaces belong to the field. Throws InputError with line and column for a quote that
-/// is not closed or stands in the middle of a field, for a NUL byte (a binary file), for bytes that cannot be read, and
-/// beyond the limits. The stream is borrowed.
+/// is not closed or stands in the middle of a field, for a NUL byte (a binary file), for text that is not UTF-8, for
+/// bytes that cannot be read, and beyond the limits. The stream is borrowed.
 class CsvReader {
  public:
   /// `place` (usually the file's name) begins each message.

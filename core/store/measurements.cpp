@@ -1,6 +1,8 @@
 #include <cmath>
 
 #include "core/spec/error.h"
+#include "core/spec/parameter.h"
+#include "core/spec/utf8.h"
 #include "core/store/connection.h"
 #include "core/store/database.h"
 #include "core/store/insert.h"
@@ -19,7 +21,11 @@ MeasurementRecord measurementOf(const Query& row) {
 
 Id store(const Connection& connection, const MeasurementRecord& m) {
   const std::string place = connection.path() + " individual " + std::to_string(m.individual);
-  if (!std::isfinite(m.value)) throw InputError(place, "the value " + std::to_string(m.value), "a finite number");
+  if (!(std::abs(m.value) <= largestFitness))
+    throw InputError(place, "the value " + toText(m.value),
+                     "a finite number " + toText(-largestFitness) + " to " + toText(largestFitness));
+  requireUtf8(m.note, place + ", note");
+  requireUtf8(m.who, place + ", who measured");
   if (m.source != "person" && m.source != "stand_in")
     throw InputError(place, "the source \"" + m.source + "\"", "person or stand_in");
   countersOf(connection, m.run);
@@ -86,6 +92,7 @@ std::vector<Id> Database::addMeasurements(const std::vector<MeasurementRecord>& 
 }
 
 void Database::setMeasurementVoid(Id measurement, bool isVoid, const std::string& note) {
+  requireUtf8(note, path() + " measurement " + std::to_string(measurement) + ", note");
   connection_->write([&] {
     if (Query(*connection_, "UPDATE measurement SET is_void = ?, note = ? WHERE id = ?")
             .run(isVoid, note, measurement) == 0)

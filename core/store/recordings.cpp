@@ -1,4 +1,5 @@
 #include "core/spec/error.h"
+#include "core/spec/utf8.h"
 #include "core/store/connection.h"
 #include "core/store/database.h"
 #include "core/store/insert.h"
@@ -18,6 +19,8 @@ RecordingRecord recordingOf(const Query& row) {
 }  // namespace
 
 Id Database::addRecording(const RecordingRecord& r) {
+  requireUtf8(r.name, path() + " recording, name");
+  requireUtf8(r.source, path() + " recording, source");
   return connection_->write([&] {
     requireRow(*connection_, "experiment", r.experiment);
     if (r.individual != 0) requireRow(*connection_, "individual", r.individual);

@@ -104,6 +104,10 @@ struct MeasurementTask {
   int candidates = 0;                       ///< how many these were; 0: chosen as one of the best
 };
 
+/// What real fitness may be at most, and at least with a minus sign, whoever measured it: differences and squares of
+/// such values stay finite.
+inline constexpr double largestFitness = 1e9;
+
 /// One value typed in (or answered by the stand-in). Never deleted: a correction voids the old one.
 struct MeasurementRecord {
   Id id = 0;

@@ -35,6 +35,13 @@ TEST(CsvReader, ReadsRowsWithEitherLineEndingAndNoneAtTheEnd) {
   EXPECT_EQ(expected, rowsOf("a,b\r1,\r,2\r"));
 }
 
+TEST(CsvReader, RefusesTextThatIsNotUtf8WithLineAndColumn) {
+  EXPECT_EQ((std::vector<Row>{{"é", "m²"}}), rowsOf("é,m²\n"));
+  EXPECT_THAT(refusalOf("a,b\n1,d\xE9rap\n"),
+              HasSubstr("table.csv line 2, column 2: the byte 0xE9 (number 2 of the text)"));
+  EXPECT_THAT(refusalOf("a,\"\xFF\"\n"), HasSubstr("line 1, column 2"));
+}
+
 TEST(CsvReader, KeepsSeparatorsQuotesAndLineBreaksOfQuotedFields) {
   EXPECT_EQ((std::vector<Row>{{"a,b", "say \"no\"", "x\r\ny", ""}}),
             rowsOf("\"a,b\",\"say \"\"no\"\"\",\"x\r\ny\",\"\"\n"));

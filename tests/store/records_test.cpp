@@ -282,11 +282,15 @@ TEST_F(Records, MeasurementsThatNobodyAskedForAreRefusedAllTogether) {
   bad = good;
   bad.source = "guess";
   EXPECT_THAT(refusalOf(), HasSubstr("\"guess\" is not allowed; person or stand_in"));
-  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+  // Beyond the bounds of a stand-in's answers, gaps of it would not be finite any more.
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308, -1.000001e9}) {
     bad = good;
     bad.value = value;
     EXPECT_THAT(refusalOf(), HasSubstr("a finite number"));
   }
+  bad = good;
+  bad.note = "d\xE9rap\xE9";
+  EXPECT_THAT(refusalOf(), HasSubstr("individual 3, note: the byte 0xE9 (number 2 of the text) is not allowed"));
   EXPECT_TRUE(db_.measurements(run_).empty());
   EXPECT_THAT(refusal([&] { db_.setMeasurementVoid(1, true, ""); }), HasSubstr("measurement 1 is not in the database"));
   EXPECT_EQ(2u, db_.addMeasurements({good, good}).size());

@@ -5,14 +5,18 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "core/spec/error.h"
 
 namespace btr {
 namespace {
 
+// Beside the file itself: through a link to the database one finds the same lock.
 std::string lockPath(const std::string& databasePath, Id run, const std::string& what) {
-  return databasePath + "." + what + "-" + std::to_string(run) + ".lock";
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(databasePath, error);
+  return (error ? databasePath : real.string()) + "." + what + "-" + std::to_string(run) + ".lock";
 }
 
 // Locks of the open file, not of the process: they can be asked for without taking them, and they end with their

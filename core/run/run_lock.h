@@ -5,8 +5,9 @@
 
 namespace btr {
 
-/// Held by the one process that works on a run or a grid: a lock on the file "DATABASE.run-N.lock". The system lets go
-/// of it when the process ends in whatever way, so a killed run can be resumed at once.
+/// Held by the one process that works on a run or a grid: a lock on the file "DATABASE.run-N.lock" beside the
+/// database itself, whatever links it was named through. The system lets go of it when the process ends in whatever
+/// way, so a killed run can be resumed at once.
 class RunLock {
  public:
   /// Throws InputError if another process holds it or the file cannot be made. `what` is "run" or "grid".

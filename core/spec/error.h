@@ -18,4 +18,11 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 
+/// A step that could not be stored: the disk is full, or somebody keeps the database locked. What was stored before is
+/// sound, and the work goes on from there when it is asked to.
+class NotStored : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 }  // namespace btr

@@ -12,6 +12,38 @@
 #include "core/spec/error.h"
 
 namespace btr {
+namespace {
+
+// Why the operating system refused: asked of the connection, then of its file and its log.
+int systemErrorOf(SQLite::Database* database) {
+  if (database == nullptr) return 0;
+  sqlite3* handle = database->getHandle();
+  if (const int error = sqlite3_system_errno(handle); error != 0) return error;
+  for (const int which : {SQLITE_FCNTL_JOURNAL_POINTER, SQLITE_FCNTL_FILE_POINTER}) {
+    sqlite3_file* file = nullptr;
+    int error = 0;
+    if (sqlite3_file_control(handle, "main", which, &file) == SQLITE_OK && file != nullptr &&
+        file->pMethods != nullptr && file->pMethods->xFileControl(file, SQLITE_FCNTL_LAST_ERRNO, &error) == SQLITE_OK &&
+        error != 0)
+      return error;
+  }
+  return 0;
+}
+
+bool isDiskFull(SQLite::Database* database, int extendedCode) {
+  const int error = systemErrorOf(database);
+  const bool noSpace = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  return (extendedCode & 0xff) == SQLITE_FULL ||
+         ((extendedCode & 0xff) == SQLITE_IOERR && (noSpace || extendedCode == SQLITE_IOERR_SHMSIZE));
+}
+
+// Nothing is wrong with the file or the step: later it may succeed.
+bool isPassing(SQLite::Database* database, int extendedCode) {
+  const int code = extendedCode & 0xff;
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED || isDiskFull(database, extendedCode);
+}
+
+}  // namespace
 
 Connection::Connection(std::string path, std::unique_ptr<SQLite::Database> database)
     : path_(std::move(path)), database_(std::move(database)) {}
@@ -41,44 +73,23 @@ void Connection::transact(const std::function<void()>& work, bool writes) const 
     transaction->commit();
   } catch (const SQLite::Exception& error) {
     // Explained while the transaction is still there: rolling it back would overwrite the cause.
-    throw InputError(explain(path_, database_.get(), error.getExtendedErrorCode(), error.what()));
+    const int code = error.getExtendedErrorCode();
+    const std::string why = explain(path_, database_.get(), code, error.what());
+    if (isPassing(database_.get(), code)) throw NotStored(why);
+    throw InputError(why);
   }
 }
-
-namespace {
-
-// Why the operating system refused: asked of the connection, then of its file and its log.
-int systemErrorOf(SQLite::Database* database) {
-  if (database == nullptr) return 0;
-  sqlite3* handle = database->getHandle();
-  if (const int error = sqlite3_system_errno(handle); error != 0) return error;
-  for (const int which : {SQLITE_FCNTL_JOURNAL_POINTER, SQLITE_FCNTL_FILE_POINTER}) {
-    sqlite3_file* file = nullptr;
-    int error = 0;
-    if (sqlite3_file_control(handle, "main", which, &file) == SQLITE_OK && file != nullptr &&
-        file->pMethods != nullptr && file->pMethods->xFileControl(file, SQLITE_FCNTL_LAST_ERRNO, &error) == SQLITE_OK &&
-        error != 0)
-      return error;
-  }
-  return 0;
-}
-
-}  // namespace
 
 std::string explain(const std::string& path, SQLite::Database* database, int extendedCode, const std::string& message) {
   const int systemError = systemErrorOf(database);
-  const bool noSpace = systemError == ENOSPC || systemError == EDQUOT || systemError == EFBIG;
   const std::string begin = path + ": ";
+  if (isDiskFull(database, extendedCode))
+    return begin + "disk full: nothing of this step was stored, what was stored before is sound; make room and go on";
   switch (extendedCode & 0xff) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return begin + "another process keeps the database locked; try again when it is done";
-    case SQLITE_FULL:
-      return begin + "disk full: nothing of this step was stored, what was stored before is sound; make room and go on";
     case SQLITE_IOERR:
-      if (noSpace || extendedCode == SQLITE_IOERR_SHMSIZE)
-        return begin +
-               "disk full: nothing of this step was stored, what was stored before is sound; make room and go on";
       return begin + "cannot be read or written (" + (systemError ? std::strerror(systemError) : message) + ")";
     case SQLITE_READONLY:
       return begin + "cannot be changed: file or folder is read-only, or it was opened for reading only";

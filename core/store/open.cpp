@@ -2,11 +2,13 @@
 #include <SQLiteCpp/Exception.h>
 #include <SQLiteCpp/Statement.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
 #include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -129,12 +131,25 @@ Handle readableWhereNothingCanBeWritten(const std::string& path, Handle database
   return openFile(immutableUri(path), SQLite::OPEN_READONLY | SQLite::OPEN_URI, patience_ms);
 }
 
+// What processes left that were killed while they made a database of this name.
+void removeStaleDrafts(const std::string& path) {
+  const std::string begin = fs::path(path).filename().string() + ".new-";
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(path).parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    const pid_t maker = std::atoi(name.c_str() + begin.size());
+    if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), error);
+  }
+}
+
 // The new file is complete before it gets its name: a process that dies meanwhile leaves no half-made database, and of
 // two processes that create the same one, the first wins and the second uses it.
 void createFile(const std::string& path, int patience_ms) {
   const fs::path parent = fs::path(path).parent_path();
   if (access(parent.c_str(), W_OK | X_OK) != 0)
     throw InputError(path + ": cannot be created in " + parent.string() + " (" + std::strerror(errno) + ")");
+  removeStaleDrafts(path);
   const std::string draft = path + ".new-" + std::to_string(gettid());
   std::error_code error;
   const auto remove = [&] {

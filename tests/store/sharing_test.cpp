@@ -94,6 +94,7 @@ TEST_F(Sharing, ALockThatIsHeldTooLongIsSaidAndNothingIsStored) {
     const SQLite::Transaction held(other, SQLite::TransactionBehavior::IMMEDIATE);
     EXPECT_EQ(file() + ": another process keeps the database locked; try again when it is done",
               refusal([&] { database.setRunNote(1, "x"); }));
+    EXPECT_THROW(database.setRunNote(1, "x"), NotStored) << "a working run may try again later";
     EXPECT_EQ("", database.run(1).note) << "reading goes on";
   }
   database.setRunNote(1, "y");

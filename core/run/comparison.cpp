@@ -87,20 +87,36 @@ void compareArms(std::vector<ComparedArm>& arms) {
   }
 }
 
+ComparedExperiments loadArms(const ComparisonSpec& spec, const PluginHost& host) {
+  ComparedExperiments loaded;
+  for (std::size_t i = 0; i < spec.arms.size(); ++i) {
+    const std::string place = spec.place + " /arms/" + std::to_string(i) + "/experiment: ";
+    try {
+      loaded.experiments.push_back(
+          loadExperiment((std::filesystem::path(spec.directory) / spec.arms[i].experiment).string()));
+      const std::string unit = prepareFromFiles(loaded.experiments.back(), host).fitness->unit();
+      if (i == 0) loaded.unit = unit;
+      if (unit != loaded.unit)
+        throw InputError(spec.arms[i].experiment + " /fitness: its unit is \"" + unit +
+                         "\", that of the first arm is \"" + loaded.unit +
+                         "\"; the arms of a comparison need one unit");
+    } catch (const InputError& error) {
+      throw InputError(place + error.what());
+    }
+  }
+  return loaded;
+}
+
 Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec, const StopFlag& stop,
                          const RunOptions& options,
                          const std::function<void(const std::string& arm, std::uint64_t seed)>& began) {
   Comparison all;
   all.name = spec.name;
   all.seeds = spec.seeds;
-  std::vector<ExperimentSpec> experiments;
+  const ComparedExperiments loaded = loadArms(spec, host);
+  const std::vector<ExperimentSpec>& experiments = loaded.experiments;
+  all.unit = loaded.unit;
   for (const ComparisonSpec::Arm& arm : spec.arms) {
-    experiments.push_back(loadExperiment((std::filesystem::path(spec.directory) / arm.experiment).string()));
-    const std::string unit = prepareFromFiles(experiments.back(), host).fitness->unit();
-    if (all.unit.empty()) all.unit = unit;
-    if (unit != all.unit)
-      throw InputError(arm.experiment + " /fitness: its unit is \"" + unit + "\", that of the first arm is \"" +
-                       all.unit + "\"; the arms of a comparison need one unit");
     all.arms.push_back({arm.name, {}, {}});
     all.runs.emplace_back();
   }

@@ -6,6 +6,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/run/spread.h"
 #include "core/spec/comparison_spec.h"
+#include "core/spec/experiment_spec.h"
 
 namespace btr {
 
@@ -44,9 +45,18 @@ struct Comparison {
   RunEnd end = RunEnd::finished;      ///< of all runs: stopped if one was, else waiting if one waits
 };
 
+/// The experiments of the arms, in their order, and the unit of their fitness.
+struct ComparedExperiments {
+  std::vector<ExperimentSpec> experiments;
+  std::string unit;
+};
+/// Throws InputError with the comparison's file and the arm for an experiment that cannot be read or prepared, or whose
+/// fitness has another unit than the first one's.
+ComparedExperiments loadArms(const ComparisonSpec& spec, const PluginHost& host);
+
 /// Runs every arm with every seed, or resumes what is stored and not finished, one run after the other; then compares.
-/// `began(arm, seed)` is told before each. Experiments whose fitness has different units throw InputError, as does
-/// everything that startRun() refuses, before anything is run.
+/// `began(arm, seed)` is told before each. Throws InputError as loadArms() does, before anything is run, and as
+/// startRun() does.
 Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec, const StopFlag& stop,
                          const RunOptions& options,
                          const std::function<void(const std::string& arm, std::uint64_t seed)>& began = {});

@@ -25,6 +25,7 @@ ComparisonSpec comparisonFromJson(const std::string& text, const std::string& pl
   JsonReader reader = JsonReader::parse(text, place);
   reader.word("format", {"uchilsim-comparison-1"});
   ComparisonSpec spec;
+  spec.place = place;
   spec.directory = directory;
   spec.name = reader.text("name");
   if (spec.name.empty()) reader.refuse("name", "at least one letter");

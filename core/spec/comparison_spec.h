@@ -14,7 +14,7 @@ struct ComparisonSpec {
   std::string name;
   std::vector<Arm> arms;             ///< the first is what the others are compared with
   std::vector<std::uint64_t> seeds;  ///< of the runs, each once
-  std::string directory;             ///< of the file; not part of the JSON
+  std::string place, directory;      ///< the file and its folder; not part of the JSON
 };
 
 class JsonReader;

@@ -5,12 +5,15 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
 namespace btr {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw InputError(path + ": " + what); }
 std::string reason() { return std::strerror(errno); }
@@ -31,6 +34,15 @@ void writeAll(int file, const std::string& content, const std::string& path) {
     if (count < 0) fail(path, "cannot be written: " + reason());
     done += static_cast<std::size_t>(count);
   }
+}
+
+// What a link points to, also if nothing is there yet: the link stays.
+fs::path targetOf(fs::path path) {
+  std::error_code ignored;
+  constexpr int mostLinks = 40;  // as the system allows
+  for (int links = 0; links < mostLinks && fs::is_symlink(path, ignored); ++links)
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  return path;
 }
 
 }  // namespace
@@ -60,8 +72,16 @@ std::string readFile(const std::string& path, std::size_t limit) {
   return content;
 }
 
+void refuseDatabase(const std::string& path) {
+  static constexpr std::string_view begin = "SQLite format 3";
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  char bytes[begin.size()] = {};
+  if (file.number < 0 || ::read(file.number, bytes, sizeof bytes) != static_cast<ssize_t>(sizeof bytes)) return;
+  if (std::string_view(bytes, sizeof bytes) == begin)
+    fail(path, "is a database and would be replaced; choose another name for what is written");
+}
+
 void writeFile(const std::string& path, const std::string& content) {
-  namespace fs = std::filesystem;
   std::error_code ignored;
   // A device or pipe is written as it is; a link keeps pointing to its target.
   const fs::file_status status = fs::status(path, ignored);
@@ -72,7 +92,8 @@ void writeFile(const std::string& path, const std::string& content) {
     writeAll(device.number, content, path);
     return;
   }
-  const fs::path target = fs::exists(status) ? fs::canonical(path) : fs::path(path);
+  refuseDatabase(path);
+  const fs::path target = targetOf(path);
   const std::string temporary = target.string() + ".new-" + std::to_string(::getpid());
   try {
     const Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};

@@ -29,6 +29,12 @@ std::string shortened(std::string text, std::size_t length = 120) {
   return text;
 }
 
+/// 1e400 of "number overflow parsing '1e400'".
+std::string betweenQuotes(const std::string& text) {
+  const std::size_t first = text.find('\''), last = text.rfind('\'');
+  return last > first ? text.substr(first + 1, last - first - 1) : "";
+}
+
 /// What the parser says, without its own prefixes.
 std::string complaint(const std::exception& error) {
   std::string text = error.what();
@@ -74,6 +80,11 @@ JsonReader JsonReader::parse(const std::string& text, const std::string& place) 
     return {std::move(document), root, place};
   } catch (const json::parse_error& error) {
     throw InputError(place + ":" + lineAndColumn(text, error.byte) + ": not JSON: " + complaint(error));
+  } catch (const json::out_of_range& error) {
+    // The only such error of a parser: a number beyond the largest double. It names the number, not its place.
+    const std::string number = betweenQuotes(error.what());
+    throw InputError(place + ":" + lineAndColumn(text, text.find(number) + 1), shortened(number),
+                     "numbers up to " + toText(std::numeric_limits<double>::max()));
   } catch (const json::exception& error) {
     throw InputError(place + ": not JSON: " + complaint(error));
   }

@@ -80,8 +80,12 @@ class JsonReader {
 
 /// The whole content of a regular file. Throws InputError if it cannot be read or is larger than `limit` bytes.
 std::string readFile(const std::string& path, std::size_t limit = 64u << 20);
-/// Replaces the file at once (temporary file, fsync, rename): a reader sees the old or the new content, never a part.
+/// Replaces the file at once (temporary file, fsync, rename): a reader sees the old or the new content, never a part. A
+/// link keeps pointing to its target. Throws InputError if it cannot be written or is a database.
 void writeFile(const std::string& path, const std::string& content);
+
+/// Throws InputError if the file begins as databases of SQLite do.
+void refuseDatabase(const std::string& path);
 
 /// Values as JSON, choices as words.
 nlohmann::json toJson(const Values& values, std::span<const Parameter> declared);

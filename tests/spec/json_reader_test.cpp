@@ -27,6 +27,11 @@ TEST(Json, SyntaxErrorsSayLineAndColumn) {
   EXPECT_EQ(0u, parseRefusal("{} x").find("a.json:1:4: not JSON")) << parseRefusal("{} x");
 }
 
+TEST(Json, ANumberBeyondTheLargestSaysLineAndColumn) {
+  EXPECT_EQ("a.json:2:8: 1e400 is not allowed; numbers up to 1.7976931348623157e+308",
+            parseRefusal("{\n  \"a\": 1e400}"));
+}
+
 TEST(Json, RefusesAKeyThatIsThereTwice) {
   EXPECT_EQ("a.json: key \"a\" is there twice in one object", parseRefusal(R"({"a": 1, "a": 2})"));
   EXPECT_EQ("a.json: key \"a\" is there twice in one object",

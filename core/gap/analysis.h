@@ -5,6 +5,7 @@
 
 #include "core/gap/gap_report.h"
 #include "core/gap/recording.h"
+#include "core/gap/replay.h"
 #include "core/sim/scene.h"
 
 namespace btr {
@@ -42,8 +43,6 @@ using AnalysisProgress = std::function<bool(const std::string& stage, double sha
 /// consultation.h), for an effect that the library does not have; throws Cancelled when progress says so.
 GapReport analyse(const GapProblem& problem, const EffectLibrary& library, const AnalysisOptions& options,
                   const AnalysisProgress& progress = {});
-
-struct Cancelled {};
 
 /// What `btr gap analyse` was asked for: paths.
 struct AnalysisRequest {

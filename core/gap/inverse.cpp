@@ -41,7 +41,8 @@ std::vector<double> thinned(const std::vector<double>& values, double rate_hz, i
   return kept;
 }
 
-void addRecording(const Scene& given, const Recording& raw, const InverseOptions& options, InverseReport& report) {
+void addRecording(const Scene& given, const Recording& raw, const InverseOptions& options, InverseReport& report,
+                  const std::function<bool()>& goesOn) {
   const double rate = 1 / rhythm(raw);
   if (!(options.lowpass_hz > 0) || options.lowpass_hz >= rate / 2)
     throw InputError(raw.source + " --lowpass", toText(options.lowpass_hz),
@@ -61,7 +62,8 @@ void addRecording(const Scene& given, const Recording& raw, const InverseOptions
       throw InputError(raw.source, "no value of " + recording.channels[input.column], "some");
     path = filter.zeroPhase(path);
   }
-  const ReplayedRecording replayed = replayRecording(scene, recording, binding, startState(scene, recording, binding));
+  const ReplayedRecording replayed =
+      replayRecording(scene, recording, binding, startState(scene, recording, binding), 0, recording.rows(), goesOn);
   const std::string name = std::filesystem::path(raw.source).filename().string();
   if (!replayed.fault.empty()) throw InputError(raw.source + ": the motion cannot be followed: " + replayed.fault);
 
@@ -97,16 +99,17 @@ void addRecording(const Scene& given, const Recording& raw, const InverseOptions
 
 InverseReport inverse(const Scene& scene, const std::vector<Recording>& recordings, const InverseOptions& options) {
   InverseReport report;
-  for (const Recording& recording : recordings) addRecording(scene, recording, options, report);
+  for (const Recording& recording : recordings) addRecording(scene, recording, options, report, {});
   return report;
 }
 
 InverseReport runInverse(const ResidualRequest& request, const EffectFactory& effects, const InverseOptions& options,
                          const std::function<bool(std::size_t, std::size_t)>& progress) {
   InverseReport report;
-  const bool all = forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial) {
-    addRecording(scene, trial, options, report);
-  });
+  const bool all =
+      forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
+        addRecording(scene, trial, options, report, goesOn);
+      });
   if (!all) return report;
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;
 

@@ -9,6 +9,7 @@
 #include "core/gap/trial_scenes.h"
 #include "core/sim/scene_build.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/output_path.h"
 
 namespace btr {
 namespace {
@@ -36,7 +37,7 @@ std::vector<std::string> channelsOf(const Scene& scene) {
 
 }  // namespace
 
-Recording predict(const Scene& scene, const Recording& recording) {
+Recording predict(const Scene& scene, const Recording& recording, const std::function<bool()>& goesOn) {
   Recording whole = recording;
   for (const std::string& name : channelsOf(scene)) {
     if (whole.column(name) >= 0) continue;
@@ -44,7 +45,8 @@ Recording predict(const Scene& scene, const Recording& recording) {
     whole.columns.emplace_back(whole.rows(), std::numeric_limits<double>::quiet_NaN());
   }
   const Binding binding = bind(scene, whole);
-  const ReplayedRecording replayed = replayRecording(scene, whole, binding, startState(scene, whole, binding));
+  const ReplayedRecording replayed =
+      replayRecording(scene, whole, binding, startState(scene, whole, binding), 0, whole.rows(), goesOn);
 
   Recording predicted;
   predicted.source = recording.source;
@@ -62,19 +64,23 @@ Recording predict(const Scene& scene, const Recording& recording) {
   return predicted;
 }
 
-std::vector<Recording> runPredict(const PredictRequest& request, const EffectFactory& effects) {
+std::vector<Recording> runPredict(const PredictRequest& request, const EffectFactory& effects,
+                                  const std::function<bool()>& goesOn) {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
   const std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
+  const std::vector<std::string> inputs =
+      withNamedFiles({request.scene, request.simulator, request.recording, request.mapping});
   std::vector<Recording> written;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    Recording predicted = predict(scenes.of(trials[i], effects), trials[i]);
     std::filesystem::path out(request.out);
     if (trials.size() > 1)
       out.replace_filename(out.stem().string() + "-" + std::to_string(i + 1) + out.extension().string());
-    writeFile(out.string(), toCsv(NumberTable{predicted.channels, predicted.columns}));
-    predicted.source = out.string();
-    written.push_back(std::move(predicted));
+    checkOutputFile(out.string(), inputs);
+    written.push_back(predict(scenes.of(trials[i], effects), trials[i], goesOn));
+    written.back().source = out.string();
   }
+  for (const Recording& predicted : written)
+    writeFile(predicted.source, toCsv(NumberTable{predicted.channels, predicted.columns}));
   return written;
 }
 

@@ -177,8 +177,10 @@ void standAsMeasured(World& world, const Binding& binding, const StartState& sta
 }  // namespace
 
 ReplayedRecording replayRecording(const Scene& given, const Recording& recording, const Binding& binding,
-                                  const StartState& from, std::size_t first, std::size_t last) {
+                                  const StartState& from, std::size_t first, std::size_t last,
+                                  const std::function<bool()>& goesOn) {
   constexpr std::uint64_t seed = 1;  // nothing in a replay is drawn by chance
+  constexpr std::size_t rowsBetweenQuestions = 256;
   const std::size_t rows = recording.rows();
   last = std::min(last, rows);
   assert(first < last);
@@ -210,6 +212,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
 
   const std::vector<double>& time = recording.columns[0];
   for (std::size_t row = first; row < last; ++row) {
+    if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};
     readMeasured(world, scene, recording, binding, row, replayed.values);
     setInputs(recording, binding, row, inputs);
     if (row + 1 == last) break;

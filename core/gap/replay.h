@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ struct StartState {
 /// of a recording begins at rest if the scene, so driven, then comes nearer to them.
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row = 0);
 
+/// Thrown where somebody who was asked whether to go on said no.
+struct Cancelled {};
+
 /// Simulated values at the recorded times.
 struct ReplayedRecording {
   std::vector<std::vector<double>> values;  ///< by Binding::measured, one a row; NaN after a fault
@@ -62,8 +66,10 @@ struct ReplayedRecording {
 /// Joints whose motion is prescribed start where the recording has them, with the central difference as their rate; one
 /// step then covers the time between two samples, so that the torque of a row is that of the path's second difference
 /// there. (In the last row there is none: that of the row before.)
+/// `goesOn` is asked now and then; when it says no, this throws Cancelled.
 ReplayedRecording replayRecording(const Scene& scene, const Recording& recording, const Binding& binding,
                                   const StartState& start, std::size_t first = 0,
-                                  std::size_t last = std::numeric_limits<std::size_t>::max());
+                                  std::size_t last = std::numeric_limits<std::size_t>::max(),
+                                  const std::function<bool()>& goesOn = {});
 
 }  // namespace btr

@@ -28,7 +28,8 @@ ChannelError compare(const Recording& recording, std::size_t column, const std::
   return error;
 }
 
-void addRecording(const Scene& scene, const Recording& recording, bool asRecorded, ResidualReport& report) {
+void addRecording(const Scene& scene, const Recording& recording, bool asRecorded, ResidualReport& report,
+                  const std::function<bool()>& goesOn) {
   const std::string name = std::filesystem::path(recording.source).filename().string();
   const auto note = [&](const std::string& text) { report.notes.push_back(name + ": " + text); };
   for (const std::string& text : recording.notes) note(text);
@@ -49,8 +50,8 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
   const StartState start = startState(scene, recording, binding);
   Scene finer = scene;
   finer.step_s /= 2;
-  const ReplayedRecording replayed = replayRecording(scene, recording, binding, start);
-  const ReplayedRecording check = replayRecording(finer, recording, binding, start);
+  const ReplayedRecording replayed = replayRecording(scene, recording, binding, start, 0, recording.rows(), goesOn);
+  const ReplayedRecording check = replayRecording(finer, recording, binding, start, 0, recording.rows(), goesOn);
   if (!replayed.fault.empty()) note("the simulation was ended: " + replayed.fault);
 
   for (std::size_t i = 0; i < binding.measured.size(); ++i) {
@@ -67,7 +68,7 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
 
 ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings, bool asRecorded) {
   ResidualReport report;
-  for (const Recording& recording : recordings) addRecording(scene, recording, asRecorded, report);
+  for (const Recording& recording : recordings) addRecording(scene, recording, asRecorded, report, {});
   joinNotes(report.notes);
   return report;
 }
@@ -75,9 +76,10 @@ ResidualReport residual(const Scene& scene, const std::vector<Recording>& record
 ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& effects,
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
   ResidualReport report;
-  const bool all = forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial) {
-    addRecording(scene, trial, request.asRecorded, report);
-  });
+  const bool all =
+      forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
+        addRecording(scene, trial, request.asRecorded, report, goesOn);
+      });
   if (!all) return report;
   joinNotes(report.notes);
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;

@@ -1,5 +1,7 @@
 #include "core/gap/trial_scenes.h"
 
+#include "core/gap/replay.h"
+
 namespace btr {
 
 SimulatorSpec withSettings(SimulatorSpec simulator, const Recording& trial) {
@@ -21,14 +23,17 @@ TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulat
 
 bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
                   const std::function<bool(std::size_t, std::size_t)>& progress,
-                  const std::function<void(const Scene&, const Recording&)>& use) {
+                  const std::function<void(const Scene&, const Recording&, const std::function<bool()>&)>& use) try {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
-    if (progress && !progress(i, request.recordings.size())) return false;
+    const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
+    if (!goesOn()) return false;
     for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene))
-      use(scenes.of(trial, effects), trial);
+      use(scenes.of(trial, effects), trial, goesOn);
   }
   return true;
+} catch (const Cancelled&) {
+  return false;
 }
 
 }  // namespace btr

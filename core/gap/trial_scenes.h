@@ -24,9 +24,10 @@ struct TrialScenes {
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator);
 
 /// Loads what is asked for and gives each trial with its scene to `use`, in the order of the files. `progress(done,
-/// all)` counts files before each one; when it returns false, so does this, and the rest is left. Throws InputError.
+/// all)` counts files before each one; when it returns false, so does this, and the rest is left. `use`
+/// may ask goesOn() meanwhile, and throw Cancelled for the same end. Throws InputError.
 bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
                   const std::function<bool(std::size_t, std::size_t)>& progress,
-                  const std::function<void(const Scene&, const Recording&)>& use);
+                  const std::function<void(const Scene&, const Recording&, const std::function<bool()>& goesOn)>& use);
 
 }  // namespace btr

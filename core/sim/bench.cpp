@@ -25,8 +25,8 @@ double outcomeOf(const TrialResult& result) {
   return (result.balls[0].rest_m - result.balls[0].start_m).head<2>().norm();
 }
 
-/// Outcomes of all motions at one step; the time is that of the fastest repeat.
-std::vector<double> measure(const BenchTask& task, BenchStep& at, int repeats) {
+/// Outcomes of all motions at one step, none if it was stopped; the time is that of the fastest repeat.
+std::vector<double> measure(const BenchTask& task, BenchStep& at, int repeats, const std::function<bool()>& goesOn) {
   Scene scene = task.scene;
   scene.step_s = at.step_s;
   scene.nearSubsteps = at.nearSubsteps;
@@ -38,6 +38,7 @@ std::vector<double> measure(const BenchTask& task, BenchStep& at, int repeats) {
     simulated = 0;
     const double begin = cpuSeconds();
     for (const auto& parameters : task.parameters) {
+      if (goesOn && !goesOn()) return {};
       const auto result = runTrial(scene, *task.controller, task.settings, parameters, 1, options);
       outcomes.push_back(result.outcome == TrialResult::Outcome::finished ? outcomeOf(result) : NAN);
       simulated += result.simulated_s;
@@ -79,11 +80,13 @@ Deviation deviationOf(const std::vector<double>& outcomes, const std::vector<dou
           std::sqrt(squares / static_cast<double>(off.size()))};
 }
 
-BenchResult benchmark(const BenchTask& task, int repeats, const std::function<void(const std::string&)>& progress) {
+BenchResult benchmark(const BenchTask& task, int repeats, const std::function<void(const std::string&)>& progress,
+                      const std::function<bool()>& goesOn) {
   BenchResult result;
   result.name = task.name;
   result.converged.step_s = finest_s;
-  const auto converged = measure(task, result.converged, 1);
+  const auto converged = measure(task, result.converged, 1, goesOn);
+  if (converged.empty()) return result;
   if (progress) progress(task.name + ": converged outcome known");
 
   std::vector<std::pair<double, int>> tried;
@@ -95,7 +98,8 @@ BenchResult benchmark(const BenchTask& task, int repeats, const std::function<vo
   }
   for (const auto& [step, near] : tried) {
     BenchStep at{.step_s = step, .nearSubsteps = near};
-    const auto outcomes = measure(task, at, repeats);
+    const auto outcomes = measure(task, at, repeats, goesOn);
+    if (outcomes.empty()) return result;
     const Deviation off = deviationOf(outcomes, converged);
     at.deviation = off.median;
     at.rmsDeviation = off.rms;

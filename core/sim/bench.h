@@ -41,9 +41,11 @@ struct Deviation {
 };
 Deviation deviationOf(const std::vector<double>& outcomes, const std::vector<double>& converged);
 
-/// Measures one task in this thread: thread CPU time, best of `repeats`. `progress` gets a line now and then.
+/// Measures one task in this thread: thread CPU time, best of `repeats`. `progress` gets a line now and then. Where
+/// `goesOn` says no after a trial, what was measured at whole steps until then is returned.
 BenchResult benchmark(const BenchTask& task, int repeats = 3,
-                      const std::function<void(const std::string&)>& progress = nullptr);
+                      const std::function<void(const std::string&)>& progress = nullptr,
+                      const std::function<bool()>& goesOn = nullptr);
 
 /// One table for people: simulated seconds per second and trials per second on one core, at the largest step whose
 /// outcome is within 5 % of the converged one, and the steps that were tried.

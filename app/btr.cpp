@@ -6,6 +6,7 @@
 
 #include "app/btr_commands.h"
 #include "core/spec/error.h"
+#include "core/spec/process.h"
 #include "core/store/database.h"
 
 namespace {
@@ -23,7 +24,7 @@ void onInterrupt(int number) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  signal(SIGPIPE, SIG_IGN);
+  btr::beginProgram();
   struct sigaction action {};
   action.sa_handler = onInterrupt;
   sigaction(SIGINT, &action, nullptr);
@@ -31,6 +32,9 @@ int main(int argc, char** argv) {
 
   CLI::App app{"Back to Reality without a window: run, measure, adapt, replay, compare with recordings", "btr"};
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "btr: " + std::string(error.what()) + "; btr --help says what is possible\n";
+  });
   app.set_version_flag("--version", "btr " + btr::programVersion());
   app.fallthrough();
   btr::cli::Shell shell;
@@ -49,10 +53,14 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? btr::cli::done : btr::cli::badUsage;
+    if (app.exit(error) != 0) return btr::cli::badUsage;
+    return btr::cli::closeOutput() ? btr::cli::done : btr::cli::badInput;
+  } catch (const btr::NotStored& error) {
+    std::fprintf(stderr, "btr: %s\n", error.what());
+    return shell.goesOn ? btr::cli::stoppedEarly : btr::cli::badInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "btr: %s\n", error.what());
     return btr::cli::badInput;
   }
-  return shell.exitCode;
+  return btr::cli::closeOutput() ? shell.exitCode : btr::cli::badInput;
 }

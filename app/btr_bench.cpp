@@ -50,15 +50,16 @@ void bench(const std::string& folder, int repeats, Shell& shell) {
   std::vector<BenchResult> results;
   for (const BenchTask& task : {walkTask(walk, loadModels(walk)), kickTask(kick, loadModels(kick), *controller)}) {
     if (*shell.stop) break;
-    results.push_back(benchmark(task, repeats, [show](const std::string& line) {
+    const auto progress = [show](const std::string& line) {
       if (show) std::fprintf(stderr, "\r%s \x1b[K", line.c_str());
-    }));
+    };
+    results.push_back(benchmark(task, repeats, progress, [&shell] { return !*shell.stop; }));
   }
   if (show) std::fprintf(stderr, "\r\x1b[K");
   if (shell.json) {
     nlohmann::json all = nlohmann::json::array();
     for (const BenchResult& result : results) all.push_back(toJson(result));
-    std::cout << all.dump(1) << '\n';
+    printJson(all);
   } else {
     std::cout << benchTable(results);
   }
@@ -76,7 +77,7 @@ void addBenchCommand(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand("bench", "speed of the simulator on this machine, one table");
   command->add_option("--scenes", a->scenes, "folder of walk.json and kick.json (default: those of the program)");
   command->add_option("--repeats", a->repeats, "times each trial is run; the fastest counts")
-      ->check(CLI::Range(1, 1000));
+      ->transform(wholeNumber(1, 1000));
   command->callback([a, &shell] { bench(a->scenes, a->repeats, shell); });
 }
 

@@ -33,7 +33,9 @@ void print(const Comparison& comparison) {
 
 void compare(const CompareArguments& a, Shell& shell) {
   const ComparisonSpec spec = loadComparison(a.file);
-  Database db = Database::open(a.database, Database::Mode::create);
+  loadArms(spec, shell.plugins());  // before a database is made for them
+  Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
+  shell.goesOn = true;
   RunOptions options;
   options.jobs = a.jobs;
   const Comparison all =
@@ -55,8 +57,9 @@ void addCompareCommand(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand("compare", "run or resume several experiments with the same seeds, compare");
   command->add_option("FILE", a->file, "comparison file (.json)")->required();
   command->add_option("--db", a->database, "experiment database")->required();
-  command->add_option("--jobs", a->jobs, "worker processes (0: as many as processors)")->check(CLI::Range(0, 1024));
-  command->add_option("--csv", a->csv, "write the table to this file, too");
+  command->add_option("--jobs", a->jobs, "worker processes (0: as many as processors)")
+      ->transform(wholeNumber(0, 1024));
+  shell.writesFile(command, command->add_option("--csv", a->csv, "write the table to this file, too"));
   command->add_flag("--quiet", a->quiet, "do not say which run is worked on");
   command->callback([a, &shell] { compare(*a, shell); });
 }

@@ -25,17 +25,15 @@ void replayCommand(const DataArguments& a, Shell& shell) {
   const IndividualRecord individual = db.individual(a.individual);
   if (!a.csv.empty()) writeOut(a.csv, r.result.trace.toCsv());
   if (shell.json) {
-    std::cout << nlohmann::json{{"individual", a.individual},
-                                {"generation", individual.generation},
-                                {"fitness", r.fitness},
-                                {"stored_fitness", r.storedFitness},
-                                {"trace_sha256", r.sha256},
-                                {"stored_trace_sha256", r.storedSha256},
-                                {"outcome", toText(r.result.outcome)},
-                                {"simulated_s", r.result.simulated_s},
-                                {"identical", r.identical}}
-                     .dump(1)
-              << '\n';
+    printJson({{"individual", a.individual},
+               {"generation", individual.generation},
+               {"fitness", r.fitness},
+               {"stored_fitness", r.storedFitness},
+               {"trace_sha256", r.sha256},
+               {"stored_trace_sha256", r.storedSha256},
+               {"outcome", toText(r.result.outcome)},
+               {"simulated_s", r.result.simulated_s},
+               {"identical", r.identical}});
     return;
   }
   std::printf("individual %lld (generation %d, slot %d): fitness %.17g, stored %.17g, %s after %.3f s\n",
@@ -45,20 +43,18 @@ void replayCommand(const DataArguments& a, Shell& shell) {
 }
 
 void exportCommand(const DataArguments& a, Shell& shell) {
+  if (shell.json) throw CLI::ValidationError("--json", "export writes CSV");
   const Database db = Database::open(a.database, Database::Mode::readOnly);
   const PreparedExperiment prepared = prepareFromRun(db.run(a.run), shell.plugins());
   writeOut(a.csv, exportCsv(db, a.run, a.what, prepared.genotype, prepared.fitness->unit()));
 }
 
 void mergeCommand(const DataArguments& a, Shell& shell) {
+  Database::open(a.from, Database::Mode::readOnly);  // before a database is made for it
   Database db = Database::open(a.database, Database::Mode::create);
   const MergedRuns merged = db.merge(a.from, 1024 * a.largestTrace_kib);
   if (shell.json)
-    std::cout << nlohmann::json{{"experiments", merged.experiments},
-                                {"runs", merged.runs},
-                                {"individuals", merged.individuals}}
-                     .dump(1)
-              << '\n';
+    printJson({{"experiments", merged.experiments}, {"runs", merged.runs}, {"individuals", merged.individuals}});
   else
     std::printf("%d runs with %d individuals and %d experiments copied from %s\n", merged.runs, merged.individuals,
                 merged.experiments, a.from.c_str());
@@ -70,14 +66,14 @@ void addDataCommands(CLI::App& app, Shell& shell) {
   auto a = std::make_shared<DataArguments>();
   const auto common = [&](CLI::App* command) {
     command->add_option("--db", a->database, "experiment database")->required();
-    command->add_option("--run", a->run, "number of the run")->required()->check(CLI::PositiveNumber);
-    command->add_option("--csv", a->csv, "write to this file");
+    command->add_option("--run", a->run, "number of the run")->required()->transform(wholeNumber(1));
+    shell.writesFile(command, command->add_option("--csv", a->csv, "write to this file"));
   };
   CLI::App* replayApp = app.add_subcommand("replay", "run a stored individual again; says whether it is bit-identical");
   common(replayApp);
   replayApp->add_option("--individual", a->individual, "number of the individual")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->transform(wholeNumber(1));
   replayApp->callback([a, &shell] { replayCommand(*a, shell); });
 
   CLI::App* exportApp = app.add_subcommand("export", "a table of a run as CSV");
@@ -92,7 +88,7 @@ void addDataCommands(CLI::App& app, Shell& shell) {
   mergeApp->add_option("--db", a->database, "database that takes them; made if it is not there")->required();
   mergeApp
       ->add_option("--largest-trace-kib", a->largestTrace_kib, "larger traces stay behind; a replay makes them again")
-      ->check(CLI::Range(0, 1 << 20))
+      ->transform(wholeNumber(0, 1 << 20))
       ->capture_default_str();
   mergeApp->callback([a, &shell] { mergeCommand(*a, shell); });
 }

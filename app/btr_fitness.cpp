@@ -1,4 +1,4 @@
-// btr fitness list, enter, import, and end-l2: real fitness, measured by a person.
+// btr fitness list, enter, import, void, and end-l2: real fitness, measured by a person.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -17,9 +17,9 @@ namespace {
 
 struct FitnessArguments {
   std::string database, note, file;
-  Id run = 0, individual = 0;
+  Id run = 0, individual = 0, measurement = 0;
   std::vector<double> values;
-  bool isVoid = false, showSimulated = false;
+  bool isVoid = false, counts = false, showSimulated = false, hasNote = false;
 };
 
 std::string operatorName() {
@@ -41,11 +41,13 @@ void list(const FitnessArguments& a, Shell& shell) {
     if (isOver(task, finished)) continue;
     nlohmann::json values = nlohmann::json::array();
     std::string text;
-    int have = 0;
+    int have = 0, valid = 0;
     for (const MeasurementRecord& m : measured) {
       if (m.individual != task.individual) continue;
       ++have;
-      values.push_back({{"value", m.value}, {"void", m.isVoid}, {"note", m.note}, {"source", m.source}});
+      valid += !m.isVoid;
+      values.push_back(
+          {{"measurement", m.id}, {"value", m.value}, {"void", m.isVoid}, {"note", m.note}, {"source", m.source}});
       text += (text.empty() ? "" : " ") + brief(m.value) + (m.isVoid ? " (void)" : "");
     }
     const bool isOpen = task.stage == run.stage + 1 && task.iteration == iteration;
@@ -57,6 +59,7 @@ void list(const FitnessArguments& a, Shell& shell) {
                        {"individual", task.individual},
                        {"unit", unit},
                        {"wanted_repeats", task.wantedRepeats},
+                       {"measured", valid},
                        {"values", values},
                        {"held_out", task.heldOut}};
     row["reason"] = reasonOf(task, unit, a.showSimulated);
@@ -69,11 +72,11 @@ void list(const FitnessArguments& a, Shell& shell) {
     all.push_back(row);
     rows.push_back({std::to_string(task.stage), task.iteration > 0 ? std::to_string(task.iteration) : "",
                     std::to_string(task.position), std::to_string(task.individual),
-                    std::to_string(have) + "/" + std::to_string(task.wantedRepeats), text,
+                    std::to_string(valid) + "/" + std::to_string(task.wantedRepeats), text,
                     a.showSimulated ? brief(task.simulatedFitness) : "hidden", row["reason"].get<std::string>()});
   }
   if (shell.json)
-    std::cout << all.dump(1) << '\n';
+    printJson(all);
   else if (rows.empty())
     std::cout << "run " << a.run << ": nothing waits for real fitness\n";
   else
@@ -81,8 +84,8 @@ void list(const FitnessArguments& a, Shell& shell) {
                        rows));
 }
 
-void enter(const FitnessArguments& a) {
-  if (a.values.empty() && !a.isVoid) throw InputError("btr fitness enter: give --value (once a repeat), or --void");
+void enter(const FitnessArguments& a, Shell& shell) {
+  if (a.values.empty() && !a.isVoid) throw CLI::ValidationError("enter", "give --value (once a repeat), or --void");
   Database db = Database::open(a.database, Database::Mode::readWrite);
   MeasurementRecord m;
   m.run = a.run;
@@ -96,18 +99,40 @@ void enter(const FitnessArguments& a) {
     m.value = value;
     all.push_back(m);
   }
-  db.addMeasurements(all);
+  const std::vector<Id> stored = db.addMeasurements(all);
+  if (shell.json) return printJson({{"individual", a.individual}, {"measurements", stored}});
   std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values")
             << " stored\n";
 }
 
-void endRealityLearning(const FitnessArguments& a) {
+// Nothing measured is ever deleted: a value stops to count, or counts again.
+void setVoid(const FitnessArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::readWrite);
+  MeasurementRecord m = db.measurement(a.measurement);
+  if (m.run != a.run)
+    throw InputError(db.path() + " run " + std::to_string(a.run), "measurement " + std::to_string(a.measurement),
+                     "those of this run; it is of run " + std::to_string(m.run));
+  db.setMeasurementVoid(m.id, a.isVoid, a.hasNote ? a.note : m.note);
+  m = db.measurement(m.id);
+  if (shell.json)
+    return printJson({{"measurement", m.id},
+                      {"individual", m.individual},
+                      {"value", m.value},
+                      {"void", m.isVoid},
+                      {"note", m.note}});
+  std::cout << "measurement " << m.id << " of individual " << m.individual << ", " << brief(m.value)
+            << (m.isVoid ? ": does not count\n" : ": counts\n");
+}
+
+void endRealityLearning(const FitnessArguments& a, Shell& shell) {
   Database::open(a.database, Database::Mode::readWrite).endRealityLearning(a.run, operatorName());
+  if (shell.json) return printJson({{"run", a.run}, {"reality_learning", "ended"}});
   std::cout << "run " << a.run << ": L2 of this stage ends; what was measured is kept, btr run goes on with L3\n";
 }
 
-void import(const FitnessArguments& a) {
+void import(const FitnessArguments& a, Shell& shell) {
   Database db = Database::open(a.database, Database::Mode::readWrite);
+  db.run(a.run);  // an unknown run is named, not the individuals that it does not ask for
   const std::vector<MeasurementTask> tasks = db.measurementTasks(a.run);
   std::vector<MeasurementRecord> all = readMeasuredCsv(a.file, &tasks);
   for (MeasurementRecord& m : all) {
@@ -115,7 +140,8 @@ void import(const FitnessArguments& a) {
     m.who = operatorName();
     m.enteredAt = utcNow();
   }
-  db.addMeasurements(all);
+  const std::vector<Id> stored = db.addMeasurements(all);
+  if (shell.json) return printJson({{"file", a.file}, {"measurements", stored}});
   std::cout << a.file << ": " << all.size() << (all.size() == 1 ? " value" : " values") << " stored\n";
 }
 
@@ -126,7 +152,7 @@ void addFitnessCommands(CLI::App& app, Shell& shell) {
   fitness->require_subcommand(1);
   const auto common = [](CLI::App* command, FitnessArguments& a) {
     command->add_option("--db", a.database, "experiment database")->required();
-    command->add_option("--run", a.run, "number of the run")->required()->check(CLI::PositiveNumber);
+    command->add_option("--run", a.run, "number of the run")->required()->transform(wholeNumber(1));
   };
   auto a = std::make_shared<FitnessArguments>();
   CLI::App* listCommand =
@@ -139,21 +165,36 @@ void addFitnessCommands(CLI::App& app, Shell& shell) {
   common(enterCommand, *a);
   enterCommand->add_option("--individual", a->individual, "number of the individual")
       ->required()
-      ->check(CLI::PositiveNumber);
-  enterCommand->add_option("--value", a->values, "measured fitness, once a repeat")->take_all();
+      ->transform(wholeNumber(1));
+  enterCommand->add_option("--value", a->values, "measured fitness, once a repeat")
+      ->take_all()
+      ->transform(decimalNumber());
   enterCommand->add_option("--note", a->note, "surface, battery, what happened");
   enterCommand->add_flag("--void", a->isVoid, "does not count (the robot fell, the ball hit a wall)");
-  enterCommand->callback([a] { enter(*a); });
+  enterCommand->callback([a, &shell] { enter(*a, shell); });
 
   CLI::App* importCommand =
       fitness->add_subcommand("import", "store a table of measured values: individual,value[,note][,void]");
   common(importCommand, *a);
   importCommand->add_option("MEASURED.csv", a->file, "the table")->required();
-  importCommand->callback([a] { import(*a); });
+  importCommand->callback([a, &shell] { import(*a, shell); });
+
+  CLI::App* voidCommand = fitness->add_subcommand("void", "a stored value does not count, or with --undo counts again");
+  common(voidCommand, *a);
+  voidCommand->add_option("--measurement", a->measurement, "its number (fitness list --json, export)")
+      ->required()
+      ->transform(wholeNumber(1));
+  CLI::Option* note = voidCommand->add_option("--note", a->note, "instead of its note");
+  voidCommand->add_flag("--undo", a->counts, "it counts");
+  voidCommand->callback([a, note, &shell] {
+    a->isVoid = !a->counts;
+    a->hasNote = note->count() > 0;
+    setVoid(*a, shell);
+  });
 
   CLI::App* end = app.add_subcommand("end-l2", "end learning in reality in the present stage before it is over");
   common(end, *a);
-  end->callback([a] { endRealityLearning(*a); });
+  end->callback([a, &shell] { endRealityLearning(*a, shell); });
 }
 
 }  // namespace btr::cli

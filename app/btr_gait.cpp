@@ -43,7 +43,7 @@ void printTable(const GaitCheck& check) {
   std::cout << (check.after.values.empty() ? " nothing was better than the starting values\n" : "\n");
 }
 
-void printJson(const GaitCheck& check) {
+void printCheck(const GaitCheck& check) {
   nlohmann::json gaits = nlohmann::json::array();
   for (const GaitResult& g : check.gaits)
     gaits.push_back({{"gait", g.name},
@@ -56,14 +56,12 @@ void printJson(const GaitCheck& check) {
                      {"after", g.after},
                      {"detail_before", g.detailBefore},
                      {"detail_after", g.detailAfter}});
-  std::cout << nlohmann::json{{"gaits", gaits},
-                              {"error_before", check.errorBefore},
-                              {"error_after", check.errorAfter},
-                              {"held_out_before", check.heldOutBefore},
-                              {"held_out_after", check.heldOutAfter},
-                              {"simulator", simulatorToJson(check.after)}}
-                   .dump(1)
-            << '\n';
+  printJson({{"gaits", gaits},
+             {"error_before", check.errorBefore},
+             {"error_after", check.errorAfter},
+             {"held_out_before", check.heldOutBefore},
+             {"held_out_after", check.heldOutAfter},
+             {"simulator", simulatorToJson(check.after)}});
 }
 
 void checkCommand(const GaitArguments& a, Shell& shell) {
@@ -88,7 +86,7 @@ void checkCommand(const GaitArguments& a, Shell& shell) {
     return;
   }
   if (!a.out.empty()) writeFile(a.out, toJsonText(check->after));
-  shell.json ? printJson(*check) : printTable(*check);
+  shell.json ? printCheck(*check) : printTable(*check);
 }
 
 }  // namespace
@@ -101,11 +99,11 @@ void addGaitCommands(CLI::App& app, Shell& shell) {
   check->add_option("gaits", a->gaits, "gait files that the simulator is adapted to")->required();
   check->add_option("--held-out", a->heldOut, "gait files that the adaptation does not see");
   check->add_option("--adapt", a->adapted, "simulator parameters that may change; default: all but the masses");
-  check->add_option("--generations", a->options.generations, "of the adaptation")->check(CLI::Range(1, 100000));
-  check->add_option("--population", a->options.population, "of the adaptation")->check(CLI::Range(2, 10000));
-  check->add_option("--jobs", a->options.jobs, "worker processes")->check(CLI::Range(1, 1024));
-  check->add_option("--seed", a->options.seed, "of the adaptation");
-  check->add_option("--out", a->out, "write the adapted simulator to this file");
+  check->add_option("--generations", a->options.generations, "of the adaptation")->transform(wholeNumber(1, 100000));
+  check->add_option("--population", a->options.population, "of the adaptation")->transform(wholeNumber(2, 10000));
+  check->add_option("--jobs", a->options.jobs, "worker processes")->transform(wholeNumber(1, 1024));
+  check->add_option("--seed", a->options.seed, "of the adaptation")->transform(seedNumber());
+  shell.writesFile(check, check->add_option("--out", a->out, "write the adapted simulator to this file"));
   check->callback([a, &shell] { checkCommand(*a, shell); });
 }
 

@@ -71,28 +71,35 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
   analyse->add_option("--held-out", request->heldOut, "trials that no fit sees, scored at the end")->take_all();
   analyse->add_option("--mapping", request->mapping, "which column is which channel, for all recordings");
   analyse->add_option("--simulator", request->simulator, "simulator version to start from (simulator.json)");
-  analyse->add_option("--out", request->out, "folder for report.json, report.html, simulator.json")->required();
-  analyse->add_option("--jobs", request->options.jobs, "worker processes")->check(CLI::Range(1, 256));
-  analyse->add_option("--seed", request->options.seed, "of the fits' starting points");
+  CLI::Option* out =
+      analyse->add_option("--out", request->out, "folder for report.json, report.html, simulator.json")->required();
+  shell.writesFolder(analyse, out,
+                     {"report.json", "report.html", "simulator.json", "next_command.csv", "remainder.csv"});
+  analyse->add_option("--jobs", request->options.jobs, "worker processes")->transform(wholeNumber(1, 256));
+  analyse->add_option("--seed", request->options.seed, "of the fits' starting points")->transform(seedNumber());
   analyse->add_option("--effects", request->options.effects, "consider these alone")->take_all();
   analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added")
-      ->check(CLI::Range(0, 8));
+      ->transform(wholeNumber(0, 8));
   analyse->add_flag("--as-recorded", request->options.asRecorded,
                     "go on although a column is certainly not what its name says");
   analyse->add_flag("--progress", *lines, "a line STAGE SHARE on standard error at every step");
   analyse->callback([request, lines, &shell] { analyseCommand(*request, *lines, shell); });
 }
 
-void predictCommand(const PredictRequest& request, Shell& shell) {
+void predictCommand(const PredictRequest& request, Shell& shell) try {
   nlohmann::json all = nlohmann::json::array();
-  for (const Recording& predicted : runPredict(request, shell.plugins().effectFactory())) {
+  const auto goesOn = [&shell] { return !*shell.stop; };
+  for (const Recording& predicted : runPredict(request, shell.plugins().effectFactory(), goesOn)) {
     all.push_back({{"file", predicted.source}, {"rows", predicted.rows()}, {"notes", predicted.notes}});
     if (shell.json) continue;
     std::cout << predicted.source << ": " << predicted.rows() << " rows, " << predicted.channels.size() - 1
               << " channels\n";
     for (const std::string& note : predicted.notes) std::cout << "  note: " << note << '\n';
   }
-  if (shell.json) std::cout << all.dump(1) << '\n';
+  if (shell.json) printJson(all);
+} catch (const Cancelled&) {
+  std::fprintf(stderr, "stopped; nothing was written\n");
+  shell.exitCode = stoppedEarly;
 }
 
 void addPredict(CLI::App& gap, Shell& shell) {
@@ -103,7 +110,7 @@ void addPredict(CLI::App& gap, Shell& shell) {
       ->required();
   predict->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
   predict->add_option("--mapping", request->mapping, "which column is which channel");
-  predict->add_option("--out", request->out, "file to write (.csv)")->required();
+  shell.writesFile(predict, predict->add_option("--out", request->out, "file to write (.csv)")->required());
   predict->callback([request, &shell] { predictCommand(*request, shell); });
 }
 
@@ -123,14 +130,17 @@ void addGapCommands(CLI::App& app, Shell& shell) {
       ->take_all();
   residual->add_option("--mapping", request->mapping, "which column is which channel, for all recordings");
   residual->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
-  residual->add_option("--out", request->out, "folder for tables and overlay plots");
+  shell.writesFolder(residual, residual->add_option("--out", request->out, "folder for tables and overlay plots"),
+                     {"residual.json", "residual.txt", "inverse.json", "inverse.txt"});
   residual->add_flag("--as-recorded", request->asRecorded, "go on although the time is certainly not in seconds");
   CLI::Option* inverse = residual->add_flag("--inverse", arguments->inverse,
                                             "follow the recorded motion and compare the torque that it takes");
   residual->add_option("--lowpass", arguments->filters.lowpass_hz, "of the positions that are followed [Hz]")
+      ->transform(decimalNumber())
       ->needs(inverse)
       ->capture_default_str();
   residual->add_option("--every", arguments->filters.every, "torques are filtered and compared at every n-th sample")
+      ->transform(wholeNumber(1, 1000000))
       ->needs(inverse)
       ->capture_default_str();
   residual->callback([arguments, &shell] { residualCommand(*arguments, shell); });

@@ -24,13 +24,11 @@ struct StoreArguments {
 
 void tell(const SimulatorRecord& version, Shell& shell) {
   if (shell.json) {
-    std::cout << nlohmann::json{{"run", version.run},
-                                {"simulator", version.number},
-                                {"made_by", version.madeBy},
-                                {"made_after_generation", version.madeAfterGeneration},
-                                {"evidence", nlohmann::json::parse(version.evidence)}}
-                     .dump(1)
-              << '\n';
+    printJson({{"run", version.run},
+               {"simulator", version.number},
+               {"made_by", version.madeBy},
+               {"made_after_generation", version.madeAfterGeneration},
+               {"evidence", nlohmann::json::parse(version.evidence)}});
     return;
   }
   std::cout << "run " << version.run << ": simulator version " << version.number << " by " << version.madeBy
@@ -74,7 +72,7 @@ void import(const StoreArguments& a, Shell& shell) {
               << ", " << stored.rows << " rows\n";
     for (const std::string& note : stored.notes) std::cout << "  note: " << note << '\n';
   }
-  if (shell.json) std::cout << all.dump(1) << '\n';
+  if (shell.json) printJson(all);
 }
 
 void list(const StoreArguments& a, Shell& shell) {
@@ -94,16 +92,22 @@ void list(const StoreArguments& a, Shell& shell) {
                     r.mappingJson.empty() ? "no" : "yes", r.sha256.substr(0, 12), r.addedAt});
   }
   if (shell.json)
-    std::cout << all.dump(1) << '\n';
+    printJson(all);
   else if (rows.empty())
     std::cout << "no recordings\n";
   else
     writeOut("", table({"recording", "name", "individual", "mapping", "SHA-256", "added"}, rows));
 }
 
-void exportThem(const StoreArguments& a) {
+void exportThem(const StoreArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
-  for (const Id recording : a.recordings) std::cout << exportRecording(db, recording, a.out) << '\n';
+  nlohmann::json all = nlohmann::json::array();
+  for (const Id recording : a.recordings) {
+    const std::string file = exportRecording(db, recording, a.out);
+    all.push_back({{"recording", recording}, {"file", file}});
+    if (!shell.json) std::cout << file << '\n';
+  }
+  if (shell.json) printJson(all);
 }
 
 struct ClueArguments {
@@ -146,10 +150,12 @@ void addClues(CLI::App& gap, Shell& shell) {
   auto a = std::make_shared<ClueArguments>();
   CLI::App* app = gap.add_subcommand("clues", "what measured fitness alone says of missing physics");
   app->add_option("--db", a->database, "experiment database")->required();
-  app->add_option("--run", a->run, "number of the run")->required()->check(CLI::PositiveNumber);
+  app->add_option("--run", a->run, "number of the run")->required()->transform(wholeNumber(1));
   app->add_option("--effects", a->options.names, "consider these alone")->take_all();
-  app->add_option("--jobs", a->options.workers, "worker processes")->check(CLI::Range(1, 256));
-  app->add_option("--seed", a->options.seed, "of the differences dealt out at random")->capture_default_str();
+  app->add_option("--jobs", a->options.workers, "worker processes")->transform(wholeNumber(1, 256));
+  app->add_option("--seed", a->options.seed, "of the differences dealt out at random")
+      ->transform(seedNumber())
+      ->capture_default_str();
   app->add_flag("--progress", a->lines, "a line STAGE SHARE on standard error at every step");
   app->callback([a, &shell] { clues(*a, shell); });
 }
@@ -163,7 +169,7 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
     command->add_option("--db", a->database, "experiment database")->required();
   };
   const auto run = [&](CLI::App* command, bool required) {
-    command->add_option("--run", a->run, "number of the run")->required(required)->check(CLI::PositiveNumber);
+    command->add_option("--run", a->run, "number of the run")->required(required)->transform(wholeNumber(1));
   };
 
   CLI::App* adoptApp = gap.add_subcommand("adopt", "make a repaired simulator the newest version of a run");
@@ -177,7 +183,7 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
   database(revertApp);
   run(revertApp, true);
   revertApp->add_option("--version", a->version, "number of the version (default: the newest one's parent)")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(wholeNumber(0));
   revertApp->callback([a, &shell] { revert(*a, shell); });
 
   CLI::App* recordings = gap.add_subcommand("recordings", "recordings kept in the database");
@@ -185,7 +191,7 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
   const auto owner = [&](CLI::App* command) {
     database(command);
     run(command, false);
-    command->add_option("--experiment", a->experiment, "number of the experiment")->check(CLI::PositiveNumber);
+    command->add_option("--experiment", a->experiment, "number of the experiment")->transform(wholeNumber(1));
   };
   CLI::App* importApp = recordings->add_subcommand("import", "check recordings and keep them");
   owner(importApp);
@@ -194,16 +200,18 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
                         "which column is which channel (default: the one beside the file, else beside the scene)");
   importApp->add_option("--scene", a->scene, "the scene whose SCENE.mapping.json counts for files without one");
   importApp->add_option("--individual", a->individual, "number of the individual that was recorded")
-      ->check(CLI::PositiveNumber);
+      ->transform(wholeNumber(1));
   importApp->callback([a, &shell] { import(*a, shell); });
   CLI::App* listApp = recordings->add_subcommand("list", "what is kept");
   owner(listApp);
   listApp->callback([a, &shell] { list(*a, shell); });
   CLI::App* exportApp = recordings->add_subcommand("export", "write recordings and mappings into a folder");
   database(exportApp);
-  exportApp->add_option("--recording", a->recordings, "numbers of the recordings")->required();
-  exportApp->add_option("--out", a->out, "the folder")->required();
-  exportApp->callback([a] { exportThem(*a); });
+  exportApp->add_option("--recording", a->recordings, "numbers of the recordings")
+      ->required()
+      ->transform(wholeNumber(1));
+  shell.writesFolder(exportApp, exportApp->add_option("--out", a->out, "the folder")->required());
+  exportApp->callback([a, &shell] { exportThem(*a, shell); });
 }
 
 }  // namespace btr::cli

@@ -12,6 +12,7 @@
 #include "core/run/grid_cells.h"
 #include "core/run/grid_kicks.h"
 #include "core/run/grid_table.h"
+#include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 
@@ -118,7 +119,8 @@ void runGrid(const GridArguments& a, Shell& shell) {
     for (const std::string& name : a.methods) spec.methods.push_back(gridMethodFromText(name));
   }
   if (!a.seeds.empty()) spec.seeds = a.seeds;
-  Database db = Database::open(a.database, Database::Mode::create);
+  Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
+  shell.goesOn = true;
   const bool show = isatty(STDERR_FILENO) && !a.quiet && !a.progress;
   std::string sha;
   const std::size_t grids = spec.seeds.size() * spec.methods.size();
@@ -154,6 +156,12 @@ void showTable(const GridArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
   if (a.grid == 0) {
     std::set<std::string> seen;
+    for (const GridRecord& g : db.grids()) seen.insert(g.specSha256);
+    if (shell.json && seen.empty()) std::cout << toJsonText(GridComparison{}, {}) << '\n';
+    if ((shell.json || !a.csv.empty()) && seen.size() > 1)
+      throw InputError(db.path() + ": holds grids of " + std::to_string(seen.size()) +
+                       " grid files, and --json and --csv are one table; name a grid with --grid");
+    seen.clear();
     for (const GridRecord& g : db.grids())
       if (seen.insert(g.specSha256).second) report(db, g.specSha256, a, shell);
     return;
@@ -189,13 +197,11 @@ void kick(const GridArguments& a, Shell& shell) {
   const GridKick made = gridKick(db, shell.plugins(), a.grid, point);
   if (!a.csv.empty()) writeOut(a.csv, made.replay.result.trace.toCsv());
   if (shell.json) {
-    std::cout << nlohmann::json{{"task", taskOf(point)},
-                                {"parameters", made.parameters},
-                                {"fitness", made.replay.fitness},
-                                {"outcome", toText(made.replay.result.outcome)},
-                                {"figures", made.figures}}
-                     .dump(1)
-              << '\n';
+    printJson({{"task", taskOf(point)},
+               {"parameters", made.parameters},
+               {"fitness", made.replay.fitness},
+               {"outcome", toText(made.replay.result.outcome)},
+               {"figures", made.figures}});
     return;
   }
   std::cout << nameOfTask(point) << ": fitness " << brief(made.replay.fitness);
@@ -213,31 +219,41 @@ void addGridCommands(CLI::App& app, Shell& shell) {
   command->add_option("FILE", a->file, "grid file (.json)");
   command->add_option("--db", a->database, "experiment database")->required();
   command->add_option("--workers,--jobs", a->workers, "worker processes (0: as many as processors)")
-      ->check(CLI::Range(0, 1024));
+      ->transform(wholeNumber(0, 1024));
   command->add_option("--method", a->methods, "only this method (repeatable)")->allow_extra_args(false);
-  command->add_option("--seed", a->seeds, "instead of the file's seeds (repeatable)")->allow_extra_args(false);
-  command->add_option("--csv", a->csv, "write the table to a file (grid, table: methods; map: points; kick: trace)");
+  command->add_option("--seed", a->seeds, "instead of the file's seeds (repeatable)")
+      ->allow_extra_args(false)
+      ->transform(seedNumber());
+  CLI::Option* csv = command->add_option("--csv", a->csv,
+                                         "write the table to a file (grid, table: methods; map: points; kick: trace)");
+  shell.writesFile(command, csv);
   command->add_flag("--quiet", a->quiet, "no progress, no tables of cells");
   command->add_flag("--progress", a->progress, "lines \"STAGE SHARE\" on stderr");
 
   CLI::App* tables = command->add_subcommand("table", "what is stored: cells of each grid, and the methods compared");
-  tables->add_option("--grid", a->grid, "only this grid, with its cells and points")->check(CLI::PositiveNumber);
-  tables->add_option("--cells", a->cellsCsv, "with --grid: write its cells to a CSV file");
-  tables->add_option("--points", a->pointsCsv, "with --grid: write the kicks between its cells to a CSV file");
+  CLI::Option* grid = tables->add_option("--grid", a->grid, "only this grid, with its cells and points");
+  grid->transform(wholeNumber(1));
+  CLI::Option* cells = tables->add_option("--cells", a->cellsCsv, "with --grid: write its cells to a CSV file");
+  shell.writesFile(tables, cells->needs(grid));
+  CLI::Option* points =
+      tables->add_option("--points", a->pointsCsv, "with --grid: write the kicks between its cells to a CSV file");
+  shell.writesFile(tables, points->needs(grid));
   tables->callback([a, &shell] { showTable(*a, shell); });
 
   CLI::App* map = command->add_subcommand("map", "interpolated kicks at even steps over both angles");
-  map->add_option("--grid", a->grid, "number of the grid")->required()->check(CLI::PositiveNumber);
-  map->add_option("--distance-m", a->distance, "distance of the ball")->required();
-  map->add_option("--columns", a->columns, "bearings of the ball")->check(CLI::Range(1, 1000));
-  map->add_option("--rows", a->rows, "directions of the kick")->check(CLI::Range(1, 1000));
+  map->add_option("--grid", a->grid, "number of the grid")->required()->transform(wholeNumber(1));
+  map->add_option("--distance-m", a->distance, "distance of the ball")->required()->transform(decimalNumber());
+  map->add_option("--columns", a->columns, "bearings of the ball")->transform(wholeNumber(1, 1000));
+  map->add_option("--rows", a->rows, "directions of the kick")->transform(wholeNumber(1, 1000));
   map->callback([a, &shell] { makeMap(*a, shell); });
 
   CLI::App* one = command->add_subcommand("kick", "one interpolated kick");
-  one->add_option("--grid", a->grid, "number of the grid")->required()->check(CLI::PositiveNumber);
-  one->add_option("--distance-m", a->distance, "distance of the ball")->required();
-  one->add_option("--bearing-rad", a->bearing, "direction of the ball, 0 ahead, positive left")->required();
-  one->add_option("--direction-rad", a->direction, "where it should go")->required();
+  one->add_option("--grid", a->grid, "number of the grid")->required()->transform(wholeNumber(1));
+  one->add_option("--distance-m", a->distance, "distance of the ball")->required()->transform(decimalNumber());
+  one->add_option("--bearing-rad", a->bearing, "direction of the ball, 0 ahead, positive left")
+      ->required()
+      ->transform(decimalNumber());
+  one->add_option("--direction-rad", a->direction, "where it should go")->required()->transform(decimalNumber());
   one->callback([a, &shell] { kick(*a, shell); });
 
   command->callback([a, command, &shell] {

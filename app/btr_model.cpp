@@ -28,15 +28,12 @@ void checkModelFile(const std::string& path, const Shell& shell) {
                       {"upper", j.upper}});
   for (const Warning& w : model.warnings) warnings.push_back({{"line", w.line}, {"text", w.text}});
   const Inertial all = massProperties(model, std::vector<double>(model.joints.size(), 0.0));
-  std::cout << nlohmann::json{{"name", model.name},
-                              {"links", links},
-                              {"joints", joints},
-                              {"mass_kg", all.mass_kg},
-                              {"centre_of_mass_m",
-                               {all.centreOfMass_m.x(), all.centreOfMass_m.y(), all.centreOfMass_m.z()}},
-                              {"warnings", warnings}}
-                   .dump(1)
-            << '\n';
+  printJson({{"name", model.name},
+             {"links", links},
+             {"joints", joints},
+             {"mass_kg", all.mass_kg},
+             {"centre_of_mass_m", {all.centreOfMass_m.x(), all.centreOfMass_m.y(), all.centreOfMass_m.z()}},
+             {"warnings", warnings}});
 }
 
 nlohmann::json describe(const std::vector<Parameter>& parameters) {
@@ -69,7 +66,7 @@ void listPlugins(const std::string& kind, Shell& shell) {
   if (shell.json) {
     nlohmann::json all = nlohmann::json::array();
     for (const auto& [name, parameters] : found) all.push_back({{"name", name}, {"parameters", describe(parameters)}});
-    std::cout << all.dump(1) << '\n';
+    printJson(all);
     return;
   }
   for (const auto& [name, parameters] : found) {

@@ -39,12 +39,14 @@ void addGapProveCommand(CLI::App& gap, Shell& shell) {
   request->options.designNext = false;
   CLI::App* prove = gap.add_subcommand("prove", "blind trial: conceal, analyse, open the seal, score");
   prove->add_option("--cases", request->cases, "cases 1 to N of the seed; finished ones are not repeated")
-      ->check(CLI::Range(1, 100000))
+      ->transform(wholeNumber(1, 100000))
       ->capture_default_str();
-  prove->add_option("--seed", request->seed, "of the generator")->capture_default_str();
-  prove->add_option("--out", request->out, "folder for cases, proof.json, proof.txt and proof.html")->required();
+  prove->add_option("--seed", request->seed, "of the generator")->transform(seedNumber())->capture_default_str();
+  CLI::Option* out =
+      prove->add_option("--out", request->out, "folder for cases, proof.json, proof.txt and proof.html")->required();
+  shell.writesFolder(prove, out);
   prove->add_option("--jobs", request->jobs, "worker processes, one case each")
-      ->check(CLI::Range(1, 1024))
+      ->transform(wholeNumber(1, 1024))
       ->capture_default_str();
   prove->add_option("--engine", request->engine, "who is reality: ode or mujoco")
       ->check(CLI::IsMember({"ode", "mujoco"}));

@@ -77,7 +77,7 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
   nlohmann::json all = nlohmann::json::array();
   for (const RunRecord& run : runs) all.push_back(describe(db, run));
   if (asJson) {
-    std::cout << all.dump(1) << '\n';
+    printJson(all);
     return;
   }
   std::vector<std::vector<std::string>> rows;
@@ -110,13 +110,16 @@ struct RunArguments {
 
 void run(const RunArguments& arguments, Shell& shell) {
   if (arguments.spec.empty() == (arguments.run == 0))
-    throw InputError("btr run: give either an experiment file or --run with the number of a stored run");
-  Database db = Database::open(arguments.database, arguments.run ? Database::Mode::readWrite : Database::Mode::create);
+    throw CLI::ValidationError("run", "give either an experiment file or --run with the number of a stored run");
+  // Read before a database is made for it.
+  const std::optional<ExperimentSpec> spec =
+      arguments.run ? std::nullopt : std::optional(loadExperiment(arguments.spec));
+  Database db =
+      Database::open(arguments.database, spec ? Database::Mode::create : Database::Mode::readWrite, workingPatience_ms);
   Id id = arguments.run;
-  if (id == 0) {
-    const ExperimentSpec spec = loadExperiment(arguments.spec);
-    id = startRun(db, shell.plugins(), spec, arguments.seedGiven ? arguments.seed : spec.seed, arguments.again);
-  }
+  if (spec)
+    id = startRun(db, shell.plugins(), *spec, arguments.seedGiven ? arguments.seed : spec->seed, arguments.again);
+  shell.goesOn = true;
   RunOptions options;
   options.jobs = arguments.jobs;
   options.withoutRecordings = arguments.withoutRecordings;
@@ -128,6 +131,16 @@ void run(const RunArguments& arguments, Shell& shell) {
   shell.exitCode = end == RunEnd::finished ? done : end == RunEnd::waiting ? waitsForFitness : stoppedEarly;
 }
 
+// Who asks is told what is wrong, in one place: by an answer.
+void playRobot(const RunArguments& a, Shell& shell) try {
+  const RunRecord record = Database::open(a.database, Database::Mode::readOnly).run(a.run);
+  serveStandIn(asReality(prepareFromRun(record, shell.plugins()), record.seed), shell.plugins(), std::cin, std::cout);
+} catch (const InputError& error) {
+  const nlohmann::json answer{{"error", error.what()}};
+  std::cout << answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  shell.exitCode = badInput;
+}
+
 }  // namespace
 
 void addRunCommands(CLI::App& app, Shell& shell) {
@@ -136,10 +149,11 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   command->add_option("SPEC", arguments->spec, "experiment file (.json)");
   command->add_option("--db", arguments->database, "experiment database")->required();
   command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")
-      ->check(CLI::PositiveNumber);
+      ->transform(wholeNumber(1));
   command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors)")
-      ->check(CLI::Range(0, 1024));
-  CLI::Option* seed = command->add_option("--seed", arguments->seed, "instead of the seed in the file");
+      ->transform(wholeNumber(0, 1024));
+  CLI::Option* seed =
+      command->add_option("--seed", arguments->seed, "instead of the seed in the file")->transform(seedNumber());
   command->add_flag("--again", arguments->again, "start a new run even if the same one is stored");
   command->add_flag("--without-recordings", arguments->withoutRecordings,
                     "go on with the recordings that are there, or without any");
@@ -160,19 +174,18 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   auto stop = std::make_shared<RunArguments>();
   CLI::App* stopCommand = app.add_subcommand("stop", "ask a working run to stop; what it has done is kept");
   stopCommand->add_option("--db", stop->database, "experiment database")->required();
-  stopCommand->add_option("--run", stop->run, "number of the run")->required()->check(CLI::PositiveNumber);
-  stopCommand->callback(
-      [stop] { Database::open(stop->database, Database::Mode::readWrite).requestStop(stop->run, true); });
+  stopCommand->add_option("--run", stop->run, "number of the run")->required()->transform(wholeNumber(1));
+  stopCommand->callback([stop, &shell] {
+    Database::open(stop->database, Database::Mode::readWrite).requestStop(stop->run, true);
+    if (shell.json) printJson({{"run", stop->run}, {"stop_requested", true}});
+  });
 
   auto standIn = std::make_shared<RunArguments>();
   CLI::App* standInCommand = app.add_subcommand(
       "stand-in", "play the real robot of a run: JSON requests on standard input, answers on standard output");
   standInCommand->add_option("--db", standIn->database, "experiment database")->required();
-  standInCommand->add_option("--run", standIn->run, "number of the run")->required()->check(CLI::PositiveNumber);
-  standInCommand->callback([standIn, &shell] {
-    const RunRecord record = Database::open(standIn->database, Database::Mode::readOnly).run(standIn->run);
-    serveStandIn(asReality(prepareFromRun(record, shell.plugins()), record.seed), shell.plugins(), std::cin, std::cout);
-  });
+  standInCommand->add_option("--run", standIn->run, "number of the run")->required()->transform(wholeNumber(1));
+  standInCommand->callback([standIn, &shell] { playRobot(*standIn, shell); });
 }
 
 }  // namespace btr::cli

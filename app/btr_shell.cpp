@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
 #include "core/spec/json_reader.h"
@@ -13,6 +17,20 @@ const PluginHost& Shell::plugins() {
     for (const std::string& problem : plugins_->problems()) std::fprintf(stderr, "btr: %s\n", problem.c_str());
   }
   return *plugins_;
+}
+
+void printJson(const nlohmann::json& document) {
+  std::cout << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+}
+
+bool closeOutput() {
+  // Both streams end in the same file, which remembers that something went wrong.
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+  std::fprintf(stderr, "btr: standard output: cannot be written%s\n",
+               errno ? (std::string(" (") + std::strerror(errno) + ")").c_str() : "");
+  return false;
 }
 
 void writeOut(const std::string& path, const std::string& text) {
@@ -45,7 +63,25 @@ std::size_t width(const std::string& text) {
 
 }  // namespace
 
-std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    char escape[8];
+    std::snprintf(escape, sizeof escape, "\\x%02x", byte);
+    if (c == '\n')
+      shown += "\\n";
+    else if (byte < 0x20 || byte == 0x7F)
+      shown += escape;
+    else
+      shown += c;
+  }
+  return shown;
+}
+
+std::string table(const std::vector<std::string>& header, std::vector<std::vector<std::string>> rows) {
+  for (auto& row : rows)
+    for (std::string& cell : row) cell = printable(cell);
   std::vector<std::size_t> widths;
   for (const std::string& h : header) widths.push_back(width(h));
   for (const auto& row : rows)

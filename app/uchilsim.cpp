@@ -6,8 +6,10 @@
 #include <QTimer>
 #include <cstdio>
 
+#include "app/number_options.h"
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "core/spec/process.h"
 #include "ui/main_window.h"
 
 namespace {
@@ -29,21 +31,25 @@ QString chooseDatabase(const Arguments& arguments, const btr::ui::Settings& sett
 }  // namespace
 
 int main(int argc, char** argv) {
+  btr::beginProgram();
   Arguments arguments;
   CLI::App commandLine{"UCHILSIM, a workbench for Back to Reality", "uchilsim"};
   commandLine.add_option("DATABASE", arguments.database,
                          "experiment database (default: the last one, else experiments.db)");
-  commandLine.add_option("--select-run", arguments.run, "number of the run to show")->check(CLI::PositiveNumber);
+  commandLine.add_option("--select-run", arguments.run, "number of the run to show")
+      ->transform(btr::cli::wholeNumber(1));
   commandLine.add_flag("--replay-best", arguments.replayBest,
                        "replay the best individual of the run's last generation");
   commandLine.add_option("--report", arguments.report, "folder of a gap report to open");
-  commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->check(CLI::PositiveNumber);
+  commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->transform(btr::cli::wholeNumber(1));
   commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
   commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");
-  commandLine.add_option("--width", arguments.width, "of the window in the picture")->check(CLI::Range(640, 8000));
-  commandLine.add_option("--height", arguments.height, "of the window in the picture")->check(CLI::Range(480, 8000));
+  commandLine.add_option("--width", arguments.width, "of the window in the picture")
+      ->transform(btr::cli::wholeNumber(640, 8000));
+  commandLine.add_option("--height", arguments.height, "of the window in the picture")
+      ->transform(btr::cli::wholeNumber(480, 8000));
   commandLine.add_option("--delay-ms", arguments.delay_ms, "time to load before the picture is taken")
-      ->check(CLI::Range(0, 600000));
+      ->transform(btr::cli::wholeNumber(0, 600000));
   commandLine.set_version_flag("--version", "uchilsim " + btr::programVersion());
   CLI11_PARSE(commandLine, argc, argv);
 

@@ -40,8 +40,26 @@ ids=($(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(o
 expect 1 "an individual that nobody asked for" "$btr" fitness enter --db "$db" --run 1 --individual 9999 --value 1
 one_line
 expect 2 "a value that is none" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value fast
-expect 1 "no value at all" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}"
+expect 2 "no value at all" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}"
 one_line
+for value in 1e308 -1e308 1000000001; do
+  expect 1 "a value that no gap can be made of" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value $value
+  one_line
+  says err "-1e+09 to 1e+09"
+done
+expect 1 "a note that is not UTF-8" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 1 --note $'\xff\xfe'
+one_line
+says err "note: the byte 0xFF"
+printf 'individual,value,note\n%s,1,d\351rap\303\251\n' "${ids[0]}" > "$folder/latin.csv"
+expect 1 "a table in Latin-1" "$btr" fitness import --db "$db" --run 1 "$folder/latin.csv"
+one_line
+says err "latin.csv line 2, column 3: the byte 0xE9"
+mkfifo "$folder/pipe"
+expect 1 "a pipe" timeout 20 "$btr" fitness import --db "$db" --run 1 "$folder/pipe"
+one_line
+expect 1 "a run that is not there" "$btr" fitness import --db "$db" --run 3 "$folder/latin.csv"
+one_line
+says err "run 3 is not in the database"
 expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery"
 printf 'individual,value,note,void\n%s,0.25,,\n%s,zero,,\n' "${ids[1]}" "${ids[2]}" > "$folder/wrong.csv"
 expect 1 "a table with a word for a number" "$btr" fitness import --db "$db" --run 1 "$folder/wrong.csv"
@@ -51,6 +69,27 @@ expect 0 "what was stored" "$btr" --json fitness list --db "$db" --run 1
 grep -q '0.25' "$folder/out" && fail "half a table was stored"
 printf 'individual,value,note,void\n%s,0.25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
 expect 0 "the table mended" "$btr" fitness import --db "$db" --run 1 "$folder/right.csv"
+
+expect 0 "what counts" "$btr" fitness list --db "$db" --run 1
+says out "0/1"
+says out "0 (void)"
+
+# A stored value can be made void and valid again, and annotated; it is never deleted.
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+measurement() { python3 -c 'import json,sys; print([v[sys.argv[3]] for t in json.load(open(sys.argv[1])) for v in t["values"] if v["measurement"] == int(sys.argv[2])][0])' "$folder/out" "$@"; }
+[ "$(measurement 1 void)" = False ] || fail "the first value should count"
+expect 0 "void" "$btr" fitness void --db "$db" --run 1 --measurement 1
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+[ "$(measurement 1 void) $(measurement 1 note)" = "True new battery" ] || fail "it should be void, with its note"
+expect 0 "undo, with a note" "$btr" --json fitness void --db "$db" --run 1 --measurement 1 --undo --note "as it was"
+says out '"void": false'
+expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
+[ "$(measurement 1 void) $(measurement 1 note)" = "False as it was" ] || fail "it should count, with the new note"
+expect 1 "a measurement that is not there" "$btr" fitness void --db "$db" --run 1 --measurement 99
+one_line
+expect 1 "a note that is not UTF-8" "$btr" fitness void --db "$db" --run 1 --measurement 1 --note $'\xff'
+one_line
+expect 0 "as it was before" "$btr" fitness void --db "$db" --run 1 --measurement 1 --undo --note "new battery"
 
 expect 10 "second stage" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "gaps" "$btr" export --db "$db" --run 1 --what gaps
@@ -139,7 +178,7 @@ expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))][:2])' "$folder/out"); do
   expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91
 done
-expect 0 "it is enough" "$btr" end-l2 --db "$db" --run 1
+expect 0 "it is enough" "$btr" --json end-l2 --db "$db" --run 1
 expect 10 "the next stage waits" "$btr" run "$folder/l2.json" --db "$db"
 expect 0 "policies" "$btr" export --db "$db" --run 1 --what policies
 [ "$(grep -c ',2,person,' "$folder/out")" = 2 ] || fail "two policies were measured twice each"

@@ -23,7 +23,7 @@ void print(const Comparison& comparison) {
       rows.push_back({arm.name, std::to_string(s.stage), std::to_string(s.gap.count), interval(s.gap),
                       interval(s.adapted), interval(s.realMean), interval(s.realBest), interval(s.gapDifference),
                       interval(s.realDifference)});
-  std::cout << comparison.name << unit
+  std::cout << printable(comparison.name) << unit
             << "\nmean ± half of the 95 % interval over the seeds; gap: |real − simulated| of "
             << "individuals that no update had seen\n\n";
   writeOut("", table({"arm", "stage", "seeds", "gap", "after its update", "real fitness", "real best",

@@ -68,8 +68,8 @@ void printCells(const GridSummary& s) {
                     brief(row.fitness), brief(row.similarity), std::to_string(row.run), std::to_string(row.individual),
                     remark});
   }
-  std::cout << "\ngrid " << s.grid.id << ": " << s.grid.name << ", " << s.grid.method << ", seed " << s.grid.seed
-            << "; fitness in " << s.unit << "\n\n";
+  std::cout << "\ngrid " << s.grid.id << ": " << printable(s.grid.name) << ", " << s.grid.method << ", seed "
+            << s.grid.seed << "; fitness in " << s.unit << "\n\n";
   writeOut("", table({"cell", "d [m]", "β [°]", "α [°]", "fitness", "similarity", "run", "individual", ""}, rows));
 }
 
@@ -89,7 +89,7 @@ void printMethods(const GridComparison& c, const std::vector<GridSummary>& grids
                     brief(m.taken), count ? degrees(off / count) : "", count ? percent(falls / count) : ""});
   }
   std::cout << '\n'
-            << c.name << " [" << c.unit
+            << printable(c.name) << " [" << c.unit
             << "]: mean fitness, ± half of the 95 % interval over the seeds where there are several\n\n";
   writeOut("", table({"method", "seeds", "at the cells", "between them", "cells − first", "between − first",
                       "similarity", "failed", "replaced", "off between [°]", "falls between"},

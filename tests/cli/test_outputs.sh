@@ -9,6 +9,7 @@ source = os.path.join(root, "resources/experiments/kick-short.json")
 spec = json.load(open(source))
 spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
 spec["reality"] = "person"
+spec["name"] = "kick \x1b[31m\n"
 spec["learner"]["settings"]["population"] = 4
 spec["stages"].update(first_generations=1, next_generations=1, total_generations=2, measured_individuals=2)
 json.dump(spec, open(out, "w"))
@@ -28,6 +29,10 @@ refuses() {  # refuses FILE "says" command…: exit code 1, one line, the file a
   says err "$text"
   [ "$(untouched "$file")" = "$before" ] || fail "$file was changed by $*"
 }
+
+# A name is shown, and does not steer the terminal.
+expect 0 "status" "$btr" status --db "$db"
+says out 'kick \x1b[31m\n'
 
 # The database, by any of its names, and what lies beside it.
 refuses "$db" "belongs to the database" export --db "$db" --run 1 --what generations --csv "$db"

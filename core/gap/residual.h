@@ -41,8 +41,9 @@ struct ResidualRequest {
   bool asRecorded = false;  ///< goes on where the doctor is certain that the time is not in seconds
   std::string out;          ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
 };
-/// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings; when
-/// it returns false the work ends early with what is done, and nothing is written. Throws InputError.
+/// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings,
+/// and is asked again in the middle of each; when it returns false the work ends early with what is done, and nothing is
+/// written. Throws InputError.
 ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& effects,
                            const std::function<bool(std::size_t, std::size_t)>& progress = {});
 

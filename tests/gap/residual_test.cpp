@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -311,10 +312,22 @@ TEST(ResidualRun, ReadsSceneMappingSettingsAndWritesItsFiles) {
   // Settled at u/kt: 1 and 2 m/s for 9.99 s, less the settling time m R/kt² = 0.5 s.
   EXPECT_NEAR(report.channels[0].maximum, 1 * (9.99 - 0.5), 0.01);
   EXPECT_NEAR(report.channels[1].maximum, 2 * (9.99 - 0.5), 0.02);
+  // Asked in the middle of each recording, too.
+  EXPECT_GE(std::ranges::count(counted, 0u), 3);
+  counted.erase(std::unique(counted.begin(), counted.end()), counted.end());
   EXPECT_EQ(counted, (std::vector<std::size_t>{0, 1, 2}));
   for (const std::string name : {"out/volts4.rig.rail.position_m.svg", "out/volts8.rig.rail.position_m.svg",
                                  "out/residual.json", "out/residual.txt"})
     EXPECT_TRUE(std::filesystem::is_regular_file(folder.file(name))) << name;
+
+  // Stopped in the middle of the only recording: nothing of it is there.
+  int asked = 0;
+  const ResidualReport none =
+      runResidual({.scene = scene, .recordings = {first}, .mapping = "", .simulator = "", .out = folder.file("none")},
+                  {}, [&](std::size_t, std::size_t) { return ++asked < 3; });
+  EXPECT_EQ(3, asked);
+  EXPECT_TRUE(none.channels.empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.file("none")));
 }
 
 }  // namespace

@@ -72,8 +72,28 @@ std::string readFile(const std::string& path, std::size_t limit) {
   return content;
 }
 
+namespace {
+
+/// Whether this process has the file open, but for what its standard streams are joined to.
+bool isOpenHere(const std::string& path) {
+  struct stat wanted {};
+  if (::stat(path.c_str(), &wanted) != 0) return false;
+  std::error_code ignored;
+  for (const fs::directory_entry& descriptor : fs::directory_iterator("/proc/self/fd", ignored)) {
+    struct stat open {};
+    if (std::stoi(descriptor.path().filename()) <= STDERR_FILENO) continue;
+    if (::stat(descriptor.path().c_str(), &open) == 0 && open.st_dev == wanted.st_dev && open.st_ino == wanted.st_ino)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 void refuseDatabase(const std::string& path) {
   static constexpr std::string_view begin = "SQLite format 3";
+  // Looking into a database of our own would drop this process's locks on it as the look ends.
+  if (isOpenHere(path)) fail(path, "is in use by this program; choose another name for what is written");
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   char bytes[begin.size()] = {};
   if (file.number < 0 || ::read(file.number, bytes, sizeof bytes) != static_cast<ssize_t>(sizeof bytes)) return;

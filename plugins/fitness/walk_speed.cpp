@@ -13,7 +13,6 @@
 #include <numbers>
 
 #include "core/plugin/plugin.h"
-#include "core/sim/gait.h"
 
 namespace {
 

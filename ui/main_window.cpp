@@ -4,6 +4,7 @@
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QScreen>
 #include <QStatusBar>
@@ -31,7 +32,7 @@
 namespace btr::ui {
 namespace {
 
-// As high as its messages need at the window's width: a tool bar would take the height that a narrow text would need.
+// As high as its message needs at the window's width: a tool bar would take the height that a narrow text would need.
 class MessageArea final : public QWidget {
  public:
   using QWidget::QWidget;
@@ -40,6 +41,22 @@ class MessageArea final : public QWidget {
     return {QWidget::sizeHint().width(),
             layout()->hasHeightForWidth() ? layout()->heightForWidth(wide) : layout()->sizeHint().height()};
   }
+};
+
+// Room for the alarm beside the tools, whether it rings or not: its coming moves nothing under the mouse.
+class AlarmPlace final : public QWidget {
+ public:
+  AlarmPlace(Alarm& alarm, QWidget* parent) : QWidget(parent), alarm_(alarm) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->addWidget(&alarm);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  }
+  QSize minimumSizeHint() const override { return {alarm_.minimumSizeHint().width(), Alarm::height_px(fontMetrics())}; }
+  QSize sizeHint() const override { return minimumSizeHint(); }
+
+ private:
+  Alarm& alarm_;
 };
 
 }  // namespace
@@ -77,6 +94,7 @@ MainWindow::~MainWindow() = default;
 
 bool MainWindow::openDatabase(const QString& path) {
   const QString absolute = QFileInfo(path).absoluteFilePath();
+  sheet_->finishEditing();
   const bool opened = guard([&] {
     // Made or brought up to date first: the watcher only reads. A file that may only be read is opened so.
     std::optional<Database> writer;
@@ -86,6 +104,8 @@ bool MainWindow::openDatabase(const QString& path) {
     writer_ = std::move(writer);
   });
   if (!opened) return false;
+  // Numbers of runs begin anew in each database.
+  sheet_->setTasks({});
   banner_->clear();
   launched_.clear();
   settings_.addRecentDatabase(absolute);
@@ -136,29 +156,27 @@ void MainWindow::makeDocks() {
   makeGridPage();
   specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
 
-  // Messages stand above everything, in a tool bar of their own that is there only while there is one.
+  // Messages stand above everything, in a tool bar of their own that is there only while there is one; the alarm has
+  // its place beside the tools.
   banner_ = new MessageBanner(this);
   auto* messages = new QToolBar(tr("Messages"), this);
   messages->setObjectName("toolbar.messages");
   messages->setMovable(false);
   messages->toggleViewAction()->setVisible(false);
   alarm_ = new Alarm(this, options_.settingsFile);
+  alarmPlace_ = new AlarmPlace(*alarm_, this);
   auto* stack = new MessageArea(messages);
   auto* column = new QVBoxLayout(stack);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
-  column->addWidget(alarm_);
   column->addWidget(banner_);
   stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
   messages->addWidget(stack);
   addToolBar(Qt::TopToolBarArea, messages);
-  const auto showIfAny = [this, messages] {
-    messages->setVisible(!banner_->text().isEmpty() || alarm_->state() != Alarm::State::quiet);
-  };
+  const auto showIfAny = [this, messages] { messages->setVisible(!banner_->text().isEmpty()); };
   showIfAny();
   connect(banner_, &MessageBanner::shown, messages, showIfAny);
   connect(banner_, &MessageBanner::cleared, messages, showIfAny);
-  connect(alarm_, &Alarm::stateChanged, messages, showIfAny);
 
   databaseLabel_ = new QLabel(this);
   activeLabel_ = new QLabel(this);
@@ -276,6 +294,7 @@ bool MainWindow::guard(const std::function<void()>& action) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  sheet_->finishEditing();
   watcher_.poll();
   if (const auto active = watcher_.activeRuns(); !active.empty()) {
     const CloseAnswer answer = askWhileActive(active);

@@ -134,8 +134,12 @@ class MainWindow : public QMainWindow {
   void submit(const std::vector<MeasurementRecord>& measurements);
   void voidMeasurement(Id measurement, bool isVoid, const QString& note);
   void importMeasurements();
+  QString parametersCsv(const std::vector<Id>& individuals) const;
+  void giveParameters(const std::vector<Id>& individuals, bool asFile);
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
+  void keepMeasurements();
   void showWaiting();
+  void callForPerson(const std::vector<RunRecord>& runs);
   void showPolicies(const RunProgress& progress);
   void endRealityLearning();
 
@@ -188,6 +192,7 @@ class MainWindow : public QMainWindow {
   std::vector<GapRecord> gaps_;
   std::vector<MeasurementTask> tasks_;
   std::vector<MeasurementRecord> measurements_;
+  QString sheetDatabase_;  ///< that the sheet's run is of
 
   MessageBanner* banner_ = nullptr;
   ExperimentTree* tree_ = nullptr;
@@ -210,6 +215,9 @@ class MainWindow : public QMainWindow {
   MeasurementSheet* sheet_ = nullptr;
   PolicyPage* policies_ = nullptr;
   Alarm* alarm_ = nullptr;
+  QWidget* alarmPlace_ = nullptr;
+  Id waitingRun_ = 0;         ///< that the alarm leads to
+  bool sheetWanted_ = false;  ///< the selected run waits for values
   ReplayPanel* replay_ = nullptr;
   ReplayJob* replayJob_ = nullptr;
   QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,

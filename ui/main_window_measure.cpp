@@ -1,9 +1,14 @@
 // Measuring: the sheet and the alarm that calls for it; what a person enters goes to the database here.
+#include <QApplication>
+#include <QClipboard>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include "core/spec/json_reader.h"
 #include "ui/charts/fitness_chart.h"
+#include "ui/charts/plot_data.h"
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/gap/gap_page.h"
@@ -17,29 +22,36 @@ namespace btr::ui {
 void MainWindow::connectMeasure() {
   connect(&watcher_, &DatabaseWatcher::tasksChanged, this,
           [this](Id, const auto& tasks, const auto& measurements) { showTasks(tasks, measurements); });
+  connect(&sheet_->model(), &MeasurementModel::draftChanged, this, &MainWindow::keepMeasurements);
   connect(sheet_, &MeasurementSheet::submitted, this, &MainWindow::submit);
   connect(sheet_, &MeasurementSheet::voidRequested, this, &MainWindow::voidMeasurement);
   connect(sheet_, &MeasurementSheet::replayRequested, this, &MainWindow::replayIndividual);
   connect(sheet_, &MeasurementSheet::importRequested, this, &MainWindow::importMeasurements);
   connect(sheet_, &MeasurementSheet::continueRequested, this, [this] { continueRun(run_.id); });
+  connect(sheet_, &MeasurementSheet::parametersRequested, this, &MainWindow::giveParameters);
   connect(policies_, &PolicyPage::replayRequested, this, &MainWindow::replayIndividual);
   connect(policies_, &PolicyPage::endRequested, this, &MainWindow::endRealityLearning);
-  connect(alarm_, &Alarm::sheetRequested, this, [this] { raiseDock(sheetDock_); });
+  connect(&watcher_, &DatabaseWatcher::runsChanged, this,
+          [this](const auto&, const std::vector<RunRecord>& runs) { guard([&] { callForPerson(runs); }); });
+  connect(alarm_, &Alarm::sheetRequested, this, [this] {
+    selectRun(waitingRun_);
+    sheet_->showNewest();
+    raiseDock(sheetDock_);
+  });
 }
 
-// The sheet shows the measurement that waits (of a stage, or of an iteration of L2), else the last one that was made.
+// What an earlier session or another look at this run has left unsaved comes back with it.
 void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
                            const std::vector<MeasurementRecord>& measurements) {
   tasks_ = tasks;
   measurements_ = measurements;
-  std::vector<MeasurementTask> latest;
-  for (const MeasurementTask& task : tasks) {
-    if (!latest.empty() && (latest.front().stage != task.stage || latest.front().iteration != task.iteration))
-      latest.clear();
-    latest.push_back(task);
-  }
-  sheet_->setTasks(latest);
+  const Id before = sheet_->model().run();
+  sheet_->setTasks(tasks);
   sheet_->setMeasurements(measurements);
+  if (sheet_->model().run() != before) {
+    sheetDatabase_ = databasePath();
+    sheet_->setDraft(draftFromText(settings_.measurementDraft(sheetDatabase_, sheet_->model().run())));
+  }
   individuals_->setMeasurements(measurements);
   panel_->setMeasuring(countMeasured(run_, tasks, measurements));
   std::set<Id> withFitness;
@@ -58,24 +70,44 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
   showPolicies({});
 }
 
-// The alarm rings for a person while values are missing; a stand-in answers by itself.
+// What the pages say while the selected run waits. Right after the last value its process may be at work already.
 void MainWindow::showWaiting() {
-  const bool waits = run_.state == RunState::waiting && !isStandIn(run_);
+  const bool waits = run_.state == RunState::waiting && !runActive_;
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
-  sheet_->setWaiting(run_.state == RunState::waiting);
+  const bool wanted = waits && !isStandIn(run_) && count.settled < count.wanted;
+  if (wanted && !sheetWanted_) raiseDock(sheetDock_);
+  sheetWanted_ = wanted;
+  sheet_->setWaiting(waits);
   const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;
-  policies_->setWaiting(waits && learnsInReality);
-  if (waits && count.settled < count.wanted) {
-    if (alarm_->state() == Alarm::State::quiet) raiseDock(sheetDock_);
-    const int iteration = tasks_.empty() ? 0 : tasks_.back().iteration;
-    alarm_->raiseAlarm((iteration > 0 ? tr("%1, stage %2: %3 policies of L2 wait for their real fitness.")
-                                      : tr("%1, stage %2: %3 individuals wait for their real fitness."))
-                           .arg(runName(run_))
-                           .arg(run_.stage + 1)
-                           .arg(count.wanted));
-  } else {
-    alarm_->clear();
+  policies_->setWaiting(waits && !isStandIn(run_) && learnsInReality);
+}
+
+// The alarm rings for a person while values are missing, whichever run is selected; a stand-in answers by itself.
+void MainWindow::callForPerson(const std::vector<RunRecord>& runs) {
+  QStringList others;
+  QString message;
+  Id first = 0;
+  for (const RunRecord& run : runs) {
+    if (run.state != RunState::waiting || isStandIn(run)) continue;
+    const MeasuringCount count =
+        countMeasured(run, watcher_.database().measurementTasks(run.id), watcher_.database().measurements(run.id));
+    if (count.settled >= count.wanted) continue;
+    if (first != 0) {
+      others << QString::number(run.id);
+      continue;
+    }
+    first = run.id;
+    message = (count.iteration > 0 ? tr("%1, stage %2: %3 policies of L2 wait for their real fitness.")
+                                   : tr("%1, stage %2: %3 individuals wait for their real fitness."))
+                  .arg(runName(run))
+                  .arg(run.stage + 1)
+                  .arg(count.wanted);
   }
+  waitingRun_ = first;
+  if (first == 0) return alarm_->clear();
+  if (!others.isEmpty())
+    message += ' ' + (others.size() == 1 ? tr("Run %1 waits too.") : tr("Runs %1 wait too.")).arg(others.join(", "));
+  alarm_->raiseAlarm(message);
 }
 
 // Made anew when a policy was asked for, a value came or an iteration ended.
@@ -90,6 +122,12 @@ void MainWindow::showPolicies(const RunProgress& progress) {
   if (seen == policiesSeen_) return;
   guard([&] { policies_->setReports(realityReports(watcher_.database(), run_, genotype_)); });
   policiesSeen_ = seen;
+}
+
+// Typed beside the robot and not saved yet: kept for its run, whatever is looked at next.
+void MainWindow::keepMeasurements() {
+  const MeasurementModel& model = sheet_->model();
+  if (model.run() != 0) settings_.setMeasurementDraft(sheetDatabase_, model.run(), toText(model.draft()));
 }
 
 void MainWindow::endRealityLearning() {
@@ -127,6 +165,36 @@ void MainWindow::importMeasurements() {
       QFileDialog::getOpenFileName(this, tr("Import measured fitness"), QFileInfo(databasePath()).absolutePath(),
                                    tr("Tables (*.csv);;All files (*)"));
   if (!file.isEmpty()) launcher_.importFitness(databasePath(), run_.id, file);
+}
+
+// What a robot's own program needs: one line an individual, the controller's parameters by name in its order.
+QString MainWindow::parametersCsv(const std::vector<Id>& individuals) const {
+  QStringList names{"individual"};
+  for (const Parameter& parameter : genotype_) names << QString::fromStdString(parameter.name);
+  QString text = names.join(',') + '\n';
+  for (const Id id : individuals) {
+    QStringList cells{QString::number(id)};
+    for (const double value : watcher_.database().individual(id).parameters) cells << exactText(value);
+    text += cells.join(',') + '\n';
+  }
+  return text;
+}
+
+void MainWindow::giveParameters(const std::vector<Id>& individuals, bool asFile) {
+  guard([&] {
+    const QString text = parametersCsv(individuals);
+    if (!asFile) {
+      QApplication::clipboard()->setText(text);
+      return inform(tr("Copied the parameters of %1 individuals").arg(individuals.size()));
+    }
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Save parameters"),
+        QFileInfo(databasePath()).dir().filePath(QStringLiteral("run%1-parameters.csv").arg(run_.id)),
+        tr("Tables (*.csv)"));
+    if (file.isEmpty()) return;
+    writeFile(file.toStdString(), text.toStdString());
+    inform(tr("Written: %1").arg(file));
+  });
 }
 
 }  // namespace btr::ui

@@ -34,8 +34,9 @@ void MainWindow::makeMenus() {
   connect(examples, &QMenu::aboutToShow, this, [this, examples] { fillExamples(*examples); });
   QAction* open =
       add(file, "document-open", tr("&Open experiment…"), QKeySequence::Open, [this] { openExperimentWithDialog(); });
-  QAction* save =
-      add(file, "document-save-as", tr("&Save experiment as…"), QKeySequence::Save, [this] { saveExperiment(); });
+  // Ctrl+S is of the page that has the focus: the measurement sheet, or the form of a new experiment.
+  QAction* save = add(file, "document-save-as", tr("&Save experiment as…"), QKeySequence("Ctrl+Shift+S"),
+                      [this] { saveExperiment(); });
   file->addSeparator();
   QAction* database = add(file, "folder-open", tr("Open &database…"), QKeySequence("Ctrl+Shift+O"), [this] {
     const QString path = QFileDialog::getOpenFileName(this, tr("Open a database"), databasePath(),
@@ -121,6 +122,8 @@ void MainWindow::makeMenus() {
   bar->addActions({gapAction_, gridAction_});
   insertToolBar(findChild<QToolBar*>("toolbar.messages"), bar);
   insertToolBarBreak(findChild<QToolBar*>("toolbar.messages"));
+  bar->addSeparator();
+  bar->addWidget(alarmPlace_);
 }
 
 void MainWindow::fillRecent() {

@@ -13,7 +13,6 @@
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
 #include "ui/main_window.h"
-#include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/policy_page.h"
 #include "ui/scene3d/replay_job.h"
@@ -85,9 +84,13 @@ void MainWindow::connectShow() {
 
 void MainWindow::selectRun(Id run) {
   if (!watcher_.isOpen() || (run != 0 && run == run_.id && watcher_.followed() == run)) return;
+  sheet_->finishEditing();
   run_ = {};
   gaps_.clear();
   simulators_.clear();
+  tasks_.clear();
+  measurements_.clear();
+  sheetWanted_ = runActive_ = false;
   if (run == 0) {
     panel_->clear();
     fitness_->setRun({});
@@ -96,7 +99,6 @@ void MainWindow::selectRun(Id run) {
     individuals_->clear();
     sheet_->setTasks({});
     policies_->setReports({});
-    alarm_->clear();
     showAdoption();
   } else {
     guard([&] { showSpec(watcher_.database().run(run)); });

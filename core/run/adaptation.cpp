@@ -174,6 +174,10 @@ bool adaptSimulator(RunContext& context, int stage) {
   context.progress.stage = "L3";
   context.progress.stageTotal = generations;
   context.progress.stageDone = number;
+  if (!earlier.empty()) {
+    context.progress.best = earlier.back().bestError;
+    context.progress.mean = earlier.back().meanError;
+  }
   while (number < generations) {
     const std::vector<Candidate> candidates = learner->ask(random);
     if (!evaluateCandidates(context, evidence, parent.simulator, candidates, known)) return false;

@@ -1,7 +1,9 @@
 // The whole window on a stored run: opens it, shows its numbers, starts and stops a process, asks before it closes.
 #include <sys/stat.h>
 
+#include <QAction>
 #include <QApplication>
+#include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
@@ -26,6 +28,7 @@
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
+#include "ui/measure/measurement_view.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -311,6 +314,135 @@ class TestMainWindow : public QObject {
     stored.database.setRunState(run, RunState::stopped, "");
     program.end();
     QTRY_VERIFY(window->watcher().activeRuns().empty());
+  }
+
+  // Typed and not saved: another run, another database, the end of the program; nothing is lost and nobody is asked.
+  void typedMeasurementsWaitForTheirRun() {
+    StoredRun stored, elsewhere;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    stored.addTasks(run);
+    const Id other = stored.addRun(stored.database.experiments().front().id, 2);
+    const Id foreign = elsewhere.addRun(elsewhere.addExperiment());
+    elsewhere.addGenerations(foreign, 3);
+    elsewhere.addTasks(foreign);
+    QCOMPARE(foreign, run);
+    Desk desk;
+    const auto typed = [](MainWindow& window) {
+      auto& model = window.findChild<MeasurementSheet*>()->model();
+      return model.index(0, MeasurementModel::firstRepeat).data().toString();
+    };
+    {
+      const auto window = desk.open(stored.qpath());
+      window->selectRun(run);
+      window->findChild<MeasurementSheet*>()->model().write({{0, MeasurementModel::firstRepeat, "0.5"}}, "entry");
+      window->selectRun(other);
+      QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 0);
+      window->selectRun(run);
+      QCOMPARE(typed(*window), QString("0.5"));
+      // The same numbers of run and individuals in another database are others.
+      QVERIFY(window->openDatabase(elsewhere.qpath()));
+      QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 2);
+      QCOMPARE(typed(*window), QString());
+      QVERIFY(window->openDatabase(stored.qpath()));
+      QCOMPARE(typed(*window), QString("0.5"));
+      QVERIFY(window->close());
+    }
+    const auto window = desk.open(stored.qpath());
+    auto* sheet = window->findChild<MeasurementSheet*>();
+    QCOMPARE(typed(*window), QString("0.5"));
+    QVERIFY(sheet->findChild<MessageBanner*>()->text().contains("not saved yet"));
+    sheet->save();
+    QCOMPARE(stored.database.measurements(run).size(), 1u);
+    QCOMPARE(window->settings().measurementDraft(stored.qpath(), run), QString());
+  }
+
+  void anOpenEditorIsKeptToo() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    stored.addTasks(run);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(QTest::qWaitForWindowActive(window.get()));
+    auto* sheet = window->findChild<MeasurementSheet*>();
+    sheet->view().setFocus();
+    sheet->view().setCurrentIndex(sheet->model().index(0, MeasurementModel::firstRepeat));
+    QTest::keyClick(&sheet->view(), Qt::Key_7);
+    QVERIFY(!sheet->model().hasUnsaved());
+    QVERIFY(window->close());
+    QVERIFY(window->settings().measurementDraft(stored.qpath(), run).contains("\"7\""));
+  }
+
+  void theKeyForSavingIsOfThePageWithTheFocus() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    stored.addTasks(run);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(QTest::qWaitForWindowActive(window.get()));
+    auto* sheet = window->findChild<MeasurementSheet*>();
+    sheet->model().write({{0, MeasurementModel::firstRepeat, "0.5"}}, "entry");
+    sheet->view().setFocus();
+    QTest::keyClick(&sheet->view(), Qt::Key_S, Qt::ControlModifier);
+    QCOMPARE(stored.database.measurements(run).size(), 1u);
+    // No two actions of the whole window share a key.
+    QStringList keys;
+    for (const QAction* action : window->findChildren<QAction*>())
+      if (action->shortcutContext() == Qt::WindowShortcut)
+        for (const QKeySequence& key : action->shortcuts()) keys << key.toString();
+    QCOMPARE(keys.removeDuplicates(), 0);
+    QVERIFY(!keys.contains("Ctrl+S"));
+  }
+
+  void theAlarmNamesAnyWaitingRunAndLeadsToIt() {
+    StoredRun stored;
+    const Id waiting = stored.addRun(stored.addExperiment(), 7);
+    stored.addGenerations(waiting, 3);
+    stored.addTasks(waiting);
+    const Id other = stored.addRun(stored.database.experiments().front().id, 8);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->selectRun(other);
+    auto* alarm = window->findChild<Alarm*>();
+    QCOMPARE(alarm->state(), Alarm::State::ringing);
+    QVERIFY2(alarm->message().contains(QString("Run %1").arg(waiting)), qPrintable(alarm->message()));
+    emit alarm->sheetRequested();
+    QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), waiting);
+    QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 2);
+  }
+
+  void theAlarmsComingMovesNothing() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment(), 7);
+    stored.addGenerations(run, 3);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(QTest::qWaitForWindowExposed(window.get()));
+    QCoreApplication::processEvents();
+    auto* tree = window->findChild<QDockWidget*>("dock.tree");
+    const QPoint before = tree->mapTo(window.get(), QPoint());
+    stored.addTasks(run);
+    auto* alarm = window->findChild<Alarm*>();
+    QTRY_VERIFY(alarm->isVisible());
+    QCoreApplication::processEvents();
+    QCOMPARE(tree->mapTo(window.get(), QPoint()), before);
+  }
+
+  void theParametersOfIndividualsAreATable() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    const auto tasks = stored.addTasks(run);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    emit window->findChild<MeasurementSheet*>()->parametersRequested({tasks[0].individual, tasks[1].individual}, false);
+    const QStringList lines = QApplication::clipboard()->text().split('\n');
+    QCOMPARE(lines.size(), 4);
+    QVERIFY(lines[0].startsWith("individual,"));
+    QCOMPARE(lines[0].count(','), 25);
+    QCOMPARE(lines[2].section(',', 0, 1), QString("%1,0.5").arg(tasks[1].individual));
   }
 
   void theCluesCountIndividualsWithAValueThatIsNotVoid() {

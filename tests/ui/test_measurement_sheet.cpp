@@ -3,8 +3,11 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QClipboard>
+#include <QComboBox>
 #include <QInputDialog>
+#include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
@@ -12,6 +15,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "ui/common/message_banner.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/measurement_view.h"
 #include "ui/measure/number_entry.h"
@@ -400,6 +404,86 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(s.model().index(0, s.model().countColumn()).data().toInt(), 0);
   }
 
+  // Two repeats, one stored: ticked and saved, no 0 took its place and the value stayed valid.
+  void aTickedRowVoidsWhatStandsInItAfterAsking() {
+    Stored s(1, 2);
+    s.records = {saved(1, 101, -2.5)};
+    s.sheet.setMeasurements(s.records);
+    QObject::connect(&s.sheet, &MeasurementSheet::voidRequested, &s.sheet,
+                     [&](Id id, bool isVoid, const QString& note) {
+                       for (MeasurementRecord& record : s.records)
+                         if (record.id == id) record.isVoid = isVoid, record.note = note.toStdString();
+                       s.sheet.setMeasurements(s.records);
+                     });
+    s.model().write({{0, s.model().noteColumn(), "fell"}}, "note");
+    s.model().setVoid(0, true);
+    QVERIFY(s.model().index(0, first).data(Qt::FontRole).value<QFont>().strikeOut());
+    QCOMPARE(s.text(0, s.model().meanColumn()), QString("void"));
+    const auto answer = [](bool yes) {
+      QTimer::singleShot(0, qApp, [yes] {
+        auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+        QVERIFY(box && box->informativeText().contains("individual 101: -2.5"));
+        if (yes)
+          box->findChild<QPushButton*>("voidStored")->click();
+        else
+          box->reject();
+      });
+    };
+    answer(false);
+    s.sheet.save();
+    QVERIFY(!s.records[0].isVoid);
+    QVERIFY(s.model().hasUnsaved());
+    answer(true);
+    s.sheet.save();
+    QCOMPARE(s.records.size(), std::size_t(2));
+    QVERIFY(s.records[0].isVoid && s.records[1].isVoid);
+    QCOMPARE(s.records[0].value, -2.5);
+    QCOMPARE(s.records[0].note, std::string("fell"));
+    // The trial that never gave a number shows none.
+    QCOMPARE(s.text(0, first), QString("-2.5"));
+    QCOMPARE(s.text(0, first + 1), QString("void"));
+    QVERIFY(!s.model().hasUnsaved());
+  }
+
+  void aTickOnARowWithAllItsValuesStoresNoFurtherOne() {
+    Stored s(1);
+    s.records = {saved(17, 101, 0.5)};
+    s.sheet.setMeasurements(s.records);
+    s.model().setVoid(0, true);
+    QCOMPARE(s.model().toVoid().size(), std::size_t(1));
+    QVERIFY(s.model().submit("Ana").empty());
+    s.records[0].isVoid = true;
+    s.sheet.setMeasurements(s.records);
+    QVERIFY(!s.model().hasUnsaved());
+  }
+
+  void oneOfTwoTypedRepeatsCanBeVoid() {
+    Stored s(1, 2);
+    s.model().write({{0, first, "0.5"}, {0, first + 1, "9"}}, "entry");
+    s.model().setValueVoid(s.model().index(0, first + 1), true);
+    QVERIFY(s.model().index(0, first + 1).data(Qt::FontRole).value<QFont>().strikeOut());
+    QCOMPARE(s.text(0, s.model().meanColumn()), QString("0.5"));
+    s.sheet.save();
+    QCOMPARE(s.records.size(), std::size_t(2));
+    QVERIFY(!s.records[0].isVoid && s.records[1].isVoid);
+    QCOMPARE(s.records[1].value, 9.0);
+    QVERIFY(s.model().isComplete());
+  }
+
+  void aTrialThatFellIsTypedAsAWord() {
+    Stored s(1, 2);
+    s.goTo(0, first);
+    s.type("Void");
+    s.press(Qt::Key_Tab);
+    s.type("0.5");
+    s.press(Qt::Key_Return);
+    QCOMPARE(s.text(0, first), QString("void"));
+    QVERIFY(!s.model().firstInvalid().isValid());
+    s.sheet.save();
+    QCOMPARE(s.records.size(), std::size_t(2));
+    QVERIFY(s.records[0].isVoid && !s.records[1].isVoid);
+  }
+
   void aClickAnywhereInItsCellTogglesVoid() {
     Stored s(2);
     const QModelIndex cell = s.model().index(1, s.model().voidColumn());
@@ -490,6 +574,97 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(replay.count(), 2);
     QCOMPARE(replay[0][0].value<Id>(), Id(101));
     QCOMPARE(replay[1][0].value<Id>(), Id(102));
+  }
+
+  void whatIsNotAllowedIsSaidAtOnceAndUntilItIsMended() {
+    Stored s(2);
+    s.sheet.setAllowed({0.0, 3.0});
+    s.goTo(0, first);
+    s.type("7");
+    s.press(Qt::Key_Return);
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QVERIFY2(banner->text().contains("Individual 102") && banner->text().contains("from 0 to 3"),
+             qPrintable(banner->text()));
+    s.goTo(0, first);
+    s.type("2");
+    s.press(Qt::Key_Return);
+    QCOMPARE(banner->text(), QString());
+  }
+
+  void theProgressCountsWhatIsEnteredAndNotSaved() {
+    Stored s(2);
+    s.model().write({{0, first, "1"}, {1, first, "2"}}, "paste");
+    QCOMPARE(s.sheet.progressText(), QString("0 of 2 measured · 2 entered, not saved yet"));
+  }
+
+  void anEarlierStageCanBeLookedAtAndCorrected() {
+    Stored s(2);
+    auto all = tasks(2);
+    for (MeasurementTask later : tasks(2)) {
+      later.stage = 3;
+      later.individual += 100;
+      all.push_back(later);
+    }
+    s.sheet.setTasks(all);
+    s.records = {saved(1, 101, 0.5), saved(2, 102, 0.4)};
+    s.sheet.setMeasurements(s.records);
+    auto* stage = s.sheet.findChild<QComboBox*>("stage");
+    QVERIFY(stage->isVisible());
+    QCOMPARE(stage->currentText(), QString("Stage 3"));
+    QCOMPARE(s.text(0, MeasurementModel::individualColumn), QString("202"));
+    s.model().write({{0, first, "0.75"}}, "entry");
+    stage->setCurrentIndex(0);
+    emit stage->activated(0);
+    QCOMPARE(s.text(0, MeasurementModel::individualColumn), QString("102"));
+    QVERIFY(s.model().savedAt(s.model().index(0, first)));
+    auto* title = s.sheet.findChild<QLabel*>("title");
+    QVERIFY2(!title->text().contains("measure these"), qPrintable(title->text()));
+    QVERIFY(!s.button("Start learning again")->isEnabled());
+    // A poll leaves it; what was typed in the newest stage comes back with it.
+    s.sheet.setTasks(all);
+    QCOMPARE(stage->currentIndex(), 0);
+    s.sheet.showNewest();
+    QCOMPARE(s.text(0, first), QString("0.75"));
+    QVERIFY(title->text().contains("measure these 2 individuals"));
+  }
+
+  void aSheetThatIsDoneOrdersNothing() {
+    Stored s(1);
+    auto* title = s.sheet.findChild<QLabel*>("title");
+    QVERIFY(title->text().contains("measure these"));
+    s.sheet.setWaiting(false);
+    QVERIFY(!title->text().contains("measure these"));
+    QVERIFY(title->text().contains("Stage 2: 1 individuals"));
+  }
+
+  void aDraftComesBackAsItWas() {
+    Stored s(2, 2);
+    s.model().write({{0, first, "0,5"}, {0, first + 1, "void"}, {1, s.model().noteColumn(), "„late“"}}, "entry");
+    s.model().setVoid(1, true);
+    const QString text = toText(s.model().draft());
+    Stored again(2, 2);
+    again.sheet.setDraft(draftFromText(text));
+    QCOMPARE(again.model().draft(), s.model().draft());
+    QCOMPARE(again.text(0, first), QString("0.5"));
+    QCOMPARE(again.text(0, first + 1), QString("void"));
+    QVERIFY(again.sheet.findChild<MessageBanner*>()->text().contains("not saved yet"));
+    QVERIFY(draftFromText("{\"rows\": 3").empty());
+    QCOMPARE(toText(MeasurementDraft()), QString());
+  }
+
+  void theReplayButtonsStayInTheirColumn() {
+    Stored s(2);
+    const auto column = [&] { return s.model().replayColumn(); };
+    const auto stands = [&](int row) {
+      const QModelIndex cell = s.model().index(row, column());
+      QWidget* button = s.sheet.view().indexWidget(cell);
+      return button && s.sheet.view().visualRect(cell).contains(button->geometry().center());
+    };
+    s.model().addRepeatColumn();
+    s.model().write({{0, first, "1"}, {1, first, "2"}}, "paste");
+    s.sheet.save();
+    QCoreApplication::processEvents();
+    QVERIFY(stands(0) && stands(1));
   }
 
   void theSameTasksAgainKeepWhatWasTyped() {

@@ -114,6 +114,43 @@ class TestRunPanel : public QObject {
              QString("L3 · adapting the simulator"));
   }
 
+  void whatL2LeftIsNoErrorOfL3() {
+    RunPanel panel;
+    RunProgress left = progressIn("L2");
+    left.stageDone = 2;
+    left.stageTotal = 4;
+    const Shown shown = show(panel, aRun(RunState::adapting), left, true);
+    QCOMPARE(shown.best, QString("–"));
+    QVERIFY(!panel.findChild<QProgressBar*>("within")->isVisible());
+    panel.showRun(aRun(RunState::adapting), progressIn("L3"), true);
+    QCOMPARE(panel.findChild<QLabel*>("best")->text().replace(QChar(0x202f), ' '), QString("0.5 m"));
+    QVERIFY(panel.findChild<QProgressBar*>("within")->isVisible());
+  }
+
+  void afterTheLastStageNothingFollows() {
+    RunPanel panel;
+    RunProgress last = progressIn("L3");
+    QVERIFY(show(panel, aRun(RunState::adapting), last, true).next.contains("learning goes on"));
+    last.totalGenerations = 37;
+    QVERIFY(show(panel, aRun(RunState::adapting), last, true).next.contains("the run is finished"));
+  }
+
+  void oneGenerationIsNoPlural() {
+    RunPanel panel;
+    RunProgress progress = progressIn("L1");
+    progress.stageDone = 49;
+    QCOMPARE(show(panel, aRun(RunState::learning), progress, true).next,
+             QString("In 1 generation the best wait for real fitness."));
+  }
+
+  void rightAfterTheLastValueTheRunGoesOnByItself() {
+    RunPanel panel;
+    show(panel, aRun(RunState::waiting), progressIn("measuring"), true);
+    panel.setMeasuring({10, 10});
+    QVERIFY(!panel.findChild<QLabel*>("next")->text().contains("press Continue"));
+    QVERIFY(!panel.findChild<QPushButton*>("go")->isEnabled());
+  }
+
   void aFinishedRunOffersNoStart() {
     RunPanel panel;
     const Shown shown = show(panel, aRun(RunState::finished), progressIn("finished"), false);

@@ -6,10 +6,16 @@
 namespace btr::ui {
 namespace {
 
-QString runKey(const QString& database) {
+QString keyOf(const QString& database) {
   const auto digest =
       QCryptographicHash::hash(QFileInfo(database).absoluteFilePath().toUtf8(), QCryptographicHash::Sha1);
-  return "selectedRun/" + QString::fromLatin1(digest.toHex().left(16));
+  return QString::fromLatin1(digest.toHex().left(16));
+}
+
+QString runKey(const QString& database) { return "selectedRun/" + keyOf(database); }
+
+QString draftKey(const QString& database, qint64 run) {
+  return QStringLiteral("measured/%1-%2").arg(keyOf(database)).arg(run);
 }
 
 }  // namespace
@@ -59,6 +65,19 @@ QString Settings::draftFolder() const { return store_.value("draft/folder").toSt
 void Settings::setDraft(const QString& json, const QString& folder) {
   store_.setValue("draft/json", json);
   store_.setValue("draft/folder", folder);
+}
+
+QString Settings::measurementDraft(const QString& database, qint64 run) const {
+  return store_.value(draftKey(database, run)).toString();
+}
+
+void Settings::setMeasurementDraft(const QString& database, qint64 run, const QString& draft) {
+  if (draft.isEmpty())
+    store_.remove(draftKey(database, run));
+  else
+    store_.setValue(draftKey(database, run), draft);
+  // At once: what was typed beside the robot outlives a crash.
+  store_.sync();
 }
 
 int Settings::jobs() const { return store_.value("jobs", 0).toInt(); }

@@ -34,6 +34,10 @@ class Settings {
   QString draftFolder() const;
   void setDraft(const QString& json, const QString& folder);
 
+  /// Measurements of a run that were entered and not saved yet, as text; empty if there are none.
+  QString measurementDraft(const QString& database, qint64 run) const;
+  void setMeasurementDraft(const QString& database, qint64 run, const QString& draft);
+
   int jobs() const;  ///< worker processes of a run, 0: as many as processors
   void setJobs(int jobs);
 

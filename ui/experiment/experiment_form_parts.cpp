@@ -1,4 +1,5 @@
 // The parts of the experiment form that are not made from declared parameters.
+#include <QAction>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -221,6 +222,13 @@ void ExperimentForm::makeBars(QVBoxLayout& column) {
   buttons->addWidget(start_);
   column.addLayout(buttons);
   connect(save_, &QPushButton::clicked, this, &ExperimentForm::saveRequested);
+  auto* saveKey = new QAction(this);
+  saveKey->setShortcut(QKeySequence::Save);
+  saveKey->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  connect(saveKey, &QAction::triggered, this, [this] {
+    if (!readOnly_ && save_->isEnabled()) emit saveRequested();
+  });
+  addAction(saveKey);
   connect(start_, &QPushButton::clicked, this, &ExperimentForm::startRequested);
   connect(copy_, &QPushButton::clicked, this, &ExperimentForm::copyRequested);
 }

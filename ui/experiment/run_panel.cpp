@@ -180,30 +180,33 @@ void RunPanel::refresh() {
   standIn_->setStyleSheet(QStringLiteral("color: %1; border: 1px solid %1; border-radius: 8px; padding: 1px 8px; "
                                          "font-weight: 600;")
                               .arg(tones.standIn.name()));
-  next_->setText(nextAction(face_, run_, progress_, measuring_));
+  next_->setText(nextAction(face_, run_, progress_, measuring_, active_));
 
   const int total = std::max(progress_.totalGenerations, run_.generation);
   overall_->setVisible(true);
-  overall_->setRange(0, std::max(total, 1));
-  overall_->setValue(run_.generation);
+  // The words come before the number: a bar paints itself at once when its number changes.
   overall_->setFormat(
       tr("generation %1 of %2").arg(run_.generation).arg(total > 0 ? QString::number(total) : QStringLiteral("?")));
-  const bool counts = face_ == RunFace::waiting ? measuring_.wanted > 0 : active_ && progress_.stageTotal > 0;
+  overall_->setRange(0, std::max(total, 1));
+  overall_->setValue(run_.generation);
+  // Until the first step of L3 is done, the progress is still that of the stage before.
+  const bool adapting = face_ == RunFace::adapting || (active_ && progress_.stage == "L3");
+  const bool isOld = adapting && (progress_.stage != "L3" || progress_.stageDone == 0);
+  const bool counts = face_ == RunFace::waiting ? measuring_.wanted > 0 : active_ && progress_.stageTotal > 0 && !isOld;
   within_->setVisible(counts);
   if (counts && face_ == RunFace::waiting) {
+    within_->setFormat(tr("measured %1 of %2").arg(measuring_.settled).arg(measuring_.wanted));
     within_->setRange(0, measuring_.wanted);
     within_->setValue(measuring_.settled);
-    within_->setFormat(tr("measured %1 of %2").arg(measuring_.settled).arg(measuring_.wanted));
   } else if (counts) {
+    within_->setFormat(tr("this stage %1 of %2").arg(progress_.stageDone).arg(progress_.stageTotal));
     within_->setRange(0, progress_.stageTotal);
     within_->setValue(progress_.stageDone);
-    within_->setFormat(tr("this stage %1 of %2").arg(progress_.stageDone).arg(progress_.stageTotal));
   }
 
-  const bool adapting = face_ == RunFace::adapting || (active_ && progress_.stage == "L3");
   best_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
   mean_.caption->setText(adapting ? tr("Mean error") : tr("Mean"));
-  const bool known = adapting ? progress_.stageDone > 0 : generation_.number > 0;
+  const bool known = adapting ? !isOld : generation_.number > 0;
   best_.value->setText(known ? withUnit(adapting ? progress_.best : generation_.best, unit_) : QStringLiteral("–"));
   mean_.value->setText(known ? withUnit(adapting ? progress_.mean : generation_.mean, unit_) : QStringLiteral("–"));
   speed_.value->setText(active_ && progress_.trialsPerSecond > 0

@@ -10,6 +10,10 @@ struct RunTexts {
   Q_DECLARE_TR_FUNCTIONS(run)
 };
 
+QString generations(int count) {
+  return count == 1 ? RunTexts::tr("1 generation") : RunTexts::tr("%1 generations").arg(count);
+}
+
 }  // namespace
 
 RunFace faceOf(const RunRecord& run, bool active) {
@@ -99,24 +103,28 @@ MeasuringCount countMeasured(const RunRecord& run, const std::vector<Measurement
   return count;
 }
 
-QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring) {
+QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring,
+                   bool active) {
   switch (face) {
     case RunFace::ready:
       return RunTexts::tr("Press Start: the learner begins with its first generation.");
     case RunFace::learning:
     case RunFace::adapting:
       if (face == RunFace::adapting || progress.stage == "L3")
-        return RunTexts::tr("Then the new simulator version is stored and learning goes on in it.");
+        return progress.totalGenerations > 0 && run.generation >= progress.totalGenerations
+                   ? RunTexts::tr("Then the new simulator version is stored, and the run is finished.")
+                   : RunTexts::tr("Then the new simulator version is stored and learning goes on in it.");
       if (progress.stage == "L2") return RunTexts::tr("Then the step is taken, and the next policies are proposed.");
       if (progress.stageTotal > progress.stageDone && progress.generation < progress.totalGenerations)
-        return isStandIn(run) ? RunTexts::tr("In %1 generations the best are measured by the stand-in reality.")
-                                    .arg(progress.stageTotal - progress.stageDone)
-                              : RunTexts::tr("In %1 generations the best wait for real fitness.")
-                                    .arg(progress.stageTotal - progress.stageDone);
+        return (isStandIn(run) ? RunTexts::tr("In %1 the best are measured by the stand-in reality.")
+                               : RunTexts::tr("In %1 the best wait for real fitness."))
+            .arg(generations(progress.stageTotal - progress.stageDone));
       return RunTexts::tr("Learning goes on in simulation.");
     case RunFace::waiting:
       if (isStandIn(run))
         return RunTexts::tr("The stand-in reality answers the measurements; press Continue if nothing happens.");
+      if (active && measuring.settled >= measuring.wanted)
+        return RunTexts::tr("All %1 are measured: the run goes on by itself.").arg(measuring.wanted);
       if (measuring.wanted > 0 && measuring.settled >= measuring.wanted)
         return (measuring.iteration > 0 ? RunTexts::tr("All %1 are measured: press Continue to take the step.")
                                         : RunTexts::tr("All %1 are measured: press Continue to adapt the simulator."))

@@ -22,7 +22,8 @@ MeasuringCount countMeasured(const RunRecord& run, const std::vector<Measurement
                              const std::vector<MeasurementRecord>& measurements);
 
 /// What happens next, or what the user can do now, in one sentence.
-QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring);
+QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progress, const MeasuringCount& measuring,
+                   bool active = false);
 /// "Run 3 · seed 7".
 QString runName(const RunRecord& run);
 inline bool isStandIn(const RunRecord& run) { return run.reality == "stand_in"; }

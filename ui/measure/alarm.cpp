@@ -45,7 +45,7 @@ Alarm::Alarm(QWidget* parent, const QString& settingsFile, std::function<void()>
   }
   setAccessibleName(tr("Alarm"));
   auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(12, 6, 8, 6);
+  layout->setContentsMargins(12, 2, 4, 2);
   auto* icon = new Bell(this);
   text_ = new QLabel(this);
   text_->setWordWrap(true);
@@ -53,7 +53,9 @@ Alarm::Alarm(QWidget* parent, const QString& settingsFile, std::function<void()>
   QFont bold = text_->font();
   bold.setBold(true);
   text_->setFont(bold);
-  auto* show = new QPushButton(tr("Open the measurement sheet"), this);
+  text_->setMinimumWidth(fontMetrics().horizontalAdvance('x') * 24);
+  text_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
+  auto* show = new QPushButton(tr("Open the sheet"), this);
   silence_ = new QPushButton(tr("Silence"), this);
   silence_->setToolTip(tr("Stops sound and pulsing; the message stays until everything is measured"));
   mute_ = new QToolButton(this);
@@ -93,6 +95,7 @@ QString Alarm::message() const { return text_->text(); }
 void Alarm::raiseAlarm(const QString& message) {
   if (state_ != State::quiet && message == text_->text()) return;
   text_->setText(message);
+  text_->setToolTip(message);
   setAccessibleDescription(message);
   chimes_ = 0;
   setState(State::ringing);

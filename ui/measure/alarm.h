@@ -11,7 +11,7 @@ class QToolButton;
 namespace btr::ui {
 
 /// Calls a person: a banner with pulsing colour, the window's entry in the task bar, and a chime every few seconds for
-/// at most two minutes. For the main window, above everything, so that it is seen whatever page is open.
+/// at most two minutes. For the main window, beside its tools, so that it is seen whatever page is open.
 class Alarm : public QFrame {
   Q_OBJECT
 
@@ -32,6 +32,8 @@ class Alarm : public QFrame {
   void clear();
   State state() const { return state_; }
   QString message() const;
+  /// Its height in pixels: two lines of this font.
+  static int height_px(const QFontMetrics& font) { return 2 * font.lineSpacing() + 8; }
 
   /// No sound from now on, in later sessions too; banner and task bar stay.
   void setMuted(bool muted);

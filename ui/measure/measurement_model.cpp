@@ -43,6 +43,7 @@ void MeasurementModel::setTasks(std::vector<MeasurementTask> tasks) {
     return;
   }
   beginResetModel();
+  MeasurementDraft kept = !tasks.empty() && tasks.front().run == run() ? draft() : MeasurementDraft();
   undo_.clear();
   rows_.clear();
   repeats_ = 1;
@@ -50,8 +51,10 @@ void MeasurementModel::setTasks(std::vector<MeasurementTask> tasks) {
     repeats_ = std::max(repeats_, task.wantedRepeats);
     MeasurementRow row;
     row.task = std::move(task);
+    if (auto edit = kept.extract({row.task.stage, row.task.individual})) row.edit = std::move(edit.mapped());
     rows_.push_back(std::move(row));
   }
+  elsewhere_ = std::move(kept);
   endResetModel();
   setMeasurements(measurements_);
 }
@@ -66,9 +69,9 @@ void MeasurementModel::setMeasurements(const std::vector<MeasurementRecord>& mea
     const auto before = row.saved.size();
     row.saved = byIndividual[row.task.individual];
     std::sort(row.saved.begin(), row.saved.end(), [](auto& a, auto& b) { return a.id < b.id; });
-    if (row.awaited > 0 && row.saved.size() >= before + static_cast<std::size_t>(row.awaited)) {
+    if (row.isAwaited && row.saved.size() >= before + static_cast<std::size_t>(row.awaited) && row.toVoid().empty()) {
       row.edit = {};
-      row.awaited = 0;
+      row.isAwaited = false;
       arrived = true;
     }
     most = std::max(most, row.repeats());
@@ -77,6 +80,7 @@ void MeasurementModel::setMeasurements(const std::vector<MeasurementRecord>& mea
   if (arrived) undo_.clear();
   growTo(most);
   announceAll();
+  if (arrived) emit draftChanged();
 }
 
 void MeasurementModel::setSimulatedShown(bool shown) {
@@ -112,13 +116,14 @@ void MeasurementModel::write(const std::vector<Text>& texts, const QString& what
     if (text.column < firstRepeat || place < 0) continue;
     const NumberEntry entry = readNumber(text.text);
     if (entry.converted) commas << tr("%1 read as %2").arg(text.text.trimmed(), entry.text);
-    if (place >= static_cast<int>(edit.texts.size())) edit.texts.resize(static_cast<std::size_t>(place) + 1);
-    edit.texts[static_cast<std::size_t>(place)] = entry.text;
+    const bool isVoid = entry.text.compare(tr("void"), Qt::CaseInsensitive) == 0;
+    if (place >= static_cast<int>(edit.values.size())) edit.values.resize(static_cast<std::size_t>(place) + 1);
+    edit.values[static_cast<std::size_t>(place)] = {isVoid ? QString() : entry.text, isVoid};
     most = std::max(most, text.column - firstRepeat + 1);
   }
   EditCommand::Edits before, changes;
   for (auto& [row, edit] : after) {
-    while (!edit.texts.empty() && edit.texts.back().isEmpty()) edit.texts.pop_back();
+    while (!edit.values.empty() && edit.values.back().isEmpty()) edit.values.pop_back();
     if (edit == rows_[static_cast<std::size_t>(row)].edit) continue;
     before.emplace_back(row, rows_[static_cast<std::size_t>(row)].edit);
     changes.emplace_back(row, std::move(edit));
@@ -126,15 +131,46 @@ void MeasurementModel::write(const std::vector<Text>& texts, const QString& what
   if (changes.empty()) return;
   growTo(most);
   undo_.push(new EditCommand(*this, what, std::move(before), std::move(changes)));
+  for (const Text& text : texts)
+    if (const QString why = problem(text.row, text.column); !why.isEmpty()) {
+      emit refused(text.row, why);
+      break;
+    }
   if (!commas.isEmpty()) emit converted(commas.mid(0, 3).join("; ") + (commas.size() > 3 ? "; …" : ""));
 }
 
 void MeasurementModel::setVoid(int row, bool isVoid) {
-  const MeasurementEdit before = rows_[static_cast<std::size_t>(row)].edit;
-  if (before.isVoid == isVoid) return;
-  MeasurementEdit after = before;
+  MeasurementEdit after = rows_[static_cast<std::size_t>(row)].edit;
   after.isVoid = isVoid;
-  undo_.push(new EditCommand(*this, tr("void"), {{row, before}}, {{row, after}}));
+  change(row, std::move(after), tr("void"));
+}
+
+void MeasurementModel::setValueVoid(const QModelIndex& cell, bool isVoid) {
+  const int place = unsavedPlace(cell.row(), cell.column());
+  if (place < 0) return;
+  MeasurementEdit after = rows_[static_cast<std::size_t>(cell.row())].edit;
+  if (place >= static_cast<int>(after.values.size())) after.values.resize(static_cast<std::size_t>(place) + 1);
+  after.values[static_cast<std::size_t>(place)].isVoid = isVoid;
+  while (!after.values.empty() && after.values.back().isEmpty()) after.values.pop_back();
+  change(cell.row(), std::move(after), tr("void"));
+}
+
+bool MeasurementModel::isValueVoid(const QModelIndex& cell) const {
+  const int place = unsavedPlace(cell.row(), cell.column());
+  if (place < 0) return false;
+  const auto& values = rows_[static_cast<std::size_t>(cell.row())].edit.values;
+  return place < static_cast<int>(values.size()) && values[static_cast<std::size_t>(place)].isVoid;
+}
+
+int MeasurementModel::unsavedPlace(int row, int column) const {
+  if (row < 0 || row >= rowCount() || !isRepeat(column)) return -1;
+  return std::max(-1, column - firstRepeat - static_cast<int>(rows_[static_cast<std::size_t>(row)].saved.size()));
+}
+
+void MeasurementModel::change(int row, MeasurementEdit after, const QString& what) {
+  const MeasurementEdit& before = rows_[static_cast<std::size_t>(row)].edit;
+  if (before == after) return;
+  undo_.push(new EditCommand(*this, what, {{row, before}}, {{row, std::move(after)}}));
 }
 
 void MeasurementModel::apply(const std::vector<std::pair<int, MeasurementEdit>>& edits) {
@@ -143,6 +179,7 @@ void MeasurementModel::apply(const std::vector<std::pair<int, MeasurementEdit>>&
     emit dataChanged(index(row, 0), index(row, columnCount() - 1));
   }
   emit changed();
+  emit draftChanged();
 }
 
 void MeasurementModel::announceAll() {
@@ -154,16 +191,35 @@ bool MeasurementModel::hasUnsaved() const {
   return std::any_of(rows_.begin(), rows_.end(), [](auto& row) { return !row.edit.isEmpty(); });
 }
 
+MeasurementDraft MeasurementModel::draft() const {
+  MeasurementDraft all = elsewhere_;
+  for (const MeasurementRow& row : rows_)
+    if (!row.edit.isEmpty()) all[{row.task.stage, row.task.individual}] = row.edit;
+  return all;
+}
+
+void MeasurementModel::setDraft(MeasurementDraft draft) {
+  int most = repeats_;
+  for (MeasurementRow& row : rows_) {
+    auto edit = draft.extract({row.task.stage, row.task.individual});
+    if (edit && row.edit.isEmpty()) row.edit = std::move(edit.mapped());
+    most = std::max(most, row.repeats());
+  }
+  elsewhere_.merge(draft);
+  growTo(most);
+  announceAll();
+}
+
 QString MeasurementModel::problem(int row, int column) const {
-  if (!isRepeat(column)) return {};
-  const MeasurementRow& r = rows_[static_cast<std::size_t>(row)];
-  const int place = column - firstRepeat - static_cast<int>(r.saved.size());
-  if (place < 0 || place >= static_cast<int>(r.edit.texts.size())) return {};
-  const QString& text = r.edit.texts[static_cast<std::size_t>(place)];
+  const int place = unsavedPlace(row, column);
+  if (place < 0) return {};
+  const auto& values = rows_[static_cast<std::size_t>(row)].edit.values;
+  if (place >= static_cast<int>(values.size())) return {};
+  const QString& text = values[static_cast<std::size_t>(place)].text;
   if (text.isEmpty()) return {};
   const auto value = readNumber(text).value;
   if (value && allowed_.contains(*value)) return {};
-  return tr("“%1” is not allowed here; allowed is %2. Tick “void” if it fell.").arg(text, allowed_.text(unit_));
+  return tr("“%1” is not allowed here; allowed is %2. Type “void” if it fell.").arg(text, allowed_.text(unit_));
 }
 
 QModelIndex MeasurementModel::firstInvalid() const {
@@ -173,22 +229,36 @@ QModelIndex MeasurementModel::firstInvalid() const {
   return {};
 }
 
+std::vector<MeasurementRecord> MeasurementModel::toVoid() const {
+  std::vector<MeasurementRecord> all;
+  for (const MeasurementRow& row : rows_) {
+    const std::vector<MeasurementRecord> some = row.toVoid();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
 std::vector<MeasurementRecord> MeasurementModel::submit(const QString& who) {
   std::vector<MeasurementRecord> all;
   for (MeasurementRow& row : rows_) {
     const std::vector<MeasurementRecord> records = row.records(who);
     row.awaited = static_cast<int>(records.size());
+    row.isAwaited = !records.empty() || !row.toVoid().empty();
     all.insert(all.end(), records.begin(), records.end());
   }
   return all;
 }
 
 void MeasurementModel::submissionFailed() {
-  for (MeasurementRow& row : rows_) row.awaited = 0;
+  for (MeasurementRow& row : rows_) row.isAwaited = false;
 }
 
 int MeasurementModel::doneCount() const {
   return static_cast<int>(std::count_if(rows_.begin(), rows_.end(), [](auto& row) { return row.isDone(); }));
+}
+
+int MeasurementModel::enteredCount() const {
+  return static_cast<int>(std::count_if(rows_.begin(), rows_.end(), [](auto& row) { return row.isEntered(); }));
 }
 
 int MeasurementModel::voidCount() const {

@@ -19,8 +19,11 @@ class MeasurementModel : public QAbstractTableModel {
   // ---- what the sheet is about
   void setUnit(const QString& unit);
   void setAllowed(const AllowedRange& allowed);
-  /// Individuals of one stage. Drops unsaved edits if it is another run or stage.
+  /// Individuals of one stage or iteration. Unsaved edits of another one of the same run are kept and come back with
+  /// it; those of another run are dropped: draft() has them until then.
   void setTasks(std::vector<MeasurementTask> tasks);
+  /// The run of these individuals, 0 if there are none.
+  Id run() const { return rows_.empty() ? 0 : rows_.front().task.run; }
   /// Everything stored for the run; what was submitted and is now here loses its unsaved text.
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
   const std::vector<MeasurementRow>& rows() const { return rows_; }
@@ -50,21 +53,35 @@ class MeasurementModel : public QAbstractTableModel {
     QString text;
   };
   /// Writes texts into unsaved repeats and notes; others are left alone. Adds repeat columns where needed.
+  /// "void" stands for a trial without a number.
   void write(const std::vector<Text>& texts, const QString& what);
+  /// The whole row: what stands in it, saved or not, and what is missing.
   void setVoid(int row, bool isVoid);
+  /// One repeat that is not saved yet.
+  void setValueVoid(const QModelIndex& cell, bool isVoid);
+  bool isValueVoid(const QModelIndex& cell) const;
+  bool isUnsavedRepeat(const QModelIndex& cell) const { return unsavedPlace(cell.row(), cell.column()) >= 0; }
   QUndoStack& undoStack() { return undo_; }
   bool hasUnsaved() const;
+  /// All unsaved edits of the run, of its other stages too.
+  MeasurementDraft draft() const;
+  /// Puts back what draft() gave; edits that stand here already stay.
+  void setDraft(MeasurementDraft draft);
   /// First cell whose text is not allowed, in reading order; an invalid index if all are.
   QModelIndex firstInvalid() const;
   /// Why the cell is not allowed, "" if it is.
   QString problem(int row, int column) const;
-  /// Unsaved values as records, to be handed to the store. They stay unsaved until setMeasurements brings them.
+  /// Stored values that count and that rows to become void would take along.
+  std::vector<MeasurementRecord> toVoid() const;
+  /// Unsaved values as records, to be handed to the store. They stay unsaved until setMeasurements brings them, and
+  /// toVoid() as void ones.
   std::vector<MeasurementRecord> submit(const QString& who);
   /// The store refused: nothing is awaited any more.
   void submissionFailed();
 
   // ---- progress
   int doneCount() const;
+  int enteredCount() const;  ///< not done yet, but done when they are saved
   int voidCount() const;
   bool isComplete() const { return !rows_.empty() && doneCount() == static_cast<int>(rows_.size()); }
   /// The stored record shown in a cell, or nullptr.
@@ -80,14 +97,22 @@ class MeasurementModel : public QAbstractTableModel {
  signals:
   /// Rows done, unsaved edits or blindness changed.
   void changed();
+  /// What is not saved became other than it was: by the user, or since it is stored by now.
+  void draftChanged();
   /// A decimal comma was read as a point.
   void converted(const QString& message);
+  /// What was just entered is not allowed; it stands there, marked, and cannot be saved.
+  void refused(int row, const QString& why);
 
  private:
   class EditCommand;
   QVariant textAt(const MeasurementRow& row, int column) const;
+  QVariant shownAt(const QModelIndex& index) const;
   QVariant toolTipAt(const QModelIndex& index) const;
   QVariant colourAt(const QModelIndex& index, int role) const;
+  /// Its place among the unsaved values of the row, −1 if it is none.
+  int unsavedPlace(int row, int column) const;
+  void change(int row, MeasurementEdit after, const QString& what);
   void apply(const std::vector<std::pair<int, MeasurementEdit>>& edits);
   void growTo(int repeats);
   void announceAll();
@@ -96,6 +121,7 @@ class MeasurementModel : public QAbstractTableModel {
   AllowedRange allowed_;
   std::vector<MeasurementRow> rows_;
   std::vector<MeasurementRecord> measurements_;
+  MeasurementDraft elsewhere_;  ///< edits of the run that are not in these rows
   int repeats_ = 1;
   bool simulatedShown_ = false;
   QUndoStack undo_;

@@ -45,7 +45,11 @@ QVariant MeasurementModel::headerData(int section, Qt::Orientation orientation, 
     if (isRepeat(section)) return tr("Real fitness: %1").arg(allowed_.text(unit_));
     if (section == meanColumn()) return tr("Mean ± standard deviation of the repeats that are not void");
     if (section == countColumn()) return tr("Number of repeats that count");
-    if (section == voidColumn()) return tr("It fell or could not be measured: counts as done, but not in any mean");
+    if (section == voidColumn())
+      return tr(
+          "The whole row: it fell or could not be measured. Counts as done, but in no mean. One value alone becomes "
+          "void "
+          "by its menu (right click), or by typing “void”.");
   }
   return {};
 }
@@ -59,11 +63,11 @@ QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
     const auto place = static_cast<std::size_t>(column - firstRepeat);
     if (place < row.saved.size()) return exactText(row.saved[place].value);
     const auto unsaved = place - row.saved.size();
-    return unsaved < row.edit.texts.size() ? row.edit.texts[unsaved] : QString();
+    return unsaved < row.edit.values.size() ? row.edit.values[unsaved].text : QString();
   }
   const std::vector<double> values = row.values();
   if (column == meanColumn()) {
-    if (values.empty()) return row.state() == MeasurementRow::State::isVoid ? tr("void") : QString();
+    if (values.empty()) return row.edit.isVoid || row.state() == MeasurementRow::State::isVoid ? tr("void") : QString();
     const Spread spread = spreadOf(values);
     return shortNumber(spread.mean) + (spread.count > 1 ? " ± " + shortNumber(spread.deviation) : QString());
   }
@@ -81,10 +85,20 @@ QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
   return {};
 }
 
+// Stored numbers may be long: exact in the tip and when copied, short in the cell. A void trial without a number has
+// none to show: it is stored as 0.
+QVariant MeasurementModel::shownAt(const QModelIndex& index) const {
+  if (const MeasurementRecord* saved = savedAt(index))
+    return saved->isVoid && saved->value == 0 ? tr("void") : QLocale::c().toString(saved->value, 'g', 6);
+  const QVariant text = textAt(rows_[static_cast<std::size_t>(index.row())], index.column());
+  return isValueVoid(index) && text.toString().isEmpty() ? tr("void") : text;
+}
+
 QVariant MeasurementModel::toolTipAt(const QModelIndex& index) const {
   if (const QString text = problem(index.row(), index.column()); !text.isEmpty()) return text;
   if (const MeasurementRecord* saved = savedAt(index)) {
-    QString text = tr("%1, saved %2").arg(exactText(saved->value), QString::fromStdString(saved->enteredAt));
+    const QString value = saved->isVoid && saved->value == 0 ? tr("no number (or 0)") : exactText(saved->value);
+    QString text = tr("%1, saved %2").arg(value, QString::fromStdString(saved->enteredAt));
     if (!saved->who.empty()) text += tr(" by %1").arg(QString::fromStdString(saved->who));
     if (saved->source == "stand_in") text += tr(", answered by the stand-in reality");
     if (!saved->note.empty()) text += '\n' + QString::fromStdString(saved->note);
@@ -104,13 +118,14 @@ QVariant MeasurementModel::colourAt(const QModelIndex& index, int role) const {
     if (!problem(index.row(), index.column()).isEmpty()) {
       colour = tones.bad;
       colour.setAlpha(90);
-    } else if (isRepeat(index.column()) && !saved && !textAt(row, index.column()).toString().isEmpty()) {
+    } else if (isRepeat(index.column()) && !saved && !shownAt(index).toString().isEmpty()) {
       colour = tones.accent;
       colour.setAlpha(38);
     }
     return colour.isValid() ? QVariant(colour) : QVariant();
   }
-  if (saved && saved->isVoid) return tones.muted;
+  if ((saved && saved->isVoid) || isValueVoid(index) || (row.edit.isVoid && isRepeat(index.column())))
+    return tones.muted;
   if (index.column() == positionColumn || index.column() == individualColumn) return tones.muted;
   if (saved && saved->source == "stand_in") return tones.standIn;
   if (index.column() == meanColumn() && row.state() == MeasurementRow::State::measured) return tones.good;
@@ -123,9 +138,7 @@ QVariant MeasurementModel::data(const QModelIndex& index, int role) const {
   const MeasurementRow& row = rows_[static_cast<std::size_t>(index.row())];
   switch (role) {
     case Qt::DisplayRole:
-      // Stored numbers may be long: exact in the tip and when copied, short in the cell.
-      if (const MeasurementRecord* saved = savedAt(index)) return QLocale::c().toString(saved->value, 'g', 6);
-      return textAt(row, column);
+      return shownAt(index);
     case Qt::EditRole:
       return textAt(row, column);
     case Qt::CheckStateRole:
@@ -139,15 +152,15 @@ QVariant MeasurementModel::data(const QModelIndex& index, int role) const {
     case Qt::FontRole: {
       QFont font;
       const MeasurementRecord* saved = savedAt(index);
-      if (!saved || !saved->isVoid) return {};
-      font.setStrikeOut(true);
+      if (!isRepeat(column) || !(row.edit.isVoid || isValueVoid(index) || (saved && saved->isVoid))) return {};
+      font.setStrikeOut(shownAt(index) != tr("void"));
       return font;
     }
     case Qt::TextAlignmentRole:
       return QVariant(column == noteColumn() || column == reasonColumn() ? Qt::AlignLeft | Qt::AlignVCenter
                                                                          : Qt::AlignRight | Qt::AlignVCenter);
     case Qt::AccessibleTextRole:
-      return headerData(column, Qt::Horizontal, Qt::DisplayRole).toString() + ' ' + textAt(row, column).toString();
+      return headerData(column, Qt::Horizontal, Qt::DisplayRole).toString() + ' ' + shownAt(index).toString();
     default:
       return {};
   }

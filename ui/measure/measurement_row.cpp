@@ -9,7 +9,7 @@ namespace btr::ui {
 
 bool MeasurementEdit::isEmpty() const {
   return !isVoid && note.isEmpty() &&
-         std::all_of(texts.begin(), texts.end(), [](auto& text) { return text.isEmpty(); });
+         std::all_of(values.begin(), values.end(), [](auto& value) { return value.isEmpty(); });
 }
 
 MeasurementRow::State MeasurementRow::state() const {
@@ -18,39 +18,55 @@ MeasurementRow::State MeasurementRow::state() const {
   return saved.empty() && edit.isEmpty() ? State::open : State::begun;
 }
 
+bool MeasurementRow::isEntered() const {
+  return !isDone() && (edit.isVoid || static_cast<int>(saved.size() + records({}).size()) >= task.wantedRepeats);
+}
+
 std::vector<double> MeasurementRow::values() const {
   std::vector<double> all;
+  if (edit.isVoid) return all;
   for (const MeasurementRecord& record : saved)
     if (!record.isVoid) all.push_back(record.value);
-  if (edit.isVoid) return all;
-  for (const QString& text : edit.texts)
-    if (const auto value = readNumber(text).value) all.push_back(*value);
+  for (const TypedValue& typed : edit.values)
+    if (const auto value = readNumber(typed.text).value; value && !typed.isVoid) all.push_back(*value);
   return all;
 }
 
 int MeasurementRow::repeats() const {
-  const auto last = std::find_if(edit.texts.rbegin(), edit.texts.rend(), [](auto& text) { return !text.isEmpty(); });
-  return static_cast<int>(saved.size()) + static_cast<int>(edit.texts.rend() - last);
+  const auto last =
+      std::find_if(edit.values.rbegin(), edit.values.rend(), [](auto& value) { return !value.isEmpty(); });
+  return static_cast<int>(saved.size()) + static_cast<int>(edit.values.rend() - last);
 }
 
 std::vector<MeasurementRecord> MeasurementRow::records(const QString& who) const {
   std::vector<MeasurementRecord> records;
-  const auto add = [&](double value) {
+  const auto add = [&](double value, bool isVoid) {
     MeasurementRecord record;
     record.run = task.run;
     record.individual = task.individual;
     record.value = value;
-    record.isVoid = edit.isVoid;
+    record.isVoid = isVoid;
     record.note = edit.note.toStdString();
     record.who = who.toStdString();
     record.source = "person";
     records.push_back(std::move(record));
   };
-  for (const QString& text : edit.texts)
-    if (const auto value = readNumber(text).value) add(*value);
+  for (const TypedValue& typed : edit.values) {
+    if (const auto value = readNumber(typed.text).value)
+      add(*value, typed.isVoid || edit.isVoid);
+    else if (typed.isVoid && typed.text.isEmpty())
+      add(0, true);
+  }
   if (edit.isVoid)
-    while (records.empty() || static_cast<int>(saved.size() + records.size()) < task.wantedRepeats) add(0);
+    while (static_cast<int>(saved.size() + records.size()) < std::max(1, task.wantedRepeats)) add(0, true);
   return records;
+}
+
+std::vector<MeasurementRecord> MeasurementRow::toVoid() const {
+  std::vector<MeasurementRecord> all;
+  for (const MeasurementRecord& record : saved)
+    if (edit.isVoid && !record.isVoid) all.push_back(record);
+  return all;
 }
 
 }  // namespace btr::ui

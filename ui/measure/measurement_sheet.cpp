@@ -1,15 +1,20 @@
 #include "ui/measure/measurement_sheet.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QToolButton>
+#include <algorithm>
 
+#include "ui/charts/plot_data.h"
 #include "ui/common/message_banner.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_view.h"
@@ -18,11 +23,21 @@ namespace btr::ui {
 
 MeasurementSheet::MeasurementSheet(QWidget* parent)
     : QWidget(parent), view_(new MeasurementView(model_, this)), banner_(new MessageBanner(this)) {
+  stage_ = new QComboBox(this);
+  stage_->setObjectName("stage");
+  stage_->setAccessibleName(tr("Stage"));
+  stage_->setToolTip(tr("Which stage or iteration of L2 is shown; earlier ones can be looked at and corrected"));
+  stage_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  connect(stage_, &QComboBox::activated, this, [this](int index) { showStage(static_cast<std::size_t>(index)); });
   title_ = new QLabel(this);
+  title_->setObjectName("title");
   title_->setWordWrap(true);
+  auto* head = new QHBoxLayout;
+  head->addWidget(stage_);
+  head->addWidget(title_, 1);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
-  layout->addWidget(title_);
+  layout->addLayout(head);
   layout->addWidget(makeToolBar());
   layout->addWidget(banner_);
   layout->addWidget(view_, 1);
@@ -32,9 +47,16 @@ MeasurementSheet::MeasurementSheet(QWidget* parent)
   connect(&model_, &MeasurementModel::converted, this, [this](const QString& message) {
     banner_->showMessage(MessageBanner::Kind::information, tr("Decimal comma: %1").arg(message));
   });
+  connect(&model_, &MeasurementModel::refused, this, [this](int row, const QString& why) {
+    const auto at = static_cast<std::size_t>(row);
+    saysRefused_ = true;
+    banner_->showMessage(MessageBanner::Kind::error,
+                         tr("Individual %1: %2").arg(model_.rows()[at].task.individual).arg(why));
+  });
   connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::refresh);
   connect(view_, &MeasurementView::replayRequested, this, &MeasurementSheet::replayRequested);
   connect(view_, &MeasurementView::voidRequested, this, &MeasurementSheet::askVoid);
+  connect(view_, &MeasurementView::parametersRequested, this, &MeasurementSheet::parametersRequested);
   setWho(qEnvironmentVariable("USER"));
   setFocusProxy(view_);
   refresh();
@@ -128,8 +150,59 @@ void MeasurementSheet::setStandIn(bool standIn) {
 }
 
 void MeasurementSheet::setTasks(const std::vector<MeasurementTask>& tasks) {
-  model_.setTasks(tasks);
+  finishEditing();
+  const auto apart = [](const MeasurementTask& a, const MeasurementTask& b) {
+    return a.run != b.run || a.stage != b.stage || a.iteration != b.iteration;
+  };
+  const bool wasNewest = isNewest();
+  const auto looked = stages_.empty() ? MeasurementTask() : stages_[shown_].front();
+  stages_.clear();
+  for (const MeasurementTask& task : tasks) {
+    if (stages_.empty() || apart(stages_.back().front(), task)) stages_.emplace_back();
+    stages_.back().push_back(task);
+  }
+  const auto same =
+      std::find_if(stages_.begin(), stages_.end(), [&](const auto& stage) { return !apart(stage.front(), looked); });
+  if (!tasks.empty() && tasks.front().run != looked.run) banner_->clear();
+  const bool stays = !wasNewest && same != stages_.end();
+  fillStages(stays ? static_cast<std::size_t>(same - stages_.begin()) : stages_.empty() ? 0 : stages_.size() - 1);
+}
+
+void MeasurementSheet::fillStages(std::size_t shown) {
+  const QSignalBlocker quiet(stage_);
+  stage_->clear();
+  for (const auto& stage : stages_) {
+    const MeasurementTask& task = stage.front();
+    stage_->addItem(task.iteration > 0 ? tr("Stage %1, L2, iteration %2").arg(task.stage).arg(task.iteration)
+                                       : tr("Stage %1").arg(task.stage));
+  }
+  stage_->setVisible(stages_.size() > 1);
+  showStage(shown);
+}
+
+void MeasurementSheet::showStage(std::size_t index) {
+  finishEditing();
+  shown_ = index;
+  stage_->setCurrentIndex(stages_.empty() ? -1 : static_cast<int>(index));
+  model_.setTasks(stages_.empty() ? std::vector<MeasurementTask>() : stages_[index]);
   refresh();
+}
+
+void MeasurementSheet::showNewest() {
+  if (!stages_.empty()) showStage(stages_.size() - 1);
+}
+
+void MeasurementSheet::setDraft(const MeasurementDraft& draft) {
+  if (draft.empty()) return;
+  model_.setDraft(draft);
+  banner_->showMessage(MessageBanner::Kind::information,
+                       tr("What was entered here and not saved yet stands in the sheet again."));
+}
+
+// The editor gives its text to the model when it loses the focus.
+void MeasurementSheet::finishEditing() {
+  const QWidget* focus = QApplication::focusWidget();
+  if (focus && view_->viewport()->isAncestorOf(focus)) view_->setFocus();
 }
 
 void MeasurementSheet::setMeasurements(const std::vector<MeasurementRecord>& measurements) {
@@ -151,30 +224,39 @@ QString MeasurementSheet::progressText() const {
   if (rows == 0) return tr("Nothing to measure");
   QString text = tr("%1 of %2 measured").arg(model_.doneCount() - voids).arg(rows);
   if (voids > 0) text += tr(", %1 void").arg(voids);
-  if (model_.hasUnsaved()) text += tr(" · not saved yet");
+  if (const int entered = model_.enteredCount(); entered > 0)
+    text += tr(" · %1 entered, not saved yet").arg(entered);
+  else if (model_.hasUnsaved())
+    text += tr(" · not saved yet");
   return text;
 }
 
+// An order only while the run waits for it.
+QString MeasurementSheet::title() const {
+  if (model_.rows().empty())
+    return tr("<b>Nothing to measure now.</b> The run stops here by itself when real fitness is wanted.");
+  const MeasurementTask& task = model_.rows().front().task;
+  const QString times = task.wantedRepeats == 1 ? tr("once") : tr("%1 times").arg(task.wantedRepeats);
+  const QString where = task.iteration > 0 ? tr("Stage %1, L2, iteration %2").arg(task.stage).arg(task.iteration)
+                                           : tr("Stage %1").arg(task.stage);
+  const QString what = (task.iteration > 0 ? tr("%1 policies") : tr("%1 individuals")).arg(model_.rows().size());
+  if (waiting_ && isNewest() && !model_.isComplete())
+    return tr("<b>%1: measure these %2</b> in the order given, %3 each.").arg(where, what, times);
+  return tr("<b>%1: %2</b>, measured %3 each. A stored value is corrected by voiding it (right click) and entering "
+            "another repeat.")
+      .arg(where, what, times);
+}
+
 void MeasurementSheet::refresh() {
-  const auto& rows = model_.rows();
-  QString title = tr("<b>Nothing to measure now.</b> The run stops here by itself when real fitness is wanted.");
-  if (!rows.empty() && rows.front().task.iteration > 0)
-    title = tr("<b>Stage %1, L2, iteration %2: measure these %3 policies</b> in the order given, %4 each.")
-                .arg(rows.front().task.stage)
-                .arg(rows.front().task.iteration)
-                .arg(rows.size())
-                .arg(rows.front().task.wantedRepeats == 1 ? tr("once")
-                                                          : tr("%1 times").arg(rows.front().task.wantedRepeats));
-  else if (!rows.empty())
-    title = tr("<b>Stage %1: measure these %2 individuals</b> in the order given, %3 each.")
-                .arg(rows.front().task.stage)
-                .arg(rows.size())
-                .arg(rows.front().task.wantedRepeats == 1 ? tr("once")
-                                                          : tr("%1 times").arg(rows.front().task.wantedRepeats));
+  QString title = this->title();
   if (standIn_)
     title += QString(" <span style=\"color:%1\">").arg(tonesOf(palette()).standIn.name()) +
              tr("The stand-in reality answers this run.") + "</span>";
   title_->setText(title);
+  if (saysRefused_ && !model_.firstInvalid().isValid()) {
+    saysRefused_ = false;
+    banner_->clear();
+  }
   progress_->setRange(0, std::max(1, model_.rowCount()));
   progress_->setValue(model_.doneCount());
   progressText_->setText(progressText());
@@ -183,18 +265,18 @@ void MeasurementSheet::refresh() {
   save_->setEnabled(model_.hasUnsaved());
   showSimulated_->setEnabled(!model_.isComplete());
 
-  const bool ready = waiting_ && model_.isComplete() && !model_.hasUnsaved();
+  const bool ready = waiting_ && isNewest() && model_.isComplete() && !model_.hasUnsaved();
   continue_->setEnabled(ready);
   continue_->setDefault(ready);
   continue_->setToolTip(ready                 ? tr("The simulator adapts to what was measured, then learning goes on")
                         : !waiting_           ? tr("The run does not wait for measurements now")
+                        : !isNewest()         ? tr("The run waits for the newest stage")
                         : model_.hasUnsaved() ? tr("Save the measurements first")
                                               : tr("Measure every individual first, or mark it void"));
 }
 
 void MeasurementSheet::save() {
-  // An open editor counts as entered.
-  view_->setFocus();
+  finishEditing();
   if (const QModelIndex bad = model_.firstInvalid(); bad.isValid()) {
     view_->setCurrentIndex(bad);
     banner_->showMessage(MessageBanner::Kind::error,
@@ -203,16 +285,38 @@ void MeasurementSheet::save() {
                                   model_.problem(bad.row(), bad.column())));
     return;
   }
+  const std::vector<MeasurementRecord> toVoid = model_.toVoid();
+  if (!toVoid.empty() && !confirmVoid(toVoid)) return;
+  std::map<Id, QString> notes;
+  for (const MeasurementRow& row : model_.rows()) notes[row.task.individual] = row.edit.note;
   const std::vector<MeasurementRecord> records = model_.submit(who());
-  if (records.empty()) {
+  for (const MeasurementRecord& value : toVoid) {
+    const QString note = notes[value.individual];
+    emit voidRequested(value.id, true, note.isEmpty() ? QString::fromStdString(value.note) : note);
+  }
+  if (records.empty() && toVoid.empty()) {
     if (model_.hasUnsaved())
       banner_->showMessage(MessageBanner::Kind::warning,
                            tr("A note is stored together with a value or void: enter one beside it"));
     return;
   }
   banner_->clear();
-  emit submitted(records);
+  if (!records.empty()) emit submitted(records);
   if (!model_.isComplete()) view_->goToNextOpen();
+}
+
+bool MeasurementSheet::confirmVoid(const std::vector<MeasurementRecord>& values) {
+  QStringList said;
+  for (const MeasurementRecord& value : values)
+    said << tr("individual %1: %2").arg(value.individual).arg(exactText(value.value));
+  QMessageBox box(QMessageBox::Question, tr("Void stored values"),
+                  tr("Rows that are ticked as void hold stored values that count. Void these too?"),
+                  QMessageBox::Cancel, this);
+  box.setInformativeText(said.join('\n') + "\n\n" + tr("They stay stored, but count in no mean."));
+  auto* yes = box.addButton(tr("Void them"), QMessageBox::AcceptRole);
+  yes->setObjectName("voidStored");
+  box.exec();
+  return box.clickedButton() == yes;
 }
 
 void MeasurementSheet::askVoid(const QModelIndex& cell) {

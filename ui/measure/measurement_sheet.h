@@ -5,6 +5,7 @@
 
 class QAction;
 class QCheckBox;
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QProgressBar;
@@ -27,10 +28,17 @@ class MeasurementSheet : public QWidget {
   void setAllowed(const AllowedRange& allowed);
   /// The stand-in reality answers by itself; the sheet says so.
   void setStandIn(bool standIn);
+  /// All tasks of a run, in the order in which its stages and iterations of L2 asked for them. One of these is shown at
+  /// a time: the newest, unless the user looks at an earlier one that is still there.
   void setTasks(const std::vector<MeasurementTask>& tasks);
+  void showNewest();
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
-  /// Whether the run waits for this stage: only then it can go on.
+  /// Whether the run waits for the newest stage and nobody works on it: only then it can go on.
   void setWaiting(bool waiting);
+  /// Unsaved edits that an earlier session has left; the sheet says that they are there again.
+  void setDraft(const MeasurementDraft& draft);
+  /// An open editor counts as entered.
+  void finishEditing();
   /// The store refused what was submitted; it stays in the sheet.
   void submissionFailed(const QString& message);
 
@@ -50,18 +58,28 @@ class MeasurementSheet : public QWidget {
   void voidRequested(btr::Id measurement, bool isVoid, const QString& note);
   void replayRequested(btr::Id individual);
   void importRequested();
+  /// The parameters of these individuals are wanted: in the clipboard or in a file.
+  void parametersRequested(const std::vector<btr::Id>& individuals, bool asFile);
   void continueRequested();
 
  private:
   QWidget* makeToolBar();
   QWidget* makeFooter();
   void refresh();
+  void fillStages(std::size_t shown);
+  void showStage(std::size_t index);
+  QString title() const;
+  bool isNewest() const { return shown_ + 1 == stages_.size(); }
   void askVoid(const QModelIndex& cell);
+  bool confirmVoid(const std::vector<MeasurementRecord>& values);
   QAction* addKey(const QString& text, const char* icon, const QKeySequence& keys);
 
   MeasurementModel model_;
   MeasurementView* view_;
   MessageBanner* banner_;
+  std::vector<std::vector<MeasurementTask>> stages_;  ///< stages and iterations apart
+  std::size_t shown_ = 0;
+  QComboBox* stage_;
   QLabel* title_;
   QLabel* progressText_;
   QProgressBar* progress_;
@@ -70,6 +88,7 @@ class MeasurementSheet : public QWidget {
   QPushButton *save_, *continue_;
   QAction *saveAction_ = nullptr, *undo_ = nullptr, *redo_ = nullptr;
   bool standIn_ = false, waiting_ = false;
+  bool saysRefused_ = false;  ///< the banner is about a value that is not allowed
 };
 
 }  // namespace btr::ui

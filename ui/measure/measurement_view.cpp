@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QToolButton>
 #include <algorithm>
+#include <set>
 
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_delegate.h"
@@ -26,8 +27,12 @@ MeasurementView::MeasurementView(MeasurementModel& model, QWidget* parent) : QTa
   setHorizontalScrollMode(ScrollPerPixel);
   connect(&model, &QAbstractItemModel::modelReset, this, &MeasurementView::placeButtons);
   connect(&model, &QAbstractItemModel::columnsInserted, this, &MeasurementView::arrangeColumns);
-  connect(&model, &MeasurementModel::changed, this,
-          [this] { setColumnHidden(MeasurementModel::simulatedColumn, !model_.isSimulatedVisible()); });
+  connect(&model, &MeasurementModel::changed, this, [this] {
+    const bool hidden = !model_.isSimulatedVisible();
+    if (isColumnHidden(MeasurementModel::simulatedColumn) == hidden) return;
+    setColumnHidden(MeasurementModel::simulatedColumn, hidden);
+    arrangeColumns();
+  });
   placeButtons();
 }
 
@@ -65,6 +70,8 @@ void MeasurementView::arrangeColumns() {
     horizontalHeader()->setSectionResizeMode(
         column, column == model_.noteColumn() ? QHeaderView::Stretch : QHeaderView::Interactive);
   }
+  // The buttons follow their column.
+  scheduleDelayedItemsLayout();
 }
 
 QModelIndex MeasurementView::nextEditable(const QModelIndex& from, int direction) const {
@@ -168,6 +175,14 @@ void MeasurementView::goToNextOpen() {
   }
 }
 
+std::vector<Id> MeasurementView::selectedIndividuals() const {
+  std::set<int> rows;
+  for (const QModelIndex& index : selectedIndexes()) rows.insert(index.row());
+  std::vector<Id> all;
+  for (const int row : rows) all.push_back(model_.rows()[static_cast<std::size_t>(row)].task.individual);
+  return all;
+}
+
 void MeasurementView::contextMenuEvent(QContextMenuEvent* event) {
   const QModelIndex index = indexAt(event->pos());
   if (!index.isValid()) return;
@@ -183,7 +198,19 @@ void MeasurementView::contextMenuEvent(QContextMenuEvent* event) {
     menu.addSeparator();
     menu.addAction(saved->isVoid ? tr("Count this value again…") : tr("Void this value…"), this,
                    [this, index] { emit voidRequested(index); });
+  } else if (model_.isUnsavedRepeat(index)) {
+    menu.addSeparator();
+    const bool isVoid = model_.isValueVoid(index), hasNumber = !index.data(Qt::EditRole).toString().isEmpty();
+    menu.addAction(isVoid      ? tr("Count this trial again")
+                   : hasNumber ? tr("Void this value")
+                               : tr("Void this trial: it fell, there is no number"),
+                   this, [this, index, isVoid] { model_.setValueVoid(index, !isVoid); });
   }
+  menu.addSeparator();
+  menu.addAction(themeIcon("edit-copy"), tr("Copy parameters of the selected rows"), this,
+                 [this] { emit parametersRequested(selectedIndividuals(), false); });
+  menu.addAction(themeIcon("document-save-as"), tr("Save parameters of the selected rows as CSV…"), this,
+                 [this] { emit parametersRequested(selectedIndividuals(), true); });
   menu.exec(event->globalPos());
 }
 

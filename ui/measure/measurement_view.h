@@ -20,10 +20,13 @@ class MeasurementView : public QTableView {
   void clearUnsaved();
   /// The first cell in which a value is missing becomes the current one.
   void goToNextOpen();
+  /// Of the rows with a selected cell, from above.
+  std::vector<Id> selectedIndividuals() const;
 
  signals:
   void replayRequested(btr::Id individual);
   void voidRequested(const QModelIndex& savedCell);
+  void parametersRequested(const std::vector<btr::Id>& individuals, bool asFile);
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

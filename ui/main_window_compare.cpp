@@ -16,7 +16,9 @@ void MainWindow::makeComparePage() {
 void MainWindow::connectCompare() {
   comparePage_->setReader([this](Id run) {
     const Database& database = watcher_.database();
-    return ComparePage::History{database.generations(run), database.simulators(run), stageOutcomes(database, run)};
+    const ExperimentSpec spec = experimentFromJson(database.run(run).specJson, "run " + std::to_string(run), "");
+    return ComparePage::History{database.generations(run), database.simulators(run), stageOutcomes(database, run),
+                                QString::fromStdString(host_->fitness(spec.fitness.name)->unit())};
   });
   connect(&watcher_, &DatabaseWatcher::runsChanged, this,
           [this](const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs) {
@@ -32,12 +34,6 @@ void MainWindow::connectCompare() {
 void MainWindow::compareRuns(const std::vector<Id>& runs) {
   std::vector<Id> all = comparePage_->chosen();
   all.insert(all.end(), runs.begin(), runs.end());
-  guard([&] {
-    if (all.empty()) return;
-    const RunRecord first = watcher_.database().run(all.front());
-    const ExperimentSpec spec = experimentFromJson(first.specJson, "run " + std::to_string(first.id), "");
-    comparePage_->setUnit(QString::fromStdString(host_->fitness(spec.fitness.name)->unit()));
-  });
   comparePage_->refresh();
   comparePage_->setChosen(all);
   comparePage_->showStages(true);

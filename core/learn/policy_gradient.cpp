@@ -26,9 +26,10 @@ PolicyGroup groupOf(const std::vector<double>& fitness) {
   return group;
 }
 
-/// Welch's test; two equal constants are no difference, two different ones a certain one.
-double welch(const PolicyGroup& a, const PolicyGroup& b) {
-  if (a.count < 2 || b.count < 2) return 1;
+/// Welch's test; two equal constants are no difference, two different ones a certain one. A single policy has no
+/// scatter to judge by.
+std::optional<double> welch(const PolicyGroup& a, const PolicyGroup& b) {
+  if (a.count < 2 || b.count < 2) return std::nullopt;
   const double va = a.standardError * a.standardError, vb = b.standardError * b.standardError;
   if (va + vb == 0) return a.mean == b.mean ? 1 : 0;
   const double t = std::abs(a.mean - b.mean) / std::sqrt(va + vb);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,7 +36,9 @@ struct ParameterGradient {
   PolicyGroup below, same, above;
   double gradient = 0;  ///< A, in units of fitness per ε
   double step = 0;      ///< of π, in the parameter's unit, before the bounds
-  double pValue = 1;    ///< two-sided, of the compared groups having equal means (Welch); 1 where it is not known
+  /// Two-sided, of the compared groups having equal means (Welch); nothing where it is not known: one of them is empty
+  /// or a single policy.
+  std::optional<double> pValue = {};
 };
 
 struct PolicyGradient {

@@ -232,7 +232,8 @@ std::string steps(const Database& database, const RunRecord& run, std::span<cons
       for (const PolicyGroup* group : {&s.gradient.below, &s.gradient.same, &s.gradient.above})
         table << group->count << (group->count > 0 ? std::optional(group->mean) : std::nullopt)
               << (group->count > 1 ? std::optional(group->standardError) : std::nullopt);
-      table << s.gradient.gradient << s.gradient.pValue << int{s.isSignificant()}
+      table << s.gradient.gradient << s.gradient.pValue
+            << (s.gradient.pValue ? std::optional<double>(s.isSignificant()) : std::nullopt)
             << (s.centreAfter ? std::optional(s.gradient.step) : std::nullopt) << s.centreAfter << run.reality;
       table.endLine();
     }

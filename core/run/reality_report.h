@@ -26,8 +26,8 @@ struct StepRow {
   double centreBefore = 0;
   std::optional<double> centreAfter;  ///< once the iteration is finished
   ParameterGradient gradient;         ///< its step counts only with centreAfter
-  /// Whether the compared groups differ by more than chance would at 5 % (two-sided).
-  bool isSignificant() const { return gradient.pValue < 0.05; }
+  /// Whether the compared groups differ by more than chance would at 5 % (two-sided); false where that is not known.
+  bool isSignificant() const { return gradient.pValue && *gradient.pValue < 0.05; }
 };
 
 /// One iteration of L2, for a page or a table.

@@ -125,8 +125,16 @@ TEST(PolicyGradient, HasTheStandardErrorsAndTheProbabilityOfWelchsTest) {
   EXPECT_NEAR(std::sqrt(28.0 / 3), p.above.standardError, 1e-12);
   EXPECT_TRUE(std::isnan(p.same.standardError));
   // Of Student's t with 2.716 degrees of freedom: between p(2) = 0.608 and p(3) = 0.589.
-  EXPECT_GT(p.pValue, 0.589);
-  EXPECT_LT(p.pValue, 0.608);
+  ASSERT_TRUE(p.pValue);
+  EXPECT_GT(*p.pValue, 0.589);
+  EXPECT_LT(*p.pValue, 0.608);
+}
+
+TEST(PolicyGradient, ASinglePolicyInAGroupHasNoProbability) {
+  const auto step = policyGradient(boxes(1), std::vector{0.0}, std::vector{1.0}, 1, Policies{{-1}, {0}, {1}},
+                                   std::vector{1.0, 2.0, 3.0});
+  EXPECT_FALSE(step.parameters[0].pValue);
+  EXPECT_EQ(2, step.parameters[0].gradient);
 }
 
 TEST(PolicyGradient, DrawsEachOfTheThreeChangesEquallyOften) {

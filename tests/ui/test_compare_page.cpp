@@ -40,7 +40,7 @@ ComparePage::History history(double best) {
   GenerationRecord generation;
   generation.number = 1;
   generation.best = best;
-  return {{generation}, {}};
+  return {{generation}, {}, {}, "m"};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ class TestComparePage : public QObject {
     RunRecord second = run(2, 7, 30);
     second.specJson = R"({"name": "kick", "seed": 7, "learner": {"name": "ga"}, "adapted": ["friction", "slip1"]})";
     const auto rows = compareSpecs({run(1, 7, 30), second});
-    QCOMPARE(find(rows, "learner.settings.population")->values, (QStringList{"30", "–"}));
+    QCOMPARE(find(rows, "learner.settings.population")->values, (QStringList{"30", "(default)"}));
     QVERIFY(find(rows, "learner.settings.population")->differs);
   }
 
@@ -99,7 +99,6 @@ class TestComparePage : public QObject {
       read << id;
       return history(static_cast<double>(id));
     });
-    page.setUnit("m");
     page.setRuns({run(1, 7, 30), run(2, 8, 30), run(3, 7, 60)}, {{1, "Kick"}});
     QVERIFY(read.isEmpty());
 
@@ -135,7 +134,6 @@ class TestComparePage : public QObject {
       all.stages = {{1, id == 1 ? 0.1 : id == 2 ? 0.3 : 0.5, 0, double(id), double(id)}};
       return all;
     });
-    page.setUnit("m");
     page.setRuns({run(1, 7, 30, "stand_in"), run(2, 8, 30, "stand_in"), run(3, 7, 60, "stand_in")}, {{1, "Kick"}});
     page.setChosen({1, 2, 3});
     const PlotData& plot = page.stages().data();
@@ -149,6 +147,30 @@ class TestComparePage : public QObject {
     QCOMPARE(plot.series[2].points, (std::vector<QPointF>{{1, 0.5}}));
     QCOMPARE(plot.series[2].errors, std::vector<double>{0.0});
     QVERIFY(plot.series[0].colour != plot.series[2].colour);
+  }
+
+  void runsWithAnotherUnitAreLeftOutOfTheChartsAndNamed() {
+    ComparePage page;
+    page.setReader([](Id id) {
+      ComparePage::History all = history(1);
+      all.stages = {{1, 0.1, 0, 1, 1}};
+      if (id == 2) all.unit = "cm/s";
+      return all;
+    });
+    page.setRuns({run(1, 7, 30), run(2, 7, 40), run(3, 7, 60, "stand_in")}, {{1, "Kick"}});
+    page.setChosen({1, 2, 3});
+    QVERIFY(page.plot().data().yTitle.contains("(m)"));
+    QCOMPARE(page.plot().data().series.size(), std::size_t(4));
+    QCOMPARE(page.stages().data().series.size(), std::size_t(4));
+    const auto* leftOut = page.findChild<QLabel*>("leftOut");
+    QVERIFY2(leftOut->text().contains("run 2 (cm/s)") && !leftOut->isHidden(), qPrintable(leftOut->text()));
+    QCOMPARE(page.differences().columnCount(), 4);
+    // One of the runs drawn was measured by a person: both tabs say so.
+    QCOMPARE(page.stages().data().note, QString("some runs in stand-in reality"));
+    QCOMPARE(page.plot().data().note, page.stages().data().note);
+    page.setChosen({2});
+    QVERIFY(page.plot().data().yTitle.contains("(cm/s)"));
+    QVERIFY(leftOut->isHidden());
   }
 
   void ticksStayWhenTheListIsReadAgain() {

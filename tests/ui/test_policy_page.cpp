@@ -65,6 +65,7 @@ class TestPolicyPage : public QObject {
     QVERIFY2(text(0, PolicyPage::below).startsWith("10.1 ± 0.058"), qPrintable(text(0, PolicyPage::below)));
     QVERIFY2(text(0, PolicyPage::above).startsWith("30.1 ± "), qPrintable(text(0, PolicyPage::above)));
     QVERIFY(text(0, PolicyPage::above).endsWith("(3)"));
+    QCOMPARE(steps->horizontalHeaderItem(PolicyPage::above)->text(), QString("Mean at +ε [mm/s]"));
     QCOMPARE(text(0, PolicyPage::verdict), QString("significant"));
     QCOMPARE(text(0, PolicyPage::step), QString("+2"));
     QCOMPARE(text(0, PolicyPage::after), QString("52"));
@@ -74,6 +75,25 @@ class TestPolicyPage : public QObject {
     QCOMPARE(policies->item(0, PolicyPage::changes)->text(), QString("−−"));
     QCOMPARE(policies->horizontalHeaderItem(PolicyPage::real)->text(), QString("Real [mm/s]"));
     QVERIFY(page.findChild<QLabel*>("sentence")->text().contains("of 2 parameters moved"));
+  }
+
+  // Three policies, one in each group: no scatter, so nothing is known of chance.
+  void tooFewPoliciesTellNothing() {
+    PolicyPage page;
+    RealityReport few = report(1, true);
+    const PolicyGradient gradient =
+        policyGradient(genotype, std::vector{50.0, 100.0}, std::vector{2.0, 10.0}, 1,
+                       std::vector<std::vector<double>>{{48, 90}, {50, 100}, {52, 110}}, std::vector{1.0, 2.0, 3.0});
+    for (std::size_t n = 0; n < 2; ++n) {
+      few.steps[n].gradient = gradient.parameters[n];
+      few.steps[n].centreAfter = gradient.centre[n];
+    }
+    page.setReports({few});
+    auto* steps = page.findChild<QTableWidget*>("steps");
+    QCOMPARE(steps->item(0, PolicyPage::pValue)->text(), QString("–"));
+    QCOMPARE(steps->item(0, PolicyPage::verdict)->text(), QString("too few policies to tell"));
+    QCOMPARE(page.findChild<QLabel*>("sentence")->text(),
+             QString("2 of 2 parameters moved: too few policies to tell their differences from chance."));
   }
 
   void anIterationThatWaitsHasNoStepYet() {

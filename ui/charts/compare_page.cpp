@@ -70,10 +70,14 @@ ComparePage::ComparePage(QWidget* parent)
   differences_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 7);
   differences_->setAccessibleName(tr("Settings of the chosen runs"));
   summary_ = new QLabel(this);
+  leftOut_ = new QLabel(this);
+  leftOut_->setObjectName("leftOut");
+  leftOut_->setWordWrap(true);
 
   auto* below = new QWidget(this);
   auto* belowLayout = new QVBoxLayout(below);
   belowLayout->setContentsMargins(0, 0, 0, 0);
+  belowLayout->addWidget(leftOut_);
   belowLayout->addWidget(makeOptions());
   belowLayout->addWidget(differences_, 1);
   auto* right = new QSplitter(Qt::Vertical, this);
@@ -88,7 +92,7 @@ ComparePage::ComparePage(QWidget* parent)
   all->addWidget(right);
   all->setStretchFactor(0, 1);
   all->setStretchFactor(1, 3);
-  all->setSizes({300, 900});
+  all->setSizes({340, 860});
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->addWidget(all);
@@ -110,11 +114,6 @@ QWidget* ComparePage::makeOptions() {
   layout->addStretch(1);
   layout->addWidget(summary_);
   return bar;
-}
-
-void ComparePage::setUnit(const QString& unit) {
-  unit_ = unit;
-  draw();
 }
 
 void ComparePage::setReader(Reader reader) {
@@ -144,7 +143,7 @@ void ComparePage::setRuns(const std::vector<RunRecord>& runs, const std::map<Id,
       item->setCheckState(0, Qt::Unchecked);
       item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
       item->setTextAlignment(2, Qt::AlignRight | Qt::AlignVCenter);
-      item->setToolTip(0, QString::fromStdString(run.note));
+      item->setToolTip(0, run.note.empty() ? text : text + '\n' + QString::fromStdString(run.note));
     }
     tree_->resizeColumnToContents(1);
     tree_->resizeColumnToContents(2);
@@ -185,9 +184,10 @@ QString ComparePage::experimentOf(const RunRecord& run) const {
 QString ComparePage::nameOf(const RunRecord& run) const { return tr("%1, run %2").arg(experimentOf(run)).arg(run.id); }
 
 void ComparePage::draw() {
-  std::vector<RunRecord> records;
+  std::vector<RunRecord> records, drawn;
   std::vector<FitnessRun> curves;
-  QString trouble;
+  QString trouble, unit;
+  QStringList leftOut;
   for (const Id id : chosen()) {
     const auto record = std::find_if(runs_.begin(), runs_.end(), [&](auto& run) { return run.id == id; });
     if (record == runs_.end()) continue;
@@ -199,6 +199,13 @@ void ComparePage::draw() {
         trouble = QString::fromUtf8(error.what());
       }
     }
+    records.push_back(*record);
+    // Metres and centimetres a second on one axis would compare nothing.
+    if (curves.empty()) unit = read_[id].unit;
+    if (read_[id].unit != unit) {
+      leftOut << tr("run %1 (%2)").arg(id).arg(read_[id].unit);
+      continue;
+    }
     FitnessRun curve;
     curve.run = id;
     curve.name = nameOf(*record);
@@ -207,13 +214,14 @@ void ComparePage::draw() {
     curve.standIn = record->reality == "stand_in";
     curve.generations = read_[id].generations;
     curve.simulators = read_[id].simulators;
-    records.push_back(*record);
+    drawn.push_back(*record);
     curves.push_back(std::move(curve));
   }
-  plot_->setData(comparisonPlot(curves, unit_, joinSeeds_->isChecked()));
-  const bool standIn = std::any_of(curves.begin(), curves.end(), [](auto& curve) { return curve.standIn; });
-  stages_->setData(stagePlot(armsOf(curves, records, read_, joinSeeds_->isChecked()), unit_, standIn));
+  plot_->setData(comparisonPlot(curves, unit, joinSeeds_->isChecked()));
+  stages_->setData(stagePlot(armsOf(curves, drawn, read_, joinSeeds_->isChecked()), unit, realityNote(curves)));
   fillDifferences(records);
+  leftOut_->setText(tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", ")));
+  leftOut_->setVisible(!leftOut.isEmpty());
   if (!trouble.isEmpty()) summary_->setText(trouble);
 }
 

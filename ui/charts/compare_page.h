@@ -19,7 +19,8 @@ namespace btr::ui {
 class PlotWidget;
 
 /// Several runs side by side: their fitness in one chart, reality gap and real fitness by measurement stage in another,
-/// runs that differ only in their seed as mean and 95 % interval, and a table of the settings that differ.
+/// runs that differ only in their seed as mean and 95 % interval, and a table of the settings that differ. Charts hold
+/// one unit of fitness: of the first chosen run; runs with another one are left out of them, and named.
 class ComparePage : public QWidget {
   Q_OBJECT
 
@@ -30,12 +31,12 @@ class ComparePage : public QWidget {
     std::vector<GenerationRecord> generations;
     std::vector<SimulatorRecord> simulators;
     std::vector<StageOutcome> stages = {};
+    QString unit = {};  ///< of its fitness
   };
   using Reader = std::function<History(Id run)>;
 
   explicit ComparePage(QWidget* parent = nullptr);
 
-  void setUnit(const QString& unit);
   void setReader(Reader reader);
   /// All runs to choose from, with their specs; the names of their experiments by id. Ticks stay.
   void setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments);
@@ -61,9 +62,8 @@ class ComparePage : public QWidget {
   PlotWidget *plot_, *stages_;
   QTabWidget* charts_;
   QTableWidget* differences_;
-  QLabel* summary_;
+  QLabel *summary_, *leftOut_;
   QCheckBox *joinSeeds_, *onlyDifferent_;
-  QString unit_;
   Reader reader_;
   std::vector<RunRecord> runs_;
   std::map<Id, QString> experiments_;

@@ -77,6 +77,13 @@ std::vector<PlotMarker> updates(const std::vector<SimulatorRecord>& simulators) 
   return markers;
 }
 
+/// A line through one point would not be seen.
+void markSinglePoints(PlotData& plot) {
+  for (PlotSeries& series : plot.series)
+    if (series.points.size() == 1 && series.style != PlotSeries::Style::hollowPoints)
+      series.style = PlotSeries::Style::points;
+}
+
 /// "Learning to kick, runs 1, 2, 5"
 QString groupName(const std::vector<const FitnessRun*>& runs) {
   QStringList ids;
@@ -112,6 +119,12 @@ void addJoined(PlotData& plot, const QString& name, const std::vector<const Fitn
 
 QString realityNote(bool standIn) { return standIn ? FitnessPlots::tr("stand-in reality") : QString(); }
 
+QString realityNote(const std::vector<FitnessRun>& runs) {
+  const auto standIns = std::count_if(runs.begin(), runs.end(), [](auto& run) { return run.standIn; });
+  return standIns == 0 || standIns == std::ssize(runs) ? realityNote(standIns > 0)
+                                                       : FitnessPlots::tr("some runs in stand-in reality");
+}
+
 PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
   PlotData plot = frame(unit);
   if (!run.name.isEmpty()) plot.title = FitnessPlots::tr("%1: fitness by generation").arg(run.name);
@@ -127,16 +140,14 @@ PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
       {FitnessPlots::tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
   if (PlotSeries points = measured(run); !points.points.empty()) plot.series.push_back(std::move(points));
   plot.markers = updates(run.simulators);
+  markSinglePoints(plot);
   return plot;
 }
 
 PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit, bool joinSeeds) {
   PlotData plot = frame(unit);
   plot.empty = FitnessPlots::tr("Tick runs to compare them");
-  if (std::any_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; }))
-    plot.note = std::all_of(runs.begin(), runs.end(), [](auto& run) { return run.standIn; })
-                    ? realityNote(true)
-                    : FitnessPlots::tr("some runs in stand-in reality");
+  plot.note = realityNote(runs);
 
   // Groups keep the order in which their first run comes.
   std::vector<std::vector<const FitnessRun*>> groups;
@@ -174,6 +185,7 @@ PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit
     if (groups.size() == 1) plot.markers = updates(first.simulators);
     ++colour;
   }
+  markSinglePoints(plot);
   return plot;
 }
 

@@ -22,6 +22,8 @@ struct FitnessRun {
 
 /// "stand-in reality" or "".
 QString realityNote(bool standIn);
+/// The same of several runs: "some runs in stand-in reality" if not all of them are.
+QString realityNote(const std::vector<FitnessRun>& runs);
 
 /// One run: best and mean fitness by generation, worst (hidden at first), the best so far within each simulator
 /// version, real fitness as mean ± standard error of an individual's repeats at its generation, and a line at each

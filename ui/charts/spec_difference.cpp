@@ -73,6 +73,13 @@ Flat flat(const RunRecord& run) {
   return all;
 }
 
+// A setting that a specification does not name has its default; what else is missing is not there.
+QString missingText(const QString& key) {
+  for (const char* part : {"settings.", "stages.", "stand_in."})
+    if (key.contains(QLatin1String(part))) return QStringLiteral("(default)");
+  return QStringLiteral("–");
+}
+
 }  // namespace
 
 std::vector<SpecRow> compareSpecs(const std::vector<RunRecord>& runs) {
@@ -81,7 +88,7 @@ std::vector<SpecRow> compareSpecs(const std::vector<RunRecord>& runs) {
     for (const auto& [key, value] : flat(runs[i])) {
       SpecRow& row = rows[key];
       row.key = key;
-      while (row.values.size() < static_cast<qsizetype>(runs.size())) row.values << QStringLiteral("–");
+      while (row.values.size() < static_cast<qsizetype>(runs.size())) row.values << missingText(key);
       row.values[static_cast<qsizetype>(i)] = value;
     }
   std::vector<SpecRow> all;

@@ -14,10 +14,10 @@ struct StagePlots {
 
 }  // namespace
 
-PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, bool standIn) {
+PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, const QString& note) {
   PlotData plot;
   plot.title = StagePlots::tr("Reality gap and real fitness by measurement stage");
-  plot.note = realityNote(standIn);
+  plot.note = note;
   plot.xTitle = StagePlots::tr("measurement stage");
   plot.yTitle = axisTitle(StagePlots::tr("fitness, or its gap"), unit);
   plot.xColumn = "stage";

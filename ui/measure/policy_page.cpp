@@ -35,6 +35,7 @@ QString signedText(double value) { return (value > 0 ? QStringLiteral("+") : QSt
 QString verdictOf(const StepRow& row) {
   if (!row.centreAfter) return row.isSignificant() ? PolicyPage::tr("significant so far") : PolicyPage::tr("open");
   if (row.gradient.step == 0) return PolicyPage::tr("stays");
+  if (!row.gradient.pValue) return PolicyPage::tr("too few policies to tell");
   return row.isSignificant() ? PolicyPage::tr("significant") : PolicyPage::tr("not significant");
 }
 
@@ -77,10 +78,13 @@ QString sentenceOf(const RealityReport& report) {
   const auto sure = std::count_if(report.steps.begin(), report.steps.end(),
                                   [](const StepRow& s) { return s.gradient.step != 0 && s.isSignificant(); });
   if (moved == 0) return PolicyPage::tr("No parameter promised to do better elsewhere: the centre stays.");
-  return PolicyPage::tr("%1 of %2 parameters moved, %3 of them by a difference that chance does not explain (5 %).")
-      .arg(moved)
-      .arg(report.steps.size())
-      .arg(sure);
+  const auto unknown = std::count_if(report.steps.begin(), report.steps.end(),
+                                     [](const StepRow& s) { return s.gradient.step != 0 && !s.gradient.pValue; });
+  const QString all = PolicyPage::tr("%1 of %2 parameters moved").arg(moved).arg(report.steps.size());
+  if (unknown == moved) return PolicyPage::tr("%1: too few policies to tell their differences from chance.").arg(all);
+  const QString text =
+      PolicyPage::tr("%1, %2 of them by a difference that chance does not explain (5 %).").arg(all).arg(sure);
+  return unknown == 0 ? text : text + ' ' + PolicyPage::tr("For %1 there are too few policies to tell.").arg(unknown);
 }
 
 PolicyPage::PolicyPage(QWidget* parent)
@@ -89,6 +93,7 @@ PolicyPage::PolicyPage(QWidget* parent)
       sentence_(new QLabel(this)),
       end_(new QPushButton(tr("End L2 here…"), this)) {
   iteration_->setObjectName("iteration");
+  iteration_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   iteration_->setAccessibleName(tr("Iteration of L2"));
   iteration_->setToolTip(tr("Which iteration of learning in reality is shown"));
   sentence_->setObjectName("sentence");
@@ -104,7 +109,8 @@ PolicyPage::PolicyPage(QWidget* parent)
   steps_->horizontalHeaderItem(below)->setToolTip(
       tr("Mean real fitness of the policies below the centre ± its standard error, and how many these are"));
   steps_->horizontalHeaderItem(pValue)->setToolTip(
-      tr("Probability of a difference as large as that of the compared groups if it were chance alone (Welch)"));
+      tr("Probability of a difference as large as that of the compared groups if it were chance alone (Welch); – where "
+         "one of them has fewer than two policies"));
   steps_->horizontalHeaderItem(verdict)->setToolTip(
       tr("Significant: p below 5 %. The step is taken either way; it says which of them to believe."));
   policies_ = readingTable("policies", tr("Policies"),
@@ -137,6 +143,9 @@ PolicyPage::PolicyPage(QWidget* parent)
 void PolicyPage::setUnit(const QString& unit) {
   unit_ = unit;
   const QString inUnit = unit.isEmpty() ? QString() : QStringLiteral(" [%1]").arg(unit);
+  steps_->horizontalHeaderItem(below)->setText(tr("Mean at −ε%1 (policies)").arg(inUnit));
+  steps_->horizontalHeaderItem(same)->setText(tr("Unchanged") + inUnit);
+  steps_->horizontalHeaderItem(above)->setText(tr("Mean at +ε") + inUnit);
   policies_->horizontalHeaderItem(simulated)->setText(tr("Simulated") + inUnit);
   policies_->horizontalHeaderItem(real)->setText(tr("Real") + inUnit);
 }
@@ -200,7 +209,7 @@ void PolicyPage::showSteps(const RealityReport& report) {
     put(*steps_, row, below, groupText(s.gradient.below), true);
     put(*steps_, row, same, groupText(s.gradient.same), true);
     put(*steps_, row, above, groupText(s.gradient.above), true);
-    put(*steps_, row, pValue, word(digits(s.gradient.pValue, 2)), true);
+    put(*steps_, row, pValue, s.gradient.pValue ? word(digits(*s.gradient.pValue, 2)) : QStringLiteral("–"), true);
     put(*steps_, row, verdict, verdictOf(s), false, s.isSignificant() ? tones.good : tones.muted);
     put(*steps_, row, before, word(brief(s.centreBefore)), true);
     put(*steps_, row, step, s.centreAfter ? signedText(s.gradient.step) : QStringLiteral("–"), true);

@@ -52,8 +52,9 @@ class AlarmPlace final : public QWidget {
     row->addWidget(&alarm);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   }
-  QSize minimumSizeHint() const override { return {alarm_.minimumSizeHint().width(), Alarm::height_px(fontMetrics())}; }
-  QSize sizeHint() const override { return minimumSizeHint(); }
+  // Little is enough: a tool bar hides what it has no room for.
+  QSize minimumSizeHint() const override { return {200, Alarm::height_px(fontMetrics())}; }
+  QSize sizeHint() const override { return {alarm_.sizeHint().width(), minimumSizeHint().height()}; }
 
  private:
   Alarm& alarm_;

@@ -138,6 +138,7 @@ class MainWindow : public QMainWindow {
   void giveParameters(const std::vector<Id>& individuals, bool asFile);
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
   void keepMeasurements();
+  void hideSimulated();
   void showWaiting();
   void callForPerson(const std::vector<RunRecord>& runs);
   void showPolicies(const RunProgress& progress);

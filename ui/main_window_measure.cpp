@@ -23,6 +23,7 @@ void MainWindow::connectMeasure() {
   connect(&watcher_, &DatabaseWatcher::tasksChanged, this,
           [this](Id, const auto& tasks, const auto& measurements) { showTasks(tasks, measurements); });
   connect(&sheet_->model(), &MeasurementModel::draftChanged, this, &MainWindow::keepMeasurements);
+  connect(&sheet_->model(), &MeasurementModel::changed, this, &MainWindow::hideSimulated);
   connect(sheet_, &MeasurementSheet::submitted, this, &MainWindow::submit);
   connect(sheet_, &MeasurementSheet::voidRequested, this, &MainWindow::voidMeasurement);
   connect(sheet_, &MeasurementSheet::replayRequested, this, &MainWindow::replayIndividual);
@@ -53,6 +54,7 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
     sheet_->setDraft(draftFromText(settings_.measurementDraft(sheetDatabase_, sheet_->model().run())));
   }
   individuals_->setMeasurements(measurements);
+  hideSimulated();
   panel_->setMeasuring(countMeasured(run_, tasks, measurements));
   std::set<Id> withFitness;
   for (const MeasurementRecord& measurement : measurements)
@@ -68,6 +70,16 @@ void MainWindow::showTasks(const std::vector<MeasurementTask>& tasks,
   });
   showWaiting();
   showPolicies({});
+}
+
+// Whoever measures shall not read elsewhere what the sheet hides.
+void MainWindow::hideSimulated() {
+  std::set<Id> hidden;
+  const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
+  if (!sheet_->model().isSimulatedShown() && count.settled < count.wanted)
+    for (const MeasurementTask& task : tasks_)
+      if (task.stage == run_.stage + 1 && task.iteration == count.iteration) hidden.insert(task.individual);
+  individuals_->setHidden(hidden);
 }
 
 // What the pages say while the selected run waits. Right after the last value its process may be at work already.

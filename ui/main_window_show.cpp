@@ -126,6 +126,8 @@ void MainWindow::showSpec(const RunRecord& run) {
   panel_->setUnit(unit_);
   fitness_->setUnit(unit_);
   gap_->setUnit(unit_);
+  gap_->setNorm(
+      static_cast<GapNorm>(static_cast<int>(valueOf(adaptationParameters(), spec.adaptationSettings, "norm"))));
   versions_->setUnit(unit_);
   individuals_->setUnit(unit_);
   individuals_->setStandIn(shown.standIn);

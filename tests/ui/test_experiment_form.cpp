@@ -1,6 +1,7 @@
 // The form of a whole experiment: nothing is lost between file, form and file.
 #include <QComboBox>
 #include <QLabel>
+#include <QLayout>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -197,6 +198,62 @@ class TestExperimentForm : public QObject {
     for (int i = 0; i < 3; ++i) form.undoStack().undo();
     QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(aSpec())));
     QVERIFY(!form.isModified());
+  }
+
+  void theKeyForUndoReachesTheFormFromANumberField() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    form.show();
+    QVERIFY(QTest::qWaitForWindowActive(&form));
+    auto* number = form.findChild<ParameterForm*>("stages")->findChild<NumberEdit*>("repeats");
+    number->setFocus();
+    number->selectAll();
+    QTest::keyClick(number, Qt::Key_3);
+    QCOMPARE(form.spec().stages.at("repeats"), 3.0);
+    QTest::keyClick(number, Qt::Key_Z, Qt::ControlModifier);
+    QVERIFY(!form.isModified());
+    QVERIFY(!form.spec().stages.count("repeats"));
+  }
+
+  void tabGoesThroughTheFormAsItStands() {
+    ExperimentForm form(offersWithSteps());
+    ExperimentSpec spec = aSpec();
+    spec.controller = {"walk", {}, {}};
+    form.setSpec(spec);
+    form.resize(500, 3000);
+    form.show();
+    QVERIFY(QTest::qWaitForWindowActive(&form));
+    form.findChild<QLineEdit*>("name")->setFocus();
+    // From top to bottom, and in a line from left to right.
+    QStringList seen;
+    int last = -1;
+    while (seen.size() < 60) {
+      QWidget* now = form.focusWidget();
+      const int y = now->mapTo(&form, QPoint(0, now->height() / 2)).y();
+      QVERIFY2(y > last - 8, qPrintable(seen.join(", ") + " then " + now->objectName()));
+      last = y;
+      seen << now->objectName();
+      if (now->objectName() == "repeats") break;
+      QTest::keyClick(now, Qt::Key_Tab);
+    }
+    QCOMPARE(seen.last(), QString("repeats"));
+  }
+
+  void aShortPluginLeavesNoHoleForALongOne() {
+    ExperimentOffers offers = someOffers();
+    std::vector<Parameter> many;
+    for (int i = 0; i < 30; ++i)
+      many.push_back({"a_setting_whose_name_wraps_in_a_narrow_form_" + std::to_string(i), "mm", "", 0, 1, 0});
+    offers.learners.push_back({"long", many, "and its hint wraps as well, as it is a sentence of several words"});
+    QUndoStack undo;
+    const auto heightOf = [&](const std::vector<PluginForm::Offer>& some) {
+      PluginForm form("Learner", some, undo);
+      form.setChoice({"ga", {}, {}});
+      form.ensurePolished();
+      return form.layout()->hasHeightForWidth() ? form.layout()->totalHeightForWidth(300)
+                                                : form.layout()->totalSizeHint().height();
+    };
+    QCOMPARE(heightOf(offers.learners), heightOf({offers.learners.front()}));
   }
 
   void choosingAnotherPluginKeepsTheSettingsOfTheFirst() {

@@ -84,6 +84,16 @@ class TestFitnessAndGapCharts : public QObject {
     QCOMPARE(plot.yColumn, QString("fitness_m"));
   }
 
+  // A line through one point is drawn by nobody.
+  void oneGenerationIsDrawnAsAPoint() {
+    FitnessRun run = example();
+    run.generations.resize(1);
+    QCOMPARE(series(fitnessPlot(run, "m"), "maximum").style, PlotSeries::Style::points);
+    QCOMPARE(series(fitnessPlot(example(), "m"), "maximum").style, PlotSeries::Style::line);
+    for (const PlotSeries& shown : comparisonPlot({run}, "m", true).series)
+      QCOMPARE(shown.style, PlotSeries::Style::points);
+  }
+
   void theBestSoFarStartsAnewWithEachSimulator() {
     QCOMPARE(series(fitnessPlot(example(), "m"), "best so far").points,
              (Points{{1, 0.1}, {2, 0.3}, {3, 0.3}, {4, 0.12}}));
@@ -206,6 +216,8 @@ class TestFitnessAndGapCharts : public QObject {
     GapRecord gap;
     gap.stage = 1;
     const PlotData plot = gapPlot({gap}, {}, false, "m");
+    QCOMPARE(plot.note, QString());
+    QVERIFY(gapPlot({gap}, {}, false, "m", GapNorm::rootMeanSquare).note.contains("root mean square"));
     QCOMPARE(plot.series.size(), std::size_t(3));
     GapChart chart;
     chart.setUnit("m");

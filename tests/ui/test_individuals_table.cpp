@@ -110,6 +110,37 @@ class TestIndividualsTable : public QObject {
     QCOMPARE(model.index(3, M::fitness).data(Qt::ToolTipRole).toString(), QString("0.30000000000000004 m"));
   }
 
+  void anIndividualIsFoundByItsNumber() {
+    IndividualsTable table;
+    table.model().append(example());
+    QCOMPARE(table.model().index(3, M::number).data().toString(), QString("4"));
+    table.filter().setWords("4");
+    QCOMPARE(shown(table), QList<Id>{4});
+  }
+
+  // Those that wait to be measured: neither their fitness nor their place by fitness is told, nor that of their
+  // doubles.
+  void whatNobodyShallKnowYetIsInNoAnswer() {
+    IndividualsTable table;
+    table.model().append(example());
+    table.setHidden({2});
+    for (const int row : {1, 2}) {
+      QCOMPARE(table.model().index(row, M::fitness).data().toString(), QString("hidden"));
+      QVERIFY(!table.model().index(row, M::fitness).data(M::SortRole).isValid());
+      QVERIFY(!table.model().index(row, M::fitness).data(Qt::ToolTipRole).isValid());
+    }
+    table.view().sortByColumn(M::fitness, Qt::DescendingOrder);
+    QCOMPARE(shown(table).mid(0, 3), (QList<Id>{4, 1, 5}));
+    table.view().sortByColumn(M::fitness, Qt::AscendingOrder);
+    QCOMPARE(shown(table).mid(0, 3), (QList<Id>{5, 1, 4}));
+    QVERIFY(!table.model().toCsv({1}).contains("0.5"));
+    QVERIFY(table.select(2));
+    for (const auto* label : table.findChildren<QLabel*>())
+      QVERIFY2(!label->text().contains("0.5") && !label->toolTip().contains("0.5"), qPrintable(label->text()));
+    table.setHidden({});
+    QCOMPARE(table.model().index(1, M::fitness).data().toString(), QString("0.5"));
+  }
+
   void aStandInIsNamedInTheHeader() {
     IndividualsModel model;
     model.setUnit("m");

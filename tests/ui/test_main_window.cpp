@@ -430,6 +430,38 @@ class TestMainWindow : public QObject {
     QCOMPARE(tree->mapTo(window.get(), QPoint()), before);
   }
 
+  void theSimulatedFitnessOfThoseThatWaitIsHiddenEverywhere() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.addGenerations(run, 3);
+    const auto tasks = stored.addTasks(run);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    auto* table = window->findChild<IndividualsTable*>();
+    QTRY_COMPARE(table->model().rowCount(), 6);
+    QVERIFY(table->model().isHidden(stored.database.individual(tasks[0].individual)));
+    for (const auto& task : tasks) stored.measure(run, task.individual, 0.25);
+    QTRY_VERIFY(!table->model().isHidden(stored.database.individual(tasks[0].individual)));
+  }
+
+  // 1366 × 768, less a task bar and a title.
+  void theWindowFitsASmallLaptop() {
+    StoredRun stored;
+    fullRun(stored);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QString said;
+    for (const QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+      const QSize least = dock->widget()->minimumSizeHint();
+      said += QString("%1 %2x%3; ").arg(dock->objectName()).arg(least.width()).arg(least.height());
+    }
+    const QSize least = window->minimumSizeHint();
+    QVERIFY2(least.width() <= 1366 && least.height() <= 700,
+             qPrintable(QString("%1x%2: %3").arg(least.width()).arg(least.height()).arg(said)));
+    window->resize(1366, 700);
+    QCOMPARE(window->size(), QSize(1366, 700));
+  }
+
   void theParametersOfIndividualsAreATable() {
     StoredRun stored;
     const Id run = stored.addRun(stored.addExperiment());

@@ -17,10 +17,14 @@ QString version(const std::vector<SimulatorRecord>& simulators, Id id) {
 }  // namespace
 
 PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<SimulatorRecord>& simulators, bool standIn,
-                 const QString& unit) {
+                 const QString& unit, GapNorm norm) {
   PlotData plot;
   plot.title = GapChart::tr("Reality gap by simulator version");
-  plot.note = realityNote(standIn);
+  QStringList notes;
+  if (standIn) notes << realityNote(true);
+  if (norm == GapNorm::rootMeanSquare) notes << GapChart::tr("L3 made the root mean square small");
+  if (norm == GapNorm::maximum) notes << GapChart::tr("L3 made the largest gap small");
+  plot.note = notes.join(QStringLiteral(" · "));
   plot.xTitle = GapChart::tr("measurement stage, simulator version before → after its update");
   plot.yTitle = axisTitle(GapChart::tr("mean |real − simulated| fitness"), unit);
   plot.xColumn = "stage";
@@ -70,7 +74,12 @@ GapChart::GapChart(QWidget* parent) : QWidget(parent), plot_(new PlotWidget(this
   redraw();
 }
 
-void GapChart::redraw() { plot_->setData(gapPlot(gaps_, simulators_, standIn_, unit_)); }
+void GapChart::redraw() { plot_->setData(gapPlot(gaps_, simulators_, standIn_, unit_, norm_)); }
+
+void GapChart::setNorm(GapNorm norm) {
+  norm_ = norm;
+  redraw();
+}
 
 void GapChart::setUnit(const QString& unit) {
   unit_ = unit;

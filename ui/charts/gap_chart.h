@@ -1,7 +1,7 @@
 #pragma once
 #include <QWidget>
 
-#include "core/store/records.h"
+#include "core/run/reality_gap.h"
 #include "ui/charts/plot_data.h"
 
 namespace btr::ui {
@@ -12,7 +12,7 @@ class PlotWidget;
 /// (joined by a line, error bar from repeats), of the stage's own individuals before the update, which that simulator
 /// had not seen, and of the held-out individuals where there are any.
 PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<SimulatorRecord>& simulators, bool standIn,
-                 const QString& unit);
+                 const QString& unit, GapNorm norm = GapNorm::meanAbsolute);
 
 class GapChart : public QWidget {
   Q_OBJECT
@@ -21,6 +21,8 @@ class GapChart : public QWidget {
   explicit GapChart(QWidget* parent = nullptr);
   void setUnit(const QString& unit);
   void setStandIn(bool standIn);
+  /// What L3 makes small; the chart says so where it is not the mean gap that it shows.
+  void setNorm(GapNorm norm);
   /// `simulators` give the version numbers on the axis.
   void setGaps(const std::vector<GapRecord>& gaps, const std::vector<SimulatorRecord>& simulators);
   PlotWidget& plot() { return *plot_; }
@@ -31,6 +33,7 @@ class GapChart : public QWidget {
   PlotWidget* plot_;
   QString unit_;
   bool standIn_ = false;
+  GapNorm norm_ = GapNorm::meanAbsolute;
   std::vector<GapRecord> gaps_;
   std::vector<SimulatorRecord> simulators_;
 };

@@ -129,6 +129,8 @@ void PlotOverlay::paintReadOut(QPainter& painter) const {
   QRectF box = QFontMetricsF(font_).boundingRect(QRectF(0, 0, 360, 400), Qt::AlignLeft, readOut_->text);
   box.adjust(-8, -5, 8, 5);
   box.moveLeft(centre.x() + 12 + box.width() > area_.right() ? centre.x() - 12 - box.width() : centre.x() + 12);
+  // In a narrow plot neither side has room: its left edge is read first.
+  box.moveLeft(std::max(box.left(), area_.left() + 2));
   box.moveBottom(std::max(centre.y() - 10, area_.top() + box.height() + 2));
   QColor behind = colours_.background;
   behind.setAlphaF(0.94F);

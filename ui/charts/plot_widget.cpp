@@ -7,6 +7,7 @@
 #include <QFileDialog>
 #include <QGraphicsLayout>
 #include <QKeyEvent>
+#include <QLocale>
 #include <QMenu>
 #include <QMessageBox>
 #include <QMimeData>
@@ -40,6 +41,9 @@ struct PlotWidget::Impl {
   bool zoomed = false;
   QPoint pressed, moved;
   enum class Drag { none, zoom, move } drag = Drag::none;
+
+  /// For people; exported tables are exact.
+  static QString readable(double value) { return QLocale::c().toString(value, 'g', 6); }
 
   void showAll() {
     zoomed = false;
@@ -85,10 +89,10 @@ struct PlotWidget::Impl {
         if (!(distance < best)) continue;
         best = distance;
         QString text = series.name.isEmpty() ? QString() : series.name + '\n';
-        const QString x = data.xLabels.isEmpty() ? data.xTitle + " = " + exactText(series.points[i].x())
+        const QString x = data.xLabels.isEmpty() ? data.xTitle + " = " + readable(series.points[i].x())
                                                  : data.xLabels.value(std::round(series.points[i].x()));
-        text += x + '\n' + data.yTitle + " = " + exactText(series.points[i].y());
-        if (i < series.errors.size() && series.errors[i] > 0) text += " ± " + exactText(series.errors[i]);
+        text += x + '\n' + data.yTitle + " = " + readable(series.points[i].y());
+        if (i < series.errors.size() && series.errors[i] > 0) text += " ± " + readable(series.errors[i]);
         found = PlotOverlay::ReadOut{series.drawnAt(i), text, series.colour};
       }
     }

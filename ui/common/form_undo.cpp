@@ -1,7 +1,7 @@
 #include "ui/common/form_undo.h"
 
 #include <QKeyEvent>
-#include <QLineEdit>
+#include <QWidget>
 
 namespace btr::ui {
 namespace {
@@ -23,6 +23,6 @@ class UndoKeysPass final : public QObject {
 
 }  // namespace
 
-void leaveUndoToForm(QLineEdit* edit) { edit->installEventFilter(new UndoKeysPass(edit)); }
+void leaveUndoToForm(QWidget* edit) { edit->installEventFilter(new UndoKeysPass(edit)); }
 
 }  // namespace btr::ui

@@ -1,10 +1,10 @@
 #pragma once
-class QLineEdit;
+class QWidget;
 
 namespace btr::ui {
 
-/// A form's undo steps are whole edits; the line edit's own undo of single keys would shadow them. After this call the
+/// A form's undo steps are whole edits; a line edit's own undo of single keys would shadow them. After this call the
 /// keys for undo and redo go on to the form's actions.
-void leaveUndoToForm(QLineEdit* edit);
+void leaveUndoToForm(QWidget* edit);
 
 }  // namespace btr::ui

@@ -61,19 +61,20 @@ void IndividualDetails::clear() {
   replay_->setEnabled(false);
 }
 
-void IndividualDetails::setIndividual(const IndividualRecord& individual, int simulatorNumber) {
+void IndividualDetails::setIndividual(const IndividualRecord& individual, int simulatorNumber, bool fitnessHidden) {
   individual_ = individual.id;
   title_->setText(tr("<b>Individual %1</b>, generation %2, slot %3")
                       .arg(individual.id)
                       .arg(individual.generation)
                       .arg(individual.slot));
-  QStringList facts{tr("Fitness %1 in simulator %2").arg(withUnit(individual.fitness, unit_)).arg(simulatorNumber),
+  const QString fitness = fitnessHidden ? tr("hidden") : withUnit(individual.fitness, unit_);
+  QStringList facts{tr("Fitness %1 in simulator %2").arg(fitness).arg(simulatorNumber),
                     tr("trial %1").arg(QString::fromStdString(individual.outcome))};
   if (!individual.detail.empty()) facts.last() += ": " + QString::fromStdString(individual.detail);
   if (individual.sameAs) facts << tr("same as individual %1, not simulated again").arg(individual.sameAs);
   facts << tr("seed %1").arg(individual.trialSeed);
   facts_->setText(facts.join(" · "));
-  facts_->setToolTip(exactText(individual.fitness));
+  facts_->setToolTip(fitnessHidden ? QString() : exactText(individual.fitness));
   chromosome_->setVisible(!individual.chromosome.empty());
   chromosome_->setPlainText(groupedChromosome(individual.chromosome));
 

@@ -20,7 +20,7 @@ class IndividualDetails : public QWidget {
   /// The controller's parameters, in the order of an individual's.
   void setGenotype(const std::vector<Parameter>& genotype);
   void setUnit(const QString& unit);
-  void setIndividual(const IndividualRecord& individual, int simulatorNumber);
+  void setIndividual(const IndividualRecord& individual, int simulatorNumber, bool fitnessHidden = false);
   void clear();
   Id individual() const { return individual_; }
 

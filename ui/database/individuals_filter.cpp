@@ -65,7 +65,8 @@ bool IndividualsFilter::filterAcceptsRow(int row, const QModelIndex&) const {
   if (measuredOnly_ && !model_.measuredAt(row)) return false;
   if (bestDistinct_ && !best_.contains(record.id)) return false;
   return std::all_of(words_.begin(), words_.end(), [&](const QString& word) {
-    return QString::fromStdString(record.outcome).contains(word, Qt::CaseInsensitive) ||
+    return QString::number(record.id) == word ||
+           QString::fromStdString(record.outcome).contains(word, Qt::CaseInsensitive) ||
            QString::fromStdString(record.detail).contains(word, Qt::CaseInsensitive) ||
            QString::fromStdString(record.chromosome).startsWith(word);
   });
@@ -86,7 +87,12 @@ bool IndividualsFilter::lessThan(const QModelIndex& left, const QModelIndex& rig
       return a.slot != b.slot ? a.slot < b.slot : a.generation < b.generation;
     case IndividualsModel::outcome:
       return a.outcome != b.outcome ? a.outcome < b.outcome : earlier();
+    case IndividualsModel::number:
+      return a.id < b.id;
     case IndividualsModel::fitness:
+      // Where one stands would tell what is hidden.
+      if (const bool x = model_.isHidden(a), y = model_.isHidden(b); x || y)
+        return x && y ? earlier() : descending ? x : y;
       return a.fitness != b.fitness ? a.fitness < b.fitness : earlier();
     default:
       break;

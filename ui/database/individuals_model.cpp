@@ -39,6 +39,12 @@ void IndividualsModel::setMeasurements(const std::vector<MeasurementRecord>& mea
   if (!individuals_.empty()) emit dataChanged(index(0, measuredMean), index(rowCount() - 1, voidCount));
 }
 
+void IndividualsModel::setHidden(const std::set<Id>& hidden) {
+  if (hidden == hidden_) return;
+  hidden_ = hidden;
+  if (!individuals_.empty()) emit dataChanged(index(0, fitness), index(rowCount() - 1, fitness));
+}
+
 void IndividualsModel::clear() {
   beginResetModel();
   individuals_.clear();
@@ -102,7 +108,7 @@ QString IndividualsModel::toCsv(const std::vector<int>& rows) const {
     text += QStringList{QString::number(r.id),
                         QString::number(r.generation),
                         QString::number(r.slot),
-                        exactText(r.fitness),
+                        isHidden(r) ? QString() : exactText(r.fitness),
                         QString::fromStdString(r.outcome),
                         number < 0 ? QString() : QString::number(number),
                         r.sameAs ? QString::number(r.sameAs) : QString(),
@@ -130,6 +136,8 @@ QVariant IndividualsModel::headerData(int section, Qt::Orientation orientation, 
   if (orientation != Qt::Horizontal) return {};
   const QString real = standIn_ ? tr("stand-in") : tr("measured");
   if (role == Qt::DisplayRole) switch (section) {
+      case number:
+        return tr("individual");
       case generation:
         return tr("generation");
       case slot:
@@ -154,8 +162,10 @@ QVariant IndividualsModel::headerData(int section, Qt::Orientation orientation, 
   if (role == Qt::ToolTipRole) switch (section) {
       case slot:
         return tr("Place in the population");
+      case number:
+        return tr("Its number in the database, as on the measurement sheet");
       case fitness:
-        return tr("Fitness in the simulator");
+        return tr("Fitness in the simulator; hidden of those that wait to be measured");
       case outcome:
         return tr("How the simulated trial ended");
       case simulator:
@@ -179,12 +189,14 @@ QVariant IndividualsModel::valueAt(int row, int column) const {
   const IndividualRecord& r = at(row);
   const Spread* spread = column >= measuredMean ? measuredAt(row) : nullptr;
   switch (column) {
+    case number:
+      return static_cast<qlonglong>(r.id);
     case generation:
       return r.generation;
     case slot:
       return r.slot;
     case fitness:
-      return r.fitness;
+      return isHidden(r) ? QVariant() : QVariant(r.fitness);
     case outcome:
       return QString::fromStdString(r.outcome);
     case simulator:
@@ -207,6 +219,7 @@ QVariant IndividualsModel::valueAt(int row, int column) const {
 
 QVariant IndividualsModel::textAt(int row, int column) const {
   const QVariant value = valueAt(row, column);
+  if (column == fitness && !value.isValid()) return tr("hidden");
   if (column == simulator && value.toInt() < 0) return tr("?");
   if (value.typeId() == QMetaType::Double) return shortNumber(value.toDouble());
   return value;

@@ -1,10 +1,11 @@
 #pragma once
 #include <QAbstractTableModel>
 #include <map>
+#include <set>
 #include <unordered_map>
 
-#include "core/store/records.h"
 #include "core/run/spread.h"
+#include "core/store/records.h"
 
 namespace btr::ui {
 
@@ -15,6 +16,7 @@ class IndividualsModel : public QAbstractTableModel {
 
  public:
   enum Column {
+    number,
     generation,
     slot,
     fitness,
@@ -37,6 +39,11 @@ class IndividualsModel : public QAbstractTableModel {
   /// Give the version numbers behind the simulators' ids.
   void setSimulators(const std::vector<SimulatorRecord>& simulators);
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
+  /// Individuals whose simulated fitness nobody shall know yet: they wait to be measured.
+  void setHidden(const std::set<Id>& hidden);
+  bool isHidden(const IndividualRecord& individual) const {
+    return hidden_.contains(individual.id) || hidden_.contains(individual.sameAs);
+  }
   void clear();
   /// Those that are there already (by id) are skipped.
   void append(const std::vector<IndividualRecord>& individuals);
@@ -74,6 +81,7 @@ class IndividualsModel : public QAbstractTableModel {
   std::unordered_map<Id, int> rows_;
   std::unordered_map<Id, Measured> measured_;
   std::map<Id, int> simulators_;
+  std::set<Id> hidden_;
   QString unit_;
   bool standIn_ = false;
 };

@@ -112,15 +112,16 @@ QWidget* IndividualsTable::makeFilterBar() {
     showCount();
   });
   words_ = new QLineEdit(bar);
-  words_->setPlaceholderText(tr("Outcome or chromosome…"));
+  words_->setPlaceholderText(tr("Number, outcome or chromosome…"));
   words_->setClearButtonEnabled(true);
-  words_->setMinimumWidth(190);
+  words_->setMinimumWidth(100);
   words_->setMaximumWidth(240);
   connect(words_, &QLineEdit::textChanged, this, [this](const QString& text) {
     filter_.setWords(text);
     showCount();
   });
   count_ = new QLabel(bar);
+  count_->setMinimumWidth(1);  // the first to give way in a narrow window
   auto* save = new QToolButton(bar);
   save->setIcon(themeIcon("document-export"));
   save->setText(tr("CSV…"));
@@ -156,6 +157,11 @@ void IndividualsTable::setSimulators(const std::vector<SimulatorRecord>& simulat
 void IndividualsTable::setMeasurements(const std::vector<MeasurementRecord>& measurements) {
   model_.setMeasurements(measurements);
   showCount();
+}
+
+void IndividualsTable::setHidden(const std::set<Id>& hidden) {
+  model_.setHidden(hidden);
+  if (details_->individual() != 0) showSelected();
 }
 
 void IndividualsTable::load(int last, Reader read) {
@@ -214,7 +220,7 @@ void IndividualsTable::showSelected() {
   if (rows.isEmpty()) return details_->clear();
   const IndividualRecord& record =
       filter_.recordAt(rows.contains(view_->currentIndex().siblingAtColumn(0)) ? view_->currentIndex() : rows.front());
-  details_->setIndividual(record, model_.simulatorNumber(record.simulator));
+  details_->setIndividual(record, model_.simulatorNumber(record.simulator), model_.isHidden(record));
   emit selectionChanged(record.id);
 }
 

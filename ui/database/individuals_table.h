@@ -31,6 +31,8 @@ class IndividualsTable : public QWidget {
   void setGenotype(const std::vector<Parameter>& genotype);
   void setSimulators(const std::vector<SimulatorRecord>& simulators);
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
+  /// Individuals whose simulated fitness is not shown.
+  void setHidden(const std::set<Id>& hidden);
   /// Empties the table and reads generations 1 … `last`, a few with each turn of the event loop; then loaded().
   void load(int last, Reader read);
   /// One more generation, with its individuals.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "ui/common/section.h"
+#include "ui/common/tab_order.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/learner_form.h"
 #include "ui/experiment/parameter_form.h"
@@ -118,7 +119,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   adaptationColumn->addWidget(adaptation_);
 
   // The story of a run from top to bottom: what, how it is judged, L1, measuring, L2, L3.
-  auto* inside = new QWidget;
+  auto* inside = inside_ = new QWidget;
   auto* column = new QVBoxLayout(inside);
   column->setContentsMargins(6, 4, 6, 4);
   add(*column, tr("Experiment"), makeGeneral(), true);
@@ -153,6 +154,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   for (auto* form : {learner_, realityLearner_, searchStart_})
     connect(form, &LearnerForm::changed, this, &ExperimentForm::update);
   setSpec({});
+  orderTabs(*inside_);
 }
 
 // The stack's commands point into this form: it must be empty before the widgets go.

@@ -78,7 +78,8 @@ class ExperimentForm : public QWidget {
   QComboBox* reality_ = nullptr;
   QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
-  QWidget* editBar_ = nullptr;
+  QWidget *editBar_ = nullptr, *inside_ = nullptr;
+  QString followed_;  ///< the controller that the learners' pages belong to
   PluginForm *controller_, *fitness_, *adaptation_;
   LearnerForm *learner_, *realityLearner_, *searchStart_;
   ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr,

@@ -8,9 +8,11 @@
 #include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "ui/common/edit_command.h"
 #include "ui/common/form_undo.h"
+#include "ui/common/tab_order.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/learner_form.h"
@@ -137,6 +139,8 @@ QWidget* ExperimentForm::makeRealityLearning() {
 void ExperimentForm::followController() {
   const QString controller = QString::fromStdString(controller_->choice().name);
   for (auto* form : {learner_, realityLearner_, searchStart_}) form->setGenotype(controller);
+  // Another controller brings pages that are made only now.
+  if (std::exchange(followed_, controller) != controller) orderTabs(*inside_);
 }
 
 QWidget* ExperimentForm::makeRecordings() {

@@ -35,6 +35,8 @@ ParameterField::ParameterField(const Parameter& parameter, bool checkable, QWidg
     number_ = new NumberEdit(form);
     number_->setRange(parameter.minimum, parameter.maximum, parameter.integer);
     connect(number_, &NumberEdit::edited, this, [this](const QString& text) { emit edited(text); });
+    // A spin box hands the key to its line directly, past the line's own filters.
+    leaveUndoToForm(number_);
     leaveUndoToForm(number_->findChild<QLineEdit*>());
     number_->findChild<QLineEdit*>()->installEventFilter(this);
   } else {
@@ -104,7 +106,7 @@ std::optional<double> ParameterField::value() const {
 QString ParameterField::problem() const {
   if (value()) return {};
   const QString typed = text_->trimmed();
-  return (typed.isEmpty() ? tr("Nothing is not allowed") : tr("%1 is not allowed").arg(typed)) + "; " +
+  return (typed.isEmpty() ? tr("The field is empty") : tr("%1 is not allowed").arg(typed)) + "; " +
          allowedText(parameter_);
 }
 

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QStackedWidget>
 #include <QUndoStack>
 #include <QVBoxLayout>
 
@@ -13,12 +12,7 @@
 namespace btr::ui {
 
 PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
-    : QWidget(parent),
-      what_(what),
-      offers_(offers),
-      undo_(undo),
-      names_(new QComboBox(this)),
-      pages_(new QStackedWidget(this)) {
+    : QWidget(parent), what_(what), offers_(offers), undo_(undo), names_(new QComboBox(this)) {
   names_->setAccessibleName(what);
   names_->setToolTip(tr("%1: one of the installed plugins").arg(what));
   names_->setFocusPolicy(Qt::StrongFocus);
@@ -39,7 +33,8 @@ PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QU
     column->addWidget(form);
     column->addStretch();
     connect(form, &ParameterForm::changed, this, &PluginForm::changed);
-    pages_->addWidget(page);
+    page->hide();
+    pages_.push_back(page);
   }
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index == chosen_) return;
@@ -60,7 +55,7 @@ PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QU
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   column->addLayout(row);
-  column->addWidget(pages_);
+  for (QWidget* page : pages_) column->addWidget(page);
   if (!offers_.empty()) select(0);
 }
 
@@ -111,19 +106,14 @@ void PluginForm::resetAll() {
 int PluginForm::changedCount() const { return page() ? page()->changedCount() : 0; }
 
 ParameterForm* PluginForm::page() const {
-  return chosen_ < offerCount() ? pages_->widget(chosen_)->findChild<ParameterForm*>() : nullptr;
+  return chosen_ < offerCount() ? pages_[std::size_t(chosen_)]->findChild<ParameterForm*>() : nullptr;
 }
 
-// Only the chosen page takes room: the others would stretch the section to the longest form.
+// Only the chosen page takes room. (A stacked widget would be as high as the longest form.)
 void PluginForm::select(int index) {
   chosen_ = index;
   names_->setCurrentIndex(index);
-  for (int i = 0; i < pages_->count(); ++i)
-    pages_->widget(i)->setSizePolicy(QSizePolicy::Preferred,
-                                     i == index ? QSizePolicy::Preferred : QSizePolicy::Ignored);
-  pages_->setVisible(index < offerCount());
-  if (index < offerCount()) pages_->setCurrentIndex(index);
-  pages_->adjustSize();
+  for (int i = 0; i < offerCount(); ++i) pages_[std::size_t(i)]->setVisible(i == index);
 }
 
 }  // namespace btr::ui

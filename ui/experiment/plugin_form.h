@@ -5,7 +5,6 @@
 #include "core/spec/experiment_spec.h"
 
 class QComboBox;
-class QStackedWidget;
 class QUndoStack;
 
 namespace btr::ui {
@@ -47,7 +46,7 @@ class PluginForm : public QWidget {
   int chosen_ = 0;
   QUndoStack& undo_;
   QComboBox* names_;
-  QStackedWidget* pages_;
+  std::vector<QWidget*> pages_;
 };
 
 }  // namespace btr::ui

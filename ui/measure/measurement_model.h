@@ -30,6 +30,7 @@ class MeasurementModel : public QAbstractTableModel {
 
   // ---- blindness
   void setSimulatedShown(bool shown);
+  bool isSimulatedShown() const { return simulatedShown_; }
   /// The switch is on, or every individual is done.
   bool isSimulatedVisible() const;
 

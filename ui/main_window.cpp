@@ -232,7 +232,7 @@ void MainWindow::arrangeDocks() {
 // Sizes hold only in a window that has its own size already.
 void MainWindow::sizeDocks() {
   sized_ = true;
-  const int left = width() * 19 / 100, right = width() * 29 / 100;
+  const int left = width() * 17 / 100, right = width() * 26 / 100;
   resizeDocks({treeDock_, panelDock_, specDock_}, {left, width() - left - right, right}, Qt::Horizontal);
   const int top = panel_->sizeHint().height() + 40, rest = height() - top - 90;
   resizeDocks({panelDock_, fitnessDock_, individualsDock_}, {top, rest * 54 / 100, rest * 46 / 100}, Qt::Vertical);

@@ -130,9 +130,9 @@ QWidget* IndividualsTable::makeFilterBar() {
   save->setToolTip(tr("Save the rows shown (or those selected) as CSV"));
   connect(save, &QToolButton::clicked, this, &IndividualsTable::exportCsv);
   layout->addSpacing(6);
-  for (QWidget* widget :
-       {static_cast<QWidget*>(distinct_), static_cast<QWidget*>(measured_), static_cast<QWidget*>(words_)})
-    layout->addWidget(widget);
+  layout->addWidget(distinct_);
+  layout->addWidget(measured_);
+  layout->addWidget(words_, 3);
   layout->addStretch(1);
   layout->addWidget(count_);
   layout->addWidget(save);

@@ -232,12 +232,13 @@ void MainWindow::arrangeDocks() {
 // Sizes hold only in a window that has its own size already.
 void MainWindow::sizeDocks() {
   sized_ = true;
-  const int left = width() * 17 / 100, right = width() * 26 / 100;
-  resizeDocks({treeDock_, panelDock_, specDock_}, {left, width() - left - right, right}, Qt::Horizontal);
+  const int left = width() * 19 / 100, right = width() * 29 / 100, middle = width() - left - right;
+  resizeDocks({treeDock_, panelDock_, specDock_}, {left, middle, right}, Qt::Horizontal);
   const int top = panel_->sizeHint().height() + 40, rest = height() - top - 90;
   resizeDocks({panelDock_, fitnessDock_, individualsDock_}, {top, rest * 54 / 100, rest * 46 / 100}, Qt::Vertical);
   resizeDocks({specDock_, replayDock_}, {(top + rest) * 50 / 100, (top + rest) * 50 / 100}, Qt::Vertical);
-  resizeDocks({fitnessDock_, gapDock_}, {100, 85}, Qt::Horizontal);
+  // Sizes as they shall be: what both ask for together is what the middle gets.
+  resizeDocks({fitnessDock_, gapDock_}, {middle * 54 / 100, middle * 46 / 100}, Qt::Horizontal);
 }
 
 void MainWindow::showEvent(QShowEvent* event) {

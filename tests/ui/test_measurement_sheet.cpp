@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QClipboard>
 #include <QComboBox>
+#include <QHeaderView>
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
@@ -104,6 +105,16 @@ class TestMeasurementSheet : public QObject {
   Q_OBJECT
 
  private slots:
+  void aNoteCanBeReadInANarrowSheetToo() {
+    Stored s(3, 3);
+    const auto wide = [&] { return s.sheet.view().columnWidth(s.model().noteColumn()); };
+    const int least = s.sheet.view().fontMetrics().horizontalAdvance(QStringLiteral("fell over, mat"));
+    s.sheet.resize(400, 300);
+    QVERIFY2(wide() >= least, qPrintable(QString::number(wide())));
+    s.sheet.resize(1800, 300);
+    QCOMPARE(s.sheet.view().horizontalHeader()->length(), s.sheet.view().viewport()->width());
+  }
+
   void theModelKeepsTheRulesOfItemModels() {
     MeasurementModel model;
     QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);

@@ -67,11 +67,22 @@ void MeasurementView::arrangeColumns() {
     for (int row = 0; column == model_.reasonColumn() && row < model_.rowCount(); ++row)
       width = std::max(width, fontMetrics().horizontalAdvance(model_.index(row, column).data().toString()) + 3 * digit);
     setColumnWidth(column, width);
-    horizontalHeader()->setSectionResizeMode(
-        column, column == model_.noteColumn() ? QHeaderView::Stretch : QHeaderView::Interactive);
   }
+  fitNote();
   // The buttons follow their column.
   scheduleDelayedItemsLayout();
+}
+
+/// The note takes what the other columns leave, and enough to be read where they leave nothing.
+void MeasurementView::fitNote() {
+  const int note = model_.noteColumn(), least = fontMetrics().horizontalAdvance('0') * 16;
+  const int others = horizontalHeader()->length() - columnWidth(note);
+  setColumnWidth(note, std::max(least, viewport()->width() - others));
+}
+
+void MeasurementView::resizeEvent(QResizeEvent* event) {
+  QTableView::resizeEvent(event);
+  fitNote();
 }
 
 QModelIndex MeasurementView::nextEditable(const QModelIndex& from, int direction) const {

@@ -33,10 +33,12 @@ class MeasurementView : public QTableView {
   void closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) override;
   QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   void placeButtons();
   void arrangeColumns();
+  void fitNote();
   void moveDown();
   QModelIndex nextEditable(const QModelIndex& from, int direction) const;
 

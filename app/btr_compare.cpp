@@ -33,13 +33,13 @@ void print(const Comparison& comparison) {
 
 void compare(const CompareArguments& a, Shell& shell) {
   const ComparisonSpec spec = loadComparison(a.file);
-  loadArms(spec, shell.plugins());  // before a database is made for them
+  const ComparedExperiments arms = loadArms(spec, shell.plugins());  // before a database is made for them
   Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
   shell.goesOn = true;
   RunOptions options;
   options.jobs = a.jobs;
-  const Comparison all =
-      runComparison(db, shell.plugins(), spec, *shell.stop, options, [&](const std::string& arm, std::uint64_t seed) {
+  const Comparison all = runComparison(
+      db, shell.plugins(), spec, arms, *shell.stop, options, [&](const std::string& arm, std::uint64_t seed) {
         if (!a.quiet) std::fprintf(stderr, "%s, seed %llu\n", arm.c_str(), static_cast<unsigned long long>(seed));
       });
   if (!a.csv.empty()) writeOut(a.csv, toCsv(all));

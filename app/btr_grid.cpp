@@ -1,10 +1,10 @@
 // btr grid: the whole kick. Learns the cells of a grid, compares the methods, tries interpolated kicks.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
@@ -155,15 +155,14 @@ void runGrid(const GridArguments& a, Shell& shell) {
 void showTable(const GridArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
   if (a.grid == 0) {
-    std::set<std::string> seen;
-    for (const GridRecord& g : db.grids()) seen.insert(g.specSha256);
-    if (shell.json && seen.empty()) std::cout << toJsonText(GridComparison{}, {}) << '\n';
-    if ((shell.json || !a.csv.empty()) && seen.size() > 1)
-      throw InputError(db.path() + ": holds grids of " + std::to_string(seen.size()) +
-                       " grid files, and --json and --csv are one table; name a grid with --grid");
-    seen.clear();
+    std::vector<std::string> files;  // hashes of the grid files, in the order of their first grids
     for (const GridRecord& g : db.grids())
-      if (seen.insert(g.specSha256).second) report(db, g.specSha256, a, shell);
+      if (std::ranges::find(files, g.specSha256) == files.end()) files.push_back(g.specSha256);
+    if (shell.json && files.empty()) std::cout << toJsonText(GridComparison{}, {}) << '\n';
+    if ((shell.json || !a.csv.empty()) && files.size() > 1)
+      throw InputError(db.path() + ": holds grids of " + std::to_string(files.size()) +
+                       " grid files, and --json and --csv are one table; name a grid with --grid");
+    for (const std::string& sha : files) report(db, sha, a, shell);
     return;
   }
   const GridSummary summary = summaryOf(db, shell.plugins(), a.grid);

@@ -1,24 +1,16 @@
 #include "core/gap/doctor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/gap/even_grid.h"
 #include "core/gap/noise_floor.h"
+#include "core/gap/report_figures.h"
 
 namespace btr {
 namespace {
 
-/// So that the same sensor reads alike in all trials.
-std::string fourDigits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
-
-std::string brief(double value) { return toText(std::round(value * 1e6) / 1e6); }
+std::string inMillionths(double value) { return toText(std::round(value * 1e6) / 1e6); }
 
 /// Longest stretch of rows with the same value, of a channel that changes at all.
 double longestHold(const std::vector<double>& time, const std::vector<double>& values) {
@@ -87,9 +79,9 @@ RecordingHealth examine(const Recording& recording) {
       return a.to_s - a.from_s < b.to_s - b.from_s;
     });
     health.findings.push_back(std::to_string(health.gaps.size()) + " pauses, about " + toText(missing) +
-                              " samples missing; the longest lasts " + brief(longest->to_s - longest->from_s) +
-                              " s from " + brief(longest->from_s) + " s (a sample every " + brief(health.period_s) +
-                              " s elsewhere)");
+                              " samples missing; the longest lasts " + inMillionths(longest->to_s - longest->from_s) +
+                              " s from " + inMillionths(longest->from_s) + " s (a sample every " +
+                              inMillionths(health.period_s) + " s elsewhere)");
   }
 
   // Channels.
@@ -103,7 +95,7 @@ RecordingHealth examine(const Recording& recording) {
     if (channel.empty > 0)
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");
-    if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + fourDigits(channel.quantisation));
+    if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + digits(channel.quantisation, 4));
     health.channels.push_back(std::move(channel));
   }
   return health;

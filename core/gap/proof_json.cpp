@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/interval_json.h"
 #include "core/gap/proof_score.h"
 #include "core/spec/json_reader.h"
 
@@ -47,15 +48,14 @@ json toJson(const std::vector<std::pair<std::string, ProofGroup>>& groups) {
 json toJson(const std::map<std::string, ProvedCase::Told>& told) {
   json object = json::object();
   for (const auto& [name, number] : told)
-    object[name] = {{"ci95", {number.ci95.low, number.ci95.high}}, {"excited", number.excited}};
+    object[name] = {{"ci95", btr::toJson(number.ci95)}, {"excited", number.excited}};
   return object;
 }
 
 std::map<std::string, ProvedCase::Told> toldFrom(JsonReader& reader, const std::string& key) {
   std::map<std::string, ProvedCase::Told> told;
   reader.members(key, [&](const std::string& name, JsonReader number) {
-    const std::vector<double> ci95 = number.numbers("ci95", 2);
-    told[name] = {{ci95[0], ci95[1]}, number.flag("excited", true)};
+    told[name] = {intervalFrom(number, "ci95"), number.flag("excited", true)};
     number.finish();
   });
   return told;

@@ -12,6 +12,7 @@
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
+#include "core/spec/utf8.h"
 
 namespace btr {
 namespace {
@@ -64,21 +65,10 @@ std::string shown(const std::string& text) {
   return "\"" + safe + (text.size() > 40 ? "...\"" : "\"");
 }
 
+/// Control bytes and stray continuation bytes betray a binary or differently encoded file.
 bool isText(const std::string& name) {
-  // Control bytes and stray continuation bytes betray a binary or differently encoded file.
-  std::size_t following = 0;
-  for (const char byte : name) {
-    const auto code = static_cast<unsigned char>(byte);
-    if (following > 0) {
-      if ((code & 0xC0) != 0x80) return false;
-      --following;
-    } else if (code < 0x20 || code == 0x7f || (code & 0xC0) == 0x80 || code >= 0xF8) {
-      return false;
-    } else if (code >= 0xC0) {
-      following = code >= 0xF0 ? 3 : code >= 0xE0 ? 2 : 1;
-    }
-  }
-  return following == 0;
+  const auto isControl = [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; };
+  return std::ranges::none_of(name, isControl) && findInvalidUtf8(name) == std::string::npos;
 }
 
 std::string list(const std::vector<std::string>& names) {

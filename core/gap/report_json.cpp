@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/gap/gap_report.h"
+#include "core/gap/interval_json.h"
 #include "core/gap/report_text.h"
 #include "core/spec/json_reader.h"
 
@@ -14,7 +15,6 @@ using json = nlohmann::ordered_json;
 
 /// JSON knows neither NaN nor infinity: null stands for them.
 json finite(double value) { return std::isfinite(value) ? json(value) : json(); }
-json pairOf(const GapReport::Interval& interval) { return json::array({finite(interval.low), finite(interval.high)}); }
 json listOf(const std::vector<double>& values) {
   json list = json::array();
   for (const double value : values) list.push_back(finite(value));
@@ -30,7 +30,7 @@ json toJson(const GapReport::Located& located) {
                        {"share_of_time", finite(r.shareOfTime)},
                        {"p_value", finite(r.pValue)}});
   for (const GapReport::Window& w : located.windows) {
-    windows.push_back(pairOf(w.time_s));
+    windows.push_back(json(btr::toJson(w.time_s)));
     places.push_back(w.recording);
   }
   return {{"channel", located.channel}, {"share_of_excess_error", finite(located.shareOfExcess)},
@@ -48,7 +48,7 @@ json toJson(const GapReport::Number& n, bool calibrated) {
     number["value"] = finite(n.value);
     number["neutral"] = finite(n.before);
   }
-  number["ci95"] = n.ci95.known() ? pairOf(n.ci95) : json();
+  number["ci95"] = json(btr::toJson(n.ci95));
   number["at_bound"] = n.atBound;
   number["excited"] = n.excited;
   number["unit"] = n.unit;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/gap/gap_report.h"
+#include "core/gap/interval_json.h"
 #include "core/gap/report_text.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -16,28 +17,12 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double numberOf(JsonReader& r, const std::string& key) { return r.numberOrNull(key, unknown); }
 
-/// A side without a number is open.
-GapReport::Interval interval(const nlohmann::json& value, const JsonReader& reader, const std::string& key) {
-  const auto side = [&](const nlohmann::json& number, double open) {
-    if (number.is_null()) return open;
-    if (!number.is_number()) reader.refuse(key, "two numbers, from and to");
-    return number.get<double>();
-  };
-  if (!value.is_array() || value.size() != 2) reader.refuse(key, "two numbers, from and to");
-  return {side(value[0], -infinity), side(value[1], infinity)};
-}
-
-GapReport::Interval intervalOf(JsonReader& r, const std::string& key) {
-  const nlohmann::json* value = r.any(key);
-  return value && !value->is_null() ? interval(*value, r, key) : GapReport::Interval::none();
-}
-
 std::vector<GapReport::Interval> intervalsOf(JsonReader& r, const std::string& key) {
   std::vector<GapReport::Interval> all;
   const nlohmann::json* list = r.any(key);
   if (list && !list->is_array()) r.refuse(key, "a list of pairs, from and to");
   if (list)
-    for (const nlohmann::json& pair : *list) all.push_back(interval(pair, r, key));
+    for (const nlohmann::json& pair : *list) all.push_back(intervalFrom(pair, r, key));
   return all;
 }
 
@@ -53,7 +38,7 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   n.name = name;
   n.before = numberOf(r, calibrated ? "before" : "neutral");
   n.value = numberOf(r, calibrated ? "after" : "value");
-  n.ci95 = intervalOf(r, "ci95");
+  n.ci95 = intervalFrom(r, "ci95");
   n.atBound = r.flag("at_bound", false);
   n.excited = r.flag("excited", true);
   n.unit = r.text("unit", "");

@@ -279,24 +279,27 @@ Vector3d RobotBuilder::readAxis(const Node& node) const {
 ServoData RobotBuilder::readServo(const Node& node) const {
   const auto number = [&](const char* field) -> std::optional<double> {
     if (!node.given(field)) return std::nullopt;
-    const double value = realField(document_, node, field, 0);
-    if (value < 0 && std::string_view(field) != "gearRatio")
+    return realField(document_, node, field, 0);
+  };
+  const auto notNegative = [&](const char* field) {
+    const std::optional<double> value = number(field);
+    if (value && *value < 0)
       document_.fail(node,
-                     std::string("Joint.") + field + " " + toText(value) + " is not allowed; 0 or more is expected");
+                     std::string("Joint.") + field + " " + toText(*value) + " is not allowed; 0 or more is expected");
     return value;
   };
   ServoData servo;
-  servo.p_nm_rad = number("pGain");
-  servo.i_nm_rad_s = number("iGain");
-  servo.d_nm_s_rad = number("dGain");
-  servo.maxTorque_nm = number("maxTorque");
-  servo.noLoadSpeed_rad_s = number("noLoadSpeed");
-  servo.coulombFriction_nm = number("coulombFriction");
-  servo.viscousFriction_nm_s_rad = number("viscousFriction");
-  servo.backlash_rad = number("backlash");
-  servo.commandDelay_s = number("commandDelay");
+  servo.p_nm_rad = notNegative("pGain");
+  servo.i_nm_rad_s = notNegative("iGain");
+  servo.d_nm_s_rad = notNegative("dGain");
+  servo.maxTorque_nm = notNegative("maxTorque");
+  servo.noLoadSpeed_rad_s = notNegative("noLoadSpeed");
+  servo.coulombFriction_nm = notNegative("coulombFriction");
+  servo.viscousFriction_nm_s_rad = notNegative("viscousFriction");
+  servo.backlash_rad = notNegative("backlash");
+  servo.commandDelay_s = notNegative("commandDelay");
   servo.gearRatio = number("gearRatio");
-  servo.rotorInertia_kg_m2 = number("rotorInertia");
+  servo.rotorInertia_kg_m2 = notNegative("rotorInertia");
   return servo;
 }
 

@@ -20,27 +20,27 @@ struct Evidence {
   std::vector<RealFitness> shown, heldOut, own;  ///< own: of this stage alone, held out or not
   GapNorm norm = GapNorm::meanAbsolute;
   std::uint64_t trialSeed = 0;
+  std::string sha256;  ///< of what the errors of candidates come from
 
   std::vector<TrialJob> jobs(const std::vector<RealFitness>& who, const SimulatorSpec& simulator) const {
     std::vector<TrialJob> jobs;
     for (const RealFitness& r : who) jobs.push_back({simulator, r.parameters, trialSeed, false});
     return jobs;
   }
-
-  /// Of what the errors of candidates come from.
-  std::string hash() const {
-    Sha256 sha;
-    const auto add = [&](const double* values, std::size_t count) {
-      sha.add({reinterpret_cast<const char*>(values), count * sizeof(double)});
-    };
-    sha.add(std::to_string(static_cast<int>(norm)));
-    for (const RealFitness& r : shown) {
-      add(r.parameters.data(), r.parameters.size());
-      add(&r.mean, 1);
-    }
-    return sha.finish();
-  }
 };
+
+std::string hashOf(GapNorm norm, const std::vector<RealFitness>& shown) {
+  Sha256 sha;
+  const auto add = [&](const double* values, std::size_t count) {
+    sha.add({reinterpret_cast<const char*>(values), count * sizeof(double)});
+  };
+  sha.add(std::to_string(static_cast<int>(norm)));
+  for (const RealFitness& r : shown) {
+    add(r.parameters.data(), r.parameters.size());
+    add(&r.mean, 1);
+  }
+  return sha.finish();
+}
 
 Evidence collect(const RunContext& context, int stage) {
   Evidence evidence;
@@ -58,6 +58,7 @@ Evidence collect(const RunContext& context, int stage) {
   std::set<std::vector<double>> hidden;
   for (const RealFitness& r : evidence.heldOut) hidden.insert(r.parameters);
   std::erase_if(evidence.shown, [&](const RealFitness& r) { return hidden.contains(r.parameters); });
+  evidence.sha256 = hashOf(evidence.norm, evidence.shown);
   return evidence;
 }
 
@@ -116,10 +117,9 @@ std::optional<Done> doneBefore(RunContext& context, const Evidence& evidence, co
                                const std::vector<AdaptationRecord>& generations) {
   Done done;
   std::vector<Candidate> tried;
-  const std::string hash = evidence.hash();
   for (const AdaptationRecord& generation : generations)
     for (const AdaptationCandidate& c : generation.candidates) {
-      if (generation.evidenceSha256 == hash) done.known.try_emplace(c.parameters, c.error);
+      if (generation.evidenceSha256 == evidence.sha256) done.known.try_emplace(c.parameters, c.error);
       tried.push_back({c.chromosome, c.parameters});
       done.all.push_back(c);
     }
@@ -133,7 +133,7 @@ std::string evidenceText(const Evidence& evidence, int stage, double error, doub
   for (const RealFitness& r : evidence.shown) individuals.push_back(r.individual);
   return nlohmann::json{{"stage", stage},
                         {"individuals", individuals},
-                        {"sha256", evidence.hash()},
+                        {"sha256", evidence.sha256},
                         {"error", error},
                         {"error_of_parent", startError},
                         {"note", kept ? "no candidate was better than the parent: its values are kept" : ""}}
@@ -199,7 +199,7 @@ bool adaptSimulator(RunContext& context, int stage) {
     record.meanError = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
     record.randomState = random.state();
     record.learnerState = learner->state();
-    record.evidenceSha256 = evidence.hash();
+    record.evidenceSha256 = evidence.sha256;
     db.addAdaptation(record);
     all.insert(all.end(), record.candidates.begin(), record.candidates.end());
 

@@ -107,14 +107,12 @@ ComparedExperiments loadArms(const ComparisonSpec& spec, const PluginHost& host)
   return loaded;
 }
 
-Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec, const StopFlag& stop,
-                         const RunOptions& options,
+Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec,
+                         const ComparedExperiments& loaded, const StopFlag& stop, const RunOptions& options,
                          const std::function<void(const std::string& arm, std::uint64_t seed)>& began) {
   Comparison all;
   all.name = spec.name;
   all.seeds = spec.seeds;
-  const ComparedExperiments loaded = loadArms(spec, host);
-  const std::vector<ExperimentSpec>& experiments = loaded.experiments;
   all.unit = loaded.unit;
   for (const ComparisonSpec::Arm& arm : spec.arms) {
     all.arms.push_back({arm.name, {}, {}});
@@ -123,7 +121,7 @@ Comparison runComparison(Database& database, const PluginHost& host, const Compa
   // Seed by seed: a comparison that is stopped has whole pairs.
   for (const std::uint64_t seed : spec.seeds)
     for (std::size_t a = 0; a < spec.arms.size() && all.end != RunEnd::stopped; ++a) {
-      const Id run = startRun(database, host, experiments[a], seed);
+      const Id run = startRun(database, host, loaded.experiments[a], seed);
       if (began) began(spec.arms[a].name, seed);
       const RunEnd end = continueRun(database, host, run, stop, options);
       if (end != RunEnd::finished) all.end = end;

@@ -55,10 +55,10 @@ struct ComparedExperiments {
 ComparedExperiments loadArms(const ComparisonSpec& spec, const PluginHost& host);
 
 /// Runs every arm with every seed, or resumes what is stored and not finished, one run after the other; then compares.
-/// `began(arm, seed)` is told before each. Throws InputError as loadArms() does, before anything is run, and as
+/// `loaded` are the spec's arms, from loadArms(). `began(arm, seed)` is told before each. Throws InputError as
 /// startRun() does.
-Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec, const StopFlag& stop,
-                         const RunOptions& options,
+Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec,
+                         const ComparedExperiments& loaded, const StopFlag& stop, const RunOptions& options,
                          const std::function<void(const std::string& arm, std::uint64_t seed)>& began = {});
 
 /// A row for each arm and stage: arm,stage,seeds, then mean and half width of the 95 % interval of each number.

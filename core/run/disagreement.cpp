@@ -103,11 +103,10 @@ std::vector<SimulatorSpec> candidateSimulators(const RunContext& context, int st
 
 std::optional<std::vector<Disagreement>> disagreements(RunContext& context, const std::vector<IndividualRecord>& among,
                                                        const std::vector<SimulatorSpec>& candidates) {
-  const std::string finished = toText(TrialResult::Outcome::finished);
   std::vector<Disagreement> all;
   std::vector<TrialJob> jobs;
   for (const IndividualRecord& i : among) {
-    if (i.outcome != finished) continue;
+    if (!isFinished(i.outcome)) continue;
     all.push_back({i, 0, 0});
     for (const SimulatorSpec& simulator : candidates) jobs.push_back({simulator, i.parameters, i.trialSeed, false});
   }
@@ -116,7 +115,7 @@ std::optional<std::vector<Disagreement>> disagreements(RunContext& context, cons
   for (std::size_t k = 0; k < all.size(); ++k) {
     std::vector<double> fitness;
     for (std::size_t c = 0; c < candidates.size(); ++c)
-      if (const TrialReply& reply = (*replies)[k * candidates.size() + c]; reply.outcome == finished)
+      if (const TrialReply& reply = (*replies)[k * candidates.size() + c]; isFinished(reply.outcome))
         fitness.push_back(reply.fitness);
     const Spread spread = spreadOf(fitness);
     all[k].deviation = spread.deviation;

@@ -121,11 +121,10 @@ class Clues {
       for (std::size_t i = 0; i < count; ++i)
         tries_[t].change.push_back(replies[(t + 1) * count + i].fitness - result_.simulated[i]);
     // Where a trial did not come to its end, its fitness is no answer to the effect.
-    const std::string finished = toText(TrialResult::Outcome::finished);
     std::vector<Try> answered;
     for (std::size_t t = 0; t < tries_.size(); ++t) {
       const auto of = std::span(replies).subspan((t + 1) * count, count);
-      if (std::ranges::all_of(of, [&](const TrialReply& reply) { return reply.outcome == finished; }))
+      if (std::ranges::all_of(of, [](const TrialReply& reply) { return isFinished(reply.outcome); }))
         answered.push_back(std::move(tries_[t]));
     }
     tries_ = std::move(answered);

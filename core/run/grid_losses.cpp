@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/sim/trial.h"
+
 namespace btr {
 
 std::vector<GridLoss> lossesOf(const GridMap& map) {
@@ -12,7 +14,7 @@ std::vector<GridLoss> lossesOf(const GridMap& map) {
   std::vector<GridLoss> losses;
   for (const GridPoint& point : map.points) {
     GridLoss loss = GridLoss::none;
-    if (point.outcome != "finished")
+    if (!isFinished(point.outcome))
       loss = GridLoss::trial;
     else if (figure(point, "falls", 0) > 0 || figure(point, "largest_tilt_rad", 0) > lostTilt_rad)
       loss = GridLoss::balance;

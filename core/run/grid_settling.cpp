@@ -36,7 +36,7 @@ GenerationRecord GridWork::generationOf(Id run, const std::vector<std::vector<do
     i.detail = replies[k].detail;
     i.traceSha256 = replies[k].traceSha256;
     i.trialSeed = jobOf(cells_.front().task, {}).seed;
-    generation.failed += i.outcome != toText(TrialResult::Outcome::finished);
+    generation.failed += !isFinished(i.outcome);
     generation.mean += i.fitness / static_cast<double>(parameters.size());
     generation.individuals.push_back(std::move(i));
   }

@@ -36,14 +36,13 @@ std::optional<std::vector<Chosen>> chooseMeasured(RunContext& context, int stage
   // A simulator that was taken after the last generation has none of its own yet.
   const int first = std::min(context.simulator().madeAfterGeneration + 1, last);
   const bool lastOnly = context.stageSetting("chosen_from") == 0;
-  const std::string finished = toText(TrialResult::Outcome::finished);
 
   std::vector<Chosen> chosen;
   int rank = 0;
   const auto takeBest = [&](std::size_t until) {
     const auto take = [&](int from) {
       for (IndividualRecord& i : db.bestIndividuals(run, std::numeric_limits<int>::max(), from, last))
-        if (chosen.size() < until && i.outcome == finished && taken.insert(i.parameters).second)
+        if (chosen.size() < until && isFinished(i.outcome) && taken.insert(i.parameters).second)
           chosen.push_back({std::move(i), ++rank});
     };
     if (lastOnly) take(last);
@@ -73,9 +72,8 @@ void passOver(RunContext& context, int stage) {
   Database& db = context.database;
   const Id run = context.record.id;
   const int last = context.measuredAfter(stage);
-  const std::string finished = toText(TrialResult::Outcome::finished);
   const std::vector<IndividualRecord> all = db.individuals(run, last);
-  if (std::ranges::none_of(all, [&](const IndividualRecord& i) { return i.outcome == finished; }))
+  if (std::ranges::none_of(all, [](const IndividualRecord& i) { return isFinished(i.outcome); }))
     throw InputError("run " + std::to_string(run) + ", measurement stage " + std::to_string(stage) +
                      ": nobody can be measured, as no trial of generation " + std::to_string(last) +
                      " came to its end (the first: " + all.front().outcome + ", " + all.front().detail +

@@ -78,7 +78,7 @@ GenerationRecord Search::fill(const std::vector<TrialReply>& replies) const {
         ++generation.reused;
       }
     }
-    if (individual.outcome != toText(TrialResult::Outcome::finished)) ++generation.failed;
+    if (!isFinished(individual.outcome)) ++generation.failed;
     generation.individuals.push_back(std::move(individual));
   }
   std::vector<double> fitness;

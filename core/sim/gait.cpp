@@ -143,6 +143,10 @@ double infeasibleShare(const Values& remarks) {
   return infeasible->second / points->second;
 }
 
+double withInfeasiblePenalty(double speed, double penalty, const Values& remarks) {
+  return speed > 0 ? speed * std::max(0.0, 1 - penalty * infeasibleShare(remarks)) : speed;
+}
+
 Values GaitMotion::remarks() const { return {{"points", gait_.points()}, {"infeasible_points", gait_.infeasible()}}; }
 
 }  // namespace btr

@@ -32,6 +32,9 @@ class Gait {
 
 /// Share of a gait's points that no leg could take, from the remarks of its motion; 0 of other motions.
 double infeasibleShare(const Values& remarks);
+/// A speed that loses `penalty` times that share of itself, down to nothing. One the wrong way (0 or less) stays: it
+/// must not gain.
+double withInfeasiblePenalty(double speed, double penalty, const Values& remarks);
 
 /// How a gait moves over the ground and how long: what all walking controllers let the user fix.
 ///   duration_s   time of the trial, the first step included

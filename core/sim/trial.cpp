@@ -173,6 +173,8 @@ const char* toText(TrialResult::Outcome outcome) {
   return "worker died";
 }
 
+bool isFinished(const std::string& outcome) { return outcome == toText(TrialResult::Outcome::finished); }
+
 TrialResult runTrial(const Scene& scene, const Controller& controller, const Values& settings,
                      std::span<const double> parameters, std::uint64_t seed, const TrialOptions& options) {
   return Trial(scene, seed, options).run(controller, settings, parameters);

@@ -39,6 +39,8 @@ struct TrialResult {
 };
 
 const char* toText(TrialResult::Outcome outcome);
+/// Of an outcome as it is stored and sent: toText(Outcome::finished).
+bool isFinished(const std::string& outcome);
 
 struct TrialOptions {
   double maximum_s = 20;  ///< simulated; reaching it is timedOut unless the motion has ended

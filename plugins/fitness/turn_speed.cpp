@@ -36,8 +36,7 @@ class TurnSpeed final : public btr::Fitness {
       turned += std::remainder(poses[i + 1].yaw_rad - poses[i].yaw_rad, 2 * std::numbers::pi);
     const double left = turned / (static_cast<double>(poses.size() - 1 - first) * result.controlPeriod_s);
     const double rate = value[0] == 1 ? -left : left;
-    // Turning the wrong way does not gain from the penalty.
-    return rate > 0 ? rate * std::max(0.0, 1 - value[2] * btr::infeasibleShare(result.remarks)) : rate;
+    return btr::withInfeasiblePenalty(rate, value[2], result.remarks);
   }
 
   btr::Values figures(const btr::TrialResult& result, const btr::Values&, const btr::Values&) const override {

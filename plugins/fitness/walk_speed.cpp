@@ -81,10 +81,9 @@ class WalkSpeed final : public btr::Fitness {
     if (walked.time <= 0) return ofFailure();
     const double way = value[0] == 0 ? walked.forward : value[0] == 1 ? walked.distance : walked.path;
     double speed = centimetres * way / walked.time;
-    // A walk backwards does not gain from falling or from the penalty.
-    if (speed <= 0) return speed;
-    if (walked.falls > 0) speed *= value[3];
-    return speed * std::max(0.0, 1 - value[4] * btr::infeasibleShare(result.remarks));
+    // A walk backwards does not gain from falling.
+    if (speed > 0 && walked.falls > 0) speed *= value[3];
+    return btr::withInfeasiblePenalty(speed, value[4], result.remarks);
   }
 
   btr::Values figures(const btr::TrialResult& result, const btr::Values& settings, const btr::Values&) const override {

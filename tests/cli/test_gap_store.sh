@@ -2,17 +2,7 @@
 # Adoption, reverting and kept recordings through the real program.
 . "$(dirname "$0")/common.sh"
 
-python3 - "$root" "$folder/kick.json" <<'PY'
-import json, os, sys
-root, out = sys.argv[1:]
-source = os.path.join(root, "resources/experiments/kick-short.json")
-spec = json.load(open(source))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
-spec["reality"] = "person"
-spec["learner"]["settings"]["population"] = 4
-spec["stages"].update(first_generations=1, next_generations=1, total_generations=2, measured_individuals=2)
-json.dump(spec, open(out, "w"))
-PY
+kick_of_a_person "$folder/kick.json" < /dev/null
 db=$folder/a.db
 expect 10 "a run that waits" "$btr" run "$folder/kick.json" --db "$db"
 

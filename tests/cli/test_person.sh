@@ -2,21 +2,13 @@
 # A run whose reality is a person: it waits (exit code 10), takes values by hand and by file, adapts, goes on, finishes.
 . "$(dirname "$0")/common.sh"
 
-python3 - "$root" "$folder/kick.json" <<'PY'
-import json, os, sys
-root, out = sys.argv[1:]
-source = os.path.join(root, "resources/experiments/kick-short.json")
-spec = json.load(open(source))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
-spec["reality"] = "person"
+kick_of_a_person "$folder/kick.json" <<'PY'
 spec["seed"] = 2  # some of its first kicks touch the ball, which simulators may disagree about
 spec["learner"]["settings"]["population"] = 6
 spec["adaptation"]["learner"]["settings"]["population"] = 4
-spec["adaptation"]["settings"]["generations"] = 2
+spec["adaptation"]["settings"].update(generations=2, held_out=1)
 spec["stages"].update(first_generations=2, next_generations=2, total_generations=4, measured_individuals=3,
                       disagreeing_individuals=1, candidate_simulators=3)
-spec["adaptation"]["settings"]["held_out"] = 1
-json.dump(spec, open(out, "w"))
 PY
 db=$folder/person.db
 

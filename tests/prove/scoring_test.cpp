@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/gap/proof_run.h"
@@ -305,9 +306,16 @@ TEST(Scores, SurviveBeingWrittenAndRead) {
   accept(proved, "joint_spring", "leg.knee", 1, {{"backlash", "leg.knee"}, {"slip", "floor", "payload"}});
   proved.accepted[0].told = {{"size", {{0.9, 1.1}, true}}};
   proved.calibrated = {{"robots.leg.servos.knee.p", 3.7}};
-  proved.calibratedTold = {{"robots.leg.servos.knee.p", {{3.5, 3.9}, false}}};
+  // What recordings do not tell is open on both sides; a whole number has no interval at all.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  proved.calibratedTold = {{"robots.leg.servos.hip.max_torque_nm", {{-infinity, infinity}, false}},
+                           {"robots.leg.servos.hip.p", {GapReport::Interval::none(), true}},
+                           {"robots.leg.servos.knee.p", {{3.5, 3.9}, false}}};
   proved.seconds = 12.5;
-  EXPECT_EQ(toJsonText(proved), toJsonText(provedFromJson(toJsonText(proved), "verdict")));
+  const ProvedCase read = provedFromJson(toJsonText(proved), "verdict");
+  EXPECT_EQ(toJsonText(proved), toJsonText(read));
+  EXPECT_EQ(infinity, read.calibratedTold.at("robots.leg.servos.hip.max_torque_nm").ci95.high);
+  EXPECT_FALSE(read.calibratedTold.at("robots.leg.servos.hip.p").ci95.known());
 }
 
 /// Says of everything that nothing is missing.

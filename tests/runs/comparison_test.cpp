@@ -86,7 +86,7 @@ class ComparedRuns : public testing::Test {
   Comparison compare(Database& database, int jobs) {
     RunOptions options;
     options.jobs = jobs;
-    return runComparison(database, host_, spec_, StopFlag{false}, options);
+    return runComparison(database, host_, spec_, loadArms(spec_, host_), StopFlag{false}, options);
   }
 
   TemporaryFolder folder_;
@@ -119,7 +119,7 @@ TEST_F(ComparedRuns, AStopKeepsWhatIsDone) {
   Database database = Database::open(folder_.file("a.db"), Database::Mode::create);
   RunOptions options;
   options.jobs = 1;
-  const Comparison stopped = runComparison(database, host_, spec_, StopFlag{true}, options);
+  const Comparison stopped = runComparison(database, host_, spec_, loadArms(spec_, host_), StopFlag{true}, options);
   EXPECT_EQ(stopped.end, RunEnd::stopped);
   EXPECT_EQ(compare(database, 1).end, RunEnd::finished);
 }

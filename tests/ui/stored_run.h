@@ -86,6 +86,14 @@ class StoredRun {
     return tasks;
   }
 
+  // A run of three generations whose first measurement stage waits.
+  Id addWaitingRun(Id experiment, std::uint64_t seed = 1, const std::string& reality = "person") {
+    const Id run = addRun(experiment, seed, reality);
+    addGenerations(run, 3);
+    addTasks(run);
+    return run;
+  }
+
   Id measure(Id run, Id individual, double value) {
     MeasurementRecord measurement;
     measurement.run = run;

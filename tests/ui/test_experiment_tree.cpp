@@ -33,9 +33,7 @@ class TestExperimentTree : public QObject {
   void showsExperimentsRunsAndVersionsFromTheDatabase() {
     StoredRun stored;
     const Id experiment = stored.addExperiment("Kick");
-    const Id run = stored.addRun(experiment, 7, "stand_in");
-    stored.addGenerations(run, 3);
-    stored.addTasks(run);
+    const Id run = stored.addWaitingRun(experiment, 7, "stand_in");
     stored.finishStage(run, {{"friction", 0.5}});
     ExperimentTree tree;
     fill(tree, stored);

@@ -287,9 +287,8 @@ class TestMainWindow : public QObject {
 
   void storesWhatIsEnteredAndGoesOnWhenAllIsMeasured() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    const auto tasks = stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    const auto tasks = stored.database.measurementTasks(run);
     Desk desk;
     const FakeProgram program(QDir(desk.folder.path()));
     desk.options.program = program.program;
@@ -319,13 +318,9 @@ class TestMainWindow : public QObject {
   // Typed and not saved: another run, another database, the end of the program; nothing is lost and nobody is asked.
   void typedMeasurementsWaitForTheirRun() {
     StoredRun stored, elsewhere;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
     const Id other = stored.addRun(stored.database.experiments().front().id, 2);
-    const Id foreign = elsewhere.addRun(elsewhere.addExperiment());
-    elsewhere.addGenerations(foreign, 3);
-    elsewhere.addTasks(foreign);
+    const Id foreign = elsewhere.addWaitingRun(elsewhere.addExperiment());
     QCOMPARE(foreign, run);
     Desk desk;
     const auto typed = [](MainWindow& window) {
@@ -359,9 +354,7 @@ class TestMainWindow : public QObject {
 
   void anOpenEditorIsKeptToo() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
     Desk desk;
     const auto window = desk.open(stored.qpath());
     QVERIFY(QTest::qWaitForWindowActive(window.get()));
@@ -376,9 +369,7 @@ class TestMainWindow : public QObject {
 
   void theKeyForSavingIsOfThePageWithTheFocus() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
     Desk desk;
     const auto window = desk.open(stored.qpath());
     QVERIFY(QTest::qWaitForWindowActive(window.get()));
@@ -398,9 +389,7 @@ class TestMainWindow : public QObject {
 
   void theAlarmNamesAnyWaitingRunAndLeadsToIt() {
     StoredRun stored;
-    const Id waiting = stored.addRun(stored.addExperiment(), 7);
-    stored.addGenerations(waiting, 3);
-    stored.addTasks(waiting);
+    const Id waiting = stored.addWaitingRun(stored.addExperiment(), 7);
     const Id other = stored.addRun(stored.database.experiments().front().id, 8);
     Desk desk;
     const auto window = desk.open(stored.qpath());
@@ -432,9 +421,8 @@ class TestMainWindow : public QObject {
 
   void theSimulatedFitnessOfThoseThatWaitIsHiddenEverywhere() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    const auto tasks = stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    const auto tasks = stored.database.measurementTasks(run);
     Desk desk;
     const auto window = desk.open(stored.qpath());
     auto* table = window->findChild<IndividualsTable*>();
@@ -464,9 +452,8 @@ class TestMainWindow : public QObject {
 
   void theParametersOfIndividualsAreATable() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment());
-    stored.addGenerations(run, 3);
-    const auto tasks = stored.addTasks(run);
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    const auto tasks = stored.database.measurementTasks(run);
     Desk desk;
     const auto window = desk.open(stored.qpath());
     emit window->findChild<MeasurementSheet*>()->parametersRequested({tasks[0].individual, tasks[1].individual}, false);
@@ -497,9 +484,7 @@ class TestMainWindow : public QObject {
 
   void aStandInRunRingsNoAlarm() {
     StoredRun stored;
-    const Id run = stored.addRun(stored.addExperiment(), 1, "stand_in");
-    stored.addGenerations(run, 3);
-    stored.addTasks(run);
+    stored.addWaitingRun(stored.addExperiment(), 1, "stand_in");
     Desk desk;
     const auto window = desk.open(stored.qpath());
     QCOMPARE(window->findChild<Alarm*>()->state(), Alarm::State::quiet);

@@ -2,6 +2,7 @@
 
 #include <QGuiApplication>
 
+#include "core/sim/trial.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
@@ -245,7 +246,7 @@ QVariant IndividualsModel::data(const QModelIndex& index, int role) const {
       return {};
     case Qt::ForegroundRole: {
       const Tones tones = tonesOf(QGuiApplication::palette());
-      if (column == outcome && record.outcome != "finished") return tones.bad;
+      if (column == outcome && !isFinished(record.outcome)) return tones.bad;
       if (column >= measuredMean && standIn_) return tones.standIn;
       // Not simulated again: quieter than the individual that it repeats.
       if (record.sameAs) return tones.muted;

@@ -2,9 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QCryptographicHash>
 #include <QDir>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -51,15 +49,6 @@ QStringList channelsOf(const SceneSpec& scene, const ModelSet& models) {
   for (const BallSpec& ball : scene.balls)
     for (const char* quantity : {"x_m", "y_m", "z_m"}) names << QString::fromStdString(ball.name) + '.' + quantity;
   return names;
-}
-
-bool sameBytes(const QString& one, const QString& other) {
-  const auto digest = [](const QString& path) {
-    QFile file(path);
-    QCryptographicHash hash(QCryptographicHash::Sha256);
-    return file.open(QIODevice::ReadOnly) && hash.addData(&file) ? hash.result() : path.toUtf8();
-  };
-  return digest(one) == digest(other);
 }
 
 QWidget* withButton(QLineEdit* edit, QPushButton* button) {
@@ -281,7 +270,7 @@ QStringList AnalysisSetup::files(bool held) const {
 QString AnalysisSetup::seenHeldOut() const {
   for (const QString& held : files(true))
     for (const QString& fitted : files(false))
-      if (QFileInfo(held).size() == QFileInfo(fitted).size() && sameBytes(held, fitted)) return held;
+      if (QFileInfo(held).size() == QFileInfo(fitted).size() && digests_.of(held) == digests_.of(fitted)) return held;
   return {};
 }
 

@@ -2,6 +2,7 @@
 #include <QWidget>
 
 #include "core/sim/scene.h"
+#include "ui/common/file_state.h"
 #include "ui/gap/analysis_process.h"
 #include "ui/gap/recording_doctor.h"
 
@@ -78,6 +79,7 @@ class AnalysisSetup : public QWidget {
   QString sceneRead_;  ///< that spec_ was read from; what is being typed is another
   ModelSet models_;
   RecordingDoctor doctor_;
+  mutable FileDigests digests_;
   bool certain_ = false;  ///< the doctor: an analysis would refuse these recordings
   bool running_ = false;
 };

@@ -1,23 +1,16 @@
 #include "ui/gap/recording_doctor.h"
 
-#include <QDateTime>
 #include <QFileInfo>
 
 #include "core/gap/doctor.h"
 #include "core/gap/trial_scenes.h"
+#include "ui/common/file_state.h"
 
 namespace btr::ui {
 namespace {
 
 /// So much is read while the window waits.
 constexpr qint64 mostBytes = 8 << 20;
-
-/// Changes with the file's content, as far as its folder tells.
-QString stateOf(const QString& path) {
-  const QFileInfo info(path);
-  return path + '\n' + QString::number(info.size()) + '\n' + QString::number(info.lastModified().toMSecsSinceEpoch()) +
-         '\n';
-}
 
 RecordingDoctor::Opinion opinionOf(const QString& recording, const QString& mapping, const QString& scene,
                                    const SceneSpec& spec, const ModelSet& models) {
@@ -45,7 +38,7 @@ RecordingDoctor::Opinion opinionOf(const QString& recording, const QString& mapp
 const RecordingDoctor::Opinion& RecordingDoctor::of(const QString& recording, const QString& mapping,
                                                     const QString& scene, const SceneSpec& spec,
                                                     const ModelSet& models) {
-  const QString key = stateOf(recording) + stateOf(mapping) + stateOf(scene);
+  const QString key = fileState(recording) + fileState(mapping) + fileState(scene);
   const auto found = known_.constFind(key);
   return found != known_.constEnd() ? *found : *known_.insert(key, opinionOf(recording, mapping, scene, spec, models));
 }

@@ -149,6 +149,10 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   solver.function_tolerance = 3e-4;
   solver.parameter_tolerance = 1e-6;
   solver.initial_trust_region_radius = 10;
+  // Numbers come in typical changes, residuals in noise floors: what a whole typical change moves by less than the
+  // noise is held by the damping. Scaled to equal columns it would be the first to run away, and shrink all steps.
+  solver.jacobi_scaling = false;
+  solver.min_lm_diagonal = 1;
   solver.linear_solver_type = problem.segments.size() > 8 ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;

@@ -9,8 +9,8 @@
 
 namespace btr {
 
-/// One coordinate of a segment's initial state that the recording knows only so well. A fit may shift it, in multiples
-/// of `unit`, at the price of one squared multiple.
+/// One coordinate of a segment's initial state, or of a sensor, that the recording knows only so well. A fit may shift
+/// it, in multiples of `unit`, at the price of one squared multiple.
 struct Nuisance {
   enum class What {
     jointPosition,
@@ -20,10 +20,11 @@ struct Nuisance {
     baseTurn,
     baseSpin,
     ballPosition,
-    ballVelocity
+    ballVelocity,
+    rounding  ///< no state: what a sensor whose counts never change is off by, as long as they do not
   };
   What what = What::jointPosition;
-  std::size_t object = 0, part = 0;  ///< robot or ball; joint or axis
+  std::size_t object = 0, part = 0;  ///< robot or ball, joint or axis; of a rounding: the measured channel, 0
   double unit = 0;                   ///< its standard error, SI
 };
 

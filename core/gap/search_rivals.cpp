@@ -24,6 +24,13 @@ bool contains(const FitModel& model, const EffectCandidate& candidate) {
 /// Of a comparison with the final model.
 bool isWorse(const Comparison& lost) { return lost.t >= 2 && lost.gain > 0.01; }
 
+/// Predicts worse and fits worse. What fits as well and predicts worse only pays for a number more: recordings that it
+/// explains as well do not tell it from the final model.
+bool isToldFrom(const Scored& other, const Scored& final) {
+  constexpr double fitsWorse = 1.005;
+  return isWorse(compare(other.blocks, final.blocks)) && other.fit.cost > fitsWorse * final.fit.cost;
+}
+
 }  // namespace
 
 void SearchRun::prune(SearchResult& result) {
@@ -205,7 +212,7 @@ void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& other
   settle(result, false, "rivals", 0.95);
   for (Tried& other : others) {
     if (!other.attempt.scored || other.scored.mean() > farWorse * result.final.mean()) continue;
-    if (excessOf(result.final) >= leastToFitOn)
+    if (excessOf(result.final) >= leastToFitOn || isToldFrom(other.scored, result.final))
       other.scored = scoreAll(fitOn({other.scored.fit}, toTheEnd, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
     bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
@@ -232,7 +239,7 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
     for (const Tried& other : others) {
       const EffectCandidate& candidate = other.attempt.candidate;
       if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
-      if (isWorse(compare(other.scored.blocks, result.final.blocks))) continue;
+      if (isToldFrom(other.scored, result.final)) continue;
       found.rivals.push_back(
           {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
       found.rivalModels.push_back(other.fit.model);

@@ -43,6 +43,20 @@ Local localParabola(std::span<const double> time, std::span<const double> values
 
 constexpr double reach_s = 0.02;
 
+/// One value only: what moves less than its counts, or not at all.
+bool isConstant(const std::vector<double>& values) {
+  const auto first = std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
+  return first != values.end() &&
+         std::all_of(first, values.end(), [&](double value) { return !std::isfinite(value) || value == *first; });
+}
+
+/// All rows of a constant column are off by the same part of a count: that is one error, not one a row.
+void addRoundings(const FitTrial& trial, std::vector<Nuisance>& nuisances) {
+  for (std::size_t i = 0; i < trial.binding.measured.size(); ++i)
+    if (trial.noiseFloor[i] > 0 && isConstant(trial.recording.columns[trial.binding.measured[i].column]))
+      nuisances.push_back({Nuisance::What::rounding, i, 0, trial.noiseFloor[i]});
+}
+
 }  // namespace
 
 StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row, std::vector<Nuisance>& nuisances) {
@@ -125,6 +139,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
   }
   for (BallState& ball : state.balls)
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+  addRoundings(trial, nuisances);
   return state;
 }
 
@@ -161,8 +176,12 @@ void cutSegments(FitProblem& problem, double window_s) {
       segment.start = stateAt(problem, t, first, segment.nuisances);
       for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
         if (trial.noiseFloor[c] <= 0) continue;
+        const auto& values = trial.recording.columns[trial.binding.measured[c].column];
+        const bool constant = isConstant(values);
         for (std::size_t row = segment.scored; row < last; ++row) {
-          if (!std::isfinite(trial.recording.columns[trial.binding.measured[c].column][row])) continue;
+          // What never changes says no more in a hundred rows than in one; a look into each block sees who leaves it.
+          if (constant && row + 1 < last && blockOf(row + 1) == blockOf(row)) continue;
+          if (!std::isfinite(values[row])) continue;
           segment.channel.push_back(c);
           segment.row.push_back(row);
           segment.block.push_back(problem.blocks + blockOf(row));
@@ -183,6 +202,7 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
                                 const std::vector<double>& shift) {
   const FitTrial& trial = problem.trials[segment.trial];
   StartState start = segment.start;
+  std::vector<double> rounding(trial.noiseFloor.size(), 0);
   for (std::size_t i = 0; i < shift.size(); ++i) {
     const Nuisance& nuisance = segment.nuisances[i];
     const double by = shift[i] * nuisance.unit;
@@ -214,6 +234,9 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
       case Nuisance::What::ballVelocity:
         start.balls[nuisance.object].velocity_m_s[axis] += by;
         break;
+      case Nuisance::What::rounding:
+        rounding[nuisance.object] = by;
+        break;
     }
   }
   for (BallState& ball : start.balls)
@@ -226,7 +249,7 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];
     const double recorded = trial.recording.columns[trial.binding.measured[c].column][row];
-    const double value = (replayed.values[c][row] - recorded) / trial.noiseFloor[c];
+    const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.noiseFloor[c];
     if (std::isfinite(value)) residuals[k] = value;
   }
   return residuals;

@@ -165,6 +165,20 @@ TEST(Analysis, ARecordingInWhichNothingMovesTellsNothing) {
   EXPECT_THAT(namesOf(report), testing::IsEmpty());
 }
 
+// About the axis of an only joint a gravity that leans and a sensor that is off are the same law, whatever else the
+// leaning brings along.
+TEST(Analysis, AnOffSensorOfAnOnlyJointIsNotToldFromGravityThatLeansAboutItsAxis) {
+  const GapReport report =
+      analyse(recordedFrom({{{"robots.rig.servos.hinge.p", 7}, {"robots.rig.servos.hinge.d", 0.25}},
+                            {{"gravity_tilt", "world", {{"about_y_rad", 0.18}}}}}),
+              library(), {});
+  ASSERT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  ASSERT_EQ(namesOf(report).size(), 1u) << report.sentence;
+  std::vector<std::string> named{report.tried[0].effect};
+  for (const GapReport::Rival& rival : report.tried[0].rivals) named.push_back(rival.effect);
+  EXPECT_THAT(named, testing::IsSupersetOf({"gravity_tilt", "position_offset"})) << report.sentence;
+}
+
 TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
   AnalysisOptions options;
   options.effects = {"coulomb_friction", "command_delay", "force_offset"};

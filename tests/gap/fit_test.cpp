@@ -62,6 +62,19 @@ TEST(Fit, SaysHowFarItIsAndCanBeCancelled) {
   EXPECT_EQ(calls, 2);
 }
 
+// Gravity leans about the hinge's axis; how far it leans across that is hardly told.
+TEST(Fit, ANumberThatTheRecordingsDoNotTellHoldsNoOtherBack) {
+  const GapProblem given = recordedFrom({{}, {{"gravity_tilt", "world", {{"about_y_rad", 0.18}}}}});
+  const FitProblem problem = makeFitProblem(given, given.recordings, library());
+  const auto tilted = [&](double acrossIt, double aboutIt) {
+    return givenModel(problem).with(problem,
+                                    {"gravity_tilt", "world", {{"about_x_rad", acrossIt}, {"about_y_rad", aboutIt}}});
+  };
+  const Fit truth = fitModel(problem, tilted(0, 0.18), {}, {30, true});
+  for (const double across : {0.0, 0.0025, 0.05, 0.3})
+    EXPECT_LT(fitModel(problem, tilted(across, 0.05), {}, {30}).cost, truth.cost) << across;
+}
+
 TEST(Fit, WhatFailsInAWorkerSaysWhyAsItDoesWithout) {
   for (const int jobs : {1, 3}) {
     const FitProblem problem = slowProblem(jobs);

@@ -120,8 +120,7 @@ void SearchRun::remember(std::vector<Attempt>& attempts, const Attempt& attempt)
 }
 
 /// Calibrated numbers that the recordings do not feel stay as given from here on: each costs a replay a step.
-void SearchRun::holdUntold(SearchResult& result) const {
-  constexpr double felt = 0.5;  // noise floors, all residuals together, for a typical change
+void SearchRun::holdUntold(SearchResult& result) {
   FitModel& model = result.final.fit.model;
   FitModel kept = model;
   kept.parameters.clear();
@@ -129,7 +128,10 @@ void SearchRun::holdUntold(SearchResult& result) const {
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    if (result.calibratedLinear.columns.col(column).norm() < felt) continue;
+    if (result.calibratedLinear.columns.col(column).norm() < felt) {
+      held_.push_back(model.parameters[i]);
+      continue;
+    }
     kept.parameters.push_back(model.parameters[i]);
     kept.values.push_back(model.values[i]);
     columns.push_back(column);

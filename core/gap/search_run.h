@@ -19,6 +19,7 @@ inline constexpr double unexplainedExcess =
 
 inline constexpr int againIterations = 3;    // after the step was made finer
 inline constexpr int toTheEnd = 30;          // iterations of what was accepted, and of its rivals
+inline constexpr double felt = 0.5;          // noise floors, all residuals together, for a typical change of a number
 inline constexpr double farWorse = 2;        // by cost: no winner at any step
 inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at which what was accepted is fitted on
 
@@ -109,7 +110,10 @@ class SearchRun {
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
-  void holdUntold(SearchResult& result) const;
+  void holdUntold(SearchResult& result);
+  /// Numbers that were held and are felt beside what was added: a servo that saturates with the rotor that was left out
+  /// alone. Fitted again with them where that helps.
+  void giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const;
   void prune(SearchResult& result);
   void takeApart(SearchResult& result);
   bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;
@@ -131,8 +135,9 @@ class SearchRun {
 
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
-  double finest_s_;      ///< an eighth of the scene's step: a servo in and out of saturation needs it
-  double search_s_ = 0;  ///< the step that the calibrated simulator needs
+  double finest_s_;                 ///< an eighth of the scene's step: a servo in and out of saturation needs it
+  double search_s_ = 0;             ///< the step that the calibrated simulator needs
+  std::vector<FitParameter> held_;  ///< numbers that the calibrated simulator does not feel, as given
   mutable double told_ = 0;
   std::vector<Tried> firstStage_;
 };

@@ -184,6 +184,8 @@ class MainWindow : public QMainWindow {
   DatabaseWatcher watcher_;
   std::optional<Database> writer_;
   std::set<Id> launched_;  ///< processes of ours whose end was not seen yet
+  /// Runs whose last value was saved while their process was at work: it may have looked for the last time before.
+  std::set<Id> measuredMeanwhile_;
   bool sized_ = false;     ///< the docks have got their sizes
   RunRecord run_;          ///< the followed run as last seen
   QString unit_;

@@ -82,10 +82,11 @@ void MainWindow::hideSimulated() {
   individuals_->setHidden(hidden);
 }
 
-// What the pages say while the selected run waits. Right after the last value its process may be at work already.
+// What the pages say while the selected run waits. Its process may be at work: right after the last value, or on L3
+// while a person tries the policies of L2.
 void MainWindow::showWaiting() {
-  const bool waits = run_.state == RunState::waiting && !runActive_;
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
+  const bool waits = run_.state == RunState::waiting && (!runActive_ || count.settled < count.wanted);
   const bool wanted = waits && !isStandIn(run_) && count.settled < count.wanted;
   if (wanted && !sheetWanted_) raiseDock(sheetDock_);
   sheetWanted_ = wanted;
@@ -162,7 +163,9 @@ void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {
   inform(measurements.size() == 1 ? tr("1 value stored") : tr("%1 values stored").arg(measurements.size()));
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
   const bool complete = run_.state == RunState::waiting && count.wanted > 0 && count.settled >= count.wanted;
-  if (complete && settings_.flag("continueWhenMeasured", true)) continueRun(run_.id);
+  if (!complete || !settings_.flag("continueWhenMeasured", true)) return;
+  if (watcher_.activeRuns().count(run_.id) > 0) measuredMeanwhile_.insert(run_.id);
+  continueRun(run_.id);
 }
 
 void MainWindow::voidMeasurement(Id measurement, bool isVoid, const QString& note) {

@@ -7,6 +7,7 @@
 #include <QInputDialog>
 #include <QMessageBox>
 #include <QPushButton>
+#include <utility>
 
 #include "ui/common/message_banner.h"
 #include "ui/experiment/experiment_form.h"
@@ -80,6 +81,17 @@ void MainWindow::launch(Id run) {
 
 // A process that ends without leaving its run waiting, stopped or finished has something to say.
 void MainWindow::checkLaunched() {
+  for (const Id run : std::exchange(measuredMeanwhile_, {})) {
+    if (watcher_.activeRuns().count(run) > 0)
+      measuredMeanwhile_.insert(run);
+    else
+      guard([&] {
+        const Database& db = watcher_.database();
+        const RunRecord record = db.run(run);
+        const MeasuringCount count = countMeasured(record, db.measurementTasks(run), db.measurements(run));
+        if (record.state == RunState::waiting && count.settled >= count.wanted) continueRun(run);
+      });
+  }
   for (auto run = launched_.begin(); run != launched_.end();) {
     if (launcher_.isAlive(*run)) {
       ++run;

@@ -100,6 +100,7 @@ bool evaluateCandidates(RunContext& context, const Evidence& evidence, const Sim
     for (TrialJob& job : evidence.jobs(evidence.shown, context.prepared.adaptedTo(base, candidate.parameters)))
       jobs.push_back(std::move(job));
   }
+  if (fresh.empty()) return true;
   const auto replies = context.evaluate(jobs);
   if (!replies) return false;
   for (std::size_t i = 0; i < fresh.size(); ++i)
@@ -107,26 +108,42 @@ bool evaluateCandidates(RunContext& context, const Evidence& evidence, const Sim
   return true;
 }
 
-/// What an interrupted adaptation has done already. Where a measured value was corrected since, its candidates are
-/// simulated again: errors of other values are not to be compared.
-struct Done {
-  Error known;
-  std::vector<AdaptationCandidate> all;
+/// The adaptation of one stage: its learner, and what every candidate was off by. All that it does is stored generation
+/// by generation, so it may be left at any time and begun again.
+class Adaptation {
+ public:
+  Adaptation(RunContext& context, int stage)
+      : context_(context),
+        stage_(stage),
+        parent_(context.simulator()),
+        evidence_(collect(context, stage)),
+        generations_(static_cast<int>(context.adaptationSetting("generations"))) {}
+
+  /// Takes up what was done before. Where a measured value was corrected since, its candidates are simulated again:
+  /// errors of other values are not to be compared. False if stopped.
+  bool begin();
+  bool isBred() const { return number_ >= generations_; }
+  /// One generation. False if stopped.
+  bool breed();
+  /// Stores the best of all candidates as the new version, unless its parent agrees better with reality. False if stopped.
+  bool finish();
+
+ private:
+  void publish(double best, double mean);
+
+  RunContext& context_;
+  const int stage_;
+  const SimulatorRecord parent_;
+  const Evidence evidence_;
+  const int generations_;
+  std::unique_ptr<Learner> learner_;
+  Random random_ = Random::forPurpose(context_.record.seed, "L3", static_cast<std::uint64_t>(stage_));
+  std::vector<double> present_;  ///< the parent's values of what may be adapted
+  Error known_;
+  std::vector<AdaptationCandidate> all_;
+  int number_ = 0, firstNumber_ = 0;
+  std::chrono::steady_clock::time_point begun_;
 };
-std::optional<Done> doneBefore(RunContext& context, const Evidence& evidence, const SimulatorSpec& base,
-                               const std::vector<AdaptationRecord>& generations) {
-  Done done;
-  std::vector<Candidate> tried;
-  for (const AdaptationRecord& generation : generations)
-    for (const AdaptationCandidate& c : generation.candidates) {
-      if (generation.evidenceSha256 == evidence.sha256) done.known.try_emplace(c.parameters, c.error);
-      tried.push_back({c.chromosome, c.parameters});
-      done.all.push_back(c);
-    }
-  if (!evaluateCandidates(context, evidence, base, tried, done.known)) return std::nullopt;
-  for (AdaptationCandidate& c : done.all) c.error = done.known.at(c.parameters);
-  return done;
-}
 
 std::string evidenceText(const Evidence& evidence, int stage, double error, double startError, bool kept) {
   nlohmann::json individuals = nlohmann::json::array();
@@ -140,119 +157,155 @@ std::string evidenceText(const Evidence& evidence, int stage, double error, doub
       .dump();
 }
 
-}  // namespace
-
-bool adaptSimulator(RunContext& context, int stage) {
-  Database& db = context.database;
-  const Id run = context.record.id;
-  const SimulatorRecord parent = context.simulator();
-  const Evidence evidence = collect(context, stage);
-  const int generations = static_cast<int>(context.adaptationSetting("generations"));
-  db.setRunState(run, RunState::adapting, "");
-
-  const auto learner = context.host.learner(context.prepared.spec.adaptation.name);
-  Random random = Random::forPurpose(context.record.seed, "L3", static_cast<std::uint64_t>(stage));
-  learner->start(context.prepared.adapted, context.prepared.spec.adaptation.settings, random);
+bool Adaptation::begin() {
+  learner_ = context_.host.learner(context_.prepared.spec.adaptation.name);
+  learner_->start(context_.prepared.adapted, context_.prepared.spec.adaptation.settings, random_);
   // A population is drawn over all of the bounds, as in the papers; a learner with a centre begins at the parent.
-  std::vector<double> present;
-  for (const Parameter& p : context.prepared.adapted)
-    present.push_back(valueOf(simulatorParameters(), parent.simulator.values, p.name));
-  learner->beginAt(present, {.share = 0}, random);
+  for (const Parameter& p : context_.prepared.adapted)
+    present_.push_back(valueOf(simulatorParameters(), parent_.simulator.values, p.name));
+  learner_->beginAt(present_, {.share = 0}, random_);
 
-  const std::vector<AdaptationRecord> earlier = db.adaptations(run, stage);
-  auto done = doneBefore(context, evidence, parent.simulator, earlier);
-  if (!done) return false;
-  auto& [known, all] = *done;
-  if (!earlier.empty()) {
-    random.setState(earlier.back().randomState);
-    learner->setState(earlier.back().learnerState);
-  }
-  int number = static_cast<int>(earlier.size());
-
-  const int firstNumber = number;
-  const auto begun = std::chrono::steady_clock::now();
-  context.progress.stage = "L3";
-  context.progress.stageTotal = generations;
-  context.progress.stageDone = number;
-  if (!earlier.empty()) {
-    context.progress.best = earlier.back().bestError;
-    context.progress.mean = earlier.back().meanError;
-  }
-  while (number < generations) {
-    const std::vector<Candidate> candidates = learner->ask(random);
-    if (!evaluateCandidates(context, evidence, parent.simulator, candidates, known)) return false;
-    AdaptationRecord record;
-    record.run = run;
-    record.stage = stage;
-    record.number = ++number;
-    std::vector<double> errors;
-    for (const Candidate& c : candidates) {
-      errors.push_back(known.at(c.parameters));
-      record.candidates.push_back({c.chromosome, c.parameters, errors.back()});
+  const std::vector<AdaptationRecord> earlier = context_.database.adaptations(context_.record.id, stage_);
+  std::vector<Candidate> tried;
+  for (const AdaptationRecord& generation : earlier)
+    for (const AdaptationCandidate& c : generation.candidates) {
+      if (generation.evidenceSha256 == evidence_.sha256) known_.try_emplace(c.parameters, c.error);
+      tried.push_back({c.chromosome, c.parameters});
+      all_.push_back(c);
     }
-    // The learner maximises: how much smaller the error is than the generation's worst.
-    const double worst = *std::max_element(errors.begin(), errors.end());
-    std::vector<double> fitness;
-    for (double error : errors) fitness.push_back(worst - error);
-    learner->tell(fitness);
-    record.bestError = *std::min_element(errors.begin(), errors.end());
-    record.meanError = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-    record.randomState = random.state();
-    record.learnerState = learner->state();
-    record.evidenceSha256 = evidence.sha256;
-    db.addAdaptation(record);
-    all.insert(all.end(), record.candidates.begin(), record.candidates.end());
-
-    context.progress.stageDone = number;
-    context.progress.best = record.bestError;
-    context.progress.mean = record.meanError;
-    const double each =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() / (number - firstNumber);
-    context.progress.secondsLeft = each * (generations - number);
-    context.publish(false);
+  if (!evaluateCandidates(context_, evidence_, parent_.simulator, tried, known_)) return false;
+  for (AdaptationCandidate& c : all_) c.error = known_.at(c.parameters);
+  number_ = firstNumber_ = static_cast<int>(earlier.size());
+  begun_ = std::chrono::steady_clock::now();
+  if (!earlier.empty()) {
+    random_.setState(earlier.back().randomState);
+    learner_->setState(earlier.back().learnerState);
+    publish(earlier.back().bestError, earlier.back().meanError);
   }
+  return true;
+}
 
-  // The best of all candidates becomes the new version, unless its parent agrees better with reality.
-  const auto before = gapsOf(context, evidence, parent.simulator);
+void Adaptation::publish(double best, double mean) {
+  context_.progress.stage = "L3";
+  context_.progress.stageTotal = generations_;
+  context_.progress.stageDone = number_;
+  context_.progress.best = best;
+  context_.progress.mean = mean;
+  context_.publish(false);
+}
+
+bool Adaptation::breed() {
+  context_.progress.stage = "L3";
+  context_.progress.stageTotal = generations_;
+  context_.progress.stageDone = number_;
+  const std::vector<Candidate> candidates = learner_->ask(random_);
+  if (!evaluateCandidates(context_, evidence_, parent_.simulator, candidates, known_)) return false;
+  AdaptationRecord record;
+  record.run = context_.record.id;
+  record.stage = stage_;
+  record.number = ++number_;
+  std::vector<double> errors;
+  for (const Candidate& c : candidates) {
+    errors.push_back(known_.at(c.parameters));
+    record.candidates.push_back({c.chromosome, c.parameters, errors.back()});
+  }
+  // The learner maximises: how much smaller the error is than the generation's worst.
+  const double worst = *std::max_element(errors.begin(), errors.end());
+  std::vector<double> fitness;
+  for (double error : errors) fitness.push_back(worst - error);
+  learner_->tell(fitness);
+  record.bestError = *std::min_element(errors.begin(), errors.end());
+  record.meanError = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+  record.randomState = random_.state();
+  record.learnerState = learner_->state();
+  record.evidenceSha256 = evidence_.sha256;
+  context_.database.addAdaptation(record);
+  all_.insert(all_.end(), record.candidates.begin(), record.candidates.end());
+
+  const double each =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count() / (number_ - firstNumber_);
+  context_.progress.secondsLeft = each * (generations_ - number_);
+  publish(record.bestError, record.meanError);
+  return true;
+}
+
+bool Adaptation::finish() {
+  const auto before = gapsOf(context_, evidence_, parent_.simulator);
   if (!before) return false;
   Error startError;
-  if (!evaluateCandidates(context, evidence, parent.simulator, {{"", present}}, startError)) return false;
+  if (!evaluateCandidates(context_, evidence_, parent_.simulator, {{"", present_}}, startError)) return false;
   const double parentError = startError.begin()->second;
   const auto best =
-      std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
-  const bool kept = best == all.end() || best->error >= parentError;
+      std::min_element(all_.begin(), all_.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  const bool kept = best == all_.end() || best->error >= parentError;
 
   SimulatorRecord version;
-  version.run = run;
-  version.number = parent.number + 1;
-  version.parent = parent.id;
-  version.simulator = kept ? parent.simulator : context.prepared.adaptedTo(parent.simulator, best->parameters);
+  version.run = context_.record.id;
+  version.number = parent_.number + 1;
+  version.parent = parent_.id;
+  version.simulator = kept ? parent_.simulator : context_.prepared.adaptedTo(parent_.simulator, best->parameters);
   version.madeBy = "L3";
-  version.evidence = evidenceText(evidence, stage, kept ? parentError : best->error, parentError, kept);
-  version.madeAfterGeneration = context.measuredAfter(stage);
+  version.evidence = evidenceText(evidence_, stage_, kept ? parentError : best->error, parentError, kept);
+  version.madeAfterGeneration = context_.measuredAfter(stage_);
   version.createdAt = utcNow();
-  const auto after = gapsOf(context, evidence, version.simulator);
+  const auto after = gapsOf(context_, evidence_, version.simulator);
   if (!after) return false;
 
   GapRecord gap;
-  gap.run = run;
-  gap.stage = stage;
-  gap.simulatorBefore = parent.id;
+  gap.run = context_.record.id;
+  gap.stage = stage_;
+  gap.simulatorBefore = parent_.id;
   gap.before = before->shown;
   gap.after = after->shown;
-  if (!evidence.heldOut.empty()) {
+  if (!evidence_.heldOut.empty()) {
     gap.heldOutBefore = before->heldOut;
     gap.heldOutAfter = after->heldOut;
   }
   gap.newBefore = before->own;
   gap.newAfter = after->own;
-  gap.standardError = gapStandardError(evidence.shown);
-  gap.individuals = static_cast<int>(evidence.shown.size());
-  gap.heldOutStandardError = gapStandardError(evidence.heldOut);
-  gap.heldOutIndividuals = static_cast<int>(evidence.heldOut.size());
-  const bool last = context.measuredAfter(stage) >= context.stageSetting("total_generations");
-  db.finishStage(version, gap, last ? RunState::finished : RunState::learning);
+  gap.standardError = gapStandardError(evidence_.shown);
+  gap.individuals = static_cast<int>(evidence_.shown.size());
+  gap.heldOutStandardError = gapStandardError(evidence_.heldOut);
+  gap.heldOutIndividuals = static_cast<int>(evidence_.heldOut.size());
+  const bool last = context_.measuredAfter(stage_) >= context_.stageSetting("total_generations");
+  context_.database.finishStage(version, gap, last ? RunState::finished : RunState::learning);
   return true;
+}
+
+/// Whether a person has nothing to measure in this stage, or does not want to go on with it.
+bool isPersonDone(const RunContext& context, int stage) {
+  const Database& db = context.database;
+  if (db.isRealityLearningEnded(context.record.id, stage)) return true;
+  const std::vector<MeasurementRecord> values = db.measurements(context.record.id);
+  const std::vector<MeasurementTask> tasks = db.measurementTasks(context.record.id, stage);
+  return std::all_of(tasks.begin(), tasks.end(), [&](const MeasurementTask& t) { return isSettled(t, values); });
+}
+
+}  // namespace
+
+StageEnd adaptMeanwhile(RunContext& context, int stage) {
+  if (context.adaptationSetting("sees_policies") == 1) return StageEnd::waiting;
+  const RunProgress asked = context.progress;
+  Adaptation adaptation(context, stage);
+  if (!adaptation.begin()) return StageEnd::stopped;
+  while (!adaptation.isBred()) {
+    if (!adaptation.breed()) return StageEnd::stopped;
+    if (isPersonDone(context, stage)) return StageEnd::done;
+  }
+  const long trials = context.progress.trials;
+  context.progress = asked;
+  context.progress.trials = trials;
+  context.publish(true);
+  return StageEnd::waiting;
+}
+
+bool adaptSimulator(RunContext& context, int stage) {
+  context.database.setRunState(context.record.id, RunState::adapting, "");
+  Adaptation adaptation(context, stage);
+  if (!adaptation.begin()) return false;
+  while (!adaptation.isBred())
+    if (!adaptation.breed()) return false;
+  return adaptation.finish();
 }
 
 }  // namespace btr

@@ -23,7 +23,7 @@ void requireRest(const Database& database, const RunRecord& run) {
     throw InputError(nameOf(database, run.id) + ": the run is finished; another simulator is taken " + allowed);
   if (!database.adaptations(run.id, run.stage + 1).empty())
     throw InputError(nameOf(database, run.id) + ": the adaptation of stage " + std::to_string(run.stage + 1) +
-                     " has begun with the present simulator; continue the run until it waits or learns again. "
+                     " has begun with the present simulator; continue the run until it has ended. "
                      "Another simulator is taken " +
                      allowed);
 }

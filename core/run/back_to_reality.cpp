@@ -114,7 +114,13 @@ RunEnd continueRun(Database& database, const PluginHost& host, Id run, const Sto
     if (repaired == StageEnd::waiting) return waiting();
     const StageEnd learned = learnInReality(context, stage);
     if (learned == StageEnd::stopped) return stopped();
-    if (learned == StageEnd::waiting) return waiting();
+    if (learned == StageEnd::waiting) {
+      const RunEnd waits = waiting();
+      const StageEnd adapted = adaptMeanwhile(context, stage);
+      if (adapted == StageEnd::done) continue;
+      if (adapted == StageEnd::stopped) return stopped();
+      return waits;
+    }
     if (!adaptSimulator(context, stage)) return stopped();
   }
 }

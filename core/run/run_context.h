@@ -76,6 +76,10 @@ std::optional<std::vector<double>> givenBack(const RunContext& context, int stag
 /// Where the experiment wants it after this stage: records the measured individuals (a person attaches recordings),
 /// analyses them and stores the repaired simulator as the newest version.
 StageEnd repairSimulator(RunContext& context, int stage);
+/// L3 beside L2: breeds simulators while a person tries policies that L3 does not see; the version is made by
+/// adaptSimulator(). done: nothing waits for the person any more, so L2 may go on. waiting: all is bred, or L3 must see
+/// the policies first.
+StageEnd adaptMeanwhile(RunContext& context, int stage);
 /// L3: a new simulator version from all measurements so far. False if stopped.
 bool adaptSimulator(RunContext& context, int stage);
 

@@ -280,6 +280,69 @@ TEST_F(RealityLearning, AllValuesVoidAreAskedForAgainAndSomeVoidAreLeftOut) {
   EXPECT_EQ(done.centreBefore, done.centreAfter) << "one value says nothing of a direction";
 }
 
+TEST_F(RealityLearning, L3GoesOnWhileAPersonTriesThePolicies) {
+  spec_.reality = "person";
+  spec_.stages["total_generations"] = 3;
+  spec_.adaptationSettings["generations"] = 3;
+  const auto reality = [](const std::vector<double>& p) { return p[0]; };
+  std::vector<SimulatorSpec> versions;
+  for (const std::string way : {"policies are tried", "L2 is ended at once", "L3 is to see them"}) {
+    const bool ended = way == "L2 is ended at once", sees = way == "L3 is to see them";
+    spec_.adaptationSettings["sees_policies"] = sees ? 1 : 0;
+    begin(way);
+    ASSERT_EQ(RunEnd::waiting, go());
+    measure(reality);
+    if (ended) {
+      // Stopped before the first generation of L3, then no L2: one after the other.
+      std::atomic<bool> stop{false};
+      RunOptions options{.jobs = 2, .progress = {}};
+      options.progress = [&](const RunProgress&) { stop = stop || db_->begunRealityIteration(run_, 1).has_value(); };
+      ASSERT_EQ(RunEnd::stopped, continueRun(*db_, host, run_, stop, options));
+      EXPECT_TRUE(db_->adaptations(run_, 1).empty());
+      db_->endRealityLearning(run_, "me");
+    } else {
+      ASSERT_EQ(RunEnd::waiting, go());
+      EXPECT_EQ(RunState::waiting, db_->run(run_).state);
+      EXPECT_EQ(sees ? 0u : 3u, db_->adaptations(run_, 1).size());
+      EXPECT_EQ(1u, db_->simulators(run_).size()) << "the version is made when L2 is over";
+      EXPECT_EQ("measuring", progressFromJson(db_->run(run_).progressJson).stage) << "that is what a person is to see";
+      measure(reality);
+      ASSERT_EQ(RunEnd::waiting, go());
+      measure(reality);
+    }
+    ASSERT_EQ(RunEnd::waiting, go());
+    EXPECT_EQ(3u, db_->adaptations(run_, 1).size());
+    ASSERT_EQ(2u, db_->simulators(run_).size());
+    versions.push_back(db_->simulators(run_)[1].simulator);
+  }
+  EXPECT_EQ(versions[0], versions[1]) << "side by side as one after the other";
+}
+
+TEST_F(RealityLearning, PoliciesThatAreMeasuredMeanwhileAreTakenUpBeforeL3IsThrough) {
+  spec_.reality = "person";
+  spec_.adaptationSettings["generations"] = 4;
+  ASSERT_EQ(RunEnd::waiting, go());
+  measure([](const auto& p) { return p[0]; });
+  // Somebody else enters the values of the first iteration while L3's first generation is simulated.
+  bool measured = false;
+  RunOptions options{.jobs = 2, .progress = {}};
+  std::vector<std::size_t> bredWhenAsked;
+  options.progress = [&](const RunProgress& p) {
+    if (p.stage == "L2" && p.stageDone == 1 && bredWhenAsked.empty())
+      bredWhenAsked.push_back(db_->adaptations(run_, 1).size());
+    if (measured || db_->run(run_).state != RunState::waiting || !db_->begunRealityIteration(run_, 1)) return;
+    measured = true;
+    measure([](const auto& q) { return q[0]; });
+  };
+  const StopFlag never{false};
+  ASSERT_EQ(RunEnd::waiting, continueRun(*db_, host, run_, never, options));
+  EXPECT_TRUE(measured);
+  EXPECT_EQ(1u, db_->realityIterations(run_, 1).size());
+  ASSERT_EQ(1u, bredWhenAsked.size());
+  EXPECT_EQ(1u, bredWhenAsked[0]) << "the second iteration waits for one generation, not for all of L3";
+  EXPECT_EQ(4u, db_->adaptations(run_, 1).size());
+}
+
 TEST_F(RealityLearning, L3SeesThePoliciesOnlyWhereItIsToldTo) {
   spec_.stages["total_generations"] = 3;
   spec_.realitySettings["iterations"] = 1;

@@ -108,6 +108,21 @@ class TestRunPanel : public QObject {
     QVERIFY(panel.findChild<QLabel*>("next")->text().contains("press Continue to adapt the simulator"));
   }
 
+  void saysThatL3GoesOnWhileAPersonMeasures() {
+    RunPanel panel;
+    RunProgress meanwhile = progressIn("L3");
+    meanwhile.stageDone = 3;
+    meanwhile.stageTotal = 20;
+    QVERIFY(show(panel, aRun(RunState::waiting), meanwhile, true).stage.startsWith("Waiting for real fitness"));
+    panel.setMeasuring({7, 10});
+    QVERIFY(panel.findChild<QLabel*>("stage")->text().contains("L3"));
+    QVERIFY(panel.findChild<QLabel*>("next")->text().contains("7 of 10"));
+    QCOMPARE(panel.findChild<QProgressBar*>("within")->text(), QString("measured 7 of 10 · L3 3 of 20"));
+    QVERIFY(panel.findChild<QPushButton*>("stop")->isEnabled());
+    panel.showRun(aRun(RunState::waiting), meanwhile, false);
+    QCOMPARE(panel.findChild<QProgressBar*>("within")->text(), QString("measured 7 of 10"));
+  }
+
   void showsTheErrorWhileTheSimulatorIsAdapted() {
     RunPanel panel;
     QCOMPARE(show(panel, aRun(RunState::adapting), progressIn("L3"), true).stage,

@@ -48,7 +48,8 @@ QString stageText(RunFace face, const RunProgress& progress) {
     case RunFace::adapting:
       return RunTexts::tr("L3 · adapting the simulator");
     case RunFace::waiting:
-      return RunTexts::tr("Waiting for real fitness");
+      return progress.stage == "L3" ? RunTexts::tr("Waiting for real fitness · L3 adapts the simulator meanwhile")
+                                    : RunTexts::tr("Waiting for real fitness");
     case RunFace::stopping:
       return RunTexts::tr("Stopping …");
     case RunFace::interrupted:

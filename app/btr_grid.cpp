@@ -112,6 +112,27 @@ void report(const Database& db, const std::string& sha, const GridArguments& a, 
   printMethods(comparison, summaries);
 }
 
+/// Goes on with the `k`-th of `grids` grids. False if it was stopped.
+bool goOn(Database& db, Id id, const GridArguments& a, Shell& shell, std::size_t k, std::size_t grids) {
+  const GridRecord record = db.grid(id);
+  const bool show = isatty(STDERR_FILENO) && !a.quiet && !a.progress;
+  GridOptions options;
+  options.workers = a.workers;
+  if (show) options.progress = [&](const GridProgress& p) { showGridProgress(record, p); };
+  if (a.progress)
+    options.progress = [&](const GridProgress& p) {
+      const double share = p.total ? static_cast<double>(p.done) / p.total : 0;
+      std::fprintf(stderr, "%s, %s %.3f\n", record.method.c_str(), p.phase.c_str(),
+                   (static_cast<double>(k) + share) / static_cast<double>(grids));
+    };
+  const RunEnd end = continueGrid(db, shell.plugins(), id, *shell.stop, options);
+  if (show) std::fprintf(stderr, "\n");
+  if (end == RunEnd::finished) return true;
+  shell.exitCode = stoppedEarly;
+  std::fprintf(stderr, "btr: stopped; the same command goes on\n");
+  return false;
+}
+
 void runGrid(const GridArguments& a, Shell& shell) {
   GridSpec spec = loadGrid(a.file);
   if (!a.methods.empty()) {
@@ -121,7 +142,6 @@ void runGrid(const GridArguments& a, Shell& shell) {
   if (!a.seeds.empty()) spec.seeds = a.seeds;
   Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
   shell.goesOn = true;
-  const bool show = isatty(STDERR_FILENO) && !a.quiet && !a.progress;
   std::string sha;
   const std::size_t grids = spec.seeds.size() * spec.methods.size();
   std::size_t k = 0;
@@ -129,27 +149,17 @@ void runGrid(const GridArguments& a, Shell& shell) {
   for (const std::uint64_t seed : spec.seeds)
     for (const GridSpec::Method method : spec.methods) {
       const Id id = startGrid(db, shell.plugins(), spec, method, seed);
-      const GridRecord record = db.grid(id);
-      sha = record.specSha256;
-      GridOptions options;
-      options.workers = a.workers;
-      if (show) options.progress = [&](const GridProgress& p) { showGridProgress(record, p); };
-      if (a.progress)
-        options.progress = [&](const GridProgress& p) {
-          const double share = p.total ? static_cast<double>(p.done) / p.total : 0;
-          std::fprintf(stderr, "%s, %s %.3f\n", record.method.c_str(), p.phase.c_str(),
-                       (static_cast<double>(k) + share) / static_cast<double>(grids));
-        };
-      const RunEnd end = continueGrid(db, shell.plugins(), id, *shell.stop, options);
-      if (show) std::fprintf(stderr, "\n");
-      if (end != RunEnd::finished) {
-        shell.exitCode = stoppedEarly;
-        std::fprintf(stderr, "btr: stopped; the same command goes on\n");
-        return;
-      }
-      ++k;
+      sha = db.grid(id).specSha256;
+      if (!goOn(db, id, a, shell, k++, grids)) return;
     }
   report(db, sha, a, shell);
+}
+
+/// A stored grid needs its file no more.
+void continueStored(const GridArguments& a, Shell& shell) {
+  Database db = Database::open(a.database, Database::Mode::readWrite, workingPatience_ms);
+  shell.goesOn = true;
+  if (goOn(db, a.grid, a, shell, 0, 1)) report(db, db.grid(a.grid).specSha256, a, shell);
 }
 
 void showTable(const GridArguments& a, Shell& shell) {
@@ -215,13 +225,17 @@ void addGridCommands(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand(
       "grid", "learn an experiment at every point of a grid of tasks, or go on with it, and compare the methods");
   command->require_subcommand(0, 1);
-  command->add_option("FILE", a->file, "grid file (.json)");
+  CLI::Option* file = command->add_option("FILE", a->file, "grid file (.json)");
+  command->add_option("--grid", a->grid, "instead of a file: go on with this stored grid")
+      ->excludes(file)
+      ->transform(wholeNumber(1));
   command->add_option("--db", a->database, "experiment database")->required();
   command->add_option("--workers,--jobs", a->workers, "worker processes (0: as many as processors)")
       ->transform(wholeNumber(0, 1024));
-  command->add_option("--method", a->methods, "only this method (repeatable)")->allow_extra_args(false);
+  command->add_option("--method", a->methods, "only this method (repeatable)")->allow_extra_args(false)->needs(file);
   command->add_option("--seed", a->seeds, "instead of the file's seeds (repeatable)")
       ->allow_extra_args(false)
+      ->needs(file)
       ->transform(seedNumber());
   CLI::Option* csv = command->add_option("--csv", a->csv,
                                          "write the table to a file (grid, table: methods; map: points; kick: trace)");
@@ -257,8 +271,8 @@ void addGridCommands(CLI::App& app, Shell& shell) {
 
   command->callback([a, command, &shell] {
     if (!command->get_subcommands().empty()) return;
-    if (a->file.empty()) throw CLI::RequiredError("FILE");
-    runGrid(*a, shell);
+    if (a->file.empty() && a->grid == 0) throw CLI::RequiredError("FILE or --grid");
+    a->file.empty() ? continueStored(*a, shell) : runGrid(*a, shell);
   });
 }
 

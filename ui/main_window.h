@@ -1,5 +1,6 @@
 #pragma once
 #include <QMainWindow>
+#include <QTimer>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,6 +18,7 @@ class QMenu;
 
 namespace btr {
 struct GapReport;
+struct GridSummary;
 }
 namespace btr::ui {
 class Alarm;
@@ -27,7 +29,9 @@ struct RunGroup;
 class FitnessChart;
 class GapChart;
 class GapPage;
+class GridForm;
 class GridPage;
+struct GridState;
 class ProgramProcess;
 class MeasurementSheet;
 class MessageBanner;
@@ -122,6 +126,7 @@ class MainWindow : public QMainWindow {
   void connectRuns();
   void launch(Id run);
   void checkLaunched();
+  void checkProcesses();
   void duplicateRun(Id run);
   void editRunNote(Id run);
   void editExperimentNote(Id experiment);
@@ -158,6 +163,12 @@ class MainWindow : public QMainWindow {
   void makeGridPage();
   void connectGrid();
   void readGrids();
+  GridState stateOf(const GridSummary& grid) const;
+  void describeGrid();
+  void startGrids(const GridForm& form);
+  void watchGrid();
+  void stopGrid(Id grid);
+  void checkGridProcess();
   std::vector<RunGroup> gridsInTree();
   void playKick(Id grid, double distance_m, double bearing_rad, double direction_rad);
 
@@ -186,6 +197,8 @@ class MainWindow : public QMainWindow {
   std::set<Id> launched_;  ///< processes of ours whose end was not seen yet
   /// Runs whose last value was saved while their process was at work: it may have looked for the last time before.
   std::set<Id> measuredMeanwhile_;
+  QTimer processes_;           ///< runs while one of them may end
+  bool gridLaunched_ = false;  ///< a process of ours that learns grids, whose end was not seen yet
   bool sized_ = false;     ///< the docks have got their sizes
   RunRecord run_;          ///< the followed run as last seen
   QString unit_;

@@ -1,9 +1,16 @@
 // The whole kick in the window: its page is filled from the database that is open; kicks are played in the 3D view.
+#include <QCoreApplication>
 #include <QDockWidget>
+#include <QStandardPaths>
 
 #include "core/run/grid_cells.h"
 #include "core/run/grid_kicks.h"
+#include "core/spec/json_reader.h"
+#include "ui/common/message_banner.h"
+#include "ui/common/resources.h"
 #include "ui/experiment/experiment_tree.h"
+#include "ui/experiment/run_panel.h"
+#include "ui/grid/grid_form.h"
 #include "ui/grid/grid_page.h"
 #include "ui/main_window.h"
 #include "ui/scene3d/replay_job.h"
@@ -20,6 +27,15 @@ void MainWindow::connectGrid() {
   connect(gridPage_, &GridPage::failed, this, &MainWindow::report);
   connect(tree_, &ExperimentTree::gridRequested, this, &MainWindow::showGrid);
   connect(gridPage_, &GridPage::kickRequested, this, &MainWindow::playKick);
+  connect(gridPage_, &GridPage::newRequested, this, &MainWindow::describeGrid);
+  connect(gridPage_, &GridPage::stopRequested, this, &MainWindow::stopGrid);
+  connect(gridPage_, &GridPage::continueRequested, this, [this](Id grid) {
+    if (launcher_.isGridAlive()) return report(tr("A grid is being learned; stop it, or wait until it is done."));
+    if (launcher_.continueGrid(databasePath(), grid, panel_->jobs())) watchGrid();
+  });
+  connect(&watcher_, &DatabaseWatcher::activeChanged, this, [this] {
+    if (gridPage_->isVisible()) readGrids();
+  });
   connect(gridPage_, &GridPage::replayRequested, this, [this](Id run, Id individual) {
     selectRun(run);
     replayIndividual(individual);
@@ -48,7 +64,76 @@ void MainWindow::readGrids() {
     for (const GridRecord& grid : watcher_.database().grids())
       grids.push_back(summaryOf(watcher_.database(), *host_, grid.id));
     gridPage_->setGrids(databasePath(), grids);
+    std::map<Id, GridState> states;
+    for (const GridSummary& grid : grids) states[grid.grid.id] = stateOf(grid);
+    gridPage_->setStates(states);
   });
+}
+
+GridState MainWindow::stateOf(const GridSummary& grid) const {
+  GridState state;
+  state.isActive = watcher_.activeGrids().count(grid.grid.id) > 0;
+  state.isFinished = isGridFinished(watcher_.database(), grid.grid.id);
+  if (state.isFinished) return state;
+  const auto each = static_cast<int>(valueOf(gridParameters(), grid.spec.settings, "generations"));
+  for (const GridCellRecord& cell : watcher_.database().gridCells(grid.grid.id)) {
+    if (cell.mirrorOf) continue;
+    state.total += each;
+    if (cell.run) state.done += std::min(each, watcher_.database().run(cell.run).generation);
+  }
+  return state;
+}
+
+void MainWindow::describeGrid() {
+  if (!watcher_.isOpen()) return;
+  if (launcher_.isGridAlive()) return report(tr("A grid is being learned; stop it, or wait until it is done."));
+  auto* form = new GridForm(this);
+  form->setAttribute(Qt::WA_DeleteOnClose);
+  if (const QStringList examples = exampleGrids(); !examples.isEmpty())
+    guard([&] { form->openFile(examples.first()); });
+  connect(form, &GridForm::startRequested, this, [this, form] { startGrids(*form); });
+  form->open();
+}
+
+// A form that was changed is read from a file of its own; what is stored needs none afterwards.
+void MainWindow::startGrids(const GridForm& form) {
+  guard([&] {
+    QString file = form.file();
+    if (form.isModified()) {
+      file = QStringLiteral("%1/uchilsim-%2-grid.json")
+                 .arg(QStandardPaths::writableLocation(QStandardPaths::TempLocation))
+                 .arg(QCoreApplication::applicationPid());
+      writeFile(file.toStdString(), form.portableText());
+    }
+    if (!launcher_.learnGrids(databasePath(), file, panel_->jobs())) return;
+    watchGrid();
+    inform(tr("The grid is learned in a process of its own; it goes on without the window."));
+  });
+}
+
+void MainWindow::watchGrid() {
+  gridLaunched_ = true;
+  processes_.start();
+  banner_->clear();
+  watcher_.poll();
+}
+
+void MainWindow::stopGrid(Id grid) {
+  guard([&] {
+    for (const GridCellRecord& cell : watcher_.database().gridCells(grid))
+      if (cell.run && watcher_.activeRuns().count(cell.run) > 0) writer().requestStop(cell.run, true);
+    watcher_.poll();
+    inform(tr("Asked the grid to stop; what it has done is kept."));
+  });
+}
+
+// A process that ended while its grid is not finished and nobody stopped it has something to say.
+void MainWindow::checkGridProcess() {
+  if (!gridLaunched_ || launcher_.isGridAlive()) return;
+  gridLaunched_ = false;
+  const QString words = launcher_.lastGridWords();
+  if (!words.isEmpty() && !words.contains(QStringLiteral("stopped"))) report(words);
+  if (gridPage_->isVisible()) readGrids();
 }
 
 void MainWindow::showGridPage(bool on) {

@@ -19,6 +19,8 @@
 namespace btr::ui {
 
 void MainWindow::connectRuns() {
+  processes_.setInterval(500);
+  connect(&processes_, &QTimer::timeout, this, &MainWindow::checkProcesses);
   connect(tree_, &ExperimentTree::continueRequested, this, &MainWindow::continueRun);
   connect(tree_, &ExperimentTree::stopRequested, this, &MainWindow::stopRun);
   connect(tree_, &ExperimentTree::duplicateRequested, this, &MainWindow::duplicateRun);
@@ -76,7 +78,15 @@ void MainWindow::launch(Id run) {
   if (!launcher_.work(databasePath(), run, panel_->jobs())) return;
   banner_->clear();
   launched_.insert(run);
+  processes_.start();
   watcher_.poll();
+}
+
+// A process may end before it has locked anything.
+void MainWindow::checkProcesses() {
+  checkLaunched();
+  checkGridProcess();
+  if (launched_.empty() && !gridLaunched_) processes_.stop();
 }
 
 // A process that ends without leaving its run waiting, stopped or finished has something to say.

@@ -43,7 +43,7 @@ void MainWindow::connectShow() {
     activeLabel_->setText(active.empty()       ? QString()
                           : active.size() == 1 ? tr("1 run is working")
                                                : tr("%1 runs are working").arg(active.size()));
-    checkLaunched();
+    checkProcesses();
   });
   connect(&watcher_, &DatabaseWatcher::runChanged, this, &MainWindow::showRun);
   connect(&watcher_, &DatabaseWatcher::generationsReset, this,

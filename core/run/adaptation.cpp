@@ -125,7 +125,8 @@ class Adaptation {
   bool isBred() const { return number_ >= generations_; }
   /// One generation. False if stopped.
   bool breed();
-  /// Stores the best of all candidates as the new version, unless its parent agrees better with reality. False if stopped.
+  /// Stores the best of all candidates as the new version, unless its parent agrees better with reality. False if
+  /// stopped.
   bool finish();
 
  private:

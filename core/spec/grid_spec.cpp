@@ -59,6 +59,16 @@ GridSpec read(JsonReader reader, bool stored) {
   return grid;
 }
 
+nlohmann::json toJson(const GridSpec& grid) {
+  nlohmann::json document{{"format", "uchilsim-grid-1"},
+                          {"name", grid.name},
+                          {"experiment", grid.experiment},
+                          {"mirrored", grid.mirroredDerived ? "derived" : "learned"},
+                          {"settings", toJson(grid.settings, gridParameters())}};
+  for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) document[GridSpec::axisKeys[axis]] = grid.axes[axis];
+  return document;
+}
+
 }  // namespace
 
 const char* toText(GridSpec::Method method) { return methodNames[static_cast<std::size_t>(method)].c_str(); }
@@ -100,13 +110,13 @@ GridSpec gridFromJson(const std::string& text, const std::string& place) {
 
 GridSpec loadGrid(const std::string& path) { return gridFromJson(readFile(path), path); }
 
-std::string toJsonText(const GridSpec& grid) {
-  nlohmann::json document{{"format", "uchilsim-grid-1"},
-                          {"name", grid.name},
-                          {"experiment", grid.experiment},
-                          {"mirrored", grid.mirroredDerived ? "derived" : "learned"},
-                          {"settings", toJson(grid.settings, gridParameters())}};
-  for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) document[GridSpec::axisKeys[axis]] = grid.axes[axis];
+std::string toJsonText(const GridSpec& grid) { return toJson(grid).dump(2) + "\n"; }
+
+std::string gridFileText(const GridSpec& grid) {
+  nlohmann::json document = toJson(grid);
+  document["seeds"] = grid.seeds;
+  document["methods"] = nlohmann::json::array();
+  for (const GridSpec::Method method : grid.methods) document["methods"].push_back(toText(method));
   return document.dump(2) + "\n";
 }
 

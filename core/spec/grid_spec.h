@@ -38,7 +38,9 @@ GridSpec gridFromJson(const std::string& text, const std::string& place);
 GridSpec loadGrid(const std::string& path);
 /// What all methods and seeds have in common, as it is stored: without both.
 std::string toJsonText(const GridSpec& grid);
-/// The way back from there: no methods, no seeds.
+/// A whole grid file.
+std::string gridFileText(const GridSpec& grid);
+/// The way back from toJsonText(): no methods, no seeds.
 GridSpec storedGrid(const std::string& text, const std::string& place);
 
 }  // namespace btr

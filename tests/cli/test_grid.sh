@@ -23,6 +23,14 @@ cp "$folder/m.csv" "$folder/first.csv"
 expect 0 "again" "$btr" --json grid "$folder/grid.json" --db "$folder/a.db" --csv "$folder/m.csv"
 says out '"format": "uchilsim-grids-1"'
 cmp -s "$folder/m.csv" "$folder/first.csv" || fail "the table changed"
+expect 2 "a file and a stored grid" "$btr" grid "$folder/grid.json" --db "$folder/a.db" --grid 1
+expect 2 "a stored grid has its method" "$btr" grid --db "$folder/a.db" --grid 1 --method similarity
+expect 0 "a stored grid without its file" "$btr" grid --db "$folder/a.db" --grid 1 --csv "$folder/m.csv"
+cmp -s "$folder/m.csv" "$folder/first.csv" || fail "the table of a stored grid is another one"
+expect 1 "a stored grid that is none" "$btr" grid --db "$folder/a.db" --grid 99
+one_line
+expect 1 "no database" "$btr" grid --db "$folder/none.db" --grid 1
+[ ! -e "$folder/none.db" ] || fail "a database was made for a grid that cannot be there"
 expect 0 "status" "$btr" --json status --db "$folder/a.db"
 [ "$(grep -c '"run":' "$folder/out")" = 18 ] || fail "18 runs were expected, one for each cell and method"
 expect 0 "table" "$btr" grid table --db "$folder/a.db" --grid 1 --cells "$folder/cells.csv" --points "$folder/points.csv"

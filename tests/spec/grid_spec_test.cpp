@@ -48,6 +48,16 @@ TEST(GridSpec, IsReadWithDefaultsForWhatIsAbsent) {
   EXPECT_EQ(valueOf(gridParameters(), grid.settings, "points"), 200);
 }
 
+TEST(GridSpec, AFileThatIsWrittenIsTheSameGrid) {
+  const GridSpec grid = gridFromJson(smallGrid().dump(), "folder/g.json");
+  const GridSpec again = gridFromJson(gridFileText(grid), "other.json");
+  EXPECT_EQ(gridFileText(again), gridFileText(grid));
+  EXPECT_EQ(toJsonText(again), toJsonText(grid));
+  EXPECT_EQ(again.methods, grid.methods);
+  EXPECT_EQ(again.seeds, grid.seeds);
+  EXPECT_EQ(again.axes, grid.axes);
+}
+
 TEST(GridSpec, IsStoredWithoutMethodsAndSeedsAndReadBack) {
   const GridSpec grid = gridFromJson(smallGrid().dump(), "g.json");
   const GridSpec again = storedGrid(toJsonText(grid), "stored");

@@ -310,7 +310,7 @@ class TestGapPage : public QObject {
     QVERIFY(form.isValid());
     QCOMPARE(form.draft().rows.size(), std::size_t(2));
     QVERIFY(form.draft().rows[1].flipped);
-    QCOMPARE(form.table().item(1, MappingForm::range)->text(), QString("-9.75 … -4.75\u202Frad"));
+    QCOMPARE(form.table().item(1, MappingForm::range)->text(), QString("−9.75 … −4.75\u202Frad"));
     form.save();
     const Mapping before = mappingFromJson(text, "before"), after = loadMapping(form.file().toStdString());
     QCOMPARE(after.columns.size(), before.columns.size());

@@ -1,5 +1,8 @@
 // The page of grids: cells chosen and replayed, the preview's point, maps computed beside it, and the window around it.
+#include <QCheckBox>
 #include <QComboBox>
+#include <QLineEdit>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -8,8 +11,13 @@
 
 #include "core/run/grid_kicks.h"
 #include "core/run/grid_losses.h"
+#include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
+#include "ui/common/message_banner.h"
+#include "ui/experiment/parameter_field.h"
+#include "ui/experiment/parameter_form.h"
 #include "ui/grid/cube_view.h"
+#include "ui/grid/grid_form.h"
 #include "ui/grid/grid_page.h"
 #include "ui/grid/kick_map.h"
 #include "ui/grid/ramp.h"
@@ -283,6 +291,139 @@ class TestGridPage : public QObject {
     }
     QCOMPARE(rampColour(-5), rampColour(0));
     QCOMPARE(rampColour(NAN), rampColour(0));
+  }
+
+  void aGridThatLearnsSaysHowFarAndMayBeStopped() {
+    GridPage page;
+    page.setGrids("a.db", {summaryOf(1), summaryOf(2)});
+    auto* go = page.findChild<QPushButton*>("go");
+    auto* learned = page.findChild<QProgressBar*>("learned");
+    page.show();
+    QVERIFY(!go->isVisible());
+    page.setStates({{1, {true, false, 130, 600}}, {2, {false, true, 0, 0}}});
+    QCOMPARE(learned->text(), QString("generation 130 of 600"));
+    QSignalSpy stopped(&page, &GridPage::stopRequested), continued(&page, &GridPage::continueRequested);
+    go->click();
+    QCOMPARE(stopped.count(), 1);
+    QCOMPARE(stopped[0][0].toLongLong(), 1);
+    page.setStates({{1, {false, false, 130, 600}}, {2, {false, true, 0, 0}}});
+    QCOMPARE(go->text(), QString("Continue"));
+    go->click();
+    QCOMPARE(continued.count(), 1);
+    page.choose(2);
+    QVERIFY(!go->isVisible());
+    QVERIFY(!learned->isVisible());
+  }
+
+  void theFormKeepsWhatItsFileSays() {
+    for (const char* name : {"kick-grid.json", "kick-grid-short.json"}) {
+      const QString path = QString(SOURCE_DIR "/resources/grids/") + name;
+      GridForm form;
+      QVERIFY(!form.findChild<QPushButton*>("start")->isEnabled());
+      form.openFile(path);
+      QCOMPARE(form.problem(), QString());
+      QVERIFY(!form.isModified());
+      QCOMPARE(gridFileText(form.spec()), gridFileText(loadGrid(path.toStdString())));
+      // Elsewhere it is the same grid, and its experiment is found.
+      const QTemporaryDir folder;
+      form.findChild<QLineEdit*>("seeds")->setText("3, 4");
+      QVERIFY(form.isModified());
+      const std::string there = folder.filePath("there.json").toStdString();
+      writeFile(there, form.portableText());
+      loadExperiment(loadGrid(there).experiment);
+      form.saveFile(folder.filePath("saved.json"));
+      QVERIFY(!form.isModified());
+      QCOMPARE(form.problem(), QString());
+      QCOMPARE(form.spec().seeds, (std::vector<std::uint64_t>{3, 4}));
+      QCOMPARE(form.spec().axes, loadGrid(path.toStdString()).axes);
+    }
+  }
+
+  void theFormSaysWhatIsWrongAndTakesDegrees() {
+    GridForm form;
+    form.openFile(SOURCE_DIR "/resources/grids/kick-grid-short.json");
+    auto* start = form.findChild<QPushButton*>("start");
+    auto* bearings = form.findChild<QLineEdit*>("bearings_rad");
+    const auto refused = [&](QLineEdit* edit, const QString& text, const QString& word) {
+      const QString before = edit->text();
+      edit->setText(text);
+      const bool said = form.problem().contains(word) && !start->isEnabled();
+      edit->setText(before);
+      return said && form.problem().isEmpty() && start->isEnabled();
+    };
+    QVERIFY(refused(bearings, "−20, x, 20", "\"x\""));
+    QVERIFY(refused(bearings, "−20, 0, 30", "symmetric"));
+    QVERIFY(refused(bearings, "", "bearings_rad"));
+    QVERIFY(refused(form.findChild<QLineEdit*>("seeds"), "1.5", "whole numbers"));
+    QVERIFY(refused(form.findChild<QLineEdit*>("seeds"), "1 1", "seeds"));
+    QVERIFY(refused(form.findChild<QLineEdit*>("name"), " ", "name"));
+    QVERIFY(refused(form.findChild<QLineEdit*>("experiment"), "none.json", "none.json"));
+    for (const char* method : {"independent", "contamination", "similarity"})
+      form.findChild<QCheckBox*>(method)->setChecked(false);
+    QVERIFY(form.problem().contains("methods"));
+    form.findChild<QCheckBox*>("similarity")->setChecked(true);
+    bearings->setText("−30; 0; 30");
+    QCOMPARE(form.problem(), QString());
+    QCOMPARE(form.spec().axes[1], (std::vector<double>{-M_PI / 6, 0, M_PI / 6}));
+    QCOMPARE(form.spec().methods, std::vector{GridSpec::Method::similarity});
+  }
+
+  // With the real program: described, started, stopped, continued, finished.
+  void aGridIsLearnedFromItsFormToItsEnd() {
+    const QTemporaryDir folder;
+    const auto host = std::make_shared<const PluginHost>(PLUGIN_DIR);
+    nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    experiment["scene"] = SOURCE_DIR "/resources/scenes/kick.json";
+    experiment["learner"]["settings"]["population"] = 4;
+    writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+    Database::open(folder.filePath("a.db").toStdString(), Database::Mode::create);
+    Theme theme(*qApp);
+    MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});
+    window.show();
+    QVERIFY(window.openDatabase(folder.filePath("a.db")));
+    window.showGridPage(true);
+    window.gridPage().findChild<QPushButton*>("new")->click();
+    auto* form = window.findChild<GridForm*>();
+    QVERIFY(form);
+    form->findChild<QLineEdit*>("experiment")->setText(folder.filePath("kick.json"));
+    for (const auto& [axis, text] : {std::pair("distances_m", "0.16"), {"bearings_rad", "0"}, {"directions_rad", "0"}})
+      form->findChild<QLineEdit*>(axis)->setText(text);
+    for (const char* method : {"contamination", "similarity"}) form->findChild<QCheckBox*>(method)->setChecked(false);
+    form->findChild<ParameterForm*>()->field("generations")->setText("60");
+    form->findChild<ParameterForm*>()->field("points")->setText("1");
+    QCOMPARE(form->problem(), QString());
+    form->findChild<QPushButton*>("start")->click();
+
+    auto* go = window.gridPage().findChild<QPushButton*>("go");
+    const auto stored = [&] { return Database::open(folder.filePath("a.db").toStdString(), Database::Mode::readOnly); };
+    QTRY_VERIFY_WITH_TIMEOUT(go->isVisible() && go->text() == "Stop" && !stored().runs().empty(), 60'000);
+    go->click();
+    QTRY_VERIFY_WITH_TIMEOUT(window.watcher().activeGrids().empty(), 60'000);
+    QVERIFY2(window.banner().text().isEmpty(), qPrintable(window.banner().text()));
+    QVERIFY(stored().runs().front().generation < 60);
+    QTRY_COMPARE(go->text(), QString("Continue"));
+    go->click();
+    QTRY_VERIFY_WITH_TIMEOUT(isGridFinished(stored(), 1) && window.watcher().activeGrids().empty(), 120'000);
+    QTRY_VERIFY(!go->isVisible());
+    QVERIFY2(window.banner().text().isEmpty(), qPrintable(window.banner().text()));
+  }
+
+  // What only the program can see: it is told, and nothing is left half begun.
+  void aGridThatTheProgramRefusesIsAMessage() {
+    const QTemporaryDir folder;
+    Database::open(folder.filePath("a.db").toStdString(), Database::Mode::create);
+    Theme theme(*qApp);
+    MainWindow window(std::make_shared<const PluginHost>(PLUGIN_DIR), theme,
+                      {folder.filePath("settings.ini"), BTR_PROGRAM});
+    window.show();
+    QVERIFY(window.openDatabase(folder.filePath("a.db")));
+    window.showGridPage(true);
+    window.gridPage().findChild<QPushButton*>("new")->click();
+    auto* form = window.findChild<GridForm*>();
+    form->findChild<QLineEdit*>("distances_m")->setText("0.8");
+    form->findChild<QPushButton*>("start")->click();
+    QTRY_VERIFY_WITH_TIMEOUT(window.banner().text().contains("0.8 is not allowed"), 60'000);
+    QVERIFY(window.watcher().database().grids().empty());
   }
 
   void theWindowShowsAStoredGridAndPlaysAKickBetweenItsCells() {

@@ -66,6 +66,8 @@ class TestSettings : public QObject {
 
   void writesNumbersWithUnitsAndDurations() {
     QCOMPARE(shortNumber(0.123456), QString("0.1235"));
+    QCOMPARE(shortNumber(-0.5), QString("−0.5"));
+    QCOMPARE(degrees(-0.35), QString("−20.1°"));
     QCOMPARE(shortNumber(std::nan("")), QString("–"));
     QCOMPARE(withUnit(1.5, "m"), QStringLiteral("1.5\u202fm"));
     QCOMPARE(duration(-1), QString("–"));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <exception>
 
+#include "core/run/grid.h"
+
 namespace btr::ui {
 namespace {
 
@@ -36,7 +38,9 @@ void DatabaseWatcher::open(const QString& path) {
   run_ = 0;
   runs_.clear();
   stages_.clear();
+  gridRuns_.clear();
   active_.clear();
+  activeGrids_.clear();
   timer_.start();
   emit this->opened(path);
   poll();
@@ -57,7 +61,11 @@ void DatabaseWatcher::poll() {
     const auto version = database_->dataVersion();
     const bool changed = version != version_;
     version_ = version;
-    if (changed) runs_ = database_->runs();
+    if (changed) {
+      runs_ = database_->runs();
+      for (const GridRecord& grid : database_->grids())
+        for (const GridCellRecord& cell : database_->gridCells(grid.id)) gridRuns_[grid.id].insert(cell.run);
+    }
     const bool activity = readActive();
     if (changed) {
       readAll();
@@ -75,11 +83,19 @@ void DatabaseWatcher::poll() {
 
 // A process may begin or end without writing: asked every time, for the runs that can have one.
 bool DatabaseWatcher::readActive() {
-  std::set<Id> active;
+  std::set<Id> active, activeGrids, ofGrids;
+  for (const auto& [grid, runs] : gridRuns_)
+    if (isGridActive(database_->path(), grid)) {
+      activeGrids.insert(grid);
+      ofGrids.insert(runs.begin(), runs.end());
+    }
   for (const RunRecord& run : runs_)
-    if ((mayWork(run.state) || active_.count(run.id)) && isActive_(database_->path(), run.id)) active.insert(run.id);
-  if (active == active_) return false;
+    if ((mayWork(run.state) && ofGrids.contains(run.id)) ||
+        ((mayWork(run.state) || active_.count(run.id)) && isActive_(database_->path(), run.id)))
+      active.insert(run.id);
+  if (active == active_ && activeGrids == activeGrids_) return false;
   active_ = active;
+  activeGrids_ = activeGrids;
   emit activeChanged(active_);
   return true;
 }

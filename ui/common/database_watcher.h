@@ -31,7 +31,8 @@ class DatabaseWatcher : public QObject {
   /// The run to follow, 0 for none; everything about it is told anew.
   void follow(Id run);
   Id followed() const { return run_; }
-  std::set<Id> activeRuns() const { return active_; }
+  std::set<Id> activeRuns() const { return active_; }  ///< also those of active grids that are not finished
+  std::set<Id> activeGrids() const { return activeGrids_; }
 
   /// What the timer does; also called after an own write, so that it is seen at once.
   void poll();
@@ -41,7 +42,7 @@ class DatabaseWatcher : public QObject {
   void runsChanged(const std::vector<btr::ExperimentRecord>& experiments, const std::vector<btr::RunRecord>& runs);
   /// Of any run, when it is first seen and whenever it has adapted.
   void versionsChanged(btr::Id run, const std::vector<btr::SimulatorRecord>& simulators);
-  void activeChanged(const std::set<btr::Id>& active);
+  void activeChanged(const std::set<btr::Id>& active);  ///< runs or grids
   // About the followed run:
   void runChanged(const btr::RunRecord& run, const btr::RunProgress& progress, bool active);
   void generationsReset(btr::Id run, const std::vector<btr::GenerationRecord>& all);
@@ -62,8 +63,9 @@ class DatabaseWatcher : public QObject {
   std::optional<Database> database_;
   std::int64_t version_ = -1;
   std::vector<RunRecord> runs_;
-  std::map<Id, int> stages_;  ///< of each run, when its simulators were told
-  std::set<Id> active_;
+  std::map<Id, int> stages_;             ///< of each run, when its simulators were told
+  std::map<Id, std::set<Id>> gridRuns_;  ///< runs of each grid's cells
+  std::set<Id> active_, activeGrids_;
   Id run_ = 0;
   bool fresh_ = true;  ///< nothing of the followed run was told yet
   bool wasFailing_ = false;

@@ -7,13 +7,15 @@ namespace btr::ui {
 
 QString shortNumber(double value) {
   if (!std::isfinite(value)) return QStringLiteral("–");
-  return QLocale::c().toString(value, 'g', 4);
+  return QLocale::c().toString(value, 'g', 4).replace('-', QChar(u'−'));
 }
 
 QString withUnit(double value, const QString& unit) {
   if (unit.isEmpty() || !std::isfinite(value)) return shortNumber(value);
   return shortNumber(value) + QChar(0x202f) + unit;  // a narrow space keeps number and unit together
 }
+
+QString degrees(double rad) { return shortNumber(std::round(10 * inDegrees * rad) / 10) + QChar(u'°'); }
 
 QString duration(double seconds) {
   if (!(seconds >= 0) || !std::isfinite(seconds)) return QStringLiteral("–");

@@ -4,6 +4,18 @@
 #include <QDir>
 
 namespace btr::ui {
+namespace {
+
+QStringList filesIn(const QString& kind) {
+  const QString resources = resourceDirectory();
+  if (resources.isEmpty()) return {};
+  QStringList paths;
+  const QDir folder(resources + '/' + kind);
+  for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) paths << folder.filePath(name);
+  return paths;
+}
+
+}  // namespace
 
 QString resourceDirectory() {
   if (const QString named = qEnvironmentVariable("UCHILSIM_RESOURCES"); !named.isEmpty()) return named;
@@ -17,13 +29,7 @@ QString resourceDirectory() {
   return {};
 }
 
-QStringList exampleExperiments() {
-  const QString resources = resourceDirectory();
-  if (resources.isEmpty()) return {};
-  QStringList paths;
-  const QDir folder(resources + "/experiments");
-  for (const QString& name : folder.entryList({"*.json"}, QDir::Files, QDir::Name)) paths << folder.filePath(name);
-  return paths;
-}
+QStringList exampleExperiments() { return filesIn("experiments"); }
+QStringList exampleGrids() { return filesIn("grids"); }
 
 }  // namespace btr::ui

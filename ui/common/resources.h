@@ -9,5 +9,7 @@ namespace btr::ui {
 QString resourceDirectory();
 /// Full paths of the example experiments, sorted by name.
 QStringList exampleExperiments();
+/// The same of grids.
+QStringList exampleGrids();
 
 }  // namespace btr::ui

@@ -22,7 +22,7 @@ RunLauncher::RunLauncher(std::shared_ptr<const PluginHost> host, const QString& 
 RunLauncher::~RunLauncher() {
   if (thread_) thread_->wait();
   // A process that goes on without the window keeps its open file.
-  for (const auto& [run, process] : processes_) QFile::remove(process.log);
+  for (const auto& [name, process] : processes_) QFile::remove(process.log);
 }
 
 void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {
@@ -68,14 +68,24 @@ void RunLauncher::inThread(std::function<Id()> task) {
 }
 
 bool RunLauncher::work(const QString& database, Id run, int jobs) {
+  return start(nameOf(run), {"run", "--db", database, "--run", QString::number(run), "--quiet"}, "--jobs", jobs);
+}
+
+bool RunLauncher::learnGrids(const QString& database, const QString& file, int workers) {
+  return start(grids, {"grid", file, "--db", database, "--quiet"}, "--workers", workers);
+}
+
+bool RunLauncher::continueGrid(const QString& database, Id grid, int workers) {
+  return start(grids, {"grid", "--db", database, "--grid", QString::number(grid), "--quiet"}, "--workers", workers);
+}
+
+bool RunLauncher::start(const QString& name, QStringList arguments, const QString& jobsOption, int jobs) {
   const QString folder = QStandardPaths::writableLocation(QStandardPaths::TempLocation);
   Process process;
-  process.log =
-      QStringLiteral("%1/uchilsim-%2-run-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(run);
+  process.log = QStringLiteral("%1/uchilsim-%2-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(name);
   QProcess starter;
   starter.setProgram(program_);
-  QStringList arguments{"run", "--db", database, "--run", QString::number(run), "--quiet"};
-  if (jobs > 0) arguments << "--jobs" << QString::number(jobs);
+  if (jobs > 0) arguments << jobsOption << QString::number(jobs);
   starter.setArguments(arguments);
   starter.setStandardInputFile(QProcess::nullDevice());
   starter.setStandardOutputFile(QProcess::nullDevice());
@@ -84,12 +94,12 @@ bool RunLauncher::work(const QString& database, Id run, int jobs) {
     emit failed(tr("%1 cannot be started: %2").arg(program_, starter.errorString()));
     return false;
   }
-  processes_[run] = process;
+  processes_[name] = process;
   return true;
 }
 
-QString RunLauncher::lastWords(Id run) const {
-  const auto found = processes_.find(run);
+QString RunLauncher::lastWords(const QString& name) const {
+  const auto found = processes_.find(name);
   if (found == processes_.end()) return {};
   QFile log(found->second.log);
   if (!log.open(QIODevice::ReadOnly)) return {};
@@ -99,8 +109,8 @@ QString RunLauncher::lastWords(Id run) const {
 }
 
 // A process that has ended may stay as a zombie until the system collects it: state Z after the name in parentheses.
-bool RunLauncher::isAlive(Id run) const {
-  const auto found = processes_.find(run);
+bool RunLauncher::isAlive(const QString& name) const {
+  const auto found = processes_.find(name);
   if (found == processes_.end() || ::kill(static_cast<pid_t>(found->second.pid), 0) != 0) return false;
   QFile stat(QStringLiteral("/proc/%1/stat").arg(found->second.pid));
   if (!stat.open(QIODevice::ReadOnly)) return true;

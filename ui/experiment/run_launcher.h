@@ -28,9 +28,15 @@ class RunLauncher : public QObject {
   /// Starts a process that goes on with the run. False, and failed(), if it cannot be started.
   bool work(const QString& database, Id run, int jobs);
   /// Last line that the run's process said, empty if none.
-  QString lastWords(Id run) const;
+  QString lastWords(Id run) const { return lastWords(nameOf(run)); }
   /// True while the process started by work() lives.
-  bool isAlive(Id run) const;
+  bool isAlive(Id run) const { return isAlive(nameOf(run)); }
+  /// Starts a process that learns all grids of a file, or goes on with a stored one. One at a time. False, and
+  /// failed(), if it cannot be started.
+  bool learnGrids(const QString& database, const QString& file, int workers);
+  bool continueGrid(const QString& database, Id grid, int workers);
+  QString lastGridWords() const { return lastWords(grids); }
+  bool isGridAlive() const { return isAlive(grids); }
   /// Writes a table of the run; tells exported() or failed().
   void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
   /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
@@ -55,6 +61,10 @@ class RunLauncher : public QObject {
  private:
   void runToEnd(const QStringList& arguments, const std::function<void()>& done);
   void inThread(std::function<Id()> task);
+  static QString nameOf(Id run) { return QStringLiteral("run-%1").arg(run); }
+  bool start(const QString& name, QStringList arguments, const QString& jobsOption, int jobs);
+  QString lastWords(const QString& name) const;
+  bool isAlive(const QString& name) const;
 
   struct Process {
     qint64 pid = 0;
@@ -62,7 +72,8 @@ class RunLauncher : public QObject {
   };
   std::shared_ptr<const PluginHost> host_;
   QString program_;
-  std::map<Id, Process> processes_;
+  inline static const QString grids = QStringLiteral("grids");
+  std::map<QString, Process> processes_;
   std::unique_ptr<QThread> thread_;
 };
 

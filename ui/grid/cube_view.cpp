@@ -18,8 +18,6 @@ namespace {
 
 constexpr double legendHeight = 46, leftMargin = 64, topMargin = 26;
 
-QString degrees(double rad) { return QString::number(std::round(rad * 1800 / M_PI) / 10) + "°"; }
-
 /// Alike as drawn ones (0.6) is thin and faint, equal is thick.
 QPen edgePen(double similarity, const QPalette& palette, Qt::PenCapStyle cap = Qt::SquareCap) {
   const double strength = std::clamp((similarity - 0.5) / 0.5, 0.0, 1.0);

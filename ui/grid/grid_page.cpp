@@ -19,8 +19,6 @@
 namespace btr::ui {
 namespace {
 
-constexpr double inDegrees = 180 / M_PI;
-
 QDoubleSpinBox* numberBox(const QString& name, const QString& unit, int decimals, double step, const QString& tip) {
   auto* box = new QDoubleSpinBox;
   box->setDecimals(decimals);
@@ -102,6 +100,19 @@ QWidget* GridPage::makeTop() {
   for (QWidget* widget : {static_cast<QWidget*>(grid_), static_cast<QWidget*>(slice_), static_cast<QWidget*>(replay_)})
     row->addWidget(widget);
   row->addStretch(1);
+  learned_ = new QProgressBar(bar);
+  learned_->setObjectName("learned");
+  learned_->setMinimumWidth(200);
+  go_ = new QPushButton(bar);
+  go_->setObjectName("go");
+  new_ = new QPushButton(themeIcon("document-new"), tr("New grid…"), bar);
+  new_->setObjectName("new");
+  new_->setToolTip(tr("Describes a grid of experiments and starts it"));
+  for (QWidget* widget : {static_cast<QWidget*>(learned_), static_cast<QWidget*>(go_), static_cast<QWidget*>(new_)})
+    row->addWidget(widget);
+  connect(new_, &QPushButton::clicked, this, &GridPage::newRequested);
+  connect(go_, &QPushButton::clicked, this,
+          [this] { states_[current()].isActive ? emit stopRequested(current()) : emit continueRequested(current()); });
   summary_ = new QLabel(bar);
   cell_ = new QLabel(bar);
   for (QLabel* label : {summary_, cell_}) label->setWordWrap(true);
@@ -201,7 +212,30 @@ void GridPage::setGrids(const QString& database, const std::vector<GridSummary>&
   showGrid();
 }
 
+void GridPage::setStates(const std::map<Id, GridState>& states) {
+  states_ = states;
+  showState();
+}
+
+void GridPage::showState() {
+  const auto found = states_.find(current());
+  const bool isOpen = found != states_.end() && !found->second.isFinished;
+  go_->setVisible(isOpen);
+  learned_->setVisible(isOpen);
+  if (!isOpen) return;
+  const GridState& state = found->second;
+  go_->setText(state.isActive ? tr("Stop") : tr("Continue"));
+  go_->setIcon(themeIcon(state.isActive ? "media-playback-stop" : "media-playback-start"));
+  go_->setToolTip(state.isActive ? tr("What it has learned is kept; it goes on with the same bits")
+                                 : tr("Goes on with the same bits where it stopped"));
+  learned_->setFormat(state.done >= state.total ? tr("settling the cells")
+                                                : tr("generation %1 of %2").arg(state.done).arg(state.total));
+  learned_->setRange(0, std::max(1, state.total));
+  learned_->setValue(state.done);
+}
+
 void GridPage::showGrid() {
+  showState();
   const GridSummary* s = summary();
   const bool settled = s && static_cast<int>(s->rows.size()) == static_cast<int>(cellsOf(s->spec).size());
   for (QWidget* widget :
@@ -216,7 +250,7 @@ void GridPage::showGrid() {
   slice_->clear();
   slice_->addItem(tr("all distances"));
   if (!s) {
-    summary_->setText(tr("No grid in this database. “btr grid FILE --db DATABASE” learns one."));
+    summary_->setText(tr("No grid in this database yet: “New grid…” describes one and learns it."));
     map_->setMap({});
     return;
   }
@@ -231,7 +265,10 @@ void GridPage::showGrid() {
                      .arg(s->failed)
                      .arg(s->taken)
                      .arg(shortNumber(s->edgeMean));
-  if (!settled) text = tr("%1 cells still learn").arg(cellsOf(s->spec).size() - s->rows.size());
+  if (!settled)
+    text = tr("%1 of %2 cells are not settled yet")
+               .arg(cellsOf(s->spec).size() - s->rows.size())
+               .arg(cellsOf(s->spec).size());
   if (s->points) text += tr("; between the cells %1 (%2 kicks)").arg(withUnit(s->pointMean, unit)).arg(s->points);
   summary_->setText(text);
   const std::array boxes{distance_, bearing_, direction_};

@@ -17,6 +17,12 @@ namespace btr::ui {
 class CubeView;
 class KickMap;
 
+/// How far a grid is.
+struct GridState {
+  bool isActive = false, isFinished = true;
+  int done = 0, total = 0;  ///< generations of all cells that learn
+};
+
 /// The whole kick: the cells of a grid, the kicks between them, and a map of where these lose something. It reads no
 /// database: the grids are given to it; maps are computed by btr beside the window.
 class GridPage : public QWidget {
@@ -27,6 +33,7 @@ class GridPage : public QWidget {
 
   /// What there is to choose from; the chosen one stays.
   void setGrids(const QString& database, const std::vector<GridSummary>& grids);
+  void setStates(const std::map<Id, GridState>& states);
   static QString nameOf(const GridRecord& grid);  ///< for lists: what it learns, how, and its seed
   Id current() const;
   void choose(Id grid);
@@ -43,6 +50,9 @@ class GridPage : public QWidget {
  signals:
   void replayRequested(btr::Id run, btr::Id individual);
   void kickRequested(btr::Id grid, double distance_m, double bearing_rad, double direction_rad);
+  void newRequested();
+  void continueRequested(btr::Id grid);
+  void stopRequested(btr::Id grid);
   void mapDone();
   void failed(const QString& message);
 
@@ -52,6 +62,7 @@ class GridPage : public QWidget {
   QWidget* makeMapBar();
   const GridSummary* summary() const;
   void showGrid();
+  void showState();
   void showPoint();
   void replayCell(int cell);
   void play();
@@ -61,14 +72,15 @@ class GridPage : public QWidget {
   std::vector<GridSummary> grids_;
   std::map<std::pair<Id, double>, GridMap> maps_;  ///< computed ones, by grid and distance
   std::pair<Id, double> computing_{};
+  std::map<Id, GridState> states_;
   QComboBox *grid_, *slice_, *shown_;
   QLabel *summary_, *cell_;
   CubeView* cube_;
   KickMap* map_;
   QDoubleSpinBox *distance_, *bearing_, *direction_;
   QSpinBox* steps_;
-  QPushButton *play_, *replay_, *compute_;
-  QProgressBar* progress_;
+  QPushButton *play_, *replay_, *compute_, *new_, *go_;
+  QProgressBar *progress_, *learned_;
 };
 
 }  // namespace btr::ui

@@ -195,7 +195,6 @@ void KickMap::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(palette().color(QPalette::Text));
   painter.setBrush(Qt::NoBrush);
-  const auto degrees = [](double rad) { return QString::number(std::round(rad * 1800 / M_PI) / 10) + "°"; };
   for (const double b : bearings_)
     painter.drawText(QRectF(placeOf(b, 0).x() - 50, frame().bottom() + 3, 100, 20), Qt::AlignCenter,
                      tr("β %1").arg(degrees(b)));

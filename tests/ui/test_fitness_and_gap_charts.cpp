@@ -206,8 +206,8 @@ class TestFitnessAndGapCharts : public QObject {
     QCOMPARE(series(plot, "held out, after").points, (Points{{2, 0.15}}));
     QCOMPARE(series(plot, "held out, after").errors, (std::vector<double>{0.02}));
     QCOMPARE(plot.segments.size(), std::size_t(3));
-    QCOMPARE(plot.xLabels.value(1), QString("1: 0 → 1"));
-    QCOMPARE(plot.xLabels.value(2), QString("2: 1 → 2"));
+    QCOMPARE(plot.xLabels.value(1), QString("0→1"));
+    QCOMPARE(plot.xLabels.value(2), QString("1→2"));
     QCOMPARE(plot.note, QString("stand-in reality"));
     QVERIFY(plot.yFromZero);
   }

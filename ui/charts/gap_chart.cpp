@@ -25,7 +25,7 @@ PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<Simulator
   if (norm == GapNorm::rootMeanSquare) notes << GapChart::tr("L3 made the root mean square small");
   if (norm == GapNorm::maximum) notes << GapChart::tr("L3 made the largest gap small");
   plot.note = notes.join(QStringLiteral(" · "));
-  plot.xTitle = GapChart::tr("measurement stage, simulator version before → after its update");
+  plot.xTitle = GapChart::tr("simulator version before→after");
   plot.yTitle = axisTitle(GapChart::tr("mean |real − simulated| fitness"), unit);
   plot.xColumn = "stage";
   plot.yColumn = columnName("mean_abs_real_minus_simulated_fitness", unit);
@@ -55,9 +55,9 @@ PlotData gapPlot(const std::vector<GapRecord>& gaps, const std::vector<Simulator
       heldOutBefore.errors.push_back(gap.heldOutStandardError);
       heldOutAfter.errors.push_back(gap.heldOutStandardError);
     }
-    plot.xLabels[x] = GapChart::tr("%1: %2 → %3")
-                          .arg(gap.stage)
-                          .arg(version(simulators, gap.simulatorBefore), version(simulators, gap.simulatorAfter));
+    // Narrow: a chart beside others has room for no more.
+    plot.xLabels[x] =
+        QStringLiteral("%1→%2").arg(version(simulators, gap.simulatorBefore), version(simulators, gap.simulatorAfter));
     plot.xFrom = std::min(plot.xFrom.value_or(x - 0.5), x - 0.5);
     plot.xTo = std::max(plot.xTo.value_or(x + 0.5), x + 0.5);
   }

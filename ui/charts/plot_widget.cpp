@@ -89,8 +89,9 @@ struct PlotWidget::Impl {
         if (!(distance < best)) continue;
         best = distance;
         QString text = series.name.isEmpty() ? QString() : series.name + '\n';
-        const QString x = data.xLabels.isEmpty() ? data.xTitle + " = " + readable(series.points[i].x())
-                                                 : data.xLabels.value(std::round(series.points[i].x()));
+        const QString x = data.xLabels.isEmpty()
+                              ? data.xTitle + " = " + readable(series.points[i].x())
+                              : data.xTitle + ' ' + data.xLabels.value(std::round(series.points[i].x()));
         text += x + '\n' + data.yTitle + " = " + readable(series.points[i].y());
         if (i < series.errors.size() && series.errors[i] > 0) text += " ± " + readable(series.errors[i]);
         found = PlotOverlay::ReadOut{series.drawnAt(i), text, series.colour};

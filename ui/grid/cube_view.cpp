@@ -155,6 +155,14 @@ void CubeView::paintCell(QPainter& painter, const GridRow& r) const {
   painter.setFont(small);
   const QRectF box(centre - QPointF(size, size), QSizeF(2 * size, 2 * size));
   painter.drawText(box, Qt::AlignCenter, QString::number(r.fitness, 'f', 2));
+  // The number by which tables and the marks of replaced cells call it.
+  QFont tiny = font();
+  tiny.setPixelSize(static_cast<int>(std::max(7.0, size * 0.42)));
+  painter.setFont(tiny);
+  painter.setPen(tonesOf(palette()).muted);
+  painter.drawText(QRectF(centre.x() - 2.75 * size, centre.y() + size * 0.65, 1.85 * size, size),
+                   Qt::AlignRight | Qt::AlignTop, QString::number(r.cell));
+  painter.setFont(small);
   if (r.takenFrom || r.sourceTookFrom) {
     painter.setPen(tonesOf(palette()).bad);
     // In brackets where the cell that it mirrors has taken it.

@@ -58,6 +58,7 @@ struct FitProblem {
   double block_s = 0.5;     ///< their length
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
   double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
+  bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
   double differenceStep = 1e-2;

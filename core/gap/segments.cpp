@@ -13,6 +13,7 @@ using Measured = Binding::Measured;
 
 struct Local {
   double value = 0, slope = 0, valueError = 0, slopeError = 0;
+  double spread = 0;  ///< of the samples about the parabola, at least the noise
   bool known = false;
 };
 
@@ -38,10 +39,41 @@ Local localParabola(std::span<const double> time, std::span<const double> values
   if (!inverse.allFinite()) return {};
   const Eigen::Vector3d fit = inverse * (a.transpose() * b);
   const double spread = std::max(noise, std::sqrt((a * fit - b).squaredNorm() / static_cast<double>(a.rows() - 3 + 1)));
-  return {fit[0], fit[1], spread * std::sqrt(inverse(0, 0)), spread * std::sqrt(inverse(1, 1)), true};
+  return {fit[0], fit[1], spread * std::sqrt(inverse(0, 0)), spread * std::sqrt(inverse(1, 1)), spread, true};
 }
 
 constexpr double reach_s = 0.02;
+
+/// How far a free body's samples around a row are from smooth motion, in noise floors: large across an impact.
+double roughness(const FitTrial& trial, std::size_t row) {
+  double sum = 0;
+  for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
+    const Measured& measured = trial.binding.measured[i];
+    if (trial.noiseFloor[i] <= 0 ||
+        (measured.what != Measured::What::basePosition && measured.what != Measured::What::baseOrientation))
+      continue;
+    const Local local = localParabola(trial.recording.columns[0], trial.recording.columns[measured.column], row,
+                                      reach_s, trial.noiseFloor[i]);
+    if (local.known) sum += local.spread / trial.noiseFloor[i];
+  }
+  return sum;
+}
+
+/// The smoothest row within a third of a window of `row`.
+std::size_t smoothestNear(const FitTrial& trial, std::size_t row, double window_s) {
+  const std::vector<double>& time = trial.recording.columns[0];
+  std::size_t best = row;
+  double least = roughness(trial, row);
+  for (const int way : {-1, 1})
+    for (std::size_t k = row; k > 0 && k + 1 < time.size() && std::abs(time[k] - time[row]) < window_s / 3;) {
+      k = way < 0 ? k - 1 : k + 1;
+      if (const double here = roughness(trial, k); here < least) {
+        best = k;
+        least = here;
+      }
+    }
+  return best;
+}
 
 /// One value only: what moves less than its counts, or not at all.
 bool isConstant(const std::vector<double>& values) {
@@ -167,6 +199,7 @@ void cutSegments(FitProblem& problem, double window_s) {
         last = first;
         while (last < rows && time[last] < time[first] + window_s) ++last;
         if (last < rows && time[rows - 1] - time[last] < window_s / 2) last = rows;
+        if (last < rows && problem.impacts) last = smoothestNear(trial, last, window_s);
       }
       if (last - first < 5) break;
       Segment segment;

@@ -1,0 +1,95 @@
+// A tossed body without joints: impacts are where its recording tells least of its state, so windows begin between
+// them, and what the floor does is found.
+#include "core/gap/fit_problem.h"
+#include "tests/gap/recorded_hinge.h"
+
+namespace btr {
+namespace {
+
+/// Noise: `place_m` of places, `turn` of quaternions.
+GapProblem tosses(const SimulatorSpec& truth, int count, double place_m, double turn) {
+  GapProblem problem;
+  problem.scene = loadScene(SOURCE_DIR "/resources/scenes/contactnets_cube.json");
+  problem.models = loadModels(problem.scene);
+  // Fine enough for an impact, and the same in both: what a step does to an impact is another matter.
+  problem.scene.step_s = 0.00025;
+  const Scene scene = makeScene(problem.scene, problem.models, truth, library().make);
+  for (int toss = 0; toss < count; ++toss) {
+    Random random = Random::forPurpose(17, "toss", static_cast<std::uint64_t>(toss));
+    Recording recording;
+    recording.source = "toss_" + std::to_string(toss) + ".csv";
+    recording.channels = {"time_s",       "cube.base.x_m", "cube.base.y_m", "cube.base.z_m",
+                          "cube.base.qw", "cube.base.qx",  "cube.base.qy",  "cube.base.qz"};
+    recording.columns.assign(8, {});
+    for (int row = 0; row < 80; ++row) {
+      recording.columns[0].push_back(row / 150.0);
+      for (std::size_t c = 1; c < 8; ++c) recording.columns[c].push_back(c == 4 ? 1 : 0);
+    }
+    const Binding binding = bind(scene, recording);
+    StartState start = startState(scene, recording, binding);
+    const auto drawn = [&](double largest) {
+      return Eigen::Vector3d(random.uniform(-largest, largest), random.uniform(-largest, largest),
+                             random.uniform(-largest, largest));
+    };
+    const Eigen::Vector3d turned = drawn(2);
+    start.robots[0].base.linear() = Eigen::AngleAxisd(turned.norm(), turned.normalized()).toRotationMatrix();
+    start.robots[0].base.translation() = Eigen::Vector3d(0, 0, random.uniform(0.13, 0.2));
+    start.robots[0].velocity_m_s = drawn(1.2);
+    start.robots[0].spin_rad_s = drawn(6);
+    const auto replayed = replayRecording(scene, recording, binding, start);
+    EXPECT_EQ(replayed.fault, "");
+    for (std::size_t c = 0; c < binding.measured.size(); ++c)
+      for (std::size_t row = 0; row < recording.rows(); ++row)
+        recording.columns[binding.measured[c].column][row] =
+            replayed.values[c][row] + (c < 3 ? place_m : turn) * random.normal();
+    problem.recordings.push_back(recording);
+  }
+  return problem;
+}
+
+SimulatorSpec bouncing(double share) {
+  SimulatorSpec truth;
+  truth.effects = {{"restitution", "floor", {{"share", share}}}};
+  return truth;
+}
+
+TEST(TossedBody, WindowsBeginWhereTheRecordingTellsTheState) {
+  const SimulatorSpec truth = bouncing(0.4);
+  const GapProblem problem = tosses(truth, 8, 2e-4, 1e-3);
+  FitProblem cut = makeFitProblem(problem, problem.recordings, library());
+  EXPECT_EQ(cut.window_s, 0.1);
+  // What the true simulator is off by where nothing is fitted: the estimated states' errors alone.
+  const auto error = [&] {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const Segment& segment : cut.segments) {
+      const std::vector<double> none(segment.nuisances.size(), 0);
+      for (const double r : residualsOf(cut, segment, cut.sceneOf(truth, segment.trial), none)) sum += r * r;
+      count += segment.row.size();
+    }
+    return std::sqrt(sum / static_cast<double>(count));
+  };
+  const double between = error();
+  cut.impacts = false;
+  cutSegments(cut, cut.window_s);
+  EXPECT_LT(between, 0.5 * error());
+}
+
+TEST(TossedBody, WhatTheFloorGivesBackIsFound) {
+  constexpr double share = 0.6;
+  AnalysisOptions options;
+  options.effects = {"restitution", "slip"};
+  const GapReport report = analyse(tosses(bouncing(share), 2, 5e-4, 2e-3), library(), options);
+  EXPECT_EQ(report.verdict, GapReport::Verdict::missingPhysics) << report.sentence;
+  // Accepted ones come first.
+  ASSERT_FALSE(report.tried.empty());
+  for (const GapReport::Effect& effect : report.tried)
+    EXPECT_EQ(effect.effect == "restitution", effect.accepted) << effect.effect << ": " << effect.reason;
+  const GapReport::Number& found = report.tried[0].parameters.at(0);
+  EXPECT_NEAR(found.value, share, 0.1 * share) << found.ci95.low << " to " << found.ci95.high;
+  // Half of the excess over the noise at least.
+  EXPECT_LT(report.ladder.back().error - 1, 0.5 * (report.ladder.front().error - 1));
+}
+
+}  // namespace
+}  // namespace btr

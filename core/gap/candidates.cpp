@@ -43,15 +43,34 @@ std::vector<double> triesOf(const Parameter& p) {
     constexpr double wider = 1.25;
     constexpr std::size_t most = 26;
     std::vector<double> tries;
-    for (double value = std::ceil(p.minimum); value <= p.maximum && tries.size() < most;
+    // The same numbers whatever the recordings allow.
+    for (double value = std::min(1.0, std::ceil(p.minimum)); value <= p.maximum && tries.size() < most;
          value = std::max(value + 1, p.integer ? std::round(wider * value) : 0))
-      tries.push_back(value);
+      if (value >= p.minimum) tries.push_back(value);
     return tries;
   }
   const double range = p.maximum - p.minimum;
   if (p.minimum > 0 && p.maximum / p.minimum > 20)
     return {p.byDefault, std::max(p.minimum, p.byDefault / 4), std::min(p.maximum, p.byDefault * 4)};
   return {p.byDefault, p.minimum + 0.25 * range, p.minimum + 0.75 * range};
+}
+
+/// How far a joint's position moves in all recordings together [rad or m]; of what is no measured joint 0.
+double travelOf(const FitProblem& problem, const std::string& at) {
+  const Scene scene = problem.sceneOf(problem.given, 0);
+  double low = INFINITY, high = -INFINITY;
+  for (const FitTrial& trial : problem.trials)
+    for (const Binding::Measured& measured : trial.binding.measured) {
+      if (measured.what != Binding::Measured::What::position) continue;
+      const SceneRobot& robot = scene.robots[measured.object];
+      if (robot.name + "." + robot.model.joints[measured.part].name != at) continue;
+      for (const double value : trial.recording.columns[measured.column])
+        if (std::isfinite(value)) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+    }
+  return std::max(0.0, high - low);
 }
 
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
@@ -105,11 +124,37 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
   return candidates;
 }
 
+std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at) {
+  constexpr double leastPeriods = 2;
+  const auto made = problem.library.make(effect);
+  std::vector<Parameter> declared = made->parameters();
+  const std::string periods = made->periodsPerTurn();
+  if (periods.empty()) return declared;
+  const double travel = travelOf(problem, at);
+  for (Parameter& p : declared)
+    if (p.name == periods) {
+      p.minimum = std::max(p.minimum, travel > 0 ? std::ceil(leastPeriods * 2 * M_PI / travel) : INFINITY);
+      p.byDefault = std::max(p.byDefault, p.minimum);
+    }
+  return declared;
+}
+
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
                                            const std::vector<std::string>& names) {
   std::vector<PlacedEffect> there = problem.given.effects;
   there.insert(there.end(), model.effects.begin(), model.effects.end());
-  return candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names);
+  std::vector<EffectCandidate> candidates =
+      candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names);
+  std::erase_if(candidates, [&](EffectCandidate& candidate) {
+    const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at);
+    if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
+    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum)) {
+      candidate.declared = shown;
+      candidate.variants = variantsOf(shown);
+    }
+    return false;
+  });
+  return candidates;
 }
 
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {

@@ -21,7 +21,11 @@ struct EffectCandidate {
 std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
                                            const std::vector<PlacedEffect>& there,
                                            const std::vector<std::string>& names);
-/// The same for a fit: without those that the simulator as given or `model` already has.
+/// What an effect declares, as far as the recordings can show it at a place: periods are called so only where the
+/// motion passes two of them. A minimum above the maximum: not at all.
+std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at);
+/// The same for a fit: without those that the simulator as given or `model` already has, and those that the recordings
+/// cannot show.
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
                                            const std::vector<std::string>& names);
 

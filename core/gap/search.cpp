@@ -71,7 +71,7 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
   constexpr int iterations = 8, mostRounds = 6;
   constexpr double better = 0.995;
   const PlacedEffect last = fit.model.effects.back();
-  for (const Parameter& p : problem_.library.make(last.effect)->parameters()) {
+  for (const Parameter& p : parametersAt(problem_, last.effect, last.at)) {
     if (!p.integer) continue;
     for (int round = 0; round < mostRounds; ++round) {
       const double here = fit.model.effects.back().parameters.at(p.name);

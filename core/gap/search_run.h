@@ -122,6 +122,9 @@ class SearchRun {
   /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   void findRivals(SearchResult& result);
+  /// The simpler effects of effect `i`, begun at its numbers: where they alone began, a side minimum may have kept
+  /// them.
+  void beginAtRicher(std::size_t i, const SearchResult& result, std::vector<Tried>& others) const;
   void compareAtOneStep(SearchResult& result, std::vector<Tried>& others);
   bool rivalsOfEach(SearchResult& result);  ///< true if an effect was replaced
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;

@@ -59,6 +59,9 @@ class Effect {
   /// Names of simpler effects that at the same place together are the same law for some of its values: no recording of
   /// these tells one from the other. Empty if there are none.
   virtual std::vector<std::string> togetherWith() const { return {}; }
+  /// Name of a whole number of periods in a turn (2π) of the joint's position; empty if it has none. Recordings show
+  /// such an effect where they pass several periods: over less any curve of the position looks the same.
+  virtual std::string periodsPerTurn() const { return {}; }
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }

@@ -19,6 +19,7 @@ class TorqueRipple final : public btr::Effect {
             {"phase_rad", "rad", "phase at position 0", -3.1416, 3.1416, 0}};
   }
   Place place() const override { return Place::joint; }
+  std::string periodsPerTurn() const override { return "per_turn"; }
   double torque(const btr::JointState& joint, std::span<const double> values) const override {
     return values[0] * std::sin(values[1] * joint.position + values[2]);
   }

@@ -132,6 +132,50 @@ TEST(Analysis, TheTeethOfATorqueRippleAreCounted) {
   }
 }
 
+/// A spring that hardens: τ = −k·q³. No effect of the library.
+class HardeningSpring final : public Effect {
+  std::vector<Parameter> parameters() const override {
+    return {{"stiffness_nm_rad3", "N·m/rad³", "torque per cubed turn", 0, 20, 1, 0.0}};
+  }
+  Place place() const override { return Place::joint; }
+  double torque(const JointState& joint, std::span<const double> values) const override {
+    return -values[0] * joint.position * joint.position * joint.position;
+  }
+};
+
+// A spring and one wave of a ripple are a cubic over the range that the joint moves in.
+TEST(Analysis, ASpringThatHardensIsNoSpringWithARipple) {
+  EffectLibrary world = library();
+  world.make = [known = world.make](const std::string& name) {
+    return name == "hardening_spring" ? std::make_shared<const HardeningSpring>() : known(name);
+  };
+  const GapProblem problem =
+      recordedFrom({{}, {{"hardening_spring", "rig.hinge", {{"stiffness_nm_rad3", 2}}}}}, 0.6, 0, world);
+  AnalysisOptions options;
+  options.effects = {"joint_spring", "torque_ripple", "coulomb_friction", "viscous_friction"};
+  const GapReport report = analyse(problem, library(), options);
+  EXPECT_EQ(report.verdict, GapReport::Verdict::unexplained) << report.sentence;
+  EXPECT_GT(report.ladder.front().error, 5) << "there was something to explain";
+}
+
+TEST(EffectCandidates, PeriodsAreCountedWhereTheMotionPassesTwoOfThem) {
+  const GapProblem recorded = recordedFrom({});
+  const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
+  double low = INFINITY, high = -INFINITY;
+  for (const Recording& recording : recorded.recordings)
+    for (const double q : recording.columns[2]) {
+      low = std::min(low, q);
+      high = std::max(high, q);
+    }
+  const auto ripple = [&](const std::string& at) { return parametersAt(problem, "torque_ripple", at)[1]; };
+  EXPECT_EQ(ripple("rig.hinge").name, "per_turn");
+  EXPECT_EQ(ripple("rig.hinge").minimum, std::ceil(4 * M_PI / (high - low)));
+  for (const EffectCandidate& candidate : candidatesFor(problem, givenModel(problem), {"torque_ripple"})) {
+    EXPECT_EQ(candidate.at, "rig.hinge") << "the rail was not measured";
+    for (const Values& variant : candidate.variants) EXPECT_GE(variant.at("per_turn"), ripple("rig.hinge").minimum);
+  }
+}
+
 TEST(Analysis, ADelayIsNotTakenForFriction) {
   const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.02}}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});

@@ -31,7 +31,8 @@ inline constexpr double noise_rad = 0.0005;
 
 /// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise. The hinge moves
 /// from the beginning at `startRate_rad_s`.
-inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0) {
+inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0,
+                               const EffectLibrary& effects = library()) {
   GapProblem problem;
   problem.scene = hingeScene();
   const TemporaryFolder folder;
@@ -40,7 +41,7 @@ inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6
   spec.directory = folder.file(".");
   problem.models = loadModels(spec);
   spec.step_s = 0.0001;
-  const Scene scene = makeScene(spec, problem.models, truth, library().make);
+  const Scene scene = makeScene(spec, problem.models, truth, effects.make);
   for (std::uint64_t trial = 0; trial < 3; ++trial) {
     Random random = Random::forPurpose(5, "trial", trial);
     const double f1 = random.uniform(0.3, 0.7), f2 = random.uniform(1, 2.5), phase = random.uniform(0, 6);

@@ -12,6 +12,11 @@
 namespace btr {
 namespace {
 
+double samplePeriod(const Recording& recording) {
+  const std::vector<double>& time = recording.columns[0];
+  return (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+}
+
 /// True if something of a fixed rig is not held by a servo and no trial could forget how it began.
 bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
@@ -77,8 +82,7 @@ std::vector<double> plainResiduals(const FitProblem& problem) {
 void chooseStep(FitProblem& problem) {
   constexpr double leastHarmless = 0.1, ofError = 0.01;  // noise floors; of the error that there is to explain
   const double asGiven = problem.scene.step_s;
-  const std::vector<double>& time = problem.trials[0].recording.columns[0];
-  const double sample = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  const double sample = samplePeriod(problem.trials[0].recording);
   const std::vector<double> fine = plainResiduals(problem);
   double error = 0;
   for (const double residual : fine) error += residual * residual / static_cast<double>(fine.size());
@@ -164,7 +168,8 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
     if (ready.impacts) {
       // Short enough for one impact. (Free runs of real tosses of 0.7 s end after four impacts where the integration's
       // own error is as large as what there is to explain; in windows of 0.1 s it is below the noise floor.)
-      window_s = 0.1;
+      constexpr double oneImpact_s = 0.1, leastSamples = 12;
+      window_s = std::max(oneImpact_s, leastSamples * samplePeriod(ready.trials[0].recording));
       ready.differenceStep = 0.1;
     } else if (std::any_of(scene.robots.begin(), scene.robots.end(),
                            [](const SceneRobot& robot) { return robot.freeBase; })) {

@@ -75,6 +75,18 @@ TEST(TossedBody, WindowsBeginWhereTheRecordingTellsTheState) {
   EXPECT_LT(between, 0.5 * error());
 }
 
+TEST(TossedBody, SlowSamplesMakeLongerWindows) {
+  GapProblem problem = tosses({}, 1, 2e-4, 1e-3);
+  for (std::vector<double>& column : problem.recordings[0].columns) {
+    std::vector<double> every;
+    for (std::size_t row = 0; row < column.size(); row += 5) every.push_back(column[row]);
+    column = every;
+  }
+  const FitProblem cut = makeFitProblem(problem, problem.recordings, library());
+  EXPECT_NEAR(cut.window_s, 12 * 5 / 150.0, 1e-9);
+  EXPECT_FALSE(cut.segments.empty());
+}
+
 TEST(TossedBody, WhatTheFloorGivesBackIsFound) {
   constexpr double share = 0.6;
   AnalysisOptions options;

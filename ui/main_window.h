@@ -19,7 +19,7 @@ class QMenu;
 namespace btr {
 struct GapReport;
 struct GridSummary;
-}
+}  // namespace btr
 namespace btr::ui {
 class Alarm;
 class ComparePage;
@@ -169,7 +169,8 @@ class MainWindow : public QMainWindow {
   void watchGrid();
   void stopGrid(Id grid);
   void checkGridProcess();
-  std::vector<RunGroup> gridsInTree();
+  bool isGridLearning();
+  std::vector<RunGroup> gridsInTree() const;
   void playKick(Id grid, double distance_m, double bearing_rad, double direction_rad);
 
   // main_window_merge.cpp
@@ -199,8 +200,8 @@ class MainWindow : public QMainWindow {
   std::set<Id> measuredMeanwhile_;
   QTimer processes_;           ///< runs while one of them may end
   bool gridLaunched_ = false;  ///< a process of ours that learns grids, whose end was not seen yet
-  bool sized_ = false;     ///< the docks have got their sizes
-  RunRecord run_;          ///< the followed run as last seen
+  bool sized_ = false;         ///< the docks have got their sizes
+  RunRecord run_;              ///< the followed run as last seen
   QString unit_;
   std::vector<Parameter> genotype_;        ///< of its controller
   std::vector<std::size_t> policiesSeen_;  ///< what the page of L2 was made from

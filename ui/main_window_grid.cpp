@@ -1,6 +1,7 @@
 // The whole kick in the window: its page is filled from the database that is open; kicks are played in the 3D view.
 #include <QCoreApplication>
 #include <QDockWidget>
+#include <QFile>
 #include <QStandardPaths>
 
 #include "core/run/grid_cells.h"
@@ -17,6 +18,15 @@
 #include "ui/scene3d/replay_panel.h"
 
 namespace btr::ui {
+namespace {
+
+QString changedGridFile() {
+  return QStringLiteral("%1/uchilsim-%2-grid.json")
+      .arg(QStandardPaths::writableLocation(QStandardPaths::TempLocation))
+      .arg(QCoreApplication::applicationPid());
+}
+
+}  // namespace
 
 void MainWindow::makeGridPage() {
   gridPage_ = new GridPage(launcher_.program(), this);
@@ -30,7 +40,7 @@ void MainWindow::connectGrid() {
   connect(gridPage_, &GridPage::newRequested, this, &MainWindow::describeGrid);
   connect(gridPage_, &GridPage::stopRequested, this, &MainWindow::stopGrid);
   connect(gridPage_, &GridPage::continueRequested, this, [this](Id grid) {
-    if (launcher_.isGridAlive()) return report(tr("A grid is being learned; stop it, or wait until it is done."));
+    if (isGridLearning()) return;
     if (launcher_.continueGrid(databasePath(), grid, panel_->jobs())) watchGrid();
   });
   connect(&watcher_, &DatabaseWatcher::activeChanged, this, [this] {
@@ -45,15 +55,9 @@ void MainWindow::connectGrid() {
   });
 }
 
-std::vector<RunGroup> MainWindow::gridsInTree() {
+std::vector<RunGroup> MainWindow::gridsInTree() const {
   std::vector<RunGroup> groups;
-  guard([&] {
-    for (const GridRecord& grid : watcher_.database().grids()) {
-      groups.push_back({grid.id, GridPage::nameOf(grid), {}});
-      for (const GridCellRecord& cell : watcher_.database().gridCells(grid.id))
-        if (cell.run) groups.back().cells[cell.run] = cell.number;
-    }
-  });
+  for (const auto& [grid, cellOfRun] : watcher_.grids()) groups.push_back({grid.id, GridPage::nameOf(grid), cellOfRun});
   return groups;
 }
 
@@ -76,17 +80,27 @@ GridState MainWindow::stateOf(const GridSummary& grid) const {
   state.isFinished = isGridFinished(watcher_.database(), grid.grid.id);
   if (state.isFinished) return state;
   const auto each = static_cast<int>(valueOf(gridParameters(), grid.spec.settings, "generations"));
-  for (const GridCellRecord& cell : watcher_.database().gridCells(grid.grid.id)) {
-    if (cell.mirrorOf) continue;
-    state.total += each;
-    if (cell.run) state.done += std::min(each, watcher_.database().run(cell.run).generation);
-  }
+  state.total = grid.learning * each;
+  const auto watched = std::ranges::find(watcher_.grids(), grid.grid.id, [](const auto& g) { return g.record.id; });
+  if (watched == watcher_.grids().end()) return state;
+  const std::vector<GridCell> cells = cellsOf(grid.spec);
+  for (const RunRecord& run : watcher_.runs())
+    if (const auto cell = watched->cellOfRun.find(run.id);
+        cell != watched->cellOfRun.end() && !cells[static_cast<std::size_t>(cell->second - 1)].mirrorOf)
+      state.done += std::min(each, run.generation);
   return state;
+}
+
+/// Says so, too.
+bool MainWindow::isGridLearning() {
+  if (!launcher_.isGridAlive()) return false;
+  report(tr("A grid is being learned; stop it, or wait until it is done."));
+  return true;
 }
 
 void MainWindow::describeGrid() {
   if (!watcher_.isOpen()) return;
-  if (launcher_.isGridAlive()) return report(tr("A grid is being learned; stop it, or wait until it is done."));
+  if (isGridLearning()) return;
   auto* form = new GridForm(this);
   form->setAttribute(Qt::WA_DeleteOnClose);
   if (const QStringList examples = exampleGrids(); !examples.isEmpty())
@@ -100,9 +114,7 @@ void MainWindow::startGrids(const GridForm& form) {
   guard([&] {
     QString file = form.file();
     if (form.isModified()) {
-      file = QStringLiteral("%1/uchilsim-%2-grid.json")
-                 .arg(QStandardPaths::writableLocation(QStandardPaths::TempLocation))
-                 .arg(QCoreApplication::applicationPid());
+      file = changedGridFile();
       writeFile(file.toStdString(), form.portableText());
     }
     if (!launcher_.learnGrids(databasePath(), file, panel_->jobs())) return;
@@ -131,8 +143,9 @@ void MainWindow::stopGrid(Id grid) {
 void MainWindow::checkGridProcess() {
   if (!gridLaunched_ || launcher_.isGridAlive()) return;
   gridLaunched_ = false;
+  QFile::remove(changedGridFile());
   const QString words = launcher_.lastGridWords();
-  if (!words.isEmpty() && !words.contains(QStringLiteral("stopped"))) report(words);
+  if (!words.isEmpty() && !words.contains(QStringLiteral("btr: stopped"))) report(words);
   if (gridPage_->isVisible()) readGrids();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/extent.h"
+
 namespace btr {
 namespace {
 
@@ -57,20 +59,14 @@ std::vector<double> triesOf(const Parameter& p) {
 
 /// How far a joint's position moves in all recordings together [rad or m]; of what is no measured joint 0.
 double travelOf(const FitProblem& problem, const std::string& at) {
-  const Scene scene = problem.sceneOf(problem.given, 0);
-  double low = INFINITY, high = -INFINITY;
+  Extent position;
   for (const FitTrial& trial : problem.trials)
     for (const Binding::Measured& measured : trial.binding.measured) {
       if (measured.what != Binding::Measured::What::position) continue;
-      const SceneRobot& robot = scene.robots[measured.object];
-      if (robot.name + "." + robot.model.joints[measured.part].name != at) continue;
-      for (const double value : trial.recording.columns[measured.column])
-        if (std::isfinite(value)) {
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
+      const auto channel = parseChannel(trial.recording.channels[measured.column]);
+      if (channel && channel->owner + "." + channel->part == at) position.add(trial.recording.columns[measured.column]);
     }
-  return std::max(0.0, high - low);
+  return position.some() ? position.high - position.low : 0;
 }
 
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {

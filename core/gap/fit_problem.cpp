@@ -12,11 +12,6 @@
 namespace btr {
 namespace {
 
-double samplePeriod(const Recording& recording) {
-  const std::vector<double>& time = recording.columns[0];
-  return (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-}
-
 /// True if something of a fixed rig is not held by a servo and no trial could forget how it began.
 bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
@@ -34,10 +29,11 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   return false;
 }
 
+bool hasFreeBase(const Scene& scene) { return std::ranges::any_of(scene.robots, &SceneRobot::freeBase); }
+
 /// A body without joints that flies, hits and slides: its whole state is recorded, and each impact multiplies an error.
 bool isTossed(const Scene& scene) {
-  return std::ranges::any_of(scene.robots, [](const SceneRobot& robot) { return robot.freeBase; }) &&
-         std::ranges::all_of(scene.robots, [](const SceneRobot& robot) {
+  return hasFreeBase(scene) && std::ranges::all_of(scene.robots, [](const SceneRobot& robot) {
            return std::ranges::all_of(robot.model.joints,
                                       [](const Joint& joint) { return joint.type == Joint::Type::fixed; });
          });
@@ -82,7 +78,7 @@ std::vector<double> plainResiduals(const FitProblem& problem) {
 void chooseStep(FitProblem& problem) {
   constexpr double leastHarmless = 0.1, ofError = 0.01;  // noise floors; of the error that there is to explain
   const double asGiven = problem.scene.step_s;
-  const double sample = samplePeriod(problem.trials[0].recording);
+  const double sample = problem.trials[0].recording.samplePeriod();
   const std::vector<double> fine = plainResiduals(problem);
   double error = 0;
   for (const double residual : fine) error += residual * residual / static_cast<double>(fine.size());
@@ -169,10 +165,9 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       // Short enough for one impact. (Free runs of real tosses of 0.7 s end after four impacts where the integration's
       // own error is as large as what there is to explain; in windows of 0.1 s it is below the noise floor.)
       constexpr double oneImpact_s = 0.1, leastSamples = 12;
-      window_s = std::max(oneImpact_s, leastSamples * samplePeriod(ready.trials[0].recording));
+      window_s = std::max(oneImpact_s, leastSamples * ready.trials[0].recording.samplePeriod());
       ready.differenceStep = 0.1;
-    } else if (std::any_of(scene.robots.begin(), scene.robots.end(),
-                           [](const SceneRobot& robot) { return robot.freeBase; })) {
+    } else if (hasFreeBase(scene)) {
       // Runs freely, from where it stood or was let go: in the middle of a walk nothing recorded tells its contacts
       // well enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start,
       // and 5 to 11 in windows of 0.25 s to 2 s whose initial states are fitted.)

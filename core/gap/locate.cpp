@@ -283,9 +283,7 @@ std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel) {
 std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProblem& problem) {
   // Short windows see an error where it is made.
   FitProblem windows = problem;
-  const auto& time = problem.trials[0].recording.columns[0];
-  const double sample = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  cutSegments(windows, std::max(0.2, 20 * sample));
+  cutSegments(windows, std::max(0.2, 20 * problem.trials[0].recording.samplePeriod()));
   const Fit fit = fitModel(windows, calibrated, {}, {3, true});
   Eigen::VectorXd residuals = residualsOf(windows, fit.model, fit.shifts);
   const FitProblem* used = &windows;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/extent.h"
 #include "core/gap/report_figures.h"
 #include "core/spec/random.h"
 
@@ -23,16 +24,10 @@ std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Sce
     if (input.what != Binding::Input::What::command) continue;
     const SceneRobot& robot = scene.robots[input.robot];
     const Joint& joint = robot.model.joints[input.joint];
-    double low = INFINITY, high = -INFINITY;
-    for (const FitTrial& trial : problem.trials)
-      for (const double value : trial.recording.columns[input.column])
-        if (std::isfinite(value)) {
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
-    if (!(high > low) || robot.drives[input.joint].kind == Drive::Kind::torque) continue;
-    low = std::max(low, joint.lower);
-    high = std::min(high, joint.upper);
+    Extent commanded;
+    for (const FitTrial& trial : problem.trials) commanded.add(trial.recording.columns[input.column]);
+    if (!commanded.some() || robot.drives[input.joint].kind == Drive::Kind::torque) continue;
+    const double low = std::max(commanded.low, joint.lower), high = std::min(commanded.high, joint.upper);
     joints.push_back({input.robot, input.joint, robot.name + "." + joint.name,
                       joint.type == Joint::Type::slide ? "command_m" : "command_rad", (low + high) / 2,
                       (high - low) / 2});

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/gap/even_grid.h"
+#include "core/gap/extent.h"
 #include "core/gap/noise_floor.h"
 #include "core/gap/residual.h"
 
@@ -29,18 +30,9 @@ std::string sensorOf(const std::string& channel) {
   return name->quantity[0] == 'q' ? "orientation" : "place";
 }
 
-struct Extent {
-  double low = INFINITY, high = -INFINITY;
-  bool empty() const { return !(high >= low); }
-};
-
 Extent extentOf(const std::vector<double>& values) {
   Extent extent;
-  for (const double value : values)
-    if (std::isfinite(value)) {
-      extent.low = std::min(extent.low, value);
-      extent.high = std::max(extent.high, value);
-    }
+  extent.add(values);
   return extent;
 }
 

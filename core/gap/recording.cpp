@@ -241,6 +241,10 @@ void readRows(CsvReader& reader, const HashingBuffer& file, std::uintmax_t size,
 
 }  // namespace
 
+double Recording::samplePeriod() const {
+  return (columns[0].back() - columns[0].front()) / static_cast<double>(rows() - 1);
+}
+
 int Recording::column(const std::string& name) const {
   const auto found = std::find(channels.begin(), channels.end(), name);
   return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());

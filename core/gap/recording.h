@@ -30,6 +30,7 @@ struct Recording {
   FilePlaces places;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
+  double samplePeriod() const;                ///< mean [s]; of at least two rows
   int column(const std::string& name) const;  ///< or −1
   /// "FILE line 3, column 2 (CHANNEL)" as far as it is known; `row` 0 is the first one.
   std::string at(std::size_t column, std::size_t row) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/extent.h"
 #include "core/gap/learned_force.h"
 
 namespace btr {
@@ -17,16 +18,6 @@ struct Option {
   std::string unitX;
 };
 
-struct Range {
-  double low = INFINITY, high = -INFINITY;
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool some() const { return high > low; }
-};
-
 /// Curves over what each joint and ball did, over the range that it did it in.
 std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
   std::vector<Option> options;
@@ -34,7 +25,7 @@ std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
   for (const auto& measured : first.binding.measured) {
     if (measured.what != Binding::Measured::What::position && measured.what != Binding::Measured::What::ballPosition)
       continue;
-    Range position, speed, time;
+    Extent position, speed, time;
     for (const FitTrial& trial : problem.trials)
       for (const auto& other : trial.binding.measured) {
         if (other.what != measured.what || other.object != measured.object || other.part != measured.part) continue;
@@ -53,14 +44,14 @@ std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
       const bool slides = robot.model.joints[measured.part].type == Joint::Type::slide;
       const double strength = drive.maxTorque < 1e8 ? drive.maxTorque : drive.p > 0 ? drive.p * 0.1 : 1;
       const std::string at = robot.name + "." + robot.model.joints[measured.part].name;
-      const auto add = [&](Over over, Range range, const char* unit) {
+      const auto add = [&](Over over, Extent range, const char* unit) {
         options.push_back({{over, Along::joint, range.low, range.high, 0.02 * strength}, at, unit});
       };
       add(Over::position, position, slides ? "m" : "rad");
       add(Over::velocity, speed, slides ? "m/s" : "rad/s");
       add(Over::time, time, "s");
       if (drive.kind != Drive::Kind::none) {
-        Range load{-strength, strength};
+        Extent load{-strength, strength};
         add(Over::load, load, slides ? "N" : "N·m");
       }
     } else if (measured.part < 2) {

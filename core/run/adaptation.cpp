@@ -130,8 +130,6 @@ class Adaptation {
   bool finish();
 
  private:
-  void publish(double best, double mean);
-
   RunContext& context_;
   const int stage_;
   const SimulatorRecord parent_;
@@ -178,27 +176,20 @@ bool Adaptation::begin() {
   for (AdaptationCandidate& c : all_) c.error = known_.at(c.parameters);
   number_ = firstNumber_ = static_cast<int>(earlier.size());
   begun_ = std::chrono::steady_clock::now();
+  context_.progress.stage = "L3";
+  context_.progress.stageTotal = generations_;
+  context_.progress.stageDone = number_;
   if (!earlier.empty()) {
     random_.setState(earlier.back().randomState);
     learner_->setState(earlier.back().learnerState);
-    publish(earlier.back().bestError, earlier.back().meanError);
+    context_.progress.best = earlier.back().bestError;
+    context_.progress.mean = earlier.back().meanError;
   }
+  context_.publish(false);
   return true;
 }
 
-void Adaptation::publish(double best, double mean) {
-  context_.progress.stage = "L3";
-  context_.progress.stageTotal = generations_;
-  context_.progress.stageDone = number_;
-  context_.progress.best = best;
-  context_.progress.mean = mean;
-  context_.publish(false);
-}
-
 bool Adaptation::breed() {
-  context_.progress.stage = "L3";
-  context_.progress.stageTotal = generations_;
-  context_.progress.stageDone = number_;
   const std::vector<Candidate> candidates = learner_->ask(random_);
   if (!evaluateCandidates(context_, evidence_, parent_.simulator, candidates, known_)) return false;
   AdaptationRecord record;
@@ -226,7 +217,10 @@ bool Adaptation::breed() {
   const double each =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count() / (number_ - firstNumber_);
   context_.progress.secondsLeft = each * (generations_ - number_);
-  publish(record.bestError, record.meanError);
+  context_.progress.stageDone = number_;
+  context_.progress.best = record.bestError;
+  context_.progress.mean = record.meanError;
+  context_.publish(false);
   return true;
 }
 

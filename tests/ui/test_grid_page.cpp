@@ -29,6 +29,14 @@ using namespace btr::ui;
 
 namespace {
 
+/// kick.json in the folder: the short kick with a population of its own.
+void writeSmallKick(const QTemporaryDir& folder, int population) {
+  nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
+  experiment["scene"] = SOURCE_DIR "/resources/scenes/kick.json";
+  experiment["learner"]["settings"]["population"] = population;
+  writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+}
+
 GridSummary summaryOf(Id grid) {
   GridSummary s;
   s.grid.id = grid;
@@ -372,10 +380,7 @@ class TestGridPage : public QObject {
   void aGridIsLearnedFromItsFormToItsEnd() {
     const QTemporaryDir folder;
     const auto host = std::make_shared<const PluginHost>(PLUGIN_DIR);
-    nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
-    experiment["scene"] = SOURCE_DIR "/resources/scenes/kick.json";
-    experiment["learner"]["settings"]["population"] = 4;
-    writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+    writeSmallKick(folder, 4);
     Database::open(folder.filePath("a.db").toStdString(), Database::Mode::create);
     Theme theme(*qApp);
     MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});
@@ -429,10 +434,7 @@ class TestGridPage : public QObject {
   void theWindowShowsAStoredGridAndPlaysAKickBetweenItsCells() {
     const QTemporaryDir folder;
     const auto host = std::make_shared<const PluginHost>(PLUGIN_DIR);
-    nlohmann::json experiment = nlohmann::json::parse(readFile(SOURCE_DIR "/resources/experiments/kick-short.json"));
-    experiment["scene"] = SOURCE_DIR "/resources/scenes/kick.json";
-    experiment["learner"]["settings"]["population"] = 2;
-    writeFile(folder.filePath("kick.json").toStdString(), experiment.dump());
+    writeSmallKick(folder, 2);
     const nlohmann::json grid{{"format", "uchilsim-grid-1"},
                               {"name", "tiny"},
                               {"experiment", "kick.json"},

@@ -38,7 +38,7 @@ void DatabaseWatcher::open(const QString& path) {
   run_ = 0;
   runs_.clear();
   stages_.clear();
-  gridRuns_.clear();
+  grids_.clear();
   active_.clear();
   activeGrids_.clear();
   timer_.start();
@@ -62,9 +62,9 @@ void DatabaseWatcher::poll() {
     const bool changed = version != version_;
     version_ = version;
     if (changed) {
+      const std::size_t before = runs_.size();
       runs_ = database_->runs();
-      for (const GridRecord& grid : database_->grids())
-        for (const GridCellRecord& cell : database_->gridCells(grid.id)) gridRuns_[grid.id].insert(cell.run);
+      if (runs_.size() != before) readGrids();
     }
     const bool activity = readActive();
     if (changed) {
@@ -81,13 +81,24 @@ void DatabaseWatcher::poll() {
   }
 }
 
+// A grid and each of its cells come with the runs that learn them, so nothing is new where no run is.
+void DatabaseWatcher::readGrids() {
+  grids_.clear();
+  for (GridRecord& record : database_->grids()) {
+    Grid& grid = grids_.emplace_back();
+    for (const GridCellRecord& cell : database_->gridCells(record.id))
+      if (cell.run) grid.cellOfRun[cell.run] = cell.number;
+    grid.record = std::move(record);
+  }
+}
+
 // A process may begin or end without writing: asked every time, for the runs that can have one.
 bool DatabaseWatcher::readActive() {
   std::set<Id> active, activeGrids, ofGrids;
-  for (const auto& [grid, runs] : gridRuns_)
-    if (isGridActive(database_->path(), grid)) {
-      activeGrids.insert(grid);
-      ofGrids.insert(runs.begin(), runs.end());
+  for (const Grid& grid : grids_)
+    if (isGridActive(database_->path(), grid.record.id)) {
+      activeGrids.insert(grid.record.id);
+      for (const auto& [run, cell] : grid.cellOfRun) ofGrids.insert(run);
     }
   for (const RunRecord& run : runs_)
     if ((mayWork(run.state) && ofGrids.contains(run.id)) ||

@@ -33,6 +33,13 @@ class DatabaseWatcher : public QObject {
   Id followed() const { return run_; }
   std::set<Id> activeRuns() const { return active_; }  ///< also those of active grids that are not finished
   std::set<Id> activeGrids() const { return activeGrids_; }
+  const std::vector<RunRecord>& runs() const { return runs_; }
+  /// A grid and the runs of its cells.
+  struct Grid {
+    GridRecord record;
+    std::map<Id, int> cellOfRun;  ///< number of the cell
+  };
+  const std::vector<Grid>& grids() const { return grids_; }
 
   /// What the timer does; also called after an own write, so that it is seen at once.
   void poll();
@@ -54,6 +61,7 @@ class DatabaseWatcher : public QObject {
   void failed(const QString& message);
 
  private:
+  void readGrids();
   void readAll();
   void readRun(const RunRecord& run, bool stageTold);
   bool readActive();
@@ -63,8 +71,8 @@ class DatabaseWatcher : public QObject {
   std::optional<Database> database_;
   std::int64_t version_ = -1;
   std::vector<RunRecord> runs_;
-  std::map<Id, int> stages_;             ///< of each run, when its simulators were told
-  std::map<Id, std::set<Id>> gridRuns_;  ///< runs of each grid's cells
+  std::vector<Grid> grids_;
+  std::map<Id, int> stages_;  ///< of each run, when its simulators were told
   std::set<Id> active_, activeGrids_;
   Id run_ = 0;
   bool fresh_ = true;  ///< nothing of the followed run was told yet

@@ -194,16 +194,10 @@ void RunPanel::refresh() {
   const bool isOld = adapting && (progress_.stage != "L3" || progress_.stageDone == 0);
   const bool counts = face_ == RunFace::waiting ? measuring_.wanted > 0 : active_ && progress_.stageTotal > 0 && !isOld;
   within_->setVisible(counts);
-  if (face_ == RunFace::waiting && counts && adapting && !isOld) {
-    within_->setFormat(tr("measured %1 of %2 · L3 %3 of %4")
-                           .arg(measuring_.settled)
-                           .arg(measuring_.wanted)
-                           .arg(progress_.stageDone)
-                           .arg(progress_.stageTotal));
-    within_->setRange(0, measuring_.wanted);
-    within_->setValue(measuring_.settled);
-  } else if (counts && face_ == RunFace::waiting) {
-    within_->setFormat(tr("measured %1 of %2").arg(measuring_.settled).arg(measuring_.wanted));
+  if (counts && face_ == RunFace::waiting) {
+    QString words = tr("measured %1 of %2").arg(measuring_.settled).arg(measuring_.wanted);
+    if (adapting && !isOld) words += tr(" · L3 %1 of %2").arg(progress_.stageDone).arg(progress_.stageTotal);
+    within_->setFormat(words);
     within_->setRange(0, measuring_.wanted);
     within_->setValue(measuring_.settled);
   } else if (counts) {

@@ -1,7 +1,6 @@
 #include "ui/grid/grid_form.h"
 
 #include <QCheckBox>
-#include <QDialogButtonBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -37,24 +36,25 @@ QStringList parts(QString text) {
   return text.replace(QChar(u'−'), '-').split(between, Qt::SkipEmptyParts);
 }
 
-std::vector<double> numbersIn(const QString& text, const std::string& what) {
-  std::vector<double> numbers;
+/// `read` makes one number of a part, `numbers` are its kind in words.
+template <class Read>
+auto listIn(const QString& text, const std::string& what, const std::string& numbers, Read read) {
+  std::vector<decltype(read(QString(), nullptr))> values;
   for (const QString& part : parts(text)) {
     bool isNumber = false;
-    numbers.push_back(part.toDouble(&isNumber));
-    if (!isNumber) throw InputError(what, "\"" + part.toStdString() + "\"", "numbers with commas between them");
+    values.push_back(read(part, &isNumber));
+    if (!isNumber) throw InputError(what, "\"" + part.toStdString() + "\"", numbers + " with commas between them");
   }
-  return numbers;
+  return values;
+}
+
+std::vector<double> numbersIn(const QString& text, const std::string& what) {
+  return listIn(text, what, "numbers", [](const QString& part, bool* good) { return part.toDouble(good); });
 }
 
 std::vector<std::uint64_t> seedsIn(const QString& text, const std::string& what) {
-  std::vector<std::uint64_t> seeds;
-  for (const QString& part : parts(text)) {
-    bool isNumber = false;
-    seeds.push_back(part.toULongLong(&isNumber));
-    if (!isNumber) throw InputError(what, "\"" + part.toStdString() + "\"", "whole numbers with commas between them");
-  }
-  return seeds;
+  return listIn(text, what, "whole numbers",
+                [](const QString& part, bool* good) -> std::uint64_t { return part.toULongLong(good); });
 }
 
 }  // namespace

@@ -54,7 +54,11 @@ std::vector<double> triesOf(const Parameter& p) {
   const double range = p.maximum - p.minimum;
   if (p.minimum > 0 && p.maximum / p.minimum > 20)
     return {p.byDefault, std::max(p.minimum, p.byDefault / 4), std::min(p.maximum, p.byDefault * 4)};
-  return {p.byDefault, p.minimum + 0.25 * range, p.minimum + 0.75 * range};
+  std::vector<double> tries{p.byDefault, p.minimum + 0.25 * range, p.minimum + 0.75 * range};
+  // Lengths to either side also near nothing: bodies are as small as a hand and as large as a man.
+  if (p.unit == "m" && p.minimum < 0 && p.maximum > 0 && p.byDefault == 0)
+    for (const double near : {-range / 12, range / 12}) tries.push_back(near);
+  return tries;
 }
 
 /// How far a joint's position moves in all recordings together [rad or m]; of what is no measured joint 0.

@@ -105,15 +105,14 @@ GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) c
 void SearchRun::remember(std::vector<Attempt>& attempts, const Attempt& attempt) const {
   for (Attempt& known : attempts)
     if (known.candidate.text() == attempt.candidate.text()) {
-      if (known.accepted && !attempt.accepted) return;
+      // The first time that it came as far as ever: what is promised beside others later says less of it.
+      const auto reached = [](const Attempt& a) { return a.accepted ? 3 : a.scored ? 2 : a.fitted ? 1 : 0; };
+      if (!attempt.accepted && reached(attempt) <= reached(known)) return;
       const int rank = known.rank;
       const double share = known.share;
-      if (attempt.accepted || attempt.scored || !known.scored) {
-        const bool keepFirst = !attempt.accepted && known.scored;
-        if (!keepFirst) known = attempt;
-        known.rank = rank;
-        known.share = share;
-      }
+      known = attempt;
+      known.rank = rank;
+      known.share = share;
       return;
     }
   attempts.push_back(attempt);

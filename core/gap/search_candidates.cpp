@@ -151,6 +151,11 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
 
+  for (Tried& each : tried)
+    if (each.attempt.fitted && each.fit.cost > tried[0].fit.cost)
+      each.attempt.reason = "fitted: leaves " + digits(each.fit.cost / tried[0].fit.cost, 2) +
+                            " times the squared error that " + tried[0].attempt.candidate.text() + " leaves";
+
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
   // contain; if none of them will do, the next ones.
   std::vector<std::size_t> best, next;

@@ -1,6 +1,5 @@
 // What else would explain the recordings as well, and what is of no use beside the others.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/gap/search_discoveries.h"
@@ -207,42 +206,6 @@ void SearchRun::findRivals(SearchResult& result) {
   for (int round = 1; rivalsOfEach(result) && result.effects.size() > 1 && round < mostRounds;) ++round;
 }
 
-void SearchRun::beginAtRicher(std::size_t i, const SearchResult& result, std::vector<Tried>& others) const {
-  constexpr std::array<double, 6> sizes{0.25, 0.5, 1, 2, 4, 8};
-  const Fit& whole = result.final.fit;
-  const PlacedEffect& own = whole.model.effects[i];
-  const FitModel rest = whole.model.without(i);
-  const std::vector<std::string> names = problem_.library.make(own.effect)->contains();
-  if (names.empty()) return;
-  for (const EffectCandidate& candidate : candidatesFor(problem_, rest, names)) {
-    if (candidate.at != own.at || !isConsidered(candidate.effect)) continue;
-    FitJob begin{rest.with(problem_, candidate.placed({})), whole.shifts};
-    double least = INFINITY;
-    for (const Values& variant : candidate.variants)
-      for (const double size : sizes) {
-        const FitModel model = rest.with(problem_, candidate.placed(scaledVariant(candidate, variant, size)));
-        const double cost = residualsOf(problem_, model, whole.shifts).squaredNorm();
-        if (!(cost < least)) continue;
-        least = cost;
-        begin.model = model;
-      }
-    const Scored scored = scoreAll(fitAll({begin}, toTheEnd, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
-    auto known = std::ranges::find(others, candidate.text(), [](const Tried& t) { return t.attempt.candidate.text(); });
-    if (known == others.end()) {
-      others.push_back({});
-      known = others.end() - 1;
-      known->attempt.candidate = candidate;
-      known->attempt.comparison = compare(result.calibrated.blocks, scored.blocks);
-    } else if (known->attempt.scored && known->scored.mean() <= scored.mean()) {
-      continue;
-    }
-    known->attempt.fitted = known->attempt.scored = true;
-    known->scored = scored;
-    known->fit = scored.fit;
-    known->attempt.values = scored.fit.model.simulator(problem_).effects.back().parameters;
-  }
-}
-
 /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
 /// them needed.
 void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& others) {
@@ -263,7 +226,7 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
   for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
     Scored without;
     std::vector<Tried> others = inPlaceOf(i, result, without);
-    beginAtRicher(i, result, others);
+    handOver(i, result, others);
     compareAtOneStep(result, others);
     // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
     const bool changed = replace(i, others, result);
@@ -281,6 +244,9 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
       found.rivals.push_back(
           {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
       found.rivalModels.push_back(other.fit.model);
+      for (Attempt& attempt : result.attempts)
+        if (attempt.candidate.text() == candidate.text() && !attempt.scored)
+          attempt.reason = "explains it as well, found from " + own.effect + " at " + own.at;
     }
     addTogether(place, result, others, found);
     result.effects.push_back(found);

@@ -122,9 +122,11 @@ class SearchRun {
   /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   void findRivals(SearchResult& result);
-  /// The simpler effects of effect `i`, begun at its numbers: where they alone began, a side minimum may have kept
-  /// them.
-  void beginAtRicher(std::size_t i, const SearchResult& result, std::vector<Tried>& others) const;
+  /// Adds what the recordings may not tell from effect `i`, or tell for the better: its size is taken away in steps,
+  /// and at each what is offered its place is fitted on. From afar, a fit would stop in a side minimum.
+  void handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others);
+  void addRival(const EffectCandidate& candidate, const Scored& scored, const SearchResult& result,
+                std::vector<Tried>& others) const;
   void compareAtOneStep(SearchResult& result, std::vector<Tried>& others);
   bool rivalsOfEach(SearchResult& result);  ///< true if an effect was replaced
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;

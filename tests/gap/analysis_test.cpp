@@ -223,6 +223,20 @@ TEST(Analysis, AnOffSensorOfAnOnlyJointIsNotToldFromGravityThatLeansAboutItsAxis
   EXPECT_THAT(named, testing::IsSupersetOf({"gravity_tilt", "position_offset"})) << report.sentence;
 }
 
+// Something heavy beside the arm makes its gravity larger and turns it; its inertia looks like a weaker servo.
+TEST(Analysis, AWeightBesideAnOnlyArmIsNotToldFromGravityThatLeans) {
+  AnalysisOptions options;
+  options.effects = {"gravity_tilt", "payload", "coulomb_friction"};
+  const GapReport report =
+      analyse(recordedFrom({{}, {{"payload", "rig.bob", {{"mass_kg", 0.09}, {"x_m", 0.11}, {"z_m", 0.08}}}}}),
+              library(), options);
+  ASSERT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  ASSERT_EQ(namesOf(report).size(), 1u) << report.sentence;
+  std::vector<std::string> named{report.tried[0].effect};
+  for (const GapReport::Rival& rival : report.tried[0].rivals) named.push_back(rival.effect);
+  EXPECT_THAT(named, testing::IsSupersetOf({"gravity_tilt", "payload"})) << toPlainText(report);
+}
+
 TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
   AnalysisOptions options;
   options.effects = {"coulomb_friction", "command_delay", "force_offset"};

@@ -1,0 +1,124 @@
+// Rivals that no screening sees: an effect hands its place over to another one bit by bit. What the recordings do not
+// tell from each other lies at the two ends of one valley; from afar, a fit of the other end finds some hill between.
+#include <algorithm>
+#include <array>
+
+#include "core/gap/search_run.h"
+
+namespace btr {
+namespace {
+
+constexpr std::size_t mostHandedTo = 6;
+constexpr double leastShare = 0.25;  // of the best candidate's promise
+constexpr double inTheValley = 4;    // times the final cost
+constexpr double small = 0.1;        // of a typical size: where the way begins, all is linear
+constexpr int iterationsOnTheWay = 10;
+constexpr std::array<double, 3> kept{0.7, 0.35, 0};
+
+/// The numbers of an effect with its sizes reduced to a share of what they are above neutral.
+Values reduced(const Effect& effect, Values numbers, double share) {
+  for (const Parameter& p : effect.parameters())
+    if (p.neutral && !p.integer) numbers[p.name] = *p.neutral + share * (numbers.at(p.name) - *p.neutral);
+  return numbers;
+}
+
+FitModel withFixed(const FitModel& model, const FitProblem& problem, const PlacedEffect& effect) {
+  FitModel with = model.with(problem, effect);
+  with.parameters.resize(model.parameters.size());
+  with.values.resize(model.values.size());
+  return with;
+}
+
+}  // namespace
+
+void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others) {
+  const Fit& whole = result.final.fit;
+  PlacedEffect own = whole.model.effects[i];
+  own.parameters = whole.model.simulator(problem_).effects[problem_.given.effects.size() + i].parameters;
+  const FitModel rest = whole.model.without(i);
+  const auto effect = problem_.library.make(own.effect);
+  const auto with = [&](double share) {
+    return withFixed(rest, problem_, {own.effect, own.at, reduced(*effect, own.parameters, share)});
+  };
+  const double judged_s = problem_.scene.step_s;
+  problem_.scene.step_s = stepToSearchWith(whole);
+  const double finalCost = residualsOf(problem_, whole.model, whole.shifts).squaredNorm() / 2;
+
+  std::vector<EffectCandidate> candidates = candidatesFor(problem_, whole.model, options_.names);
+  std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
+  for (EffectCandidate& candidate : candidates)
+    for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
+  const Fit base{with(kept[0]), whole.shifts, 0};
+  const std::vector<Screened> screened = screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
+                                                reporter("screening, rivals", candidates.size(), 0.95, 0.95));
+  std::vector<Screened> promising;
+  for (const Screened& each : screened)
+    if (!each.starts.empty()) promising.push_back(each);
+  const auto promised = [](const Screened& each) { return each.starts[0].share; };
+  std::ranges::stable_sort(promising, std::greater(), promised);
+  std::erase_if(promising, [least = promising.empty() ? 0 : leastShare * promised(promising[0]),
+                            &promised](const Screened& each) { return promised(each) < least; });
+  if (promising.size() > mostHandedTo) promising.resize(mostHandedTo);
+
+  struct Way {
+    const EffectCandidate* candidate;
+    std::vector<double> before;  ///< numbers of the rest and of the candidate one step ago
+    Fit fit;
+  };
+  std::vector<Way> ways;
+  for (const Screened& each : promising) {
+    const EffectCandidate& candidate = candidates[each.candidate];
+    const Screened::Start& start = each.starts[0];
+    Way way{&candidate,
+            rest.with(problem_, candidate.placed(scaledVariant(candidate, start.effect, 0))).values,
+            {base.model.with(problem_, candidate.placed(start.effect)), whole.shifts, 0}};
+    std::ranges::copy(start.parameters, way.fit.model.values.begin());
+    ways.push_back(std::move(way));
+  }
+  double from = 1;
+  for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {
+    std::vector<FitJob> jobs;
+    for (Way& way : ways) {
+      FitModel next = (kept[k] > 0 ? with(kept[k]) : rest)
+                          .with(problem_, way.candidate->placed(way.fit.model.effects.back().parameters));
+      // Straight on.
+      const double on = k > 0 ? (kept[k - 1] - kept[k]) / (from - kept[k - 1]) : 0;
+      for (std::size_t n = 0; n < next.values.size(); ++n) {
+        const double here = way.fit.model.values[n];
+        next.values[n] =
+            std::clamp(here + on * (here - way.before[n]), next.parameters[n].minimum, next.parameters[n].maximum);
+      }
+      if (k > 0) way.before = way.fit.model.values;
+      jobs.push_back({next, way.fit.shifts});
+    }
+    if (k > 0) from = kept[k - 1];
+    const std::vector<Fit> fits = fitAll(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
+    for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
+    std::erase_if(ways, [&](const Way& way) { return way.fit.cost > inTheValley * finalCost; });
+  }
+  std::vector<Fit> arrived;
+  for (const Way& way : ways) arrived.push_back(way.fit);
+  arrived = fitOn(arrived, toTheEnd, "handing over", 0.95, 0.95);
+  const std::vector<Scored> scored = scoreAll(arrived, "handing over", 0.95, 0.95);
+  for (std::size_t w = 0; w < ways.size(); ++w) addRival(*ways[w].candidate, scored[w], result, others);
+  problem_.scene.step_s = judged_s;
+}
+
+void SearchRun::addRival(const EffectCandidate& candidate, const Scored& scored, const SearchResult& result,
+                         std::vector<Tried>& others) const {
+  auto known = std::ranges::find(others, candidate.text(), [](const Tried& t) { return t.attempt.candidate.text(); });
+  if (known == others.end()) {
+    others.push_back({});
+    known = others.end() - 1;
+    known->attempt.candidate = candidate;
+  } else if (known->attempt.scored && known->scored.mean() <= scored.mean()) {
+    return;
+  }
+  known->attempt.fitted = known->attempt.scored = true;
+  known->attempt.comparison = compare(result.calibrated.blocks, scored.blocks);
+  known->scored = scored;
+  known->fit = scored.fit;
+  known->attempt.values = scored.fit.model.simulator(problem_).effects.back().parameters;
+}
+
+}  // namespace btr

@@ -276,7 +276,7 @@ void MainWindow::raiseDock(QDockWidget* dock) {
 }
 
 void MainWindow::restoreWindow() {
-  resize(1600, 1000);
+  resize(QSize(1600, 1000).boundedTo(screen()->availableSize()));
   if (const QByteArray geometry = settings_.geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
   if (const QByteArray layout = settings_.layout(); !layout.isEmpty())
     sized_ = restoreState(layout, Settings::layoutVersion);

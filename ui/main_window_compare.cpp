@@ -1,5 +1,6 @@
 // Runs side by side in the window: the page is read from the database that is open.
 #include <QDockWidget>
+#include <QScreen>
 #include <algorithm>
 
 #include "ui/charts/compare_page.h"
@@ -39,7 +40,7 @@ void MainWindow::compareRuns(const std::vector<Id>& runs) {
   comparePage_->showStages(true);
   // A wide page: it stands in a window of its own size until the user docks it.
   compareDock_->setFloating(true);
-  compareDock_->resize(1200, 800);
+  compareDock_->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
   raiseDock(compareDock_);
 }
 

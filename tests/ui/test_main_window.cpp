@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScreen>
 #include <QTest>
 #include <QTimer>
 #include <QTreeView>
@@ -448,6 +449,18 @@ class TestMainWindow : public QObject {
              qPrintable(QString("%1x%2: %3").arg(least.width()).arg(least.height()).arg(said)));
     window->resize(1366, 700);
     QCOMPARE(window->size(), QSize(1366, 700));
+  }
+
+  // The first time that it opens nobody has sized it yet: no larger than the screen, if it can be as small.
+  void theWindowOpensNoLargerThanTheScreen() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const QSize most = window->screen()->availableSize().expandedTo(window->minimumSizeHint());
+    QVERIFY2(
+        window->width() <= most.width() && window->height() <= most.height(),
+        qPrintable(
+            QString("%1x%2, %3x%4").arg(window->width()).arg(window->height()).arg(most.width()).arg(most.height())));
   }
 
   void theParametersOfIndividualsAreATable() {

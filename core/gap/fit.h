@@ -33,6 +33,10 @@ struct Fit {
 Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
              const FitOptions& options);
 
+/// The same fit with the initial states of its worst segments (far above the noise, and above most of the others)
+/// looked for from elsewhere, too; the parameters stay.
+Fit withStartsAnew(const FitProblem& problem, const Fit& fit);
+
 /// Steps of differences: of a parameter, in its scale, the way that stays inside its bounds (`scaled`: its value in
 /// scales); of an initial state, in its standard error.
 double parameterStep(const FitProblem& problem, const FitParameter& parameter, double scaled);

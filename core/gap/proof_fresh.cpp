@@ -19,7 +19,7 @@ Values freshErrors(const GapReport& report, const std::string& scene, const std:
   FitOptions options;
   options.iterations = 40;
   options.startsOnly = true;
-  const Fit fit = fitModel(problem, {}, {}, options);
+  const Fit fit = withStartsAnew(problem, fitModel(problem, {}, {}, options));
   const Eigen::VectorXd residuals = residualsOf(problem, fit.model, fit.shifts);
 
   std::map<std::string, std::pair<double, double>> sums;  // of squares, of samples

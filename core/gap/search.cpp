@@ -42,15 +42,26 @@ Scored SearchRun::calibrate() {
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
+  startAnew(best[0], "calibrating", 0.08);
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   refineStep(best, 1, "calibrating", 0.08);
   return scoreAll(best, "calibrating", 0.08, 0.1)[0];
+}
+
+/// Of a fit that ended where single trials stuck, all numbers once more.
+void SearchRun::startAnew(Fit& fit, const std::string& stage, double at) const {
+  constexpr int iterations = 15;
+  const Fit anew = withStartsAnew(problem_, fit);
+  if (anew.shifts == fit.shifts) return;
+  const Fit all = fitOn({anew}, iterations, stage, at, at)[0];
+  fit = costsLess(all, anew) ? all : anew;
 }
 
 /// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
 Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
   if (excessOf(scored) < leastToFitOn) return scored;
   std::vector<Fit> fits = fitOn({scored.fit}, toTheEnd, stage, at, at);
+  startAnew(fits[0], stage, at);
   climbWholeNumbers(fits[0], stage, at);
   refineStep(fits, 1, stage, at);
   const Scored better = scoreAll(fits, stage, at, at)[0];

@@ -79,6 +79,7 @@ class SearchRun {
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
+  void startAnew(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);
   /// The final model converged or brought to the present step, and its rung of the ladder with it.
   void settle(SearchResult& result, bool fitToTheEnd, const std::string& stage, double at);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/gap/analysis.h"
+#include "core/gap/fit.h"
 #include "tests/gap/temporary_folder.h"
 #include "tests/prove/prove_fixture.h"
 
@@ -45,6 +46,34 @@ TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
   EXPECT_THAT(namedIn(report), testing::AnyOf(testing::ElementsAre("gravity_tilt", "or payload"),
                                               testing::ElementsAre("payload", "or gravity_tilt")))
       << toPlainText(report);
+}
+
+// A ball that bounces, followed from its start with numbers that are right: a fit of the start ended where the second
+// trial's upward velocity was five standard errors off, and half of its way was missed.
+TEST(Mended, ABallsStartIsFoundAcrossItsBounces) {
+  const Plugins plugins;
+  const BlindCase blind = drawCase({20261150, 29, "ode", "flight", ""}, plugins.library);
+  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "air_drag");
+  const TemporaryFolder folder;
+  writeCase(blind, plugins.library, folder.file("."));
+  writeFresh(blind, plugins.library, folder.file("fresh"));
+  GapProblem given;
+  given.scene = loadScene(folder.file("scene.json"));
+  given.scene.step_s = 0.00025;
+  given.simulator = {{{"floor.restitution", 0.4138971744686201}},
+                     {{"air_drag", "ball", {{"drag_number", 0.31269444864451135}}}}};
+  for (const char* trial : {"fresh/trial_1.csv", "fresh/trial_2.csv"})
+    given.recordings.push_back(loadRecording(folder.file(trial)));
+  const FitProblem problem = makeFitProblem(given, given.recordings, {plugins.library.make, plugins.library.names}, 0);
+  const Fit once = fitModel(problem, {}, {}, {.iterations = 40, .startsOnly = true});
+  const Fit anew = withStartsAnew(problem, once);
+  EXPECT_LE(anew.cost, once.cost);
+  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
+    FitProblem one = problem;
+    one.segments = {problem.segments[s]};
+    const Eigen::VectorXd residuals = residualsOf(one, anew.model, {anew.shifts[s]});
+    EXPECT_LT(residuals.squaredNorm() / static_cast<double>(residuals.size()), 1.1) << "trial " << s + 1;
+  }
 }
 
 // Dry friction that stops a weak servo again and again: a fit of it alone ended in a side minimum, and friction that is

@@ -1,0 +1,82 @@
+// Across a bounce an error of a velocity is multiplied: a fit of an initial state may stop in a side minimum.
+#include <algorithm>
+
+#include "core/gap/fit.h"
+
+namespace btr {
+namespace {
+
+constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times the median segment's
+constexpr double kick = 3;                          // standard errors
+constexpr int iterations = 20;
+constexpr double better = 0.98;
+
+bool isRate(const Nuisance& nuisance) {
+  using enum Nuisance::What;
+  return nuisance.what == jointRate || nuisance.what == baseVelocity || nuisance.what == baseSpin ||
+         nuisance.what == ballVelocity;
+}
+
+double sumOfSquares(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return sum;
+}
+
+/// Where else a fit of the segment's initial state begins: as estimated, and with each velocity on either side.
+std::vector<std::vector<double>> beginnings(const Segment& segment, const std::vector<double>& shift) {
+  std::vector<std::vector<double>> all{std::vector<double>(shift.size(), 0.0)};
+  for (std::size_t k = 0; k < segment.nuisances.size(); ++k)
+    if (isRate(segment.nuisances[k]))
+      for (const double by : {-kick, kick}) {
+        all.push_back(shift);
+        all.back()[k] += by;
+      }
+  return all;
+}
+
+}  // namespace
+
+Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
+  SceneCache scenes(problem, fit.model);
+  const auto costOf = [&](std::size_t s, const std::vector<double>& shift) {
+    const Segment& segment = problem.segments[s];
+    return sumOfSquares(residualsOf(problem, segment, scenes.scene(fit.model.values, segment.trial), shift)) +
+           sumOfSquares(shift);
+  };
+  std::vector<double> costs, errors;
+  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
+    costs.push_back(costOf(s, fit.shifts[s]));
+    errors.push_back(costs.back() / std::max<double>(1, static_cast<double>(problem.segments[s].row.size())));
+  }
+  std::vector<double> sorted = errors;
+  std::ranges::sort(sorted);
+  const double limit = std::max(farFromNoise, asOthers * sorted[(sorted.size() - 1) / 2]);
+
+  const auto anew = bySegment(problem, iterations, [&](std::size_t s) {
+    std::vector<double> best = fit.shifts[s];
+    if (errors[s] <= limit) return best;
+    FitProblem one = problem;
+    one.segments = {problem.segments[s]};
+    one.jobs = 1;
+    double least = costs[s];
+    for (const std::vector<double>& begin : beginnings(problem.segments[s], fit.shifts[s])) {
+      const std::vector<double> found =
+          fitModel(one, fit.model, {begin}, {.iterations = iterations, .startsOnly = true}).shifts[0];
+      const double cost = costOf(s, found);
+      if (cost >= better * least) continue;
+      least = cost;
+      best = found;
+    }
+    return best;
+  });
+  Fit result = fit;
+  for (std::size_t s = 0; s < anew.size(); ++s) {
+    if (anew[s] == fit.shifts[s]) continue;
+    result.shifts[s] = anew[s];
+    result.cost += (costOf(s, anew[s]) - costs[s]) / 2;
+  }
+  return result;
+}
+
+}  // namespace btr

@@ -46,6 +46,7 @@ ChartScene::ChartScene(QObject* parent) : QObject(parent), chart_(new QChart) {
     emit shownChanged();
   });
   connect(chart_, &QChart::geometryChanged, this, &ChartScene::arrangeLegend);
+  connect(chart_, &QChart::geometryChanged, this, &ChartScene::updateTitle);
   overlay_ = new PlotOverlay(
       data_, hidden_, [this](QPointF value) { return toPosition(value); }, chart_);
   connect(chart_, &QChart::plotAreaChanged, this, [this](const QRectF& area) {

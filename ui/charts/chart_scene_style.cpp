@@ -1,6 +1,7 @@
 // How a ChartScene looks: colours, pens, fonts, title and legend.
 #include <QAreaSeries>
 #include <QChart>
+#include <QFontMetricsF>
 #include <QLineSeries>
 #include <QScatterSeries>
 #include <algorithm>
@@ -93,13 +94,22 @@ void ChartScene::updateTitle() {
     if (left > 0)
       notes << tr("%n value(s) at or below 0 cannot be shown on a logarithmic axis", nullptr, static_cast<int>(left));
   }
-  if (!notes.isEmpty())
-    title += QString(" &nbsp;<span style=\"color:%1\">%2</span>")
-                 .arg(colours_.note.name(), notes.join(" · ").toHtmlEscaped());
-  chart_->setTitle(data_.title.isEmpty() && notes.isEmpty() ? QString() : title);
-  chart_->setTitleBrush(colours_.text);
   QFont font = font_;
   if (font.pointSizeF() > 0) font.setPointSizeF(font.pointSizeF() * 1.08);
+  if (!notes.isEmpty()) {
+    // Beside the title where both leave the corners free for the menu, else below it.
+    constexpr double corner = 36;
+    QFont bold = font;
+    bold.setBold(true);
+    const QString note = notes.join(" · ");
+    const double both =
+        QFontMetricsF(bold).horizontalAdvance(data_.title) + QFontMetricsF(font).horizontalAdvance("   " + note);
+    title += QString("%1<span style=\"color:%2\">%3</span>")
+                 .arg(both > chart_->size().width() - 2 * corner ? "<br>" : " &nbsp;", colours_.note.name(),
+                      note.toHtmlEscaped());
+  }
+  chart_->setTitle(data_.title.isEmpty() && notes.isEmpty() ? QString() : title);
+  chart_->setTitleBrush(colours_.text);
   chart_->setTitleFont(font);
   xAxis_->setTitleText(data_.xTitle);
   yAxis_->setTitleText(data_.yTitle);

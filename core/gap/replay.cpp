@@ -201,6 +201,8 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
   }
   if (!prescribed.any()) standAsMeasured(world, binding, start);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i)
+    if (start.robots[i].rests) world.rest(i);
   for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
 
   auto inputs = restingInputs(scene, start);

@@ -41,6 +41,7 @@ struct StartState {
     Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
     Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero(), spin_rad_s = Eigen::Vector3d::Zero();
     std::vector<double> positions, rates;
+    bool rests = false;  ///< on a fixed base, since before the recording began
   };
   std::vector<Robot> robots;
   std::vector<BallState> balls;

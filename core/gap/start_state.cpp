@@ -161,7 +161,11 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     ball.onFloor = scene.floor && ball.position_m.z() < 1.1 * ball.radius_m;
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
   }
-  if (row == 0) restWhereThatExplainsMore(scene, recording, binding, state);
+  if (row > 0) return state;
+  restWhereThatExplainsMore(scene, recording, binding, state);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i)
+    state.robots[i].rests =
+        !scene.robots[i].freeBase && std::ranges::all_of(state.robots[i].rates, [](double rate) { return rate == 0; });
   return state;
 }
 

@@ -182,6 +182,10 @@ void JointEffects::reset() {
   for (auto& placed : placed_) std::fill(placed.state.begin(), placed.state.end(), 0.0);
 }
 
+void JointEffects::rest(const JointState& state) {
+  for (auto& placed : placed_) placed.effect->rest(state, *placed.values, placed.state);
+}
+
 CommandAround JointEffects::command(CommandAround command, const JointState& state, double dt) {
   for (auto& placed : placed_) command = placed.effect->command(command, state, *placed.values, placed.state, dt);
   return command;

@@ -73,6 +73,8 @@ class JointEffects {
   bool empty() const { return placed_.empty(); }
   /// Back to the start of a trial: all states zero.
   void reset();
+  /// As a joint that has rested leaves them.
+  void rest(const JointState& state);
 
   CommandAround command(CommandAround command, const JointState& state, double dt);
   /// The drive's row after the effects on drive torque. An effect that changes the torque is linearised about this

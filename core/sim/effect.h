@@ -65,6 +65,8 @@ class Effect {
   /// True if it never adds mechanical energy.
   virtual bool dissipative() const { return false; }
   virtual int stateSize() const { return 0; }
+  /// What it remembers of a joint that has rested where it is, its drive holding `JointState::load`.
+  virtual void rest(const JointState&, std::span<const double> /*values*/, std::span<double> /*state*/) const {}
   /// An effect of the world whose joint hooks act at every joint of every robot.
   virtual bool onEveryJoint() const { return false; }
 

@@ -180,6 +180,18 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
   impl_->checkFault();
 }
 
+void World::rest(std::size_t index) {
+  WorldRobot& robot = impl_->robots.at(index);
+  impl_->weighLoads(robot);
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    JointDrive& drive = robot.drives[j];
+    const Drive& spec = robot.scene->drives[static_cast<std::size_t>(robot.body->joints[j].modelJoint)];
+    if (spec.kind != Drive::Kind::servo) continue;
+    drive.effects.rest(impl_->stateOf(robot, j, 0));
+    drive.motorAhead = -drive.load * spec.gearCompliance;
+  }
+}
+
 void World::setBall(std::size_t index, const BallState& state) {
   impl_->placeBall(impl_->balls.at(index), state);
   impl_->checkFault();

@@ -48,6 +48,10 @@ class World {
   /// velocity.
   void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
                 const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates);
+  /// Takes it that the robot's joints have rested where they are, each servo holding the weight that its joint carries:
+  /// teeth lie on the flank that they push, elastic gears are wound up. (setRobot leaves gaps in their middle and gears
+  /// slack.)
+  void rest(std::size_t robot);
   void setBall(std::size_t ball, const BallState& state);
 
   /// Advances by `duration` with inputs held: inputs[robot][joint of the model]. A whole number of the scene's steps is

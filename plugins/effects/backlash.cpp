@@ -11,7 +11,7 @@
 ///
 /// Neutral: w = 0. The position sensor sits on the joint, as an AIBO's potentiometers do. After Nordin and Gutman 2002
 /// (Controlling mechanical systems with backlash: a survey), without elastic flanks. State: φ, in the middle of the gap
-/// at the start.
+/// at the start, or on the flank that holds the load of a joint that has rested.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -28,6 +28,9 @@ class Backlash final : public btr::Effect {
   }
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 1; }
+  void rest(const btr::JointState& joint, std::span<const double> values, std::span<double> state) const override {
+    if (joint.load != 0) state[0] = std::copysign(values[0] / 2, -joint.load);
+  }
 
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
                      std::span<double> state, double dt) const override {

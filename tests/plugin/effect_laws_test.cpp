@@ -157,6 +157,36 @@ TEST(GearElasticity, KeepsTheEnergyOfARotorThatSwingsAgainstTheJoint) {
   EXPECT_NEAR(begin, world.energy(), 0.15 * begin);
 }
 
+/// How far an arm leaves its place within half a second whose servo is told just so much more as holds its weight
+/// there.
+double movesFromRest(const std::string& name, const Numbers& values, double angle, bool rested, double step = 5e-4) {
+  constexpr double mass = 0.5, length = 0.2, p = 4;
+  const Drive servo{.kind = Drive::Kind::servo, .p = p, .d = 0.2, .maxTorque = 3};
+  Scene scene = test::sceneOf(test::robot(test::pendulumModel(mass, length, 1e-3), false, servo), step);
+  scene = test::withEffect(scene, effect(name), name, values);
+  World world(scene, 1);
+  world.setRobot(0, Eigen::Isometry3d::Identity(), {0, 0, 0}, {0, 0, 0}, Numbers{angle}, Numbers{0});
+  if (rested) world.rest(0);
+  double furthest = 0;
+  for (int i = 0; i < 100; ++i) {
+    world.advance(test::commands(scene, angle + mass * test::g * length * std::sin(angle) / p), 0.005);
+    furthest = std::max(furthest, std::abs(world.robot(0).position[0] - angle));
+  }
+  return furthest;
+}
+
+TEST(Rest, LeavesTeethOnTheFlankThatHoldsTheWeightAndGearsWoundUp) {
+  const std::map<std::string, Numbers> remembering{{"backlash", {0.1, 3}}, {"gear_elasticity", {0.1, 1e-3, 0.01}}};
+  for (const auto& [name, values] : remembering)
+    for (const double angle : {-0.7, 0.5}) {
+      const double unrested = movesFromRest(name, values, angle, false);
+      EXPECT_GT(unrested, 1e-3) << name;
+      // The first step's half kick sets a spring swinging, by less the shorter it is.
+      EXPECT_LT(movesFromRest(name, values, angle, true), 0.025 * unrested) << name;
+      EXPECT_LT(movesFromRest(name, values, angle, true, 1.25e-4), 0.007 * unrested) << name;
+    }
+}
+
 TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
   const BallState ball{.velocity_m_s = {3, 4, 0}, .radius_m = 0.1, .mass_kg = 0.1};
   const Eigen::Vector3d force = effect("air_drag")->ballForce(ball, Numbers{0.5});

@@ -85,12 +85,11 @@ TEST_P(TrueSimulator, ReproducesItsRecordingsAtTheNoiseFloor) {
       const std::string hidden = blind.answer.hidden.empty() ? "" : blind.answer.hidden[0].placed.effect;
       const Chi chi = replayTruth(blind, plugins);
       std::printf(
-          "%-9s %-8s case %d  step %g ms  chi2 %.3f from the true start (first half second %.3f), %.3f from the samples'  "
+          "%-9s %-8s case %d  step %g ms  chi2 %.3f from the true start (first half second %.3f), %.3f from the "
+          "samples'  "
           "%s\n",
           GetParam().c_str(), kind, static_cast<int>(number), 1e3 * blind.world.scene.step_s, chi.fromTrueStart,
           chi.firstWindow, chi.fromSamples, hidden.c_str());
-      // A servo behind a gap hunts: its phase after seconds is a matter of the step.
-      if (hidden == "backlash") continue;
       // A stiff spring in a walking leg makes every landing a matter of the step, too.
       if (walks && hidden == "joint_spring") continue;
       EXPECT_GT(chi.fromTrueStart, 0.9);

@@ -52,8 +52,9 @@ Truth simulateOde(const Scene& scene, const TrialPlan& plan, const std::vector<M
     if (robot) readings = world.robot(0);
     if (row == 0) {
       if (robot)
-        truth.start.robots.push_back(
-            {readings.base, readings.baseVelocity_m_s, readings.baseSpin_rad_s, readings.position, readings.rate});
+        truth.start.robots.push_back({readings.base, readings.baseVelocity_m_s, readings.baseSpin_rad_s,
+                                      readings.position, readings.rate,
+                                      plan.settle_s > 0 && !scene.robots[0].freeBase});
       if (ball) truth.start.balls.push_back(world.ball(0));
     }
     for (std::size_t i = 0; i < columns.size(); ++i) truth.values[i][row] = read(world, readings, columns[i]);

@@ -31,67 +31,67 @@ FitModel withFixed(const FitModel& model, const FitProblem& problem, const Place
 
 }  // namespace
 
+/// Of another effect: the fit beside what is kept of the first one.
+struct SearchRun::Way {
+  EffectCandidate candidate;
+  std::vector<double> before;  ///< numbers one step ago, in the order of the fit's model
+  Fit fit;
+};
+
+/// Where the ways begin: what does best in the place of the part of effect `i` that is taken away first.
+std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const {
+  std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
+  std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
+  for (EffectCandidate& candidate : candidates)
+    for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
+  std::vector<Screened> promising = screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
+                                           reporter("screening, rivals", candidates.size(), 0.95, 0.95));
+  std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
+  const auto promised = [](const Screened& each) { return each.starts[0].share; };
+  std::ranges::stable_sort(promising, std::greater(), promised);
+
+  std::vector<Way> ways;
+  for (const Screened& each : promising) {
+    if (ways.size() == mostHandedTo || promised(each) < leastShare * promised(promising[0])) break;
+    const EffectCandidate& candidate = candidates[each.candidate];
+    const Screened::Start& start = each.starts[0];
+    Way way{candidate,
+            rest.with(problem_, candidate.placed(scaledVariant(candidate, start.effect, 0))).values,
+            {base.model.with(problem_, candidate.placed(start.effect)), base.shifts, 0}};
+    std::ranges::copy(start.parameters, way.fit.model.values.begin());
+    ways.push_back(std::move(way));
+  }
+  return ways;
+}
+
 void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others) {
   const Fit& whole = result.final.fit;
   PlacedEffect own = whole.model.effects[i];
   own.parameters = whole.model.simulator(problem_).effects[problem_.given.effects.size() + i].parameters;
   const FitModel rest = whole.model.without(i);
   const auto effect = problem_.library.make(own.effect);
-  const auto with = [&](double share) {
+  const auto keeping = [&](double share) {
+    if (share == 0) return rest;
     return withFixed(rest, problem_, {own.effect, own.at, reduced(*effect, own.parameters, share)});
   };
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(whole);
   const double finalCost = residualsOf(problem_, whole.model, whole.shifts).squaredNorm() / 2;
 
-  std::vector<EffectCandidate> candidates = candidatesFor(problem_, whole.model, options_.names);
-  std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
-  for (EffectCandidate& candidate : candidates)
-    for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
-  const Fit base{with(kept[0]), whole.shifts, 0};
-  const std::vector<Screened> screened = screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
-                                                reporter("screening, rivals", candidates.size(), 0.95, 0.95));
-  std::vector<Screened> promising;
-  for (const Screened& each : screened)
-    if (!each.starts.empty()) promising.push_back(each);
-  const auto promised = [](const Screened& each) { return each.starts[0].share; };
-  std::ranges::stable_sort(promising, std::greater(), promised);
-  std::erase_if(promising, [least = promising.empty() ? 0 : leastShare * promised(promising[0]),
-                            &promised](const Screened& each) { return promised(each) < least; });
-  if (promising.size() > mostHandedTo) promising.resize(mostHandedTo);
-
-  struct Way {
-    const EffectCandidate* candidate;
-    std::vector<double> before;  ///< numbers of the rest and of the candidate one step ago
-    Fit fit;
-  };
-  std::vector<Way> ways;
-  for (const Screened& each : promising) {
-    const EffectCandidate& candidate = candidates[each.candidate];
-    const Screened::Start& start = each.starts[0];
-    Way way{&candidate,
-            rest.with(problem_, candidate.placed(scaledVariant(candidate, start.effect, 0))).values,
-            {base.model.with(problem_, candidate.placed(start.effect)), whole.shifts, 0}};
-    std::ranges::copy(start.parameters, way.fit.model.values.begin());
-    ways.push_back(std::move(way));
-  }
-  double from = 1;
+  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own);
   for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {
+    // Straight on from the last two steps.
+    const double on = k == 0 ? 0 : (kept[k - 1] - kept[k]) / ((k == 1 ? 1 : kept[k - 2]) - kept[k - 1]);
     std::vector<FitJob> jobs;
     for (Way& way : ways) {
-      FitModel next = (kept[k] > 0 ? with(kept[k]) : rest)
-                          .with(problem_, way.candidate->placed(way.fit.model.effects.back().parameters));
-      // Straight on.
-      const double on = k > 0 ? (kept[k - 1] - kept[k]) / (from - kept[k - 1]) : 0;
-      for (std::size_t n = 0; n < next.values.size(); ++n) {
-        const double here = way.fit.model.values[n];
-        next.values[n] =
-            std::clamp(here + on * (here - way.before[n]), next.parameters[n].minimum, next.parameters[n].maximum);
-      }
-      if (k > 0) way.before = way.fit.model.values;
+      const std::vector<double>& here = way.fit.model.values;
+      FitModel next = keeping(kept[k]).with(problem_, way.candidate.placed(way.fit.model.effects.back().parameters));
+      for (std::size_t n = 0; n < next.values.size(); ++n)
+        next.values[n] = std::clamp(here[n] + on * (here[n] - way.before[n]), next.parameters[n].minimum,
+                                    next.parameters[n].maximum);
+      if (k > 0) way.before = here;
       jobs.push_back({next, way.fit.shifts});
     }
-    if (k > 0) from = kept[k - 1];
     const std::vector<Fit> fits = fitAll(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
     std::erase_if(ways, [&](const Way& way) { return way.fit.cost > inTheValley * finalCost; });
@@ -100,7 +100,7 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
   for (const Way& way : ways) arrived.push_back(way.fit);
   arrived = fitOn(arrived, toTheEnd, "handing over", 0.95, 0.95);
   const std::vector<Scored> scored = scoreAll(arrived, "handing over", 0.95, 0.95);
-  for (std::size_t w = 0; w < ways.size(); ++w) addRival(*ways[w].candidate, scored[w], result, others);
+  for (std::size_t w = 0; w < ways.size(); ++w) addRival(ways[w].candidate, scored[w], result, others);
   problem_.scene.step_s = judged_s;
 }
 

@@ -126,6 +126,8 @@ class SearchRun {
   /// Adds what the recordings may not tell from effect `i`, or tell for the better: its size is taken away in steps,
   /// and at each what is offered its place is fitted on. From afar, a fit would stop in a side minimum.
   void handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others);
+  struct Way;
+  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const;
   void addRival(const EffectCandidate& candidate, const Scored& scored, const SearchResult& result,
                 std::vector<Tried>& others) const;
   void compareAtOneStep(SearchResult& result, std::vector<Tried>& others);

@@ -114,7 +114,7 @@ bool MainWindow::openDatabase(const QString& path) {
   showTitle();
 
   // The run that was looked at last, else the newest.
-  const auto runs = watcher_.database().runs();
+  const std::vector<RunRecord>& runs = watcher_.runs();
   Id wanted = settings_.selectedRun(absolute);
   const bool known = std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.id == wanted; });
   selectRun(known ? wanted : runs.empty() ? 0 : runs.back().id);

@@ -65,8 +65,8 @@ void MainWindow::readGrids() {
   if (!watcher_.isOpen()) return;
   guard([this] {
     std::vector<GridSummary> grids;
-    for (const GridRecord& grid : watcher_.database().grids())
-      grids.push_back(summaryOf(watcher_.database(), *host_, grid.id));
+    for (const DatabaseWatcher::Grid& grid : watcher_.grids())
+      grids.push_back(summaryOf(watcher_.database(), *host_, grid.record.id));
     gridPage_->setGrids(databasePath(), grids);
     std::map<Id, GridState> states;
     for (const GridSummary& grid : grids) states[grid.grid.id] = stateOf(grid);
@@ -81,8 +81,8 @@ GridState MainWindow::stateOf(const GridSummary& grid) const {
   if (state.isFinished) return state;
   const auto each = static_cast<int>(valueOf(gridParameters(), grid.spec.settings, "generations"));
   state.total = grid.learning * each;
-  const auto watched = std::ranges::find(watcher_.grids(), grid.grid.id, [](const auto& g) { return g.record.id; });
-  if (watched == watcher_.grids().end()) return state;
+  const DatabaseWatcher::Grid* watched = watcher_.grid(grid.grid.id);
+  if (!watched) return state;
   const std::vector<GridCell> cells = cellsOf(grid.spec);
   for (const RunRecord& run : watcher_.runs())
     if (const auto cell = watched->cellOfRun.find(run.id);
@@ -132,8 +132,9 @@ void MainWindow::watchGrid() {
 
 void MainWindow::stopGrid(Id grid) {
   guard([&] {
-    for (const GridCellRecord& cell : watcher_.database().gridCells(grid))
-      if (cell.run && watcher_.activeRuns().count(cell.run) > 0) writer().requestStop(cell.run, true);
+    if (const DatabaseWatcher::Grid* watched = watcher_.grid(grid))
+      for (const auto& [run, cell] : watched->cellOfRun)
+        if (watcher_.activeRuns().count(run) > 0) writer().requestStop(run, true);
     watcher_.poll();
     inform(tr("Asked the grid to stop; what it has done is kept."));
   });

@@ -6,7 +6,7 @@
 namespace btr {
 namespace {
 
-constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times the median segment's
+constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times that of the (lower) middle segment
 constexpr double kick = 3;                          // standard errors
 constexpr int iterations = 20;
 constexpr double better = 0.98;
@@ -44,22 +44,28 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
     return sumOfSquares(residualsOf(problem, segment, scenes.scene(fit.model.values, segment.trial), shift)) +
            sumOfSquares(shift);
   };
-  std::vector<double> costs, errors;
-  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
-    costs.push_back(costOf(s, fit.shifts[s]));
-    errors.push_back(costs.back() / std::max<double>(1, static_cast<double>(problem.segments[s].row.size())));
-  }
+  const auto costs =
+      bySegment(problem, 1, [&](std::size_t s) { return std::vector<double>{costOf(s, fit.shifts[s])}; });
+  std::vector<double> errors;
+  for (std::size_t s = 0; s < costs.size(); ++s)
+    errors.push_back(costs[s][0] / std::max<double>(1, static_cast<double>(problem.segments[s].row.size())));
   std::vector<double> sorted = errors;
   std::ranges::sort(sorted);
   const double limit = std::max(farFromNoise, asOthers * sorted[(sorted.size() - 1) / 2]);
 
+  // Of each segment the least cost, then the shifts that have it.
   const auto anew = bySegment(problem, iterations, [&](std::size_t s) {
     std::vector<double> best = fit.shifts[s];
-    if (errors[s] <= limit) return best;
+    double least = costs[s][0];
+    const auto packed = [&] {
+      std::vector<double> numbers{least};
+      numbers.insert(numbers.end(), best.begin(), best.end());
+      return numbers;
+    };
+    if (errors[s] <= limit) return packed();
     FitProblem one = problem;
     one.segments = {problem.segments[s]};
     one.jobs = 1;
-    double least = costs[s];
     for (const std::vector<double>& begin : beginnings(problem.segments[s], fit.shifts[s])) {
       const std::vector<double> found =
           fitModel(one, fit.model, {begin}, {.iterations = iterations, .startsOnly = true}).shifts[0];
@@ -68,13 +74,12 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
       least = cost;
       best = found;
     }
-    return best;
+    return packed();
   });
   Fit result = fit;
   for (std::size_t s = 0; s < anew.size(); ++s) {
-    if (anew[s] == fit.shifts[s]) continue;
-    result.shifts[s] = anew[s];
-    result.cost += (costOf(s, anew[s]) - costs[s]) / 2;
+    result.shifts[s].assign(anew[s].begin() + 1, anew[s].end());
+    result.cost += (anew[s][0] - costs[s][0]) / 2;
   }
   return result;
 }

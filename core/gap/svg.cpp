@@ -46,12 +46,6 @@ Axis Range::axis(double from, double to, double margin) const {
   return {low - room, high + room, from, to};
 }
 
-void Range::add(double value) {
-  if (!std::isfinite(value)) return;
-  low = std::min(low, value);
-  high = std::max(high, value);
-}
-
 std::vector<double> ticksOf(const Axis& axis, double wanted) {
   const double raw = (axis.high - axis.low) / wanted;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));

@@ -1,7 +1,8 @@
 #pragma once
-#include <limits>
 #include <string>
 #include <vector>
+
+#include "core/gap/extent.h"
 
 /// The few pieces that our vector plots are made of. Texts are escaped, numbers are the same in every locale; the looks
 /// come from the classes that the page or picture styles.
@@ -18,10 +19,8 @@ struct Axis {
   double operator()(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };
 
-/// Collects finite values.
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  void add(double value);
+/// Of values that a picture shows.
+struct Range : Extent {
   /// With a margin; never empty.
   Axis axis(double from, double to, double margin) const;
 };

@@ -27,6 +27,17 @@ std::vector<std::string> namesOf(const GapReport& report) {
   return names;
 }
 
+/// What it names, and what it does not tell that from.
+std::vector<std::string> readingsOf(const GapReport& report) {
+  std::vector<std::string> readings;
+  for (const GapReport::Effect& effect : report.tried) {
+    if (!effect.accepted) continue;
+    readings.push_back(effect.effect);
+    for (const GapReport::Rival& rival : effect.rivals) readings.push_back(rival.effect);
+  }
+  return readings;
+}
+
 TEST(Analysis, AHealthySimulatorHasNoMismatch) {
   const GapReport report = analyse(recordedFrom({}), library(), {});
   EXPECT_EQ(report.verdict, Verdict::noMismatch) << report.sentence;
@@ -85,14 +96,8 @@ TEST(Analysis, FrictionThatDiffersByDirectionIsTheSameLawAsDryFrictionWithAConst
                    {"force_offset", "rig.hinge", {{"torque_nm", 0.03}}}};
   const GapReport report = analyse(recordedFrom(truth), library(), {});
   EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
-  std::vector<std::string> named;
-  for (const GapReport::Effect& effect : report.tried) {
-    if (!effect.accepted) continue;
-    named.push_back(effect.effect);
-    for (const GapReport::Rival& rival : effect.rivals) named.push_back(rival.effect);
-  }
   // Either as one effect or as two, and then the other reading is listed.
-  EXPECT_THAT(named, testing::IsSupersetOf({"coulomb_friction", "force_offset"})) << report.sentence;
+  EXPECT_THAT(readingsOf(report), testing::IsSupersetOf({"coulomb_friction", "force_offset"})) << report.sentence;
   if (namesOf(report).size() == 1) {
     EXPECT_THAT(report.sentence, HasSubstr("together with"));
   }
@@ -218,9 +223,7 @@ TEST(Analysis, AnOffSensorOfAnOnlyJointIsNotToldFromGravityThatLeansAboutItsAxis
               library(), {});
   ASSERT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
   ASSERT_EQ(namesOf(report).size(), 1u) << report.sentence;
-  std::vector<std::string> named{report.tried[0].effect};
-  for (const GapReport::Rival& rival : report.tried[0].rivals) named.push_back(rival.effect);
-  EXPECT_THAT(named, testing::IsSupersetOf({"gravity_tilt", "position_offset"})) << report.sentence;
+  EXPECT_THAT(readingsOf(report), testing::IsSupersetOf({"gravity_tilt", "position_offset"})) << report.sentence;
 }
 
 // Something heavy beside the arm makes its gravity larger and turns it; its inertia looks like a weaker servo.
@@ -232,9 +235,7 @@ TEST(Analysis, AWeightBesideAnOnlyArmIsNotToldFromGravityThatLeans) {
               library(), options);
   ASSERT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
   ASSERT_EQ(namesOf(report).size(), 1u) << report.sentence;
-  std::vector<std::string> named{report.tried[0].effect};
-  for (const GapReport::Rival& rival : report.tried[0].rivals) named.push_back(rival.effect);
-  EXPECT_THAT(named, testing::IsSupersetOf({"gravity_tilt", "payload"})) << toPlainText(report);
+  EXPECT_THAT(readingsOf(report), testing::IsSupersetOf({"gravity_tilt", "payload"})) << toPlainText(report);
 }
 
 TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {

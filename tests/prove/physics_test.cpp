@@ -86,8 +86,7 @@ TEST_P(TrueSimulator, ReproducesItsRecordingsAtTheNoiseFloor) {
       const Chi chi = replayTruth(blind, plugins);
       std::printf(
           "%-9s %-8s case %d  step %g ms  chi2 %.3f from the true start (first half second %.3f), %.3f from the "
-          "samples'  "
-          "%s\n",
+          "samples'  %s\n",
           GetParam().c_str(), kind, static_cast<int>(number), 1e3 * blind.world.scene.step_s, chi.fromTrueStart,
           chi.firstWindow, chi.fromSamples, hidden.c_str());
       // A stiff spring in a walking leg makes every landing a matter of the step, too.

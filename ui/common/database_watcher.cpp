@@ -48,6 +48,11 @@ void DatabaseWatcher::open(const QString& path) {
 
 QString DatabaseWatcher::path() const { return database_ ? QString::fromStdString(database_->path()) : QString(); }
 
+const DatabaseWatcher::Grid* DatabaseWatcher::grid(Id id) const {
+  const auto found = std::ranges::find(grids_, id, [](const Grid& grid) { return grid.record.id; });
+  return found == grids_.end() ? nullptr : &*found;
+}
+
 void DatabaseWatcher::follow(Id run) {
   run_ = run;
   fresh_ = true;

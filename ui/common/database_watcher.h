@@ -40,6 +40,7 @@ class DatabaseWatcher : public QObject {
     std::map<Id, int> cellOfRun;  ///< number of the cell
   };
   const std::vector<Grid>& grids() const { return grids_; }
+  const Grid* grid(Id id) const;  ///< or nothing
 
   /// What the timer does; also called after an own write, so that it is seen at once.
   void poll();

@@ -54,7 +54,7 @@ void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 /// gap adopt|revert|recordings, below "gap"
 void addGapStoreCommands(CLI::App& gap, Shell& shell);
-void addGapProveCommand(CLI::App& gap, Shell& shell);  ///< gap prove
+void addGapProveCommands(CLI::App& gap, Shell& shell);  ///< gap prove|tally
 void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
 void addGaitCommands(CLI::App& app, Shell& shell);     ///< gait check
 void addGridCommands(CLI::App& app, Shell& shell);     ///< grid, grid table|map|kick

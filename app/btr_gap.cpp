@@ -120,7 +120,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   CLI::App* gap = app.add_subcommand("gap", "simulated against recorded");
   gap->require_subcommand(1);
   addGapStoreCommands(*gap, shell);
-  addGapProveCommand(*gap, shell);
+  addGapProveCommands(*gap, shell);
   auto arguments = std::make_shared<ResidualArguments>();
   ResidualRequest* request = &arguments->request;
   CLI::App* residual = gap->add_subcommand("residual", "simulate the recorded commands, report the mismatch");

@@ -1,4 +1,4 @@
-// btr gap prove: the blind trial.
+// btr gap prove, tally: the blind trial, and the counting of its cases.
 #include <unistd.h>
 
 #include <chrono>
@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "core/gap/proof_run.h"
+#include "core/gap/proof_tally.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -32,9 +33,34 @@ void proveCommand(ProofRequest request, Shell& shell) {
   if (cases.size() < request.cases) shell.exitCode = stoppedEarly;
 }
 
+struct TallyRequest {
+  std::vector<std::string> trials;
+  std::string out, save;
+};
+
+void tallyCommand(const TallyRequest& request, const Shell& shell) {
+  const std::vector<ProvedCase> cases = provedCasesIn(request.trials);
+  const ProofScore total = score(cases);
+  if (!request.out.empty()) writeProof(request.out, cases);
+  if (!request.save.empty()) writeFile(request.save, linesOf(cases));
+  std::cout << (shell.json ? proofJson(total, cases) : proofText(total));
+}
+
+void addTally(CLI::App& gap, Shell& shell) {
+  auto request = std::make_shared<TallyRequest>();
+  CLI::App* tally = gap.add_subcommand("tally", "count finished cases of blind trials together");
+  tally->add_option("TRIAL", request->trials, "folder of a trial (prove --out), or a file that --save wrote")
+      ->required()
+      ->take_all();
+  shell.writesFolder(tally, tally->add_option("--out", request->out, "folder for proof.json, proof.txt and proof.html"),
+                     {"proof.json", "proof.txt", "proof.html"});
+  shell.writesFile(tally, tally->add_option("--save", request->save, "file for the cases, one a line (.jsonl)"));
+  tally->callback([request, &shell] { tallyCommand(*request, shell); });
+}
+
 }  // namespace
 
-void addGapProveCommand(CLI::App& gap, Shell& shell) {
+void addGapProveCommands(CLI::App& gap, Shell& shell) {
   auto request = std::make_shared<ProofRequest>();
   request->options.designNext = false;
   CLI::App* prove = gap.add_subcommand("prove", "blind trial: conceal, analyse, open the seal, score");
@@ -55,6 +81,7 @@ void addGapProveCommand(CLI::App& gap, Shell& shell) {
   prove->add_option("--kind", request->kind, "one kind of case alone")
       ->check(CLI::IsMember({"nothing", "parameters", "one", "two", "outside"}));
   prove->callback([request, &shell] { proveCommand(*request, shell); });
+  addTally(gap, shell);
 }
 
 }  // namespace btr::cli

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/gap/proof_fresh.h"
+#include "core/gap/proof_tally.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -196,11 +197,7 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
   for (std::size_t number = 1; number <= request.cases; ++number)
     if (const std::string path = verdictOf(number); fs::exists(path))
       cases.push_back(provedFromJson(readFile(path), path));
-  const ProofScore total = score(cases);
-  const fs::path out(request.out);
-  writeFile((out / "proof.json").string(), proofJson(total, cases));
-  writeFile((out / "proof.txt").string(), proofText(total));
-  writeFile((out / "proof.html").string(), proofHtml(total));
+  writeProof(request.out, cases);
   return cases;
 }
 

@@ -96,7 +96,7 @@ ProofScore score(const std::vector<ProvedCase>& cases);
 
 double middleOf(std::vector<double> values);  ///< not a number for none
 
-/// The same content for people in a terminal, as a self-contained page, and for programs ("uchilsim-proof-1").
+/// The same content for people in a terminal, as a self-contained page, and for programs ("uchilsim-proof-2").
 std::string proofText(const ProofScore& score);
 std::string proofHtml(const ProofScore& score);
 std::string proofJson(const ProofScore& score, const std::vector<ProvedCase>& cases);

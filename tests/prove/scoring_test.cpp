@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/gap/proof_run.h"
+#include "core/gap/proof_tally.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"
@@ -356,6 +357,12 @@ TEST(Proof, ConcealsAnalysesOpensAndGoesOnWhereItStopped) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("proof/case_001/fresh/trial_2.csv")));
   EXPECT_TRUE(proof["cases"][2]["heldout_over_noise"].is_null());
   EXPECT_NE(std::string::npos, readFile(folder.file("proof/proof.html")).find("NOT MET"));
+  // Its folder and the file of its cases are counted alike; no case is counted twice.
+  const std::string lines = folder.file("cases.jsonl");
+  writeFile(lines, linesOf(provedCasesIn(request.out)));
+  const auto again = provedCasesIn(lines);
+  EXPECT_EQ(proofJson(score(cases), cases), proofJson(score(again), again));
+  EXPECT_THROW(provedCasesIn({request.out, lines}), InputError);
   // Another trial does not fit in.
   request.seed = 4;
   EXPECT_THROW(runProof(request, {}, broken, stop), InputError);

@@ -9,8 +9,8 @@ namespace btr {
 /// fewer than five finite values in a row; a channel that rests within one quantisation step also gives 0.
 double noiseFloor(std::span<const double> values);
 
-/// The smallest step between different neighbouring values that all steps are whole multiples of (within 2 %), 0 if
-/// there is none: what the sensor's counts are worth.
+/// The smallest step between different neighbouring values that all steps are whole multiples of (within 2 %), else the
+/// same of the steps' changes, 0 if there is none: what the sensor's counts are worth.
 double quantisationStep(std::span<const double> values);
 
 /// What a channel cannot be known better than: the larger of its noise floor and of its rounding error, step/√12.

@@ -46,9 +46,30 @@ TEST(QuantisationStep, IsWhatOneCountIsWorth) {
   EXPECT_NEAR(resolution(values), count / std::sqrt(12.0), 0.5 * count);
 }
 
+// A tossed ball that passes five to six counts from sample to sample: its fourth differences alone say two thirds.
+TEST(QuantisationStep, IsFoundInAMotionThatPassesSeveralCountsPerSample) {
+  const double count = 0.001069;
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    const double speed = count * random.uniform(5.1, 5.9), start = random.uniform(0, count);
+    std::vector<double> values;
+    for (int i = 0; i < 160; ++i) values.push_back(count * std::round((start + speed * i) / count));
+    EXPECT_NEAR(quantisationStep(values), count, 1e-6 * count) << speed;
+    EXPECT_GE(resolution(values), 0.999 * count / std::sqrt(12.0));
+  }
+}
+
 TEST(QuantisationStep, IsNothingForContinuousOrConstantValues) {
   EXPECT_EQ(quantisationStep(swing(1500, 1e-3, 1)), 0);
   EXPECT_EQ(quantisationStep(std::vector<double>(100, 0.25)), 0);
+  // Nor is what a motion without noise does from sample to sample: at an even speed, and falling from rest.
+  std::vector<double> even, falling(30, 0.0);
+  for (int i = 0; i < 200; ++i) {
+    even.push_back(0.0064 * i);
+    falling.push_back(-0.5 * 9.81 * std::pow(0.006 * i, 2));
+  }
+  EXPECT_EQ(quantisationStep(even), 0);
+  EXPECT_EQ(quantisationStep(falling), 0);
 }
 
 }  // namespace

@@ -45,6 +45,14 @@ std::string effectText(const GapReport::Effect& effect) {
   return text + (numbers.empty() ? "" : " (" + numbers + ")");
 }
 
+/// A number of it is known to be another than where the effect does nothing. A joint that stands still tells that it is
+/// held, and not how strongly.
+bool tellsSize(const GapReport::Effect& effect) {
+  return std::ranges::any_of(effect.parameters, [](const GapReport::Number& p) {
+    return p.excited && p.ci95.known() && (p.before < p.ci95.low || p.before > p.ci95.high);
+  });
+}
+
 std::string whereText(const GapReport& report) {
   if (report.located.empty() || report.located[0].when.empty()) return "";
   const GapReport::Located& first = report.located[0];
@@ -258,8 +266,12 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
                        " would take " + wholePercent(report.remainder.shareOfRest) +
                        " of the rest; its curve is in the report. ";
   std::string untold;
+  const auto tellNot = [&](const std::string& what) { untold += (untold.empty() ? "" : ", ") + what; };
   for (const GapReport::Number& number : report.calibrated)
-    if (!number.excited) untold += (untold.empty() ? "" : ", ") + number.name;
+    if (!number.excited) tellNot(number.name);
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted && !tellsSize(effect))
+      tellNot("how large " + inWords(effect.effect) + " at " + effect.at + " is");
   if (!untold.empty()) report.sentence += "These recordings do not tell " + untold + ". ";
   if (!report.next.why.empty()) report.sentence += "The suggested next recording " + report.next.why + ". ";
   while (!report.sentence.empty() && report.sentence.back() == ' ') report.sentence.pop_back();

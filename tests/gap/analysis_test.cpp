@@ -245,6 +245,9 @@ TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
   const GapReport report = analyse(recordedFrom(truth, 0.25), library(), options);
   EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
   EXPECT_THAT(namesOf(report), testing::ElementsAre("coulomb_friction at rig.hinge")) << toPlainText(report);
+  // Whatever holds it would do.
+  EXPECT_THAT(report.sentence, HasSubstr("do not tell"));
+  EXPECT_THAT(report.sentence, HasSubstr("how large coulomb friction at rig.hinge is"));
 }
 
 TEST(Analysis, TheNumberOfWorkersChangesNothing) {

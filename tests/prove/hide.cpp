@@ -145,10 +145,11 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
   const double unfitted = difference(noiseless(world, without, effects), recorded);
   hidden.costUnfitted = std::isfinite(unfitted) ? withNoise(unfitted) : 1e6;
   double left = leftAfterRefit(world, without, effects, recorded);
+  constexpr double asLargeAsAllowed = 1e9;  // what holds a joint is any friction above what its motor can
 
   for (const std::string& name : effects(hidden.placed.effect)->contains()) {
     if (std::find(library.names.begin(), library.names.end(), name) == library.names.end()) continue;
-    for (const double share : {0.1, 1.0, 4.0}) {
+    for (const double share : {0.1, 1.0, 4.0, asLargeAsAllowed}) {
       SimulatorSpec other = without;
       PlacedEffect relative{name, hidden.placed.at, {}};
       const auto effect = effects(name);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/gap/extent.h"
 
@@ -61,16 +62,49 @@ std::vector<double> triesOf(const Parameter& p) {
   return tries;
 }
 
+/// Which of a trial's measured channels is the position of the joint `at`.
+std::optional<std::size_t> positionOf(const FitTrial& trial, const std::string& at) {
+  for (std::size_t c = 0; c < trial.binding.measured.size(); ++c) {
+    if (trial.binding.measured[c].what != Binding::Measured::What::position) continue;
+    const auto channel = parseChannel(trial.recording.channels[trial.binding.measured[c].column]);
+    if (channel && channel->owner + "." + channel->part == at) return c;
+  }
+  return {};
+}
+
 /// How far a joint's position moves in all recordings together [rad or m]; of what is no measured joint 0.
 double travelOf(const FitProblem& problem, const std::string& at) {
   Extent position;
   for (const FitTrial& trial : problem.trials)
-    for (const Binding::Measured& measured : trial.binding.measured) {
-      if (measured.what != Binding::Measured::What::position) continue;
-      const auto channel = parseChannel(trial.recording.channels[measured.column]);
-      if (channel && channel->owner + "." + channel->part == at) position.add(trial.recording.columns[measured.column]);
-    }
+    if (const auto channel = positionOf(trial, at))
+      position.add(trial.recording.columns[trial.binding.measured[*channel].column]);
   return position.some() ? position.high - position.low : 0;
+}
+
+/// A joint that stays where it is in each of the recordings, as far as its noise lets see.
+bool standsStill(const FitProblem& problem, const std::string& at) {
+  constexpr double widest = 12;  // noise floors: six standard deviations to either side
+  bool isSeen = false;
+  for (const FitTrial& trial : problem.trials) {
+    const auto channel = positionOf(trial, at);
+    if (!channel) continue;
+    isSeen = true;
+    Extent position;
+    position.add(trial.recording.columns[trial.binding.measured[*channel].column]);
+    if (position.high - position.low > widest * trial.noiseFloor[*channel]) return false;
+  }
+  return isSeen;
+}
+
+/// What keeps a joint where it is may be as large as it likes, and does it only if it is large.
+void addHolding(EffectCandidate& candidate) {
+  for (const Parameter& p : candidate.declared) {
+    if (!p.neutral) continue;
+    Values values;
+    for (const Parameter& other : candidate.declared) values[other.name] = other.neutral.value_or(other.byDefault);
+    values[p.name] = p.maximum;
+    candidate.variants.push_back(values);
+  }
 }
 
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
@@ -154,6 +188,8 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
     }
     return false;
   });
+  for (EffectCandidate& candidate : candidates)
+    if (standsStill(problem, candidate.at)) addHolding(candidate);
   return candidates;
 }
 

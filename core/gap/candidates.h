@@ -10,7 +10,8 @@ namespace btr {
 struct EffectCandidate {
   std::string effect, at;
   std::vector<Parameter> declared;
-  std::vector<Values> variants;  ///< all parameters; neutral but for one, at a finite, typical size
+  /// All parameters; neutral but for one, at a finite, typical size, and at joints that stand still at the largest.
+  std::vector<Values> variants;
 
   PlacedEffect placed(const Values& values) const { return {effect, at, values}; }
   std::string text() const { return effect + " at " + at; }

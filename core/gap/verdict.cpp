@@ -68,7 +68,7 @@ std::string rivalsText(const GapReport::Effect& effect) {
   if (effect.rivals.empty()) return "";
   std::string text;
   for (const GapReport::Rival& rival : effect.rivals) text += (text.empty() ? "" : ", ") + inWords(rival);
-  return "These recordings cannot tell it from " + text + ". ";
+  return "These recordings cannot tell " + inWords(effect.effect) + " at " + effect.at + " from " + text + ". ";
 }
 
 const std::string noiseFloors = " noise floors";

@@ -250,6 +250,18 @@ TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
   EXPECT_THAT(report.sentence, HasSubstr("how large coulomb friction at rig.hinge is"));
 }
 
+TEST(Analysis, WhatHoldsAJointMayBeAnythingThatIsLarge) {
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "rotor_inertia", "command_delay", "force_offset"};
+  const SimulatorSpec truth{{}, {{"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 900}}}}};
+  const GapReport report = analyse(recordedFrom(truth, 0.25), library(), options);
+  EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
+  EXPECT_EQ(namesOf(report).size(), 1u) << toPlainText(report);
+  // Not the largest rotor: a load of 2 N·m turns 200 kg·m² by 5 mrad in the first second, ten noise floors.
+  EXPECT_THAT(readingsOf(report), testing::UnorderedElementsAre("coulomb_friction", "viscous_friction"))
+      << toPlainText(report);
+}
+
 TEST(Analysis, TheNumberOfWorkersChangesNothing) {
   const GapProblem problem =
       recordedFrom({{}, {{"viscous_friction", "rig.hinge", {{"coefficient_nm_s_rad", 0.05}}}}}, 0.3);

@@ -47,7 +47,6 @@ std::string drawSalt(Random random) {
 bool hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& names, const Hideable& library,
           Random random) {
   const EffectFactory effects = withOutside(library.make);
-  constexpr double least = 1.2;  // error in noise floors without it: below, nobody could miss it
   for (int attempt = 0; attempt < 60 && blind.simulator.effects.size() < wanted; ++attempt) {
     const auto placed = drawHidden(random, blind.world, blind.simulator, names, effects);
     if (!placed) continue;
@@ -55,7 +54,7 @@ bool hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& 
     ConcealedAnswer::Hidden hidden = describeHidden(*placed, blind.world, effects);
     // Priced alone here, so that the next one may be drawn; with all of them in the end.
     priceRemoval(hidden, blind.simulator.effects.size() - 1, blind.world, blind.simulator, library, effects);
-    if (hidden.cost < least) {
+    if (hidden.cost < leastCost) {
       blind.simulator.effects.pop_back();
     } else {
       blind.answer.hidden.push_back(hidden);

@@ -150,6 +150,7 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
   for (const std::string& name : effects(hidden.placed.effect)->contains()) {
     if (std::find(library.names.begin(), library.names.end(), name) == library.names.end()) continue;
     for (const double share : {0.1, 1.0, 4.0, asLargeAsAllowed}) {
+      if (withNoise(left) < leastCost) break;
       SimulatorSpec other = without;
       PlacedEffect relative{name, hidden.placed.at, {}};
       const auto effect = effects(name);
@@ -157,8 +158,10 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
         relative.parameters[parameter.name] =
             std::clamp(parameter.byDefault * share, parameter.minimum, parameter.maximum);
       other.effects.push_back(relative);
+      // Either it holds the joint as it is held, or it is far off.
+      const bool holds = share != asLargeAsAllowed || difference(noiseless(world, other, effects), recorded) < left;
       const int whole = static_cast<int>(other.effects.size()) - 1;
-      left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
+      if (holds) left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
     }
   }
   hidden.cost = withNoise(left);

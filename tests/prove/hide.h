@@ -5,6 +5,9 @@
 
 namespace btr::prove {
 
+/// What leaving an effect out must cost [noise floors] to be worth hiding it: below, nobody could miss it.
+inline constexpr double leastCost = 1.2;
+
 /// Draws an effect, its place and its size for a world: a size that moves the recordings by 2 to 100 noise floors (as
 /// far as it can), drawn on a logarithmic scale. `before` is the true simulator so far; effects and places that it
 /// already has are not drawn again. Nothing if the one that was drawn cannot act here.

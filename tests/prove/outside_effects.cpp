@@ -8,6 +8,9 @@
 namespace btr::prove {
 namespace {
 
+// Those that are nearly a law of the library in some recordings (grease that hardly warms up, a cable that is always
+// taut) name it in contains(): where it does as well, nothing from outside has to be there.
+
 /// A worn place of a bearing: |τ| ≤ T·exp(−((q − q0)/w)²).
 class FrictionBand final : public Effect {
   std::vector<Parameter> parameters() const override {
@@ -15,6 +18,7 @@ class FrictionBand final : public Effect {
             {"middle_rad", "rad", "where it is", -1, 1, 0.1},
             {"width_rad", "rad", "how far it reaches", 0.05, 0.5, 0.12}};
   }
+  std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
   double frictionLimit(const JointState& joint, std::span<const double> v) const override {
@@ -28,6 +32,7 @@ class CubicSpring final : public Effect {
     return {{"stiffness_nm_rad3", "N·m/rad³", "torque per cubed turn", 0, 20, 0.5, 0.0},
             {"rest_rad", "rad", "position without torque", -0.5, 0.5, 0}};
   }
+  std::vector<std::string> contains() const override { return {"joint_spring"}; }
   Place place() const override { return Place::joint; }
   double torque(const JointState& joint, std::span<const double> v) const override {
     return v[0] == 0 ? 0 : -v[0] * std::pow(joint.position - v[1], 3);
@@ -52,6 +57,7 @@ class WarmingFriction final : public Effect {
     return {{"torque_nm", "N·m", "dry friction when cold", 0, 1, 0.05, 0.0},
             {"time_s", "s", "in which it fades", 0.5, 4, 1.8}};
   }
+  std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
   double frictionLimit(const JointState& joint, std::span<const double> v) const override {
@@ -65,6 +71,7 @@ class LooseCable final : public Effect {
     return {{"stiffness_nm_rad", "N·m/rad", "torque per turn when taut", 0, 10, 0.3, 0.0},
             {"taut_rad", "rad", "from here on", -0.5, 0.8, 0.1}};
   }
+  std::vector<std::string> contains() const override { return {"joint_spring"}; }
   Place place() const override { return Place::joint; }
   double torque(const JointState& joint, std::span<const double> v) const override {
     return v[0] == 0 ? 0 : -v[0] * std::max(0.0, joint.position - v[1]);

@@ -14,6 +14,10 @@
 namespace btr::cli {
 namespace {
 
+void printProof(const ProofScore& total, const std::vector<ProvedCase>& cases, const Shell& shell) {
+  std::cout << (shell.json ? proofJson(total, cases) : proofText(total));
+}
+
 void proveCommand(ProofRequest request, Shell& shell) {
   request.generator = findGenerator();
   const PluginHost& plugins = shell.plugins();
@@ -29,7 +33,7 @@ void proveCommand(ProofRequest request, Shell& shell) {
     std::fprintf(stderr, "\r%zu of %zu cases, %.0f s \x1b[K", done, all, seconds);
   });
   if (show) std::fprintf(stderr, "\n");
-  std::cout << readFile(request.out + (shell.json ? "/proof.json" : "/proof.txt"), std::size_t{1} << 30);
+  printProof(score(cases), cases, shell);
   if (cases.size() < request.cases) shell.exitCode = stoppedEarly;
 }
 
@@ -41,9 +45,9 @@ struct TallyRequest {
 void tallyCommand(const TallyRequest& request, const Shell& shell) {
   const std::vector<ProvedCase> cases = provedCasesIn(request.trials);
   const ProofScore total = score(cases);
-  if (!request.out.empty()) writeProof(request.out, cases);
+  if (!request.out.empty()) writeProof(request.out, total, cases);
   if (!request.save.empty()) writeFile(request.save, linesOf(cases));
-  std::cout << (shell.json ? proofJson(total, cases) : proofText(total));
+  printProof(total, cases, shell);
 }
 
 void addTally(CLI::App& gap, Shell& shell) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "core/gap/extent.h"
@@ -96,20 +97,23 @@ bool standsStill(const FitProblem& problem, const std::string& at) {
   return isSeen;
 }
 
+Values neutralValues(const std::vector<Parameter>& declared) {
+  Values values;
+  for (const Parameter& p : declared) values[p.name] = p.neutral.value_or(p.byDefault);
+  return values;
+}
+
 /// What keeps a joint where it is may be as large as it likes, and does it only if it is large.
 void addHolding(EffectCandidate& candidate) {
   for (const Parameter& p : candidate.declared) {
     if (!p.neutral) continue;
-    Values values;
-    for (const Parameter& other : candidate.declared) values[other.name] = other.neutral.value_or(other.byDefault);
-    values[p.name] = p.maximum;
-    candidate.variants.push_back(values);
+    candidate.variants.push_back(neutralValues(candidate.declared));
+    candidate.variants.back()[p.name] = p.maximum;
   }
 }
 
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
-  Values base;
-  for (const Parameter& p : declared) base[p.name] = p.neutral.value_or(p.byDefault);
+  Values base = neutralValues(declared);
   std::vector<Values> variants;
   const auto sized = [&](const Parameter& p, double share, double sign, const Values& others) {
     const double typical =
@@ -188,8 +192,12 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
     }
     return false;
   });
-  for (EffectCandidate& candidate : candidates)
-    if (standsStill(problem, candidate.at)) addHolding(candidate);
+  std::map<std::string, bool> isHeld;  // by place: each is looked at once, however many effects it may have
+  for (EffectCandidate& candidate : candidates) {
+    const auto [place, isNew] = isHeld.emplace(candidate.at, false);
+    if (isNew) place->second = standsStill(problem, candidate.at);
+    if (place->second) addHolding(candidate);
+  }
   return candidates;
 }
 

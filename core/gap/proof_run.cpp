@@ -197,7 +197,7 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
   for (std::size_t number = 1; number <= request.cases; ++number)
     if (const std::string path = verdictOf(number); fs::exists(path))
       cases.push_back(provedFromJson(readFile(path), path));
-  writeProof(request.out, cases);
+  writeProof(request.out, score(cases), cases);
   return cases;
 }
 

@@ -67,8 +67,7 @@ std::string linesOf(const std::vector<ProvedCase>& cases) {
   return text;
 }
 
-void writeProof(const std::string& folder, const std::vector<ProvedCase>& cases) {
-  const ProofScore total = score(cases);
+void writeProof(const std::string& folder, const ProofScore& total, const std::vector<ProvedCase>& cases) {
   const fs::path out(folder);
   writeFile((out / "proof.json").string(), proofJson(total, cases));
   writeFile((out / "proof.txt").string(), proofText(total));

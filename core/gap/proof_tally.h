@@ -15,7 +15,7 @@ std::vector<ProvedCase> provedCasesIn(const std::vector<std::string>& paths);
 /// One case a line, so that a trial can be carried without its recordings and counted again.
 std::string linesOf(const std::vector<ProvedCase>& cases);
 
-/// proof.json, proof.txt and proof.html.
-void writeProof(const std::string& folder, const std::vector<ProvedCase>& cases);
+/// proof.json, proof.txt and proof.html. `total`: score(cases).
+void writeProof(const std::string& folder, const ProofScore& total, const std::vector<ProvedCase>& cases);
 
 }  // namespace btr

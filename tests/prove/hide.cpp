@@ -158,10 +158,10 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
         relative.parameters[parameter.name] =
             std::clamp(parameter.byDefault * share, parameter.minimum, parameter.maximum);
       other.effects.push_back(relative);
-      // Either it holds the joint as it is held, or it is far off.
-      const bool holds = share != asLargeAsAllowed || difference(noiseless(world, other, effects), recorded) < left;
+      // The largest either holds the joint as it is held, or is far off.
+      if (share == asLargeAsAllowed && !(difference(noiseless(world, other, effects), recorded) < left)) continue;
       const int whole = static_cast<int>(other.effects.size()) - 1;
-      if (holds) left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
+      left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
     }
   }
   hidden.cost = withNoise(left);

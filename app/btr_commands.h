@@ -52,8 +52,8 @@ void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|i
 void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export, merge
 void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
-/// gap adopt|revert|recordings, below "gap"
-void addGapStoreCommands(CLI::App& gap, Shell& shell);
+void addGapAdoptCommands(CLI::App& gap, Shell& shell);  ///< gap adopt|revert|versions, below "gap"
+void addGapStoreCommands(CLI::App& gap, Shell& shell);  ///< gap recordings|clues
 void addGapProveCommands(CLI::App& gap, Shell& shell);  ///< gap prove|tally
 void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
 void addGaitCommands(CLI::App& app, Shell& shell);     ///< gait check

@@ -119,6 +119,7 @@ void addPredict(CLI::App& gap, Shell& shell) {
 void addGapCommands(CLI::App& app, Shell& shell) {
   CLI::App* gap = app.add_subcommand("gap", "simulated against recorded");
   gap->require_subcommand(1);
+  addGapAdoptCommands(*gap, shell);
   addGapStoreCommands(*gap, shell);
   addGapProveCommands(*gap, shell);
   auto arguments = std::make_shared<ResidualArguments>();

@@ -1,11 +1,11 @@
-// btr gap adopt, revert, recordings: what gap analysis takes from the database and gives to it.
+// btr gap recordings, clues: what gap analysis takes from the database and keeps in it.
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
-#include "core/run/adoption.h"
 #include "core/run/fitness_clues.h"
+#include "core/run/rig.h"
 #include "core/run/stored_recordings.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -15,52 +15,30 @@ namespace btr::cli {
 namespace {
 
 struct StoreArguments {
-  std::string database, simulator, report, mapping, scene, out;
+  std::string database, mapping, scene, rig, out;
   std::vector<std::string> files;
   std::vector<Id> recordings;
   Id run = 0, experiment = 0, individual = 0;
-  int version = -1;
 };
 
-void tell(const SimulatorRecord& version, Shell& shell) {
-  if (shell.json) {
-    printJson({{"run", version.run},
-               {"simulator", version.number},
-               {"made_by", version.madeBy},
-               {"made_after_generation", version.madeAfterGeneration},
-               {"evidence", nlohmann::json::parse(version.evidence)}});
-    return;
-  }
-  std::cout << "run " << version.run << ": simulator version " << version.number << " by " << version.madeBy
-            << ", used after generation " << version.madeAfterGeneration << '\n';
-}
-
-void adopt(const StoreArguments& a, Shell& shell) {
-  Database db = Database::open(a.database, Database::Mode::readWrite);
-  tell(adoptFromFiles(db, shell.plugins(), a.run, a.simulator, a.report), shell);
-}
-
-void revert(const StoreArguments& a, Shell& shell) {
-  Database db = Database::open(a.database, Database::Mode::readWrite);
-  tell(revertSimulator(db, a.run, a.version < 0 ? std::nullopt : std::optional(a.version)), shell);
-}
-
-/// Recordings belong to an experiment; a run names the one that it is of.
+/// Recordings belong to an experiment, which a rig is, too; a run names the one that it is of.
 Id experimentOf(const Database& db, const StoreArguments& a) {
+  if (!a.rig.empty()) return requireRig(db, a.rig);
   if (a.run != 0) return db.run(a.run).experiment;
   if (a.experiment != 0) return db.experiment(a.experiment).id;
   const auto all = db.experiments();
   if (all.size() == 1) return all.front().id;
-  throw InputError("btr gap recordings: give --run or --experiment; the database has " + std::to_string(all.size()) +
-                   " experiments");
+  throw InputError("btr gap recordings: give --run, --experiment or --rig; the database has " +
+                   std::to_string(all.size()) + " experiments");
 }
 
 void import(const StoreArguments& a, Shell& shell) {
   Database db = Database::open(a.database, Database::Mode::readWrite);
-  const Id experiment = experimentOf(db, a);
+  const std::string scene = a.scene.empty() ? a.rig : a.scene;
+  const Id experiment = a.rig.empty() ? experimentOf(db, a) : addRig(db, loadRig(a.rig));
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& file : a.files) {
-    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual, a.scene);
+    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual, scene);
     all.push_back({{"recording", stored.id},
                    {"file", file},
                    {"new", stored.isNew},
@@ -168,37 +146,23 @@ void addGapStoreCommands(CLI::App& gap, Shell& shell) {
   const auto database = [&](CLI::App* command) {
     command->add_option("--db", a->database, "experiment database")->required();
   };
-  const auto run = [&](CLI::App* command, bool required) {
-    command->add_option("--run", a->run, "number of the run")->required(required)->transform(wholeNumber(1));
-  };
-
-  CLI::App* adoptApp = gap.add_subcommand("adopt", "make a repaired simulator the newest version of a run");
-  database(adoptApp);
-  run(adoptApp, true);
-  adoptApp->add_option("--simulator", a->simulator, "simulator.json of a gap analysis")->required();
-  adoptApp->add_option("--report", a->report, "folder of the report that it comes from: the evidence");
-  adoptApp->callback([a, &shell] { adopt(*a, shell); });
-
-  CLI::App* revertApp = gap.add_subcommand("revert", "make an earlier version the newest again, as a new version");
-  database(revertApp);
-  run(revertApp, true);
-  revertApp->add_option("--version", a->version, "number of the version (default: the newest one's parent)")
-      ->transform(wholeNumber(0));
-  revertApp->callback([a, &shell] { revert(*a, shell); });
-
-  CLI::App* recordings = gap.add_subcommand("recordings", "recordings kept in the database");
-  recordings->require_subcommand(1);
   const auto owner = [&](CLI::App* command) {
     database(command);
-    run(command, false);
-    command->add_option("--experiment", a->experiment, "number of the experiment")->transform(wholeNumber(1));
+    CLI::Option_group* group = command->add_option_group("whose");
+    group->require_option(0, 1);
+    group->add_option("--run", a->run, "number of a run of the experiment")->transform(wholeNumber(1));
+    group->add_option("--experiment", a->experiment, "number of the experiment")->transform(wholeNumber(1));
+    group->add_option("--rig", a->rig, "a scene that no run belongs to, by its file");
   };
+  CLI::App* recordings = gap.add_subcommand("recordings", "recordings kept in the database");
+  recordings->require_subcommand(1);
   CLI::App* importApp = recordings->add_subcommand("import", "check recordings and keep them");
   owner(importApp);
   importApp->add_option("RECORDING.csv", a->files, "recorded trials")->required();
   importApp->add_option("--mapping", a->mapping,
                         "which column is which channel (default: the one beside the file, else beside the scene)");
-  importApp->add_option("--scene", a->scene, "the scene whose SCENE.mapping.json counts for files without one");
+  importApp->add_option("--scene", a->scene,
+                        "the scene whose SCENE.mapping.json counts for files without one (--rig: that one's)");
   importApp->add_option("--individual", a->individual, "number of the individual that was recorded")
       ->transform(wholeNumber(1));
   importApp->callback([a, &shell] { import(*a, shell); });

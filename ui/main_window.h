@@ -6,7 +6,9 @@
 #include <set>
 
 #include "core/plugin/plugin_host.h"
+#include "core/run/rig.h"
 #include "core/spec/experiment_spec.h"
+#include "core/spec/scene_spec.h"
 #include "core/store/database.h"
 #include "ui/common/database_watcher.h"
 #include "ui/common/settings.h"
@@ -180,8 +182,22 @@ class MainWindow : public QMainWindow {
   // main_window_gap.cpp
   void makeGapPage();
   void connectGap();
-  void showAdoption();
   void showGhosts(std::size_t trial, double time_s);
+
+  /// A scene that a page of gap analysis names, as the database knows it.
+  struct KnownRig {
+    QString file, name;  ///< empty: none
+    std::string spec;
+    SceneSpec scene;
+    int newest = 0;  ///< version
+  };
+  void readRig(KnownRig& rig, const QString& file) const;
+  void showRigs();
+  void takeRigs(const std::vector<SimulatorRecord>& versions);
+  std::vector<SimulatorRecord> versionsOf(Id rig) const;
+  void selectRig(Id rig, Id simulator);
+  void showAdoption();
+  QString ownerOfRecordings() const;  ///< the rig's scene; empty: the selected run's experiment
   void keepRecordings(const QStringList& files, const QString& scene);
   void takeStoredRecordings();
 
@@ -205,7 +221,10 @@ class MainWindow : public QMainWindow {
   QString unit_;
   std::vector<Parameter> genotype_;        ///< of its controller
   std::vector<std::size_t> policiesSeen_;  ///< what the page of L2 was made from
-  std::vector<SimulatorRecord> simulators_;
+  SceneSpec runScene_;
+  std::vector<SimulatorRecord> simulators_, rigVersions_;
+  KnownRig setupRig_, reportRig_;
+  Id shownRig_ = 0;  ///< whose versions the page of simulators shows in place of a run's
   std::vector<GapRecord> gaps_;
   std::vector<MeasurementTask> tasks_;
   std::vector<MeasurementRecord> measurements_;

@@ -15,11 +15,10 @@ void MainWindow::connectMerge() {
   connect(merging_, &ProgramProcess::failed, this, &MainWindow::report);
   connect(merging_, &ProgramProcess::done, this, [this](const QByteArray& output) {
     const QJsonObject copied = QJsonDocument::fromJson(output).object();
-    banner_->showMessage(MessageBanner::Kind::information,
-                         tr("%1 runs with %2 individuals were copied from %3.")
-                             .arg(copied["runs"].toInt())
-                             .arg(copied["individuals"].toInt())
-                             .arg(QFileInfo(mergedFrom_).fileName()));
+    banner_->showMessage(MessageBanner::Kind::information, tr("%1 runs with %2 individuals were copied from %3.")
+                                                               .arg(copied["runs"].toInt())
+                                                               .arg(copied["individuals"].toInt())
+                                                               .arg(QFileInfo(mergedFrom_).fileName()));
   });
 }
 

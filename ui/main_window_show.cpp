@@ -86,6 +86,8 @@ void MainWindow::selectRun(Id run) {
   if (!watcher_.isOpen() || (run != 0 && run == run_.id && watcher_.followed() == run)) return;
   sheet_->finishEditing();
   run_ = {};
+  runScene_ = {};
+  shownRig_ = 0;
   gaps_.clear();
   simulators_.clear();
   tasks_.clear();
@@ -111,6 +113,7 @@ void MainWindow::selectRun(Id run) {
 // What is fixed for a run: its settings, the unit of its fitness, its label.
 void MainWindow::showSpec(const RunRecord& run) {
   run_ = run;
+  runScene_ = sceneFromJson(run.sceneJson, "run " + std::to_string(run.id), "");
   unit_.clear();
   FitnessRun shown;
   shown.run = run.id;

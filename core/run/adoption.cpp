@@ -7,6 +7,7 @@
 #include "core/gap/gap_report.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/run_lock.h"
+#include "core/sim/scene.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
@@ -53,6 +54,73 @@ std::string evidenceOf(const std::string& report, const GapReport& found, const 
   return evidence.dump();
 }
 
+/// A simulator from files with what says where it comes from.
+struct Found {
+  SimulatorSpec simulator;
+  std::string evidence;     ///< JSON text
+  std::string sceneSha256;  ///< of the report; "" without one
+};
+
+Found readFound(const std::string& simulator, const std::string& report) {
+  const std::string text = readFile(simulator);
+  Found found{simulatorFromJson(text, simulator), "", ""};
+  if (report.empty()) {
+    const nlohmann::json file{{"simulator_file", std::filesystem::absolute(simulator).lexically_normal().string()},
+                              {"simulator_sha256", sha256(text)}};
+    found.evidence = file.dump();
+    return found;
+  }
+  const GapReport gap = loadReport(report);
+  if (gap.after != found.simulator)
+    throw InputError(simulator + ": is not the simulator that the report in " + report + " has found");
+  found.evidence = evidenceOf(report, gap, sha256(readFile((std::filesystem::path(report) / "report.json").string())));
+  found.sceneSha256 = gap.sceneSha256;
+  return found;
+}
+
+/// Values that `simulator` does not name stay as they were.
+SimulatorSpec inheriting(SimulatorSpec simulator, const SimulatorSpec& parent) {
+  for (const auto& [name, value] : parent.values) simulator.values.try_emplace(name, value);
+  return simulator;
+}
+
+/// The version that is to be the newest again: that of the number, else the newest one's parent.
+const SimulatorRecord& revertedTo(const std::vector<SimulatorRecord>& all, std::optional<int> number,
+                                  const std::string& owner, const std::string& what) {
+  const SimulatorRecord& newest = all.back();
+  const auto wanted = std::find_if(all.begin(), all.end(), [&](const SimulatorRecord& s) {
+    return number ? s.number == *number : s.id == newest.parent;
+  });
+  if (wanted == all.end() || wanted->id == newest.id)
+    throw InputError(owner, number ? "version " + std::to_string(*number) : std::string("reverting the first version"),
+                     newest.number == 0 ? "a " + what + " that has more than its first version"
+                                        : "a version from 0 to " + std::to_string(newest.number - 1));
+  return *wanted;
+}
+
+std::string reverting(const SimulatorRecord& to, const SimulatorRecord& from) {
+  return nlohmann::json{{"reverts_to", to.number}, {"from", from.number}}.dump();
+}
+
+std::string nameOfRig(const Database& database, Id rig) {
+  return "rig " + database.experiment(rig).name + " of " + database.path();
+}
+
+// The number says what was the newest when it was looked at: of two that adopt at once the second is refused.
+SimulatorRecord addToRig(Database& database, const SimulatorRecord& parent, SimulatorSpec simulator,
+                         const std::string& madeBy, const std::string& evidence) {
+  SimulatorRecord version;
+  version.rig = parent.rig;
+  version.number = parent.number + 1;
+  version.parent = parent.id;
+  version.simulator = std::move(simulator);
+  version.madeBy = madeBy;
+  version.evidence = evidence;
+  version.createdAt = utcNow();
+  version.id = database.addRigSimulator(version);
+  return version;
+}
+
 }  // namespace
 
 SimulatorRecord adoptSimulator(Database& database, const PluginHost& host, Id run, const SimulatorSpec& simulator,
@@ -62,8 +130,7 @@ SimulatorRecord adoptSimulator(Database& database, const PluginHost& host, Id ru
   const RunRecord record = database.run(run);
   requireRest(database, record);
   const SimulatorRecord parent = database.latestSimulator(run);
-  SimulatorSpec adopted = simulator;
-  for (const auto& [name, value] : parent.simulator.values) adopted.values.try_emplace(name, value);
+  SimulatorSpec adopted = inheriting(simulator, parent.simulator);
   if (adopted == parent.simulator)
     throw InputError(nameOf(database, run) + ": its version " + std::to_string(parent.number) +
                      " is this simulator already");
@@ -74,18 +141,25 @@ SimulatorRecord adoptSimulator(Database& database, const PluginHost& host, Id ru
 
 SimulatorRecord adoptFromFiles(Database& database, const PluginHost& host, Id run, const std::string& simulator,
                                const std::string& report) {
-  const std::string text = readFile(simulator);
-  const SimulatorSpec wanted = simulatorFromJson(text, simulator);
-  if (report.empty()) {
-    const nlohmann::json evidence{{"simulator_file", std::filesystem::absolute(simulator).lexically_normal().string()},
-                                  {"simulator_sha256", sha256(text)}};
-    return adoptSimulator(database, host, run, wanted, evidence.dump());
-  }
-  const GapReport found = loadReport(report);
-  if (found.after != wanted)
-    throw InputError(simulator + ": is not the simulator that the report in " + report + " has found");
-  const std::string hash = sha256(readFile((std::filesystem::path(report) / "report.json").string()));
-  return adoptSimulator(database, host, run, wanted, evidenceOf(report, found, hash));
+  const Found found = readFound(simulator, report);
+  return adoptSimulator(database, host, run, found.simulator, found.evidence);
+}
+
+SimulatorRecord adoptForRig(Database& database, const PluginHost& host, const std::string& scene,
+                            const std::string& simulator, const std::string& report) {
+  const Found found = readFound(simulator, report);
+  if (!report.empty() && found.sceneSha256 != sha256(readFile(scene)))
+    throw InputError(scene + ": is not the scene of the report in " + report + ", or has changed since; analyse again");
+  // What its scene cannot build is refused before anything is stored.
+  const SceneSpec spec = loadScene(scene);
+  makeScene(spec, loadModels(spec), found.simulator, [&](const std::string& name) { return host.effect(name); });
+  const Id rig = addRig(database, loadRig(scene));
+  const SimulatorRecord parent = database.rigSimulators(rig).back();
+  const SimulatorSpec adopted = inheriting(found.simulator, parent.simulator);
+  if (adopted == parent.simulator)
+    throw InputError(nameOfRig(database, rig) + ": its version " + std::to_string(parent.number) +
+                     " is this simulator already");
+  return addToRig(database, parent, adopted, "gap analysis", found.evidence);
 }
 
 SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> number) {
@@ -94,17 +168,16 @@ SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> n
   const RunRecord record = database.run(run);
   requireRest(database, record);
   const std::vector<SimulatorRecord> all = database.simulators(run);
-  const SimulatorRecord& newest = all.back();
-  const auto wanted = std::find_if(all.begin(), all.end(), [&](const SimulatorRecord& s) {
-    return number ? s.number == *number : s.id == newest.parent;
-  });
-  if (wanted == all.end() || wanted->id == newest.id)
-    throw InputError(nameOf(database, run),
-                     number ? "version " + std::to_string(*number) : std::string("reverting the first version"),
-                     newest.number == 0 ? std::string("a run that has more than its first version")
-                                        : "a version from 0 to " + std::to_string(newest.number - 1));
-  const nlohmann::json evidence{{"reverts_to", wanted->number}, {"from", newest.number}};
-  return add(database, record, newest, wanted->simulator, "by hand", evidence.dump());
+  const SimulatorRecord& wanted = revertedTo(all, number, nameOf(database, run), "run");
+  return add(database, record, all.back(), wanted.simulator, "by hand", reverting(wanted, all.back()));
+}
+
+SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number) {
+  const std::vector<SimulatorRecord> all = database.rigSimulators(rig);
+  if (all.empty())
+    throw InputError("experiment " + std::to_string(rig) + " of " + database.path() + ": it is not a rig");
+  const SimulatorRecord& wanted = revertedTo(all, number, nameOfRig(database, rig), "rig");
+  return addToRig(database, all.back(), wanted.simulator, "by hand", reverting(wanted, all.back()));
 }
 
 }  // namespace btr

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/plugin/plugin_host.h"
+#include "core/run/rig.h"
 #include "core/store/database.h"
 
 namespace btr {
@@ -20,8 +21,15 @@ SimulatorRecord adoptSimulator(Database& database, const PluginHost& host, Id ru
 SimulatorRecord adoptFromFiles(Database& database, const PluginHost& host, Id run, const std::string& simulator,
                                const std::string& report = "");
 
+/// The same for a rig, which is added to the database where it is not there yet. Refuses a report of another scene, or
+/// of this one before its file was changed.
+SimulatorRecord adoptForRig(Database& database, const PluginHost& host, const std::string& scene,
+                            const std::string& simulator, const std::string& report = "");
+
 /// Makes an earlier version the newest again, as a new version made "by hand": the one with that number, by default the
 /// newest version's parent. Throws InputError as above.
 SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> number = {});
+/// The same for a rig, by its experiment.
+SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number = {});
 
 }  // namespace btr

@@ -119,6 +119,13 @@ class Database {
   SimulatorRecord latestSimulator(Id run) const;
   std::vector<GapRecord> gaps(Id run) const;
 
+  // ---- rigs: scenes that no run belongs to, each an experiment without runs, with simulator versions of its own
+  /// Experiment and version 0 together; an experiment of the same specification that is there already is returned.
+  Id addRig(const ExperimentRecord& rig, const SimulatorRecord& first);
+  /// Refuses a number that is not the next of its rig, and a parent that is not a version of it.
+  Id addRigSimulator(const SimulatorRecord& version);
+  std::vector<SimulatorRecord> rigSimulators(Id rig) const;  ///< by number; 0: of all rigs, by rig and number
+
   // ---- recordings
   Id addRecording(
       const RecordingRecord& recording);  ///< refuses a sha256 that is not that of csv; an absent one is filled in

@@ -113,6 +113,10 @@ void refuseWhatIsThere(const Connection& connection, const std::string& path) {
   refuse("grid", "learns what", " learns (the same points, method and seed)",
          "SELECT a.id, b.id FROM main.grid a JOIN other.grid b ON a.spec_sha256 = b.spec_sha256 "
          "AND a.method = b.method AND a.seed = b.seed ORDER BY b.id LIMIT 1");
+  refuse("rig", "has a version of", " (the same simulator from the same report at the same time)",
+         "SELECT a.experiment_id, b.experiment_id FROM main.rig_simulator a JOIN other.rig_simulator b "
+         "ON a.number > 0 AND b.number > 0 AND a.created_at = b.created_at AND a.simulator_json = b.simulator_json "
+         "AND a.evidence = b.evidence ORDER BY b.id LIMIT 1");
 }
 
 }  // namespace
@@ -154,6 +158,19 @@ MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
       return text + " ELSE " + by + " END";
     };
 
+    // Versions of a rig that is in both follow behind ours.
+    const auto numberInRig = [&] {
+      std::string text = "CASE experiment_id";
+      for (const auto& [from, to] : same)
+        text += " WHEN " + std::to_string(from) + " THEN number + " +
+                std::to_string(*Query(c,
+                                      "SELECT ifnull(max(number) + 1, 0) FROM main.rig_simulator "
+                                      "WHERE experiment_id = ?",
+                                      to)
+                                    .value<std::int64_t>());
+      return same.empty() ? std::string("number") : text + " ELSE number END";
+    };
+
     MergedRuns merged;
     for (const std::string& table : schema.tables()) {
       std::string names, values;
@@ -161,8 +178,9 @@ MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
         names += (names.empty() ? "" : ", ") + column.name;
         values +=
             (values.empty() ? "" : ", ") + (table == "simulator" && column.name == "evidence" ? movedEvidence(offsets)
-                                            : column.table.empty()                            ? column.name
-                                                                                              : moved(column));
+                                            : table == "rig_simulator" && column.name == "number" ? numberInRig()
+                                            : column.table.empty()                                ? column.name
+                                                                                                  : moved(column));
       }
       std::string which;
       if (table == "experiment")

@@ -23,4 +23,7 @@ void reasonsForMeasuring(SQLite::Database& database);
 /// From which measured values the errors of L3's candidates come.
 void evidenceOfAdaptations(SQLite::Database& database);
 
+/// Simulator versions of scenes that no run belongs to.
+void simulatorsOfRigs(SQLite::Database& database);
+
 }  // namespace btr

@@ -270,6 +270,7 @@ constexpr std::array steps{
     Migration{"why individuals are measured, how sure the held-out gap is, and that a person ended L2",
               reasonsForMeasuring},
     Migration{"from which measured values the errors of a generation of L3 come", evidenceOfAdaptations},
+    Migration{"simulator versions of rigs: scenes that no run belongs to", simulatorsOfRigs},
 };
 
 }  // namespace

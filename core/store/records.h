@@ -158,9 +158,10 @@ struct AdaptationRecord {
 
 /// A simulator version: never edited.
 struct SimulatorRecord {
-  Id id = 0;
-  Id run = 0;
-  int number = 0;  ///< 0 is the one the run started with
+  Id id = 0;       ///< among those of runs, or among those of rigs
+  Id run = 0;      ///< 0: of a rig
+  Id rig = 0;      ///< a rig's version: the experiment that stands for the rig; else 0
+  int number = 0;  ///< 0 is the one the run started with, or the rig's scene as given
   Id parent = 0;
   SimulatorSpec simulator;
   std::string madeBy;    ///< "start", "L3", "gap analysis", "by hand"

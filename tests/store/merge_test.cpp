@@ -148,5 +148,38 @@ TEST_F(Merge, RefusesWhatIsThereAlreadyAndCopiesNothing) {
   fill(ours, 9, "kick");
 }
 
+// A rig that is in both databases is one; what the other one found follows behind what ours did.
+TEST_F(Merge, VersionsOfARigFollowOurs) {
+  Database ours = create();
+  fill(ours, 1, "ours");
+  Database theirs = Database::open(pathOf("lab.db"), Mode::create);
+  const auto adopt = [](Database& db, const std::string& spec, double gain) {
+    const Id rig = db.addRig({0, "servo", spec, "", ""}, SimulatorRecord{});
+    SimulatorRecord version;
+    version.rig = rig;
+    version.parent = db.rigSimulators(rig).back().id;
+    version.number = db.rigSimulators(rig).back().number + 1;
+    version.simulator.values = {{"friction", gain}};
+    db.addRigSimulator(version);
+    return rig;
+  };
+  const Id rig = adopt(ours, "{}", 1);
+  adopt(theirs, "{\"only\": \"theirs\"}", 3);
+  adopt(theirs, "{}", 2);
+  ours.merge(pathOf("lab.db"), large);
+  const auto all = ours.rigSimulators(rig);
+  ASSERT_EQ(all.size(), 4u);
+  for (int number = 0; number < 4; ++number) EXPECT_EQ(all[static_cast<std::size_t>(number)].number, number);
+  EXPECT_EQ(all[1].simulator.values.at("friction"), 1);
+  EXPECT_TRUE(all[2].simulator.values.empty());  // as given, again
+  EXPECT_EQ(all[3].simulator.values.at("friction"), 2);
+  EXPECT_EQ(all[3].parent, all[2].id);
+  EXPECT_EQ(ours.rigSimulators(0).size(), 6u);
+  EXPECT_EQ(number(file(), "SELECT count(*) FROM pragma_foreign_key_check"), 0);
+
+  EXPECT_THAT(refusal([&] { ours.merge(pathOf("lab.db"), large); }), HasSubstr("nothing was copied"));
+  EXPECT_EQ(ours.rigSimulators(0).size(), 6u);
+}
+
 }  // namespace
 }  // namespace btr

@@ -127,6 +127,7 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
     start.run = id;
     database.finishStage(start, {id, 1, 1, 0, 1, 1, {}, {}, 1, 1, 0, 1}, RunState::learning);
     database.addRecording({0, 1, 0, "r.csv", "", "", "a,b", "", ""});
+    database.addRig({0, "servo", "{}", "", ""}, SimulatorRecord{});
     GridStart cell;
     cell.cell = 1;
     cell.run = runOf(1, 2);
@@ -149,7 +150,7 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
   std::vector<std::string> tables;
   for (SQLite::Statement row(raw, "SELECT name FROM sqlite_master WHERE type = 'table'"); row.executeStep();)
     tables.push_back(row.getColumn(0).getString());
-  EXPECT_EQ(31u, tables.size());
+  EXPECT_EQ(32u, tables.size());
   for (const std::string& table : tables) {
     EXPECT_GT(raw.execAndGet("SELECT count(*) FROM " + table).getInt(), 0) << table;
     EXPECT_THROW(raw.exec("DELETE FROM " + table), SQLite::Exception) << table;

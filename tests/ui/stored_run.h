@@ -36,7 +36,7 @@ class StoredRun {
     run.seed = seed;
     run.specJson = toJsonText(spec());
     run.specSha256 = sha256(run.specJson);
-    run.sceneJson = "{}";
+    run.sceneJson = R"({"format": "uchilsim-scene-1"})";
     run.reality = reality;
     SimulatorRecord first;
     first.madeBy = "start";

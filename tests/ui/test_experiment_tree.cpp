@@ -52,6 +52,42 @@ class TestExperimentTree : public QObject {
     QCOMPARE(model.index(1, 2, first).data().toString(), QString("L3"));
   }
 
+  void showsARigsVersionsBelowItself() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment("Kick"));
+    const Id rig = stored.database.addRig({0, "xl330", "{}", "", ""}, SimulatorRecord{});
+    SimulatorRecord version;
+    version.rig = rig;
+    version.number = 1;
+    version.parent = stored.database.rigSimulators(rig).front().id;
+    version.madeBy = "gap analysis";
+    const Id adopted = stored.database.addRigSimulator(version);
+    ExperimentTree tree;
+    fill(tree, stored);
+    tree.setRigs(stored.database.rigSimulators(0));
+    fill(tree, stored);  // again, as after every change of the database
+    QAbstractItemModel& model = *tree.view()->model();
+    QCOMPARE(model.rowCount(), 2);
+    const QModelIndex shown = model.index(1, 0);
+    QCOMPARE(shown.data().toString(), QString("xl330"));
+    QCOMPARE(shown.data(BadgeDelegate::DetailRole).toString(), QString("rig · 2 simulator versions"));
+    QCOMPARE(model.rowCount(shown), 2);
+    QCOMPARE(model.index(1, 0, shown).data(BadgeDelegate::DetailRole).toString(), QString("gap analysis"));
+
+    QSignalSpy rigs(&tree, &ExperimentTree::rigSelected), runs(&tree, &ExperimentTree::runSelected);
+    tree.view()->setCurrentIndex(model.index(1, 0, shown));
+    QCOMPARE(rigs.size(), 1);
+    QCOMPARE(rigs.first().at(0).toLongLong(), rig);
+    QCOMPARE(rigs.first().at(1).toLongLong(), adopted);
+    QCOMPARE(tree.selectedRun(), Id(0));
+    tree.view()->setCurrentIndex(shown);
+    QCOMPARE(rigs.last().at(1).toLongLong(), Id(0));
+    QCOMPARE(runs.size(), 0);
+    tree.selectRun(run);
+    QCOMPARE(tree.selectedRun(), run);
+    QCOMPARE(tree.selectedRig(), Id(0));
+  }
+
   void putsTheRunsOfAGridsCellsTogether() {
     StoredRun stored;
     const Id experiment = stored.addExperiment();

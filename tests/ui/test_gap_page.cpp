@@ -185,15 +185,45 @@ class TestGapPage : public QObject {
     Bench bench;
     QSignalSpy adopted(&bench.page, &GapPage::adoptRequested), reverted(&bench.page, &GapPage::revertRequested);
     QVERIFY(!bench.page.adoptAction()->isEnabled());  // no run is selected
-    bench.page.setRun("run 3", versions(1), {});
+    bench.page.setTargets({{"run 3", {}, versions(1), {}}});
     QVERIFY(bench.page.adoptAction()->isEnabled());
     QVERIFY(!bench.page.revertAction()->isEnabled());
     bench.page.adoptAction()->trigger();
     QCOMPARE(adopted.first().at(0).toString(), bench.folder.filePath("report/simulator.json"));
     QCOMPARE(adopted.first().at(1).toString(), bench.folder.filePath("report"));
-    bench.page.setRun("run 3", versions(2), {});
+    bench.page.setTargets({{"run 3", {}, versions(2), {}}});
     bench.page.revertAction()->trigger();
     QCOMPARE(reverted.size(), 1);
+  }
+
+  void ofRunAndRigTheUserChooses() {
+    Bench bench;
+    QSignalSpy adopted(&bench.page, &GapPage::adoptRequested), reverted(&bench.page, &GapPage::revertRequested);
+    auto* into = bench.page.findChild<QComboBox*>("adoptInto");
+    // A rig of which the database has nothing yet takes a simulator, too.
+    const std::vector<AdoptionTarget> both{{"run 3", {}, versions(1), {}}, {"rig leg", "/rigs/leg.json", {}, {}}};
+    bench.page.setTargets(both, 1);
+    QCOMPARE(into->currentText(), QString("rig leg"));
+    QVERIFY(bench.page.adoptAction()->isEnabled());
+    QVERIFY(!bench.page.revertAction()->isEnabled());
+    bench.page.adoptAction()->trigger();
+    QCOMPARE(adopted.last().at(2).toString(), QString("/rigs/leg.json"));
+
+    // What was chosen stays while a run goes on, until another report is opened.
+    into->setCurrentIndex(0);
+    emit into->activated(0);
+    bench.page.setTargets({{"run 3", {}, versions(3), {}}, {"rig leg", "/rigs/leg.json", versions(2), {}}}, 1);
+    QCOMPARE(into->currentText(), QString("run 3, simulator version 2"));
+    bench.page.revertAction()->trigger();
+    QCOMPARE(reverted.last().at(0).toString(), QString());
+    QVERIFY(bench.page.openReport(bench.folder.filePath("report")));
+    bench.page.setTargets({{"run 3", {}, versions(3), {}}, {"rig leg", "/rigs/leg.json", versions(2), {}}}, 1);
+    QCOMPARE(into->currentText(), QString("rig leg, simulator version 1"));
+    bench.page.revertAction()->trigger();
+    QCOMPARE(reverted.last().at(0).toString(), QString("/rigs/leg.json"));
+    QVERIFY(into->isEnabled());
+    bench.page.setTargets({{"rig leg", "/rigs/leg.json", versions(2), {}}});
+    QVERIFY(!into->isEnabled());
   }
 
   void whatFoundNothingIsNotAdopted() {
@@ -203,7 +233,7 @@ class TestGapPage : public QObject {
       GapReport report = sampleReport();
       report.verdict = verdict;
       writeReport(report, bench.folder.filePath("nothing").toStdString());
-      bench.page.setRun("run 3", versions(1), {});
+      bench.page.setTargets({{"run 3", {}, versions(1), {}}});
       QVERIFY(bench.page.adoptAction()->isEnabled());
       QVERIFY(bench.page.openReport(bench.folder.filePath("nothing")));
       QVERIFY(!bench.page.adoptAction()->isEnabled());
@@ -254,7 +284,7 @@ class TestGapPage : public QObject {
 
   void adoptionSaysWhyItIsNotPossible() {
     Bench bench;
-    bench.page.setRun("run 3", versions(2), "A process works on the run.");
+    bench.page.setTargets({{"run 3", {}, versions(2), "A process works on the run."}});
     QVERIFY(!bench.page.adoptAction()->isEnabled());
     QVERIFY(!bench.page.revertAction()->isEnabled());
     QCOMPARE(bench.page.adoptAction()->toolTip(), QString("A process works on the run."));
@@ -463,7 +493,7 @@ class TestGapPage : public QObject {
     page.setup().findChild<QLineEdit*>("out")->setText(folder.filePath("report"));
     auto all = versions(2);
     all[1].simulator.values = {{"friction", 0.5}};
-    page.setRun("run 3", all, {});
+    page.setStarts({{"run 3", {}, all, {}}});
     page.findChild<QComboBox*>("simulator")->setCurrentIndex(1);  // the newest
     QSignalSpy failed(&page, &GapPage::failed);
     page.findChild<QPushButton*>("startAnalysis")->click();

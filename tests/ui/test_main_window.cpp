@@ -11,11 +11,14 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QScreen>
+#include <QStatusBar>
+#include <QTableWidget>
 #include <QTest>
 #include <QTimer>
 #include <QTreeView>
 #include <algorithm>
 
+#include "tests/gap/rig_report.h"
 #include "tests/ui/stored_run.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
@@ -25,7 +28,10 @@
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
+#include "ui/experiment/simulators_page.h"
+#include "ui/gap/analysis_setup.h"
 #include "ui/gap/clues_view.h"
+#include "ui/gap/gap_page.h"
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
@@ -568,6 +574,48 @@ class TestMainWindow : public QObject {
     window->mergeDatabase(theirs.qpath());
     QTRY_VERIFY_WITH_TIMEOUT(message(*window).contains("nothing was copied"), 20000);
     QCOMPARE(ours.database.runs().size(), std::size_t(2));
+  }
+
+  // What was found about a robot that no run has becomes a version of its scene, and is taken back, with the real
+  // program.
+  void aRigTakesWhatGapAnalysisFound() {
+    StoredRun stored;
+    const Id run = fullRun(stored);
+    const RigReport files(stored.folder.path().toStdString());
+    Desk desk(BTR_PROGRAM);
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(window->openReport(QString::fromStdString(files.report)));
+    auto* into = window->gapPage().findChild<QComboBox*>("adoptInto");
+    QCOMPARE(into->count(), 2);
+    QCOMPARE(into->currentText(), QString("rig bench"));
+    window->gapPage().adoptAction()->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(window->statusBar()->currentMessage(), QString("rig bench has simulator version 1 now."),
+                              20000);
+    QCOMPARE(into->currentText(), QString("rig bench, simulator version 1"));
+    const auto rigs = stored.database.rigSimulators(0);
+    QCOMPARE(rigs.size(), std::size_t(2));
+    QCOMPARE(stored.database.simulators(run).size(), std::size_t(2));  // the run's own are as they were
+
+    // The tree leads to its versions.
+    auto* tree = window->findChild<ExperimentTree*>();
+    const QModelIndex rig = tree->view()->model()->index(1, 0);
+    QCOMPARE(rig.data().toString(), QString("bench"));
+    tree->view()->setCurrentIndex(tree->view()->model()->index(1, 0, rig));
+    QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 2);
+    QCOMPARE(tree->selectedRig(), rigs.front().rig);
+    // An analysis of this scene may begin with it.
+    window->gapPage().setup().setScene(QString::fromStdString(files.scene));
+    QCOMPARE(window->gapPage().setup().findChild<QComboBox*>("simulator")->itemText(1),
+             QString("rig bench, version 1 by gap analysis"));
+
+    window->gapPage().revertAction()->trigger();
+    QTRY_COMPARE_WITH_TIMEOUT(window->statusBar()->currentMessage(), QString("rig bench has simulator version 2 now."),
+                              20000);
+    QCOMPARE(stored.database.rigSimulators(0).back().simulator, SimulatorSpec{});
+    QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 3);
+    tree->selectRun(run);
+    window->selectRun(run);
+    QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 2);
   }
 
   // From the form to the end with the real program: L1, two measured, L2 of one iteration, L3, L1, measured again.

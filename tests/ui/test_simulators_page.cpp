@@ -107,6 +107,34 @@ class TestSimulatorsPage : public QObject {
     QVERIFY(rowOf(*page.findChild<QTableWidget*>("difference"), "robots.dog.links.head.mass_kg") >= 0);
     QVERIFY(page.findChild<QLabel*>("effects")->text().contains("<b>backlash at dog.LF_J1 (width_rad = 0.05)</b>"));
   }
+
+  // A rig has none of a run's twelve parameters: what a version does not name is the scene's own.
+  void ofARigItShowsWhatItsVersionsName() {
+    auto simulators = twoVersions();
+    for (SimulatorRecord& version : simulators) version.rig = 5;
+    simulators[1].simulator.values = {{"robots.arm.servos.elbow.p", 3.5}};
+    SimulatorRecord back = simulators[1];
+    back.id = 13;
+    back.number = 2;
+    back.parent = 12;
+    back.simulator = {};
+    simulators.push_back(back);
+    SimulatorsPage page;
+    page.setSimulators(simulators);
+    auto* versions = page.findChild<QTableWidget*>("versions");
+    auto* difference = page.findChild<QTableWidget*>("difference");
+    versions->setCurrentCell(1, 0);
+    QCOMPARE(difference->rowCount(), 1);
+    QCOMPARE(difference->item(0, 1)->text(), QString("as given"));
+    QCOMPARE(difference->item(0, 2)->text(), QString("3.5"));
+    QCOMPARE(difference->item(0, 3)->text(), QString("new"));
+    versions->setCurrentCell(2, 0);
+    QCOMPARE(difference->item(0, 1)->text(), QString("3.5"));
+    QCOMPARE(difference->item(0, 2)->text(), QString("as given"));
+    QCOMPARE(difference->item(0, 3)->text(), QString("taken back"));
+    versions->setCurrentCell(0, 0);
+    QCOMPARE(page.findChild<QLabel*>("title")->text(), QString("Simulator 0: the scene as given"));
+  }
 };
 
 QTEST_MAIN(TestSimulatorsPage)

@@ -38,6 +38,7 @@ void DatabaseWatcher::open(const QString& path) {
   run_ = 0;
   runs_.clear();
   stages_.clear();
+  rigVersions_.reset();
   grids_.clear();
   active_.clear();
   activeGrids_.clear();
@@ -118,6 +119,10 @@ bool DatabaseWatcher::readActive() {
 
 void DatabaseWatcher::readAll() {
   emit runsChanged(database_->experiments(), runs_);
+  if (const auto rigs = database_->rigSimulators(0); rigVersions_ != rigs.size()) {
+    rigVersions_ = rigs.size();
+    emit rigsChanged(rigs);
+  }
   for (const RunRecord& run : runs_) {
     const auto told = stages_.find(run.id);
     const bool stageTold = told == stages_.end() || told->second != run.stage;

@@ -50,6 +50,8 @@ class DatabaseWatcher : public QObject {
   void runsChanged(const std::vector<btr::ExperimentRecord>& experiments, const std::vector<btr::RunRecord>& runs);
   /// Of any run, when it is first seen and whenever it has adapted.
   void versionsChanged(btr::Id run, const std::vector<btr::SimulatorRecord>& simulators);
+  /// The versions of all rigs, by rig and number: at first, and when one came along.
+  void rigsChanged(const std::vector<btr::SimulatorRecord>& versions);
   void activeChanged(const std::set<btr::Id>& active);  ///< runs or grids
   // About the followed run:
   void runChanged(const btr::RunRecord& run, const btr::RunProgress& progress, bool active);
@@ -76,7 +78,8 @@ class DatabaseWatcher : public QObject {
   std::map<Id, int> stages_;  ///< of each run, when its simulators were told
   std::set<Id> active_, activeGrids_;
   Id run_ = 0;
-  bool fresh_ = true;  ///< nothing of the followed run was told yet
+  std::optional<std::size_t> rigVersions_;  ///< that were told
+  bool fresh_ = true;                       ///< nothing of the followed run was told yet
   bool wasFailing_ = false;
   int lastGeneration_ = 0;
   std::size_t simulators_ = 0, gaps_ = 0;

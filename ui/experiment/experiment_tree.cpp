@@ -72,7 +72,8 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     const bool isNew = model_->match(model_->index(0, 0), IdRole, qint64(experiment.id), 1, Qt::MatchExactly).isEmpty();
     QStandardItem* item = child(root, experimentKind, experiment.id);
     item->setText(text(experiment.name));
-    if (!experiment.note.empty()) item->setData(text(experiment.note), BadgeDelegate::DetailRole);
+    if (!experiment.note.empty() && !rigs_.count(experiment.id))
+      item->setData(text(experiment.note), BadgeDelegate::DetailRole);
     item->setIcon(themeIcon("folder-open"));
     item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
                      (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
@@ -131,21 +132,44 @@ void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& s
   for (const auto& simulator : simulators) ids.insert(simulator.id);
   keepOnly(*found->second, simulatorKind, ids);
   for (const auto& simulator : simulators) {
-    QStandardItem* item = child(*found->second, simulatorKind, simulator.id);
-    item->setText(tr("Simulator %1").arg(simulator.number));
-    item->setIcon(themeIcon("cpu"));
-    QStandardItem* after = found->second->child(item->row(), 1);
-    after->setText(QString::number(simulator.madeAfterGeneration));
-    found->second->child(item->row(), 2)->setText(text(simulator.madeBy));
-    item->setData(simulator.madeAfterGeneration > 0
-                      ? tr("%1, after generation %2").arg(text(simulator.madeBy)).arg(simulator.madeAfterGeneration)
-                      : text(simulator.madeBy),
-                  BadgeDelegate::DetailRole);
+    const QString detail =
+        simulator.madeAfterGeneration > 0
+            ? tr("%1, after generation %2").arg(text(simulator.madeBy)).arg(simulator.madeAfterGeneration)
+            : text(simulator.madeBy);
+    QStandardItem* item = showSimulator(*found->second, simulator, detail);
+    found->second->child(item->row(), 1)->setText(QString::number(simulator.madeAfterGeneration));
     item->setToolTip(tr("Simulator version %1, made by %2 after generation %3")
                          .arg(simulator.number)
                          .arg(text(simulator.madeBy))
                          .arg(simulator.madeAfterGeneration));
   }
+}
+
+void ExperimentTree::setRigs(const std::vector<SimulatorRecord>& versions) {
+  std::map<Id, int> count;
+  for (const SimulatorRecord& version : versions) ++count[version.rig];
+  rigs_.clear();
+  for (const auto& [rig, versionsOfIt] : count) {
+    rigs_.insert(rig);
+    QStandardItem* item = child(*model_->invisibleRootItem(), experimentKind, rig);
+    item->setData(tr("rig · %1 simulator versions").arg(versionsOfIt), BadgeDelegate::DetailRole);
+  }
+  for (const SimulatorRecord& version : versions) {
+    QStandardItem* rig = child(*model_->invisibleRootItem(), experimentKind, version.rig);
+    showSimulator(*rig, version, text(version.madeBy))
+        ->setToolTip(tr("Simulator version %1 of %2, made by %3")
+                         .arg(QString::number(version.number), rig->text(), text(version.madeBy)));
+  }
+}
+
+QStandardItem* ExperimentTree::showSimulator(QStandardItem& parent, const SimulatorRecord& simulator,
+                                             const QString& detail) {
+  QStandardItem* item = child(parent, simulatorKind, simulator.id);
+  item->setText(tr("Simulator %1").arg(simulator.number));
+  item->setIcon(themeIcon("cpu"));
+  item->setData(detail, BadgeDelegate::DetailRole);
+  parent.child(item->row(), 2)->setText(text(simulator.madeBy));
+  return item;
 }
 
 void ExperimentTree::setActive(const std::set<Id>& active) {
@@ -165,8 +189,14 @@ void ExperimentTree::selectRun(Id run) {
 Id ExperimentTree::selectedRun() const {
   const QModelIndex index = view_->currentIndex();
   if (kindOf(index) == runKind) return idOf(index);
-  if (kindOf(index) == simulatorKind) return idOf(index.parent());
+  if (kindOf(index) == simulatorKind && kindOf(index.parent()) == runKind) return idOf(index.parent());
   return 0;
+}
+
+Id ExperimentTree::selectedRig() const {
+  QModelIndex index = view_->currentIndex();
+  if (kindOf(index) == simulatorKind) index = index.parent();
+  return kindOf(index) == experimentKind && rigs_.count(idOf(index)) ? idOf(index) : 0;
 }
 
 // Finds the row by its id or appends it; the three columns exist from the start.
@@ -256,8 +286,9 @@ void ExperimentTree::openMenu(const QPoint& position) {
   if (kindOf(index) == experimentKind) {
     menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this,
                    [this, id = idOf(index)] { emit experimentNoteRequested(id); });
-    menu.addAction(themeIcon("office-chart-line"), tr("Compare its runs"), this,
-                   [this, id = idOf(index)] { emit compareRequested(runsOf(id)); });
+    if (!rigs_.count(idOf(index)))
+      menu.addAction(themeIcon("office-chart-line"), tr("Compare its runs"), this,
+                     [this, id = idOf(index)] { emit compareRequested(runsOf(id)); });
   } else if (kindOf(index) == groupKind) {
     menu.addAction(themeIcon("view-grid"), tr("Show in “The whole kick”"), this,
                    [this, id = idOf(index)] { emit gridRequested(id); });
@@ -269,8 +300,10 @@ void ExperimentTree::openMenu(const QPoint& position) {
 
 void ExperimentTree::current(const QModelIndex& index) {
   if (quiet_) return;
+  const bool simulator = kindOf(index) == simulatorKind;
+  if (const Id rig = selectedRig()) return emit rigSelected(rig, simulator ? idOf(index) : 0);
   if (const Id run = selectedRun()) emit runSelected(run);
-  if (kindOf(index) == simulatorKind) emit simulatorSelected(idOf(index.parent()), idOf(index));
+  if (simulator) emit simulatorSelected(idOf(index.parent()), idOf(index));
 }
 
 void ExperimentTree::activate(const QModelIndex& index) {

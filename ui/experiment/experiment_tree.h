@@ -31,10 +31,13 @@ class ExperimentTree : public QWidget {
   void setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs,
                   const std::vector<RunGroup>& groups = {});
   void setSimulators(Id run, const std::vector<SimulatorRecord>& simulators);
+  /// The versions of all rigs: experiments of the content whose simulators stand directly below them.
+  void setRigs(const std::vector<SimulatorRecord>& versions);
   void setActive(const std::set<Id>& active);
   /// Selects the run without telling runSelected() again if it already is.
   void selectRun(Id run);
-  Id selectedRun() const;  ///< of the selected run or simulator version, else 0
+  Id selectedRun() const;  ///< of the selected run or its simulator version, else 0
+  Id selectedRig() const;  ///< of the selected rig or its simulator version, else 0
   /// What can be done with a run, as a menu with the entries that make sense now.
   void fillRunMenu(QMenu& menu, Id run);
   QTreeView* view() const { return view_; }
@@ -42,6 +45,7 @@ class ExperimentTree : public QWidget {
  signals:
   void runSelected(btr::Id run);
   void simulatorSelected(btr::Id run, btr::Id simulator);
+  void rigSelected(btr::Id rig, btr::Id simulator);  ///< simulator 0: the rig itself
   void continueRequested(btr::Id run);
   void stopRequested(btr::Id run);
   void duplicateRequested(btr::Id run);
@@ -55,6 +59,7 @@ class ExperimentTree : public QWidget {
  private:
   enum Kind { experimentKind = 1, runKind, simulatorKind, groupKind };
   QStandardItem* child(QStandardItem& parent, Kind kind, Id id);
+  QStandardItem* showSimulator(QStandardItem& parent, const SimulatorRecord& simulator, const QString& detail);
   void showRun(QStandardItem& item, const RunRecord& run);
   void showGroup(QStandardItem& item, const RunGroup& group);
   void keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids);
@@ -67,6 +72,7 @@ class ExperimentTree : public QWidget {
   QStandardItemModel* model_;
   std::map<Id, RunRecord> runs_;
   std::map<Id, QStandardItem*> runItems_;
+  std::set<Id> rigs_;
   std::map<Id, int> cells_;  ///< of grids, by their runs
   std::set<Id> active_;
   bool quiet_ = false;  ///< while the program itself changes the selection

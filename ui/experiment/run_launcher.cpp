@@ -128,19 +128,29 @@ void RunLauncher::importFitness(const QString& database, Id run, const QString& 
            [this, file] { emit imported(file); });
 }
 
-void RunLauncher::adopt(const QString& database, Id run, const QString& simulator, const QString& report) {
-  runToEnd(
-      {"gap", "adopt", "--db", database, "--run", QString::number(run), "--simulator", simulator, "--report", report},
-      [this, run] { emit simulatorChanged(run); });
+namespace {
+
+QStringList ownerWords(Id run, const QString& rig) {
+  return rig.isEmpty() ? QStringList{"--run", QString::number(run)} : QStringList{"--rig", rig};
 }
 
-void RunLauncher::revert(const QString& database, Id run) {
-  runToEnd({"gap", "revert", "--db", database, "--run", QString::number(run)},
-           [this, run] { emit simulatorChanged(run); });
+}  // namespace
+
+void RunLauncher::adopt(const QString& database, Id run, const QString& rig, const QString& simulator,
+                        const QString& report) {
+  runToEnd(QStringList{"gap", "adopt", "--db", database, "--simulator", simulator, "--report", report} +
+               ownerWords(run, rig),
+           [this, run, rig] { emit simulatorChanged(run, rig); });
 }
 
-void RunLauncher::keepRecordings(const QString& database, Id run, const QStringList& files, const QString& scene) {
-  QStringList arguments{"gap", "recordings", "import", "--db", database, "--run", QString::number(run)};
+void RunLauncher::revert(const QString& database, Id run, const QString& rig) {
+  runToEnd(QStringList{"gap", "revert", "--db", database} + ownerWords(run, rig),
+           [this, run, rig] { emit simulatorChanged(run, rig); });
+}
+
+void RunLauncher::keepRecordings(const QString& database, Id run, const QString& rig, const QStringList& files,
+                                 const QString& scene) {
+  QStringList arguments = QStringList{"gap", "recordings", "import", "--db", database} + ownerWords(run, rig);
   if (!scene.isEmpty()) arguments += {"--scene", scene};
   runToEnd(arguments + files, [this, count = int(files.size())] { emit recordingsKept(count); });
 }

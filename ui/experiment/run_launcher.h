@@ -41,20 +41,22 @@ class RunLauncher : public QObject {
   void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
   /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
   void importFitness(const QString& database, Id run, const QString& file);
-  /// Makes the simulator of a gap report the run's newest version, or the newest one's parent again; tells
-  /// simulatorChanged() or failed().
-  void adopt(const QString& database, Id run, const QString& simulator, const QString& report);
-  void revert(const QString& database, Id run);
+  /// Makes the simulator of a gap report the newest version of a run or, where `rig` names a scene's file, of that rig;
+  /// or the newest one's parent again. Tells simulatorChanged() or failed().
+  void adopt(const QString& database, Id run, const QString& rig, const QString& simulator, const QString& report);
+  void revert(const QString& database, Id run, const QString& rig);
   /// Keeps recordings in the database with their mappings; tells recordingsKept() or failed().
-  /// `scene` may be empty; a mapping beside it counts for files that have none of their own.
-  void keepRecordings(const QString& database, Id run, const QStringList& files, const QString& scene);
+  /// With the run's experiment or with the rig. `scene` may be empty; a mapping beside it counts for files that have
+  /// none of their own.
+  void keepRecordings(const QString& database, Id run, const QString& rig, const QStringList& files,
+                      const QString& scene);
   bool isBusy() const { return thread_ != nullptr; }
 
  signals:
   void stored(btr::Id run);
   void exported(const QString& file);
   void imported(const QString& file);
-  void simulatorChanged(btr::Id run);
+  void simulatorChanged(btr::Id run, const QString& rig);
   void recordingsKept(int files);
   void failed(const QString& message);
 

@@ -34,10 +34,11 @@ QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& t
   return item;
 }
 
-// Every number of a simulator: the twelve parameters with their defaults, then paths into the scene.
-Values allValues(const SimulatorSpec& simulator) {
-  Values values = simulator.values;
-  for (const Parameter& parameter : simulatorParameters()) values.emplace(parameter.name, parameter.byDefault);
+// Every number of a simulator: a run's twelve parameters with their defaults, then paths into the scene.
+Values allValues(const SimulatorRecord& version) {
+  Values values = version.simulator.values;
+  if (version.rig == 0)
+    for (const Parameter& parameter : simulatorParameters()) values.emplace(parameter.name, parameter.byDefault);
   return values;
 }
 
@@ -140,7 +141,7 @@ void SimulatorsPage::showVersions() {
         parent ? tr("%1  ← %2").arg(simulator.number).arg(parent->number) : QString::number(simulator.number);
     put(*versions_, row, 0, lineage)->setToolTip(tr("Made %1").arg(QString::fromStdString(simulator.createdAt)));
     put(*versions_, row, 1, QString::fromStdString(simulator.madeBy));
-    put(*versions_, row, 2, QString::number(simulator.madeAfterGeneration));
+    put(*versions_, row, 2, simulator.rig != 0 ? QString() : QString::number(simulator.madeAfterGeneration));
     QString before, after;
     bool better = false;
     for (const GapRecord& gap : gaps_)
@@ -163,43 +164,50 @@ void SimulatorsPage::showDifference() {
     return;
   }
   const SimulatorRecord* parent = byId(simulator->parent);
-  const Values values = allValues(simulator->simulator);
-  const Values old = allValues(parent ? parent->simulator : simulator->simulator);
+  const Values values = allValues(*simulator);
+  const Values old = allValues(parent ? *parent : *simulator);
 
   // The declared parameters in their order, then the paths.
   std::vector<std::pair<QString, std::string>> rows;
   for (const Parameter& parameter : simulatorParameters())
-    rows.push_back(
-        {labelOf(parameter) +
-             (parameter.unit.empty() ? QString() : QStringLiteral(" [%1]").arg(QString::fromStdString(parameter.unit))),
-         parameter.name});
-  for (const auto& [name, value] : values)
+    if (values.count(parameter.name) || old.count(parameter.name))
+      rows.push_back({labelOf(parameter) + (parameter.unit.empty()
+                                                ? QString()
+                                                : QStringLiteral(" [%1]").arg(QString::fromStdString(parameter.unit))),
+                      parameter.name});
+  Values either = values;
+  either.insert(old.begin(), old.end());
+  for (const auto& [name, value] : either)
     if (!btr::find(simulatorParameters(), name)) rows.push_back({QString::fromStdString(name), name});
 
   int changed = 0;
   difference_->setRowCount(int(rows.size()));
   for (int row = 0; row < int(rows.size()); ++row) {
     const auto& [label, name] = rows[std::size_t(row)];
-    const double now = values.at(name);
-    const auto before = old.find(name);
-    const bool differs = before == old.end() || before->second != now;
+    // A version that does not name a number has that of the scene's file.
+    const auto now = values.find(name), before = old.find(name);
+    const bool isNew = before == old.end(), isGone = now == values.end();
+    const bool differs = isNew || isGone || before->second != now->second;
+    const QString given = tr("as given");
     changed += differs;
     put(*difference_, row, 0, label, differs)->setToolTip(QString::fromStdString(name));
-    put(*difference_, row, 1, before == old.end() || !parent ? QString() : shortNumber(before->second));
-    put(*difference_, row, 2, shortNumber(now), differs)->setToolTip(QString::fromStdString(btr::toText(now)));
+    put(*difference_, row, 1, !parent ? QString() : isNew ? given : shortNumber(before->second));
+    QTableWidgetItem* value = put(*difference_, row, 2, isGone ? given : shortNumber(now->second), differs);
+    if (!isGone) value->setToolTip(QString::fromStdString(btr::toText(now->second)));
     QString change;
-    if (differs && before != old.end() && before->second != 0)
+    if (differs && !isNew && !isGone && before->second != 0)
       change = QStringLiteral("%1%2 %")
-                   .arg(now > before->second ? "+" : "−")
-                   .arg(std::abs(now / before->second - 1) * 100, 0, 'f', 1);
+                   .arg(now->second > before->second ? "+" : "−")
+                   .arg(std::abs(now->second / before->second - 1) * 100, 0, 'f', 1);
     else if (differs)
-      change = tr("new");
+      change = isGone ? tr("taken back") : tr("new");
     put(*difference_, row, 3, change);
   }
   title_->setText(
       parent
           ? tr("Simulator %1 against its parent %2: %3 changed").arg(simulator->number).arg(parent->number).arg(changed)
-          : tr("Simulator %1, with which the run began").arg(simulator->number));
+      : simulator->rig != 0 ? tr("Simulator %1: the scene as given").arg(simulator->number)
+                            : tr("Simulator %1, with which the run began").arg(simulator->number));
   if (simulator->simulator.effects.empty()) return;
   QStringList effects;
   for (const auto& effect : simulator->simulator.effects) {

@@ -9,8 +9,8 @@ class QTableWidget;
 
 namespace btr::ui {
 
-/// The lineage of a run's simulator: every version, who made it, the gap before and after, and for the chosen one each
-/// number beside its parent's, with what changed in bold.
+/// The lineage of a run's or rig's simulator: every version, who made it, the gap before and after, and for the chosen
+/// one each number beside its parent's, with what changed in bold.
 class SimulatorsPage : public QWidget {
   Q_OBJECT
  public:

@@ -1,10 +1,10 @@
 #include "ui/gap/gap_page.h"
 
 #include <QAction>
+#include <QComboBox>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QLabel>
 #include <QTabWidget>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -32,10 +32,11 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   setup_ = new AnalysisSetup(this);
   view_ = new ReportView(this);
   clues_ = new CluesView(program, this);
-  run_ = new QLabel(this);
-  run_->setObjectName("adoptInto");
-  run_->setContentsMargins(8, 0, 8, 0);
-  run_->setTextFormat(Qt::PlainText);
+  into_ = new QComboBox(this);
+  into_->setObjectName("adoptInto");
+  into_->setAccessibleName(tr("Adopt into"));
+  into_->setToolTip(tr("Who takes the repaired simulator: the selected run, or the scene by itself (a rig)"));
+  into_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   tabs_ = new QTabWidget(this);
   tabs_->setObjectName("gapTabs");
   tabs_->addTab(setup_, tr("Anal&ysis"));
@@ -50,7 +51,7 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   bar->addActions({open_, export_});
   bar->addSeparator();
   bar->addActions({adopt_, revert_});
-  bar->addWidget(run_);
+  bar->addWidget(into_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
@@ -102,9 +103,16 @@ void GapPage::makeActions() {
                                                       tr("Page (*.html);;Numbers (*.json)"));
     if (!file.isEmpty()) exportTo(file);
   });
-  connect(adopt_, &QAction::triggered, this,
-          [this] { emit adoptRequested(QDir(folder_).filePath("simulator.json"), folder_); });
-  connect(revert_, &QAction::triggered, this, &GapPage::revertRequested);
+  connect(adopt_, &QAction::triggered, this, [this] {
+    if (target()) emit adoptRequested(QDir(folder_).filePath("simulator.json"), folder_, target()->rig);
+  });
+  connect(revert_, &QAction::triggered, this, [this] {
+    if (target()) emit revertRequested(target()->rig);
+  });
+  connect(into_, &QComboBox::activated, this, [this] {
+    chosen_ = true;
+    refresh();
+  });
 }
 
 void GapPage::start() {
@@ -127,6 +135,7 @@ bool GapPage::openReport(const QString& folder) {
   try {
     auto report = std::make_shared<const GapReport>(loadReport(folder.toStdString()));
     folder_ = QDir(folder).absolutePath();
+    chosen_ = false;
     view_->setReport(std::move(report));
   } catch (const std::exception& error) {
     emit failed(QString::fromUtf8(error.what()));
@@ -138,19 +147,40 @@ bool GapPage::openReport(const QString& folder) {
   return true;
 }
 
-void GapPage::setRun(const QString& name, const std::vector<SimulatorRecord>& versions, const QString& why) {
-  versions_ = int(versions.size());
-  QStringList names, texts;
-  for (auto version = versions.rbegin(); version != versions.rend(); ++version) {
-    names << tr("%1, version %2 by %3").arg(name).arg(version->number).arg(QString::fromStdString(version->madeBy));
-    texts << QString::fromStdString(toJsonText(version->simulator));
-  }
-  setup_->setSimulators(names, texts);
-  blocked_ = name.isEmpty() ? tr("Select a run first.") : why;
-  run_->setText(name.isEmpty()     ? QString()
-                : versions.empty() ? name
-                                   : tr("%1, simulator version %2").arg(name).arg(versions.back().number));
+void GapPage::setTargets(std::vector<AdoptionTarget> targets, std::size_t first) {
+  const AdoptionTarget* before = target();
+  const bool wasRig = before && !before->rig.isEmpty();
+  targets_ = std::move(targets);
+  into_->clear();
+  for (const AdoptionTarget& one : targets_)
+    into_->addItem(one.versions.empty() ? one.name
+                                        : tr("%1, simulator version %2").arg(one.name).arg(one.versions.back().number));
+  std::size_t shown = first;
+  for (std::size_t i = 0; chosen_ && i < targets_.size(); ++i)
+    if (targets_[i].rig.isEmpty() != wasRig) shown = i;
+  into_->setCurrentIndex(int(shown));
+  into_->setEnabled(targets_.size() > 1);
+  into_->setVisible(!targets_.empty());
   refresh();
+}
+
+void GapPage::setStarts(const std::vector<AdoptionTarget>& owners) {
+  QStringList names, texts;
+  for (const AdoptionTarget& owner : owners)
+    for (auto version = owner.versions.rbegin(); version != owner.versions.rend(); ++version) {
+      if (version->rig != 0 && version->number == 0) continue;  // the scene as given, which is there already
+      names << tr("%1, version %2 by %3")
+                   .arg(owner.name)
+                   .arg(version->number)
+                   .arg(QString::fromStdString(version->madeBy));
+      texts << QString::fromStdString(toJsonText(version->simulator));
+    }
+  setup_->setSimulators(names, texts);
+}
+
+const AdoptionTarget* GapPage::target() const {
+  const int index = into_->currentIndex();
+  return index >= 0 && index < int(targets_.size()) ? &targets_[std::size_t(index)] : nullptr;
 }
 
 void GapPage::setMeasured(const QString& database, Id run, int measured) { clues_->setRun(database, run, measured); }
@@ -159,17 +189,22 @@ void GapPage::refresh() {
   const bool open = view_->report() != nullptr;
   export_->setEnabled(open);
   const bool found = open && leavesSomethingToAdopt(view_->report()->verdict);
-  adopt_->setEnabled(found && blocked_.isEmpty() && versions_ > 0);
-  revert_->setEnabled(blocked_.isEmpty() && versions_ > 1);
+  const AdoptionTarget* into = target();
+  const bool ofRig = into && !into->rig.isEmpty();
+  const std::size_t versions = into ? into->versions.size() : 0;
+  const QString blocked = into ? into->why : tr("Select a run first.");
+  adopt_->setEnabled(found && blocked.isEmpty() && (ofRig || versions > 0));
+  revert_->setEnabled(blocked.isEmpty() && versions > 1);
   adopt_->setToolTip(
-      !open    ? tr("Open a report first.")
-      : !found ? nothingToAdopt(view_->report()->verdict)
-      : blocked_.isEmpty()
-          ? tr("The run goes on with the repaired simulator, as a new version; nothing is changed or deleted")
-          : blocked_);
-  revert_->setToolTip(!blocked_.isEmpty() ? blocked_
-                      : versions_ > 1 ? tr("The run goes on with the version before the newest one, as a new version")
-                                      : tr("The run has its first simulator still."));
+      !open                ? tr("Open a report first.")
+      : !found             ? nothingToAdopt(view_->report()->verdict)
+      : !blocked.isEmpty() ? blocked
+      : ofRig ? tr("The repaired simulator becomes the rig's newest version; nothing is changed or deleted")
+              : tr("The run goes on with the repaired simulator, as a new version; nothing is changed or deleted"));
+  revert_->setToolTip(!blocked.isEmpty() ? blocked
+                      : versions > 1     ? tr("Back to the version before the newest one, as a new version")
+                      : ofRig            ? tr("The rig has nothing that could be taken back.")
+                                         : tr("The run has its first simulator still."));
 }
 
 bool GapPage::exportTo(const QString& file) {

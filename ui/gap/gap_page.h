@@ -7,13 +7,21 @@
 #include "ui/gap/analysis_process.h"
 
 class QAction;
-class QLabel;
+class QComboBox;
 class QTabWidget;
 
 namespace btr::ui {
 class AnalysisSetup;
 class CluesView;
 class ReportView;
+
+/// Who can take a repaired simulator: a run, or a rig (a scene that no run belongs to).
+struct AdoptionTarget {
+  QString name;                           ///< "run 3"; empty: there is none
+  QString rig;                            ///< the scene's file; empty: a run
+  std::vector<SimulatorRecord> versions;  ///< none: a rig of which the database has nothing yet
+  QString why;                            ///< it takes none now; empty if it does
+};
 
 /// The gap analysis page: set up and start an analysis, look through its report, adopt what it found, go back.
 /// It reads no database and writes none: adoption is asked for by a signal.
@@ -26,8 +34,10 @@ class GapPage : public QWidget {
   /// Reads a report's folder. False, with failed(), keeps what was there.
   bool openReport(const QString& folder);
   QString folder() const { return folder_; }
-  /// The run that adoption is for; `why` it is not possible now, empty if it is.
-  void setRun(const QString& name, const std::vector<SimulatorRecord>& versions, const QString& why);
+  /// Who can take what the report found. Of two the user chooses; until then it is the one at `first`.
+  void setTargets(std::vector<AdoptionTarget> targets, std::size_t first = 0);
+  /// Simulators that an analysis may begin with beside the scene as given: of the selected run and the set up rig.
+  void setStarts(const std::vector<AdoptionTarget>& owners);
 
   /// Where the run's measured fitness stands; empty: no run.
   void setMeasured(const QString& database, Id run, int measured);
@@ -43,8 +53,9 @@ class GapPage : public QWidget {
   bool saveNext(const QString& file);
 
  signals:
-  void adoptRequested(const QString& simulatorFile, const QString& reportFolder);
-  void revertRequested();
+  /// `rig`: the scene's file of the rig that takes it; empty: the selected run.
+  void adoptRequested(const QString& simulatorFile, const QString& reportFolder, const QString& rig);
+  void revertRequested(const QString& rig);
   /// A place in the shown report was chosen.
   void timeChosen(std::size_t trial, double time_s);
   void reportOpened(const QString& folder);
@@ -55,15 +66,17 @@ class GapPage : public QWidget {
   void makeActions();
   void start();
   void refresh();
+  const AdoptionTarget* target() const;  ///< the chosen one
 
-  QString folder_, blocked_;
-  int versions_ = 0;
+  QString folder_;
+  std::vector<AdoptionTarget> targets_;
+  bool chosen_ = false;  ///< by the user, for this report
   AnalysisProcess process_;
   QTabWidget* tabs_;
   AnalysisSetup* setup_;
   ReportView* view_;
   CluesView* clues_;
-  QLabel* run_;
+  QComboBox* into_;
   QAction *open_, *export_, *adopt_, *revert_;
 };
 

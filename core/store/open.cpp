@@ -15,6 +15,7 @@
 #include "core/spec/error.h"
 #include "core/store/connection.h"
 #include "core/store/database.h"
+#include "core/store/file_locks.h"
 #include "core/store/migrations.h"
 
 namespace btr {
@@ -86,6 +87,7 @@ void checkPlace(const std::string& path, bool mayBeAbsent) {
 }
 
 Handle openFile(const std::string& path, int flags, int patience_ms) {
+  lockFilesOfSqliteByDescription();
   std::error_code error;
   const bool hasLog = fs::exists(path + "-wal", error);
   Handle database;

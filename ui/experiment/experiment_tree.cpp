@@ -146,17 +146,13 @@ void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& s
 }
 
 void ExperimentTree::setRigs(const std::vector<SimulatorRecord>& versions) {
-  std::map<Id, int> count;
-  for (const SimulatorRecord& version : versions) ++count[version.rig];
   rigs_.clear();
-  for (const auto& [rig, versionsOfIt] : count) {
-    rigs_.insert(rig);
-    QStandardItem* item = child(*model_->invisibleRootItem(), experimentKind, rig);
-    item->setData(tr("rig · %1 simulator versions").arg(versionsOfIt), BadgeDelegate::DetailRole);
-  }
+  // By number, so that the newest one is told last.
   for (const SimulatorRecord& version : versions) {
+    rigs_.insert(version.rig);
     QStandardItem* rig = child(*model_->invisibleRootItem(), experimentKind, version.rig);
-    showSimulator(*rig, version, text(version.madeBy))
+    rig->setData(tr("rig · simulator version %1").arg(version.number), BadgeDelegate::DetailRole);
+    showSimulator(*rig, version, version.number == 0 ? tr("the scene as given") : text(version.madeBy))
         ->setToolTip(tr("Simulator version %1 of %2, made by %3")
                          .arg(QString::number(version.number), rig->text(), text(version.madeBy)));
   }

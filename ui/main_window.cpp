@@ -256,6 +256,7 @@ void MainWindow::givePage(QDockWidget* page, QAction* action, bool on) {
     if (!fromRuns) restoreState(std::exchange(runsLayout_, {}), Settings::layoutVersion);
     // The pages have no place in that layout.
     for (QDockWidget* other : {gapPageDock_, gridPageDock_}) other->hide();
+    if (!fromRuns && sheetWanted_) raiseDock(sheetDock_);
     return;
   }
   if (fromRuns) runsLayout_ = saveState(Settings::layoutVersion);
@@ -270,7 +271,9 @@ void MainWindow::givePage(QDockWidget* page, QAction* action, bool on) {
   resizeDocks({treeDock_, page, replayDock_}, {left, width() - left - right, right}, Qt::Horizontal);
 }
 
+// Beside a page there is room for the tree and the replay alone: for another dock the page is left.
 void MainWindow::raiseDock(QDockWidget* dock) {
+  if (page_ && dock != page_ && dock != treeDock_ && dock != replayDock_) givePage(page_, nullptr, false);
   dock->show();
   dock->raise();
 }

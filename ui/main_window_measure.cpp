@@ -88,7 +88,8 @@ void MainWindow::showWaiting() {
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
   const bool waits = run_.state == RunState::waiting && (!runActive_ || count.settled < count.wanted);
   const bool wanted = waits && !isStandIn(run_) && count.settled < count.wanted;
-  if (wanted && !sheetWanted_) raiseDock(sheetDock_);
+  // Who is on a page stays there; the alarm rings, and the sheet is in front when the page is left.
+  if (wanted && !sheetWanted_ && !page_) raiseDock(sheetDock_);
   sheetWanted_ = wanted;
   sheet_->setWaiting(waits);
   const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;

@@ -603,6 +603,10 @@ class TestMainWindow : public QObject {
     tree->view()->setCurrentIndex(tree->view()->model()->index(1, 0, rig));
     QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 2);
     QCOMPARE(tree->selectedRig(), rigs.front().rig);
+    // Beside the page there is no room for them: it is left.
+    QVERIFY(window->findChild<QDockWidget*>("dock.simulators")->isVisible());
+    QVERIFY(!window->findChild<QDockWidget*>("dock.analysis")->isVisible());
+    QVERIFY(window->openReport(QString::fromStdString(files.report)));
     // An analysis of this scene may begin with it.
     window->gapPage().setup().setScene(QString::fromStdString(files.scene));
     QCOMPARE(window->gapPage().setup().findChild<QComboBox*>("simulator")->itemText(1),

@@ -151,10 +151,16 @@ void GapPage::setTargets(std::vector<AdoptionTarget> targets, std::size_t first)
   const AdoptionTarget* before = target();
   const bool wasRig = before && !before->rig.isEmpty();
   targets_ = std::move(targets);
-  into_->clear();
+  QStringList texts, known;
   for (const AdoptionTarget& one : targets_)
-    into_->addItem(one.versions.empty() ? one.name
-                                        : tr("%1, simulator version %2").arg(one.name).arg(one.versions.back().number));
+    texts << (one.versions.empty() ? one.name
+                                   : tr("%1, simulator version %2").arg(one.name).arg(one.versions.back().number));
+  for (int i = 0; i < into_->count(); ++i) known << into_->itemText(i);
+  // Told again and again while a run works: an open list is left alone.
+  if (texts != known) {
+    into_->clear();
+    into_->addItems(texts);
+  }
   std::size_t shown = first;
   for (std::size_t i = 0; chosen_ && i < targets_.size(); ++i)
     if (targets_[i].rig.isEmpty() != wasRig) shown = i;

@@ -16,7 +16,7 @@
 namespace btr::ui {
 namespace {
 
-constexpr double legendHeight = 46, leftMargin = 64, topMargin = 26;
+constexpr double legendHeight = 70, leftMargin = 64, topMargin = 26;
 
 /// Alike as drawn ones (0.6) is thin and faint, equal is thick.
 QPen edgePen(double similarity, const QPalette& palette, Qt::PenCapStyle cap = Qt::SquareCap) {
@@ -212,11 +212,13 @@ void CubeView::paintLegend(QPainter& painter) const {
     painter.drawText(QRectF(x - 8, top + 13, 40, 20), Qt::AlignCenter, QString::number(alike));
     x += 44;
   }
+  painter.drawText(QRectF(x - 8, top - 4, 120, 20), Qt::AlignLeft | Qt::AlignVCenter, tr("similarity"));
+  const double below = top + 36;
   painter.setPen(QPen(tonesOf(palette()).bad, 2.5));
-  painter.drawEllipse(QPointF(x + 14, top + 6), 6, 6);
+  painter.drawEllipse(QPointF(16, below + 6), 6, 6);
   painter.setPen(palette().color(QPalette::Text));
-  painter.drawText(QRectF(x + 26, top - 4, 400, 20), Qt::AlignLeft | Qt::AlignVCenter, tr("failed (broken: replaced)"));
-  painter.drawText(QRectF(x + 26, top + 13, 400, 20), Qt::AlignLeft | Qt::AlignVCenter, tr("no outline: mirror image"));
+  painter.drawText(QRectF(28, below - 4, width() - 36, 20), Qt::AlignLeft | Qt::AlignVCenter,
+                   tr("failed (broken: replaced) · no outline: mirror image"));
 }
 
 void CubeView::paintEvent(QPaintEvent*) {

@@ -19,9 +19,9 @@ Rig loadRig(const std::string& scene);
 
 /// The rig of this scene in the database, if it has one.
 std::optional<Id> findRig(const Database& database, const Rig& rig);
-/// The same by its file. Throws InputError where the database has nothing of it.
+/// The same by the scene's file. Throws InputError where the database has nothing of it.
 Id requireRig(const Database& database, const std::string& scene);
-/// The same; it is added, with the scene as given as version 0, where it is not there yet.
+/// The rig in the database: added, with the scene as given as version 0, where it is not there yet.
 Id addRig(Database& database, const Rig& rig);
 
 }  // namespace btr

@@ -20,9 +20,10 @@ struct AdoptArguments {
 
 void tell(const SimulatorRecord& version, const AdoptArguments& a, Shell& shell) {
   if (shell.json) {
-    nlohmann::json told{{"simulator", version.number},
-                        {"made_by", version.madeBy},
-                        {"evidence", version.evidence.empty() ? nlohmann::json() : nlohmann::json::parse(version.evidence)}};
+    nlohmann::json told{
+        {"simulator", version.number},
+        {"made_by", version.madeBy},
+        {"evidence", version.evidence.empty() ? nlohmann::json() : nlohmann::json::parse(version.evidence)}};
     if (version.run != 0) {
       told["run"] = version.run;
       told["made_after_generation"] = version.madeAfterGeneration;
@@ -33,7 +34,8 @@ void tell(const SimulatorRecord& version, const AdoptArguments& a, Shell& shell)
     return;
   }
   std::cout << (version.run != 0 ? "run " + std::to_string(version.run) : "rig " + loadRig(a.rig).name)
-            << ": simulator version " << version.number << (version.madeBy == "by hand" ? " " : " by ") << version.madeBy;
+            << ": simulator version " << version.number << (version.madeBy == "by hand" ? " " : " by ")
+            << version.madeBy;
   if (version.run != 0) std::cout << ", used after generation " << version.madeAfterGeneration;
   std::cout << '\n';
 }

@@ -187,11 +187,11 @@ class MainWindow : public QMainWindow {
   /// A scene that a page of gap analysis names, as the database knows it.
   struct KnownRig {
     QString file, name;  ///< empty: none
-    std::string spec;
-    SceneSpec scene;
-    int newest = 0;  ///< version
+    Rig rig;
+    std::vector<SimulatorRecord> versions;
   };
-  void readRig(KnownRig& rig, const QString& file) const;
+  void readRig(KnownRig& rig, const QString& file);
+  void findVersions(KnownRig& rig);
   void showRigs();
   void takeRigs(const std::vector<SimulatorRecord>& versions);
   std::vector<SimulatorRecord> versionsOf(Id rig) const;

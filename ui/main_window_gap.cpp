@@ -32,10 +32,12 @@ void MainWindow::connectGap() {
   connect(tree_, &ExperimentTree::rigSelected, this, &MainWindow::selectRig);
   connect(&launcher_, &RunLauncher::simulatorChanged, this, [this](Id run, const QString& rig) {
     watcher_.poll();
-    if (!rig.isEmpty())
-      inform(tr("%1 has simulator version %2 now.").arg(reportRig_.name).arg(reportRig_.newest));
-    else if (run == run_.id && !simulators_.empty())
-      inform(tr("Run %1 goes on with simulator version %2.").arg(run).arg(simulators_.back().number));
+    if (rig.isEmpty()) {
+      if (run == run_.id && !simulators_.empty())
+        inform(tr("Run %1 goes on with simulator version %2.").arg(run).arg(simulators_.back().number));
+    } else if (!reportRig_.versions.empty()) {
+      inform(tr("%1 has simulator version %2 now.").arg(reportRig_.name).arg(reportRig_.versions.back().number));
+    }
   });
   connect(&launcher_, &RunLauncher::recordingsKept, this,
           [this](int files) { inform(tr("%1 recordings are kept in the database.").arg(files)); });

@@ -26,17 +26,25 @@ bool isPartOf(const SceneSpec& scene, const SceneSpec& runs) {
 }  // namespace
 
 // A scene that cannot be read is no rig: the setup and the report say what is wrong with it.
-void MainWindow::readRig(KnownRig& rig, const QString& file) const {
+void MainWindow::readRig(KnownRig& rig, const QString& file) {
   rig = {};
   if (file.isEmpty()) return;
   try {
-    const Rig read = loadRig(file.toStdString());
-    rig.scene = loadScene(file.toStdString());
-    rig.spec = read.spec;
-    rig.name = tr("rig %1").arg(QString::fromStdString(read.name));
-    rig.file = file;
+    rig.rig = loadRig(file.toStdString());
   } catch (const std::exception&) {
+    return;
   }
+  rig.name = tr("rig %1").arg(QString::fromStdString(rig.rig.name));
+  rig.file = file;
+  findVersions(rig);
+}
+
+void MainWindow::findVersions(KnownRig& rig) {
+  rig.versions.clear();
+  if (!watcher_.isOpen() || rig.file.isEmpty()) return;
+  guard([&] {
+    if (const auto id = findRig(watcher_.database(), rig.rig)) rig.versions = versionsOf(*id);
+  });
 }
 
 void MainWindow::showRigs() {
@@ -50,6 +58,7 @@ void MainWindow::takeRigs(const std::vector<SimulatorRecord>& versions) {
   rigVersions_ = versions;
   tree_->setRigs(versions);
   if (shownRig_ != 0) versions_->setSimulators(versionsOf(shownRig_));
+  for (KnownRig* rig : {&setupRig_, &reportRig_}) findVersions(*rig);
   showAdoption();
 }
 
@@ -86,25 +95,20 @@ void MainWindow::showAdoption() {
     targets.push_back(run);
     starts.push_back(std::move(run));
   }
-  const auto add = [&](KnownRig& rig, std::vector<AdoptionTarget>& to) {
-    if (!open || rig.file.isEmpty()) return;
-    guard([&] {
-      const auto id = findRig(watcher_.database(), {rig.name.toStdString(), rig.spec});
-      to.push_back({rig.name, rig.file, id ? versionsOf(*id) : std::vector<SimulatorRecord>(), {}});
-      rig.newest = to.back().versions.empty() ? 0 : to.back().versions.back().number;
-    });
+  const auto add = [&](const KnownRig& rig, std::vector<AdoptionTarget>& to) {
+    if (open && !rig.file.isEmpty()) to.push_back({rig.name, rig.file, rig.versions, {}});
   };
   add(reportRig_, targets);
   add(setupRig_, starts);
   // What was found about another robot is the rig's.
-  const bool runs = run_.id != 0 && isPartOf(reportRig_.scene, runScene_);
+  const bool runs = run_.id != 0 && isPartOf(reportRig_.rig.scene, runScene_);
   gapPage_->setTargets(targets, runs || targets.size() < 2 ? 0 : 1);
   gapPage_->setStarts(starts);
 }
 
 // With the experiment of the selected run where its scene has what was recorded, else with the rig.
 QString MainWindow::ownerOfRecordings() const {
-  return run_.id != 0 && isPartOf(setupRig_.scene, runScene_) ? QString() : setupRig_.file;
+  return run_.id != 0 && isPartOf(setupRig_.rig.scene, runScene_) ? QString() : setupRig_.file;
 }
 
 void MainWindow::keepRecordings(const QStringList& files, const QString& scene) {
@@ -122,8 +126,7 @@ void MainWindow::takeStoredRecordings() {
     return report(tr("Choose a scene or select a run first: recordings are kept with it."));
   guard([&] {
     const Database& database = watcher_.database();
-    const auto id = rig.isEmpty() ? std::optional(run_.experiment)
-                                  : findRig(database, {setupRig_.name.toStdString(), setupRig_.spec});
+    const auto id = rig.isEmpty() ? std::optional(run_.experiment) : findRig(database, setupRig_.rig);
     const auto stored = id ? database.recordings(*id) : std::vector<RecordingRecord>();
     if (stored.empty())
       return inform(rig.isEmpty() ? tr("No recordings are kept with the experiment of run %1.").arg(run_.id)

@@ -29,16 +29,22 @@ void requireRest(const Database& database, const RunRecord& run) {
                      allowed);
 }
 
-SimulatorRecord add(Database& database, const RunRecord& run, const SimulatorRecord& parent, SimulatorSpec simulator,
-                    const std::string& madeBy, const std::string& evidence) {
+/// A version of the same run or rig that follows `parent`, not stored yet.
+SimulatorRecord versionAfter(const SimulatorRecord& parent, SimulatorSpec simulator, const std::string& madeBy,
+                             const std::string& evidence) {
   SimulatorRecord version;
-  version.run = run.id;
+  version.run = parent.run;
+  version.rig = parent.rig;
   version.parent = parent.id;
   version.simulator = std::move(simulator);
   version.madeBy = madeBy;
   version.evidence = evidence;
-  version.madeAfterGeneration = run.generation;
   version.createdAt = utcNow();
+  return version;
+}
+
+SimulatorRecord addToRun(Database& database, const RunRecord& run, SimulatorRecord version) {
+  version.madeAfterGeneration = run.generation;
   return database.simulator(database.addSimulator(version));
 }
 
@@ -78,9 +84,12 @@ Found readFound(const std::string& simulator, const std::string& report) {
   return found;
 }
 
-/// Values that `simulator` does not name stay as they were.
-SimulatorSpec inheriting(SimulatorSpec simulator, const SimulatorSpec& parent) {
-  for (const auto& [name, value] : parent.values) simulator.values.try_emplace(name, value);
+/// What is adopted after `parent`: values that `simulator` does not name stay as they were. Refuses what changes
+/// nothing.
+SimulatorSpec inheriting(SimulatorSpec simulator, const SimulatorRecord& parent, const std::string& owner) {
+  for (const auto& [name, value] : parent.simulator.values) simulator.values.try_emplace(name, value);
+  if (simulator == parent.simulator)
+    throw InputError(owner + ": its version " + std::to_string(parent.number) + " is this simulator already");
   return simulator;
 }
 
@@ -107,16 +116,8 @@ std::string nameOfRig(const Database& database, Id rig) {
 }
 
 // The number says what was the newest when it was looked at: of two that adopt at once the second is refused.
-SimulatorRecord addToRig(Database& database, const SimulatorRecord& parent, SimulatorSpec simulator,
-                         const std::string& madeBy, const std::string& evidence) {
-  SimulatorRecord version;
-  version.rig = parent.rig;
-  version.number = parent.number + 1;
-  version.parent = parent.id;
-  version.simulator = std::move(simulator);
-  version.madeBy = madeBy;
-  version.evidence = evidence;
-  version.createdAt = utcNow();
+SimulatorRecord addToRig(Database& database, const SimulatorRecord& newest, SimulatorRecord version) {
+  version.number = newest.number + 1;
   version.id = database.addRigSimulator(version);
   return version;
 }
@@ -130,13 +131,10 @@ SimulatorRecord adoptSimulator(Database& database, const PluginHost& host, Id ru
   const RunRecord record = database.run(run);
   requireRest(database, record);
   const SimulatorRecord parent = database.latestSimulator(run);
-  SimulatorSpec adopted = inheriting(simulator, parent.simulator);
-  if (adopted == parent.simulator)
-    throw InputError(nameOf(database, run) + ": its version " + std::to_string(parent.number) +
-                     " is this simulator already");
+  const SimulatorSpec adopted = inheriting(simulator, parent, nameOf(database, run));
   // An effect or a path that this run's scene does not have is refused here, not in its workers.
   prepareFromRun(record, host).scene(adopted);
-  return add(database, record, parent, std::move(adopted), "gap analysis", evidence);
+  return addToRun(database, record, versionAfter(parent, adopted, "gap analysis", evidence));
 }
 
 SimulatorRecord adoptFromFiles(Database& database, const PluginHost& host, Id run, const std::string& simulator,
@@ -151,15 +149,12 @@ SimulatorRecord adoptForRig(Database& database, const PluginHost& host, const st
   if (!report.empty() && found.sceneSha256 != sha256(readFile(scene)))
     throw InputError(scene + ": is not the scene of the report in " + report + ", or has changed since; analyse again");
   // What its scene cannot build is refused before anything is stored.
-  const SceneSpec spec = loadScene(scene);
-  makeScene(spec, loadModels(spec), found.simulator, [&](const std::string& name) { return host.effect(name); });
-  const Id rig = addRig(database, loadRig(scene));
-  const SimulatorRecord parent = database.rigSimulators(rig).back();
-  const SimulatorSpec adopted = inheriting(found.simulator, parent.simulator);
-  if (adopted == parent.simulator)
-    throw InputError(nameOfRig(database, rig) + ": its version " + std::to_string(parent.number) +
-                     " is this simulator already");
-  return addToRig(database, parent, adopted, "gap analysis", found.evidence);
+  const Rig rig = loadRig(scene);
+  makeScene(rig.scene, loadModels(rig.scene), found.simulator, host.effectFactory());
+  const Id id = addRig(database, rig);
+  const SimulatorRecord parent = database.rigSimulators(id).back();
+  const SimulatorSpec adopted = inheriting(found.simulator, parent, nameOfRig(database, id));
+  return addToRig(database, parent, versionAfter(parent, adopted, "gap analysis", found.evidence));
 }
 
 SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> number) {
@@ -169,7 +164,8 @@ SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> n
   requireRest(database, record);
   const std::vector<SimulatorRecord> all = database.simulators(run);
   const SimulatorRecord& wanted = revertedTo(all, number, nameOf(database, run), "run");
-  return add(database, record, all.back(), wanted.simulator, "by hand", reverting(wanted, all.back()));
+  return addToRun(database, record,
+                  versionAfter(all.back(), wanted.simulator, "by hand", reverting(wanted, all.back())));
 }
 
 SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number) {
@@ -177,7 +173,8 @@ SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number)
   if (all.empty())
     throw InputError("experiment " + std::to_string(rig) + " of " + database.path() + ": it is not a rig");
   const SimulatorRecord& wanted = revertedTo(all, number, nameOfRig(database, rig), "rig");
-  return addToRig(database, all.back(), wanted.simulator, "by hand", reverting(wanted, all.back()));
+  return addToRig(database, all.back(),
+                  versionAfter(all.back(), wanted.simulator, "by hand", reverting(wanted, all.back())));
 }
 
 }  // namespace btr

@@ -5,14 +5,14 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/scene_spec.h"
 #include "core/spec/sha256.h"
 
 namespace btr {
 
 Rig loadRig(const std::string& path) {
   namespace fs = std::filesystem;
-  SceneSpec scene = loadScene(path);
+  Rig rig{fs::path(path).stem().string(), "", loadScene(path)};
+  SceneSpec scene = rig.scene;  // without places of files
   nlohmann::json models = nlohmann::json::object();
   for (RobotSpec& robot : scene.robots) {
     const std::string content = readFile((fs::path(scene.directory) / robot.model).string());
@@ -23,7 +23,8 @@ Rig loadRig(const std::string& path) {
   }
   const nlohmann::json spec{
       {"format", "uchilsim-rig-1"}, {"scene", nlohmann::json::parse(toJsonText(scene))}, {"models", std::move(models)}};
-  return {fs::path(path).stem().string(), spec.dump()};
+  rig.spec = spec.dump();
+  return rig;
 }
 
 std::optional<Id> findRig(const Database& database, const Rig& rig) { return database.findExperiment(rig.spec); }

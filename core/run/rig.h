@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "core/spec/scene_spec.h"
 #include "core/store/database.h"
 
 namespace btr {
@@ -12,6 +13,7 @@ namespace btr {
 struct Rig {
   std::string name;  ///< of the scene's file: "xl330"
   std::string spec;  ///< JSON text ("format": "uchilsim-rig-1") that stands for it in the database
+  SceneSpec scene;   ///< as its file has it
 };
 
 /// Reads the scene and its models. Throws InputError.

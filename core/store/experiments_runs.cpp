@@ -42,11 +42,13 @@ void update(const Connection& connection, Id run, const char* assignments, const
 
 }  // namespace
 
+Id insertExperiment(const Connection& connection, const ExperimentRecord& e) {
+  return insert(connection, "INSERT INTO experiment (name, spec_json, created_at, note) VALUES (?, ?, ?, ?)", e.name,
+                e.specJson, orNow(e.createdAt), e.note);
+}
+
 Id Database::addExperiment(const ExperimentRecord& e) {
-  return connection_->write([&] {
-    return insert(*connection_, "INSERT INTO experiment (name, spec_json, created_at, note) VALUES (?, ?, ?, ?)",
-                  e.name, e.specJson, orNow(e.createdAt), e.note);
-  });
+  return connection_->write([&] { return insertExperiment(*connection_, e); });
 }
 
 std::vector<ExperimentRecord> Database::experiments() const {

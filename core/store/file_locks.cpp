@@ -6,11 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdarg>
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -56,8 +54,8 @@ class DescribedLocks {
  private:
   using FileId = std::pair<dev_t, ino_t>;
   struct File {
-    int own = -1;         ///< our description of it; −1: there is none, POSIX locks are taken
-    std::set<int> users;  ///< SQLite's descriptors that asked for locks
+    int own = -1;   ///< our description of it; −1: there is none, POSIX locks are taken
+    int users = 0;  ///< of users_
   };
 
   const File* fileOf(int descriptor) {
@@ -69,8 +67,7 @@ class DescribedLocks {
     const auto [place, isNew] = files_.try_emplace(id);
     File& file = place->second;
     if (isNew) file.own = describe(descriptor);
-    file.users.insert(descriptor);
-    users_[descriptor] = id;
+    if (users_.try_emplace(descriptor, id).second) ++file.users;
     return &file;
   }
   static int describe(int descriptor) {
@@ -91,16 +88,14 @@ class DescribedLocks {
     if (user == users_.end()) return;
     const auto file = files_.find(user->second);
     users_.erase(user);
-    if (file == files_.end()) return;
-    file->second.users.erase(descriptor);
-    if (!file->second.users.empty()) return;
+    if (--file->second.users > 0) return;
     if (file->second.own >= 0) ::close(file->second.own);
     files_.erase(file);
   }
 
   std::mutex mutex_;
   std::map<FileId, File> files_;
-  std::map<int, FileId> users_;
+  std::map<int, FileId> users_;  ///< SQLite's descriptors that asked for locks
 };
 
 // Lives as long as the process: SQLite may close files at its very end.

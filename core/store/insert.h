@@ -33,6 +33,7 @@ inline std::string orNow(const std::string& time) { return time.empty() ? utcNow
 /// The version and its numbers; its number is the next of its run.
 Id insertSimulator(const Connection& connection, const SimulatorRecord& simulator);
 
+Id insertExperiment(const Connection& connection, const ExperimentRecord& experiment);
 /// A run with its files and first simulator version; its id.
 Id insertRun(const Connection& connection, const RunRecord& run, const SimulatorRecord& first);
 /// The next generation of its run with its individuals; refuses another number. Ids are written back.

@@ -54,8 +54,7 @@ Id Database::addRig(const ExperimentRecord& rig, const SimulatorRecord& first) {
                 .value<Id>())
       return *known;
     SimulatorRecord version = first;
-    version.rig = insert(*connection_, "INSERT INTO experiment (name, spec_json, created_at, note) VALUES (?, ?, ?, ?)",
-                         rig.name, rig.specJson, orNow(rig.createdAt), rig.note);
+    version.rig = insertExperiment(*connection_, rig);
     insertVersion(*connection_, version, 0);
     return version.rig;
   });

@@ -13,6 +13,13 @@
 #include "core/store/database.h"
 
 namespace btr::ui {
+namespace {
+
+QStringList ownerWords(Id run, const QString& rig) {
+  return rig.isEmpty() ? QStringList{"--run", QString::number(run)} : QStringList{"--rig", rig};
+}
+
+}  // namespace
 
 RunLauncher::RunLauncher(std::shared_ptr<const PluginHost> host, const QString& program, QObject* parent)
     : QObject(parent),
@@ -127,14 +134,6 @@ void RunLauncher::importFitness(const QString& database, Id run, const QString& 
   runToEnd({"fitness", "import", "--db", database, "--run", QString::number(run), file},
            [this, file] { emit imported(file); });
 }
-
-namespace {
-
-QStringList ownerWords(Id run, const QString& rig) {
-  return rig.isEmpty() ? QStringList{"--run", QString::number(run)} : QStringList{"--rig", rig};
-}
-
-}  // namespace
 
 void RunLauncher::adopt(const QString& database, Id run, const QString& rig, const QString& simulator,
                         const QString& report) {

@@ -17,7 +17,7 @@ class ReportView;
 
 /// Who can take a repaired simulator: a run, or a rig (a scene that no run belongs to).
 struct AdoptionTarget {
-  QString name;                           ///< "run 3"; empty: there is none
+  QString name;                           ///< "run 3"
   QString rig;                            ///< the scene's file; empty: a run
   std::vector<SimulatorRecord> versions;  ///< none: a rig of which the database has nothing yet
   QString why;                            ///< it takes none now; empty if it does

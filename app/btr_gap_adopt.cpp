@@ -41,7 +41,8 @@ void tell(const SimulatorRecord& version, const AdoptArguments& a, Shell& shell)
 }
 
 void adopt(const AdoptArguments& a, Shell& shell) {
-  Database db = Database::open(a.database, Database::Mode::readWrite);
+  // A rig needs no run, so its database may be a new one.
+  Database db = Database::open(a.database, a.rig.empty() ? Database::Mode::readWrite : Database::Mode::create);
   tell(a.rig.empty() ? adoptFromFiles(db, shell.plugins(), a.run, a.simulator, a.report)
                      : adoptForRig(db, shell.plugins(), a.rig, a.simulator, a.report),
        a, shell);

@@ -1,6 +1,7 @@
 // btr gap recordings, clues: what gap analysis takes from the database and keeps in it.
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
@@ -33,12 +34,26 @@ Id experimentOf(const Database& db, const StoreArguments& a) {
 }
 
 void import(const StoreArguments& a, Shell& shell) {
-  Database db = Database::open(a.database, Database::Mode::readWrite);
+  if (!a.rig.empty() && a.individual != 0)
+    throw InputError("--individual", std::to_string(a.individual), "none with --rig: individuals belong to runs");
   const std::string scene = a.scene.empty() ? a.rig : a.scene;
-  const Id experiment = a.rig.empty() ? experimentOf(db, a) : addRig(db, loadRig(a.rig));
+  std::optional<Rig> rig;
+  std::optional<Database> db;
+  Id experiment = 0;
+  if (!a.rig.empty()) {
+    rig = loadRig(a.rig);
+  } else {
+    db = Database::open(a.database, Database::Mode::readWrite);
+    experiment = experimentOf(*db, a);
+  }
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& file : a.files) {
-    const StoredRecording stored = importRecording(db, experiment, file, a.mapping, a.individual, scene);
+    CheckedRecording checked = checkRecording(file, a.mapping, scene);
+    if (!db) {  // a rig comes with the first recording that is fit to be kept, and its database may be a new one
+      db = Database::open(a.database, Database::Mode::create);
+      experiment = addRig(*db, *rig);
+    }
+    const StoredRecording stored = keepRecording(*db, experiment, std::move(checked), a.individual);
     all.push_back({{"recording", stored.id},
                    {"file", file},
                    {"new", stored.isNew},

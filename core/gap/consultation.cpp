@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/gap/doctor.h"
+#include "core/gap/objection.h"
 #include "core/gap/residual_parts.h"
 #include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
@@ -59,13 +60,14 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
   const TrialScenes scenes{problem.scene, problem.models, problem.simulator};
   std::vector<Grave> grave;
   std::vector<std::string> notes, others;
+  Objection objection;
   for (const auto* list : {&problem.recordings, &problem.heldOut})
     for (const Recording& recording : *list) {
       const std::string name = std::filesystem::path(recording.source).filename().string();
       const Scene scene = scenes.of(recording, library.make);
-      for (const Finding& finding : doctor(scene, recording, bind(scene, recording))) {
-        if (finding.certain && !asRecorded)
-          throw InputError(recording.source + ": " + finding.text + "; --as-recorded analyses it regardless");
+      const Diagnosis found = doctor(scene, recording, bind(scene, recording));
+      objection.hear(recording.source, recording.mapping, found);
+      for (const Finding& finding : found.findings) {
         addGrave(grave, finding.channel, name, finding.text);
         notes.push_back(name + ": " + finding.text);
       }
@@ -75,6 +77,8 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
       for (std::size_t i = 0; i < health.findings.size(); ++i)
         (broken && i == 0 ? notes : others).push_back(name + ": " + health.findings[i]);
     }
+  if (const auto text = objection.text(); text && !asRecorded)
+    throw InputError(*text + "; --as-recorded analyses it regardless");
   joinNotes(notes);
   joinNotes(others);
   notes.insert(notes.end(), others.begin(), others.end());

@@ -1,6 +1,7 @@
 // What a comparison of commands and measured positions says about the mapping.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/gap/doctor.h"
 #include "core/gap/encoder_offset.h"
@@ -20,12 +21,12 @@ class JointDoctor {
   JointDoctor(const Scene& scene, const Recording& recording, const Binding& binding)
       : scene_(scene), joints_(jointSeries(scene, recording, binding, period_s_)) {}
 
-  std::vector<Finding> look() {
+  Diagnosis look() {
     std::vector<char> known(joints_.size(), 0);
     findSwaps(known);
     for (std::size_t i = 0; i < joints_.size(); ++i)
       if (!known[i]) lookAt(joints_[i]);
-    return std::move(findings_);
+    return std::move(found_);
   }
 
  private:
@@ -57,7 +58,7 @@ class JointDoctor {
                                  a.commandChannel + " (" + digits(between(a, b).correlation) + ", own " +
                                  digits(between(b, b).correlation) +
                                  "): the two joints are mixed up; exchange the two columns in the mapping";
-        findings_.push_back({a.positionChannel, text, true});
+        found_.findings.push_back({a.positionChannel, text, true});
       }
   }
 
@@ -90,7 +91,9 @@ class JointDoctor {
               digits(following.highest) +
               "): a sign is turned; give one of them, the one that is not right-handed about the model's " +
               "axis, a negative \"scale\" in the mapping",
-          following.correlation < -0.9 && following.highest < -0.7);
+          following.correlation < -0.9 && following.highest < -0.7, true);
+    else if (following.correlation > 0)
+      found_.following.push_back(series.positionChannel);
     if (!unitsFine || turned) return;
     checkClock(series);
     if (following.correlation < 0.9) return;
@@ -101,8 +104,8 @@ class JointDoctor {
                       "encoder; add " + digits(-found->offset) + " to its \"offset\" in the mapping");
   }
 
-  void add(const JointSeries& series, const std::string& text, bool certain = false) {
-    findings_.push_back({series.positionChannel, text, certain});
+  void add(const JointSeries& series, const std::string& text, bool certain = false, bool refutable = false) {
+    found_.findings.push_back({series.positionChannel, text, certain, refutable});
   }
 
   /// A measurement may lag behind its command for many reasons; it cannot be ahead of it.
@@ -143,7 +146,7 @@ class JointDoctor {
       // Even a resonance does not come that near to the ratio of two units; a joint that is held may move too little.
       const bool certain =
           std::abs(following.correlation) > 0.95 && nearest < std::log(2) && (up || !inReach(series, up));
-      findings_.push_back(
+      found_.findings.push_back(
           {wrong,
            evidence + ": " + wrong + " is " +
                (shrink ? "in " + std::string(named->name) + ", not " + right : right + " taken for " + named->name) +
@@ -184,7 +187,7 @@ class JointDoctor {
   const Scene& scene_;
   double period_s_ = 0;
   std::vector<JointSeries> joints_;
-  std::vector<Finding> findings_;
+  Diagnosis found_;
 };
 
 /// Time in milliseconds, places in millimetres.
@@ -214,14 +217,16 @@ void lookAtScales(const Recording& recording, const Binding& binding, std::vecto
 
 }  // namespace
 
-std::vector<Finding> doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
-  std::vector<Finding> findings;
-  if (recording.rows() < 2) return findings;
-  lookAtScales(recording, binding, findings);
+Diagnosis doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
+  Diagnosis found;
+  if (recording.rows() < 2) return found;
+  lookAtScales(recording, binding, found.findings);
   // What follows compares over lags of a tenth of a second.
-  if (!findings.empty() && findings.front().certain) return findings;
-  for (Finding& finding : JointDoctor(scene, recording, binding).look()) findings.push_back(std::move(finding));
-  return findings;
+  if (!found.findings.empty() && found.findings.front().certain) return found;
+  Diagnosis joints = JointDoctor(scene, recording, binding).look();
+  found.following = std::move(joints.following);
+  std::move(joints.findings.begin(), joints.findings.end(), std::back_inserter(found.findings));
+  return found;
 }
 
 }  // namespace btr

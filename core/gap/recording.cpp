@@ -275,6 +275,7 @@ Recording readRecording(const std::string& path, const Mapping* mapping, std::si
 
   Recording recording;
   recording.source = path;
+  if (mapping) recording.mapping = mapping->source;
   HashingBuffer buffer(path);
   if (!buffer.isOpen()) throw InputError(path + ": the file cannot be read");
   std::istream stream(&buffer);

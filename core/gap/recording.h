@@ -22,6 +22,7 @@ struct FilePlaces {
 struct Recording {
   std::string source;                        ///< path, for messages
   std::string sha256;                        ///< of the file's bytes
+  std::string mapping;                       ///< file that says how it was read, "" for none
   std::vector<std::string> channels;         ///< contract names; unmapped columns keep their own names
   std::vector<std::vector<double>> columns;  ///< by channel, each rows() long; NaN where a cell is empty
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)

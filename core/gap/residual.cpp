@@ -35,7 +35,7 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
   for (const std::string& text : recording.notes) note(text);
   const Binding binding = bind(scene, recording);
   for (const std::string& text : binding.notes) note(text);
-  for (const Finding& finding : doctor(scene, recording, binding)) {
+  for (const Finding& finding : doctor(scene, recording, binding).findings) {
     if (finding.certain && finding.channel == "time_s" && !asRecorded)
       throw InputError(recording.source + ": " + finding.text + "; --as-recorded replays it regardless");
     note(finding.text);

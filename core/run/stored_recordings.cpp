@@ -9,17 +9,17 @@
 namespace btr {
 namespace fs = std::filesystem;
 
-StoredRecording importRecording(Database& database, Id experiment, const std::string& path, const std::string& mapping,
-                                Id individual, const std::string& scene) {
+CheckedRecording checkRecording(const std::string& path, const std::string& mapping, const std::string& scene) {
   constexpr std::size_t largest = std::size_t{1} << 30;
   std::string mappingPath = mapping;
   if (mappingPath.empty()) mappingPath = findMapping(path, scene).value_or("");
-  RecordingRecord record;
+  CheckedRecording checked;
+  RecordingRecord& record = checked.record;
   if (!mappingPath.empty()) record.mappingJson = readFile(mappingPath);
   const std::optional<Mapping> map =
       mappingPath.empty() ? std::nullopt : std::optional(mappingFromJson(record.mappingJson, mappingPath));
 
-  StoredRecording stored;
+  StoredRecording& stored = checked.stored;
   std::string hash;
   for (const Recording& trial : loadTrials(path, map ? &*map : nullptr)) {
     ++stored.trials;
@@ -27,14 +27,19 @@ StoredRecording importRecording(Database& database, Id experiment, const std::st
     for (const std::string& note : trial.notes) stored.notes.push_back(note);
     hash = trial.sha256;
   }
-  record.experiment = experiment;
-  record.individual = individual;
   record.name = fs::path(path).filename().string();
   record.csv = readFile(path, largest);
   record.sha256 = sha256(record.csv);
   // Trials carry the hash of their file: what is stored is what was checked.
   if (!hash.empty() && hash != record.sha256) throw InputError(path + ": the file was changed while it was read");
   record.source = fs::absolute(path).lexically_normal().string();
+  return checked;
+}
+
+StoredRecording keepRecording(Database& database, Id experiment, CheckedRecording checked, Id individual) {
+  auto& [record, stored] = checked;
+  record.experiment = experiment;
+  record.individual = individual;
   for (const RecordingRecord& other : database.recordings(experiment))
     if (other.sha256 == record.sha256 && other.mappingJson == record.mappingJson && other.individual == individual) {
       stored.id = other.id;
@@ -43,6 +48,11 @@ StoredRecording importRecording(Database& database, Id experiment, const std::st
   stored.id = database.addRecording(record);
   stored.isNew = true;
   return stored;
+}
+
+StoredRecording importRecording(Database& database, Id experiment, const std::string& path, const std::string& mapping,
+                                Id individual, const std::string& scene) {
+  return keepRecording(database, experiment, checkRecording(path, mapping, scene), individual);
 }
 
 std::string exportRecording(const Database& database, Id recording, const std::string& folder) {

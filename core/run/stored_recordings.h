@@ -13,9 +13,21 @@ struct StoredRecording {
   std::vector<std::string> notes;
 };
 
+/// A recording that was read to its end: fit to be kept.
+struct CheckedRecording {
+  RecordingRecord record;  ///< without experiment and individual
+  StoredRecording stored;  ///< but for what the database says of it
+};
+
 /// Reads a recording with its mapping (`mapping`, else the one beside it or beside `scene`, else none), so that nothing
-/// damaged gets in, and keeps the bytes of both with their SHA-256. `individual` is the one that was recorded, 0 for
-/// none. Throws InputError with line and column.
+/// damaged gets in. Throws InputError with line and column.
+CheckedRecording checkRecording(const std::string& path, const std::string& mapping = "",
+                                const std::string& scene = "");
+
+/// Keeps the bytes of both with their SHA-256. `individual` is the one that was recorded, 0 for none.
+StoredRecording keepRecording(Database& database, Id experiment, CheckedRecording checked, Id individual = 0);
+
+/// Both.
 StoredRecording importRecording(Database& database, Id experiment, const std::string& path,
                                 const std::string& mapping = "", Id individual = 0, const std::string& scene = "");
 

@@ -88,4 +88,12 @@ printf 't_ms,q\n10,10\n10,20\n' > "$folder/bad.csv"
 expect 1 "a damaged recording" "$btr" gap recordings import --db "$db" --run 1 --mapping "$folder/map.json" "$folder/bad.csv"
 one_line
 says err "line 3, column 1"
+expect 1 "a damaged one makes no database" "$btr" gap recordings import --db "$folder/fresh.db" --rig "$folder/bench.json" --mapping "$folder/map.json" "$folder/bad.csv"
+[ -e "$folder/fresh.db" ] && fail "an empty database was left"
+expect 0 "a rig needs no database of runs" "$btr" gap recordings import --db "$folder/fresh.db" --rig "$folder/bench.json" --mapping "$folder/map.json" "$folder/swing.csv"
+sed 's/"p": 4/"p": 5/' "$folder/bench.json" > "$folder/other.json"
+expect 1 "a damaged one of a new rig" "$btr" gap recordings import --db "$folder/fresh.db" --rig "$folder/other.json" --mapping "$folder/map.json" "$folder/bad.csv"
+expect 1 "leaves no empty rig behind" "$btr" gap recordings list --db "$folder/fresh.db" --rig "$folder/other.json"
+one_line
+says err "has nothing of this rig"
 finish

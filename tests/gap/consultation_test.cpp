@@ -38,7 +38,22 @@ TEST(Consultation, RefusesDegreesAndTurnedSignsWithWhatToChangeInTheMapping) {
   EXPECT_THAT(refusal(written(-1)), HasSubstr("a sign is turned"));
   GapProblem heldOut = recordedFrom({});
   heldOut.heldOut = written(-1).recordings;
+  for (Recording& recording : heldOut.heldOut) recording.mapping = "turned.mapping.json";
   EXPECT_THAT(refusal(heldOut), HasSubstr("a sign is turned"));
+}
+
+// Driven beyond its resonance a joint moves against its command; a mapping that turns a sign turns it in every
+// recording.
+TEST(Consultation, DoesNotRefuseASignThatOthersReadInTheSameWayDoNotTurn) {
+  GapProblem problem = recordedFrom({});
+  ASSERT_GT(problem.recordings.size(), 1u);
+  Recording& odd = problem.recordings[1];
+  for (double& value : odd.columns[2]) value = -value;
+  EXPECT_THAT(consult(problem, library(), false).caveat,
+              AllOf(HasSubstr("trial_1.csv"), HasSubstr("a sign is turned")));
+  odd.mapping = "of its own.mapping.json";
+  EXPECT_THAT(test::refusal([&] { consult(problem, library(), false); }),
+              AllOf(StartsWith("trial_1.csv"), HasSubstr("a sign is turned")));
 }
 
 TEST(Consultation, LeadsTheSentenceWhereItIsOverruled) {

@@ -54,7 +54,7 @@ struct Arm {
   void change(const std::string& name, double scale, double offset = 0) {
     for (double& value : column(name)) value = scale * value + offset;
   }
-  std::vector<Finding> found() const { return doctor(scene, recording, bind(scene, recording)); }
+  std::vector<Finding> found() const { return doctor(scene, recording, bind(scene, recording)).findings; }
   std::vector<std::string> findings() const { return textsOf(found()); }
 };
 
@@ -253,11 +253,12 @@ TEST(JointDoctor, FindsNothingInTheXl330Recordings) {
   for (const auto& entry : fs::directory_iterator(fs::is_directory(folder) ? folder : own)) {
     if (entry.path().extension() != ".csv") continue;
     Recording recording = loadRecording(entry.path().string(), &mapping);
-    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording))), IsEmpty()) << entry.path();
+    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording)).findings), IsEmpty()) << entry.path();
     // The same log with a turned sign or in degrees is found out, unless its motion is too fast to tell.
     auto& position = recording.columns[static_cast<std::size_t>(recording.column("xl330.shoulder.position_rad"))];
     for (double& value : position) value *= 180 / M_PI;
-    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording))), ElementsAre(HasSubstr("is in degrees")))
+    EXPECT_THAT(textsOf(doctor(scene, recording, bind(scene, recording)).findings),
+                ElementsAre(HasSubstr("is in degrees")))
         << entry.path();
     ++logs;
   }

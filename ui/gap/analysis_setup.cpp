@@ -15,6 +15,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include "core/gap/objection.h"
 #include "core/gap/recording.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"
@@ -334,11 +335,12 @@ void AnalysisSetup::askDoctor() {
   constexpr qsizetype mostLines = 6;
   QStringList lines;
   QStringList said;
-  certain_ = false;
+  Objection objection;
   for (int row = 0; row < recordings_->rowCount() && !spec_.robots.empty(); ++row) {
     const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
-    const RecordingDoctor::Opinion& opinion = doctor_.of(path, mappingOf(path), sceneRead_, spec_, models_);
-    certain_ = certain_ || opinion.certain;
+    const QString mapping = mappingOf(path);
+    const RecordingDoctor::Opinion& opinion = doctor_.of(path, mapping, sceneRead_, spec_, models_);
+    for (const Diagnosis& trial : opinion.trials) objection.hear(path.toStdString(), mapping.toStdString(), trial);
     recordings_->item(row, file)->setToolTip((QStringList{path} + opinion.findings).join('\n'));
     for (const QString& text : opinion.findings) {
       if (said.contains(text)) continue;
@@ -346,6 +348,7 @@ void AnalysisSetup::askDoctor() {
       lines << QFileInfo(path).fileName() + ": " + text;
     }
   }
+  certain_ = objection.text().has_value();
   if (lines.size() > mostLines) {
     const qsizetype more = lines.size() - mostLines;
     lines = lines.mid(0, mostLines) << tr("and %1 more, see the recordings' tips").arg(more);

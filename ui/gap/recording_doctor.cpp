@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 
-#include "core/gap/doctor.h"
 #include "core/gap/trial_scenes.h"
 #include "ui/common/file_state.h"
 
@@ -20,10 +19,9 @@ RecordingDoctor::Opinion opinionOf(const QString& recording, const QString& mapp
     const TrialScenes scenes{spec, models, {}};
     for (const Recording& trial : loadTrialsFor(recording.toStdString(), mapping.toStdString(), scene.toStdString())) {
       const Scene world = scenes.of(trial, {});
-      for (const Finding& finding : doctor(world, trial, bind(world, trial))) {
+      opinion.trials.push_back(doctor(world, trial, bind(world, trial)));
+      for (const Finding& finding : opinion.trials.back().findings)
         opinion.findings << QString::fromStdString(finding.text);
-        opinion.certain = opinion.certain || finding.certain;
-      }
       for (const std::string& text : examine(trial).findings) opinion.findings << QString::fromStdString(text);
     }
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 #include <QMap>
 #include <QStringList>
 
+#include "core/gap/doctor.h"
 #include "core/sim/scene.h"
 
 namespace btr::ui {
@@ -11,8 +12,8 @@ namespace btr::ui {
 class RecordingDoctor {
  public:
   struct Opinion {
-    QStringList findings;  ///< in words; why the file cannot be read, if it cannot
-    bool certain = false;  ///< an analysis would refuse it
+    QStringList findings;           ///< in words; why the file cannot be read, if it cannot
+    std::vector<Diagnosis> trials;  ///< what the file is divided into
   };
   /// `mapping`: a path, "" for none. Large files are left to the analysis itself.
   const Opinion& of(const QString& recording, const QString& mapping, const QString& scene, const SceneSpec& spec,

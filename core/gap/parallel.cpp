@@ -12,7 +12,10 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
   if (jobs <= 1 || count <= 1 || WorkerPool::inWorker()) {
     for (std::size_t i = 0; i < count; ++i) {
       if (goOn && !goOn(i)) throw Cancelled{};
-      results[i] = f(i);
+      try {
+        results[i] = f(i);
+      } catch (const std::exception&) {  // as in a worker: the others do not suffer
+      }
     }
     return results;
   }

@@ -123,7 +123,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       jobs.push_back({model, base.fit.shifts, &base.linear});
       owner.push_back(k);
     }
-    const std::vector<Fit> fits = fitAll(jobs, firstIterations, "fitting candidates" + stage, begin, end);
+    const std::vector<Fit> fits = tryFits(jobs, firstIterations, "fitting candidates" + stage, begin, end);
     for (std::size_t i = 0; i < fits.size(); ++i)
       if (fits[i].cost < tried[owner[i]].fit.cost) {
         tried[owner[i]].fit = fits[i];

@@ -92,13 +92,13 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
       if (k > 0) way.before = here;
       jobs.push_back({next, way.fit.shifts});
     }
-    const std::vector<Fit> fits = fitAll(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
+    const std::vector<Fit> fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
     std::erase_if(ways, [&](const Way& way) { return way.fit.cost > inTheValley * finalCost; });
   }
-  std::vector<Fit> arrived;
-  for (const Way& way : ways) arrived.push_back(way.fit);
-  arrived = fitOn(arrived, toTheEnd, "handing over", 0.95, 0.95);
+  std::vector<FitJob> jobs;
+  for (const Way& way : ways) jobs.push_back({way.fit.model, way.fit.shifts});
+  const std::vector<Fit> arrived = tryFits(jobs, toTheEnd, "handing over", 0.95, 0.95);
   const std::vector<Scored> scored = scoreAll(arrived, "handing over", 0.95, 0.95);
   for (std::size_t w = 0; w < ways.size(); ++w) addRival(ways[w].candidate, scored[w], result, others);
   problem_.scene.step_s = judged_s;

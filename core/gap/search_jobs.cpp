@@ -36,8 +36,8 @@ int SearchRun::workersFor(std::size_t count) const {
   return inside ? 1 : options_.jobs;
 }
 
-std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
-                                   double from, double to) const {
+std::vector<Fit> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                    double from, double to) const {
   const auto fitOne = [&](std::size_t i) {
     FitOptions options{iterations, false, jobs[i].inherited, {}};
     if (options_.progress && !WorkerPool::inWorker())
@@ -54,9 +54,14 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
     unpack(numbers[i], problem_, fit);
     fits.push_back(std::move(fit));
   }
-  // One that fails is no candidate; where all do, the first says why.
-  const bool any = std::any_of(numbers.begin(), numbers.end(), [](const auto& list) { return !list.empty(); });
-  if (!jobs.empty() && !any) fitOne(0);
+  return fits;
+}
+
+std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                   double from, double to) const {
+  std::vector<Fit> fits = tryFits(jobs, iterations, stage, from, to);
+  const bool any = std::ranges::any_of(fits, [](const Fit& fit) { return std::isfinite(fit.cost); });
+  if (!jobs.empty() && !any) fitModel(problem_, jobs[0].model, jobs[0].shifts, {1, false, nullptr, {}});
   return fits;
 }
 

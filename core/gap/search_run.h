@@ -65,7 +65,10 @@ class SearchRun {
   }
   /// Few jobs run one after another, the segments of each in all workers, where there are enough of them.
   int workersFor(std::size_t count) const;
-  /// A fit that fails costs infinitely much; where all do, the first one's error is thrown.
+  /// A fit that fails costs infinitely much.
+  std::vector<Fit> tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
+                           double to) const;
+  /// The same; where all fail, the first one's error is thrown.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
   std::vector<Fit> fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,

@@ -43,6 +43,17 @@ TEST(Fit, InWorkersGivesTheSameBits) {
   EXPECT_EQ(inherits.model.values, inheritsToo.model.values);
 }
 
+// Whether a candidate that cannot be simulated ends an analysis must not hang on the number of workers.
+TEST(Fit, OneThatFailsGivesNothingWithOneWorkerAsWithTwo) {
+  const auto job = [](std::size_t i) -> std::vector<double> {
+    if (i == 1) throw InputError("a joint limit, 9, allowed: at most 3");
+    return {static_cast<double>(i)};
+  };
+  const std::vector<std::vector<double>> expected{{0}, {}, {2}};
+  EXPECT_EQ(parallel(1, 3, job), expected);
+  EXPECT_EQ(parallel(2, 3, job), expected);
+}
+
 TEST(Fit, SaysHowFarItIsAndCanBeCancelled) {
   const FitProblem problem = slowProblem(1);
   std::vector<double> shares;

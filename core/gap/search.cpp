@@ -13,20 +13,6 @@ namespace {
 constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
 constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
 
-/// Where much is to be explained it is looked for with steps that are longer than the scene's, as far as they divide
-/// its control period and what candidates bring (play, elastic gears) can bear.
-double coarsestStep(const FitProblem& problem) {
-  constexpr double longest_s = 1e-3, mostTimes = 4;
-  double step_s = problem.scene.step_s;
-  for (double next_s = 2 * step_s; next_s <= 1.001 * longest_s && next_s <= 1.001 * mostTimes * problem.givenStep_s;
-       next_s *= 2) {
-    const double steps = problem.scene.controlPeriod_s / next_s;
-    if (std::abs(steps - std::round(steps)) > 1e-6) break;
-    step_s = next_s;
-  }
-  return step_s;
-}
-
 }  // namespace
 
 bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
@@ -213,7 +199,7 @@ SearchResult SearchRun::run() {
   // Never worse than what was given.
   if (result.calibrated.mean() >= result.given.mean()) result.calibrated = result.given;
   result.ladder.push_back(step("calibrated", result.calibrated));
-  search_s_ = coarsestStep(problem_);
+  search_s_ = problem_.scene.step_s;
   result.calibratedLinear = linearise(problem_, result.calibrated.fit);
   result.calibratedUncertainty = uncertaintyOf(problem_, result.calibrated.fit, result.calibratedLinear);
   result.final = result.calibrated;

@@ -97,7 +97,8 @@ class SearchRun {
   /// which one may pass; true if one does. The step stays as it was if none does.
   bool confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without, double judged_s,
                const std::string& stage, double from, double to);
-  /// The longest step that a model bears: what to add to it is looked for there, and judged at the present one.
+  /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
+  /// there, and judged at the present one.
   double stepToSearchWith(const Fit& fit) const;
   /// Whether the fit's last effect could as well be much larger, though not absent: friction that holds a joint still
   /// is known from below only, and has no standard error.
@@ -146,7 +147,7 @@ class SearchRun {
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
   double finest_s_;                 ///< an eighth of the scene's step: a servo in and out of saturation needs it
-  double search_s_ = 0;             ///< the longest step to look for effects with
+  double search_s_ = 0;             ///< the step that the calibrated simulator needs
   std::vector<FitParameter> held_;  ///< numbers that the calibrated simulator does not feel, as given
   mutable double told_ = 0;
   std::vector<Tried> firstStage_;

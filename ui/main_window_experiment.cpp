@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <algorithm>
 
 #include "core/spec/json_reader.h"
 #include "ui/common/resources.h"
@@ -16,12 +17,14 @@ void MainWindow::newExperiment() {
     ExperimentSpec spec;
     spec.name = tr("Experiment").toStdString();
     spec.directory = (resourceDirectory() + "/experiments").toStdString();
-    const auto first = [](const std::vector<std::string>& names) {
+    const auto best = [](const std::vector<std::string>& names, const char* wanted) {
+      if (std::ranges::find(names, wanted) != names.end()) return std::string(wanted);
       return names.empty() ? std::string() : names.front();
     };
-    spec.controller.name = first(host_->controllers());
-    spec.fitness.name = first(host_->fitnesses());
-    spec.learner.name = spec.adaptation.name = first(host_->learners());
+    spec.controller.name = best(host_->controllers(), "kick");
+    spec.fitness.name = best(host_->fitnesses(), "kick_distance");
+    spec.learner.name = spec.adaptation.name = best(host_->learners(), "ga");
+    if (QFileInfo::exists(resourceDirectory() + "/scenes/kick.json")) spec.scene = "../scenes/kick.json";
     draft_->setSpec(spec);
     raiseDock(draftDock_);
   });
@@ -72,10 +75,16 @@ void MainWindow::copyToDraft() {
   });
 }
 
+// Unfinished ones, too, as far as they can be read again.
 void MainWindow::keepDraft() {
   const ExperimentSpec spec = draft_->spec();
-  if (draft_->isValid())
-    settings_.setDraft(QString::fromStdString(btr::toJsonText(spec)), QString::fromStdString(spec.directory));
+  const std::string json = btr::toJsonText(spec);
+  try {
+    experimentFromJson(json, "draft", spec.directory);
+  } catch (const std::exception&) {
+    return;
+  }
+  settings_.setDraft(QString::fromStdString(json), QString::fromStdString(spec.directory));
 }
 
 // The draft of last time; on the first start an example, so that a newcomer has something to press Start on.

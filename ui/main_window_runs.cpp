@@ -7,6 +7,7 @@
 #include <QInputDialog>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStatusBar>
 #include <utility>
 
 #include "ui/common/message_banner.h"
@@ -37,7 +38,10 @@ void MainWindow::connectRuns() {
   connect(draft_, &ExperimentForm::openRequested, this, &MainWindow::openExperimentWithDialog);
   connect(spec_, &ExperimentForm::copyRequested, this, &MainWindow::copyToDraft);
 
-  connect(&launcher_, &RunLauncher::failed, this, &MainWindow::report);
+  connect(&launcher_, &RunLauncher::failed, this, [this](const QString& why) {
+    statusBar()->clearMessage();
+    report(why);
+  });
   connect(&launcher_, &RunLauncher::exported, this,
           [this](const QString& file) { inform(tr("Written: %1").arg(file)); });
   connect(&launcher_, &RunLauncher::imported, this, [this](const QString& file) {
@@ -46,6 +50,7 @@ void MainWindow::connectRuns() {
   });
   connect(&launcher_, &RunLauncher::stored, this, [this](Id run) {
     watcher_.poll();
+    statusBar()->clearMessage();
     selectRun(run);
     continueRun(run);
   });

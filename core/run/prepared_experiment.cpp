@@ -171,6 +171,7 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
   }
   PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host);
   requireTimeForTheMotion(prepared);
+  prepared.fitness->check(prepared.scene(spec.simulator));
   return prepared;
 }
 

@@ -14,6 +14,8 @@ class Fitness {
   virtual std::string meaning()
       const = 0;  ///< what the number measures, and from where; one sentence for the measurement sheet
   virtual std::vector<Parameter> settings() const = 0;
+  /// Throws InputError where no trial can be measured because the scene lacks something, e.g. a ball.
+  virtual void check(const Scene& /*scene*/) const {}
   /// `controllerSettings` say what the task was: all of the controller's settings, defaults filled in.
   virtual double evaluate(const TrialResult& result, const Values& settings,
                           const Values& controllerSettings) const = 0;

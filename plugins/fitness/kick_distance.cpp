@@ -29,6 +29,12 @@ class KickDistance final : public btr::Fitness {
             {"fall_factor", "", "times this if the robot fell", 0, 1, 1}};
   }
 
+  void check(const btr::Scene& scene) const override {
+    if (scene.balls.empty())
+      throw btr::InputError(
+          "fitness kick_distance: the scene has no ball; choose a scene with one, or another fitness");
+  }
+
   double evaluate(const btr::TrialResult& result, const btr::Values& settings,
                   const btr::Values& controllerSettings) const override {
     if (result.outcome != btr::TrialResult::Outcome::finished || result.balls.empty()) return ofFailure();

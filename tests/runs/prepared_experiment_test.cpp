@@ -10,6 +10,7 @@
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "tests/plugin/built_plugins.h"
+#include "tests/refusal.h"
 
 namespace {
 
@@ -68,6 +69,14 @@ TEST(PreparedExperiment, FromItsRunIsTheSameToTheLastBit) {
   const TrialResult one = result(first), two = result(again);
   EXPECT_EQ(one.trace.values, two.trace.values);
   EXPECT_EQ(first.fitnessOf(one), again.fitnessOf(two));
+}
+
+// Every trial would finish with fitness 0, and hours would pass.
+TEST(PreparedExperiment, RefusesAKickWithoutABall) {
+  ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/walk-short.json");
+  spec.fitness = {"kick_distance", {}, {}};
+  EXPECT_THAT(test::refusal([&] { prepareFromFiles(spec, host()); }),
+              HasSubstr("kick_distance: the scene has no ball; choose a scene with one"));
 }
 
 TEST(PreparedExperiment, NeedsNoFilesOnceItIsStored) {

@@ -42,6 +42,7 @@ ExperimentSpec aSpec() {
   ExperimentSpec spec;
   spec.name = "Kick";
   spec.scene = "../scenes/kick.json";
+  spec.directory = SOURCE_DIR "/resources/experiments";
   spec.controller = {"kick", {{"distance_m", 0.1 + 0.2}}, {}};
   spec.fitness = {"kick_distance", {}, {}};
   spec.learner = {"ga", {{"population", 30}}, {{"coding", "gray"}}};
@@ -180,6 +181,17 @@ class TestExperimentForm : public QObject {
     QVERIFY(!form.isValid());
     QVERIFY(form.problems().join(' ').contains("Scene"));
     QVERIFY(!form.findChild<QPushButton*>("start")->isEnabled());
+  }
+
+  void saysWhereASceneIsNot() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    type(form.findChild<QLineEdit*>("scene"), "../scenes/absent.json");
+    QCOMPARE(form.problems(),
+             QStringList{"Scene: there is no such file: " SOURCE_DIR "/resources/experiments/../scenes/absent.json"});
+    QVERIFY(!form.findChild<QPushButton*>("start")->isEnabled());
+    type(form.findChild<QLineEdit*>("scene"), SOURCE_DIR "/resources/scenes/walk.json");
+    QVERIFY(form.isValid());
   }
 
   void undoTakesBackNameAndRealityAndParameters() {

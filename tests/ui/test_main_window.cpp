@@ -18,7 +18,9 @@
 #include <QTreeView>
 #include <algorithm>
 
+#include "core/run/prepared_experiment.h"
 #include "tests/gap/rig_report.h"
+#include "tests/plugin/built_plugins.h"
 #include "tests/ui/stored_run.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
@@ -537,6 +539,18 @@ class TestMainWindow : public QObject {
       dock->toggleViewAction()->trigger();
       QVERIFY(!dock->isHidden());
     }
+  }
+
+  void aNewExperimentIsOneThatCanBeStarted() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const auto actions = window->findChildren<QAction*>();
+    const auto fresh = std::ranges::find(actions, "&New experiment", &QAction::text);
+    QVERIFY(fresh != actions.end());
+    (*fresh)->trigger();
+    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
+    prepareFromFiles(window->draft().spec(), test::host());
   }
 
   // The real program, on the short experiment of the newcomer.

@@ -1,6 +1,8 @@
 #include "ui/experiment/experiment_form.h"
 
 #include <QComboBox>
+#include <QDir>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -247,7 +249,12 @@ ExperimentSpec ExperimentForm::spec() const {
 QStringList ExperimentForm::problems() const {
   QStringList problems;
   if (name_->text().trimmed().isEmpty()) problems << tr("Name: at least one letter");
-  if (scene_->text().trimmed().isEmpty()) problems << tr("Scene: the path of a scene file");
+  const QString scene = scene_->text().trimmed();
+  const QDir folder(QString::fromStdString(shown_.directory));
+  if (scene.isEmpty())
+    problems << tr("Scene: the path of a scene file");
+  else if (!readOnly_ && !QFileInfo(folder, scene).isFile())
+    problems << tr("Scene: there is no such file: %1").arg(folder.absoluteFilePath(scene));
   problems << seed_->problems() << controller_->problems() << fitness_->problems() << learner_->problems()
            << searchStart_->problems() << stages_->problems();
   problems << realityLearner_->problems();

@@ -4,6 +4,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTest>
 
@@ -107,6 +108,19 @@ class TestPolicyPage : public QObject {
     QCOMPARE(steps->item(0, PolicyPage::step)->text(), QString("–"));
     // Nobody shall measure what he expects.
     QCOMPARE(page.findChild<QTableWidget*>("policies")->item(0, PolicyPage::simulated)->text(), QString("hidden"));
+  }
+
+  // CMA-ES in reality: an empty table of steps would look like a fault.
+  void aLearnerWithoutStepsShowsItsPolicies() {
+    PolicyPage page;
+    RealityReport population = report(1, true);
+    population.steps.clear();
+    page.setReports({population});
+    const auto* tables = page.findChild<QTabWidget*>();
+    QCOMPARE(tables->currentWidget(), page.findChild<QTableWidget*>("policies"));
+    QVERIFY(!tables->isTabVisible(0));
+    page.setReports({report(1, true)});
+    QVERIFY(tables->isTabVisible(0));
   }
 
   void keepsTheIterationThatTheUserLooksAt() {

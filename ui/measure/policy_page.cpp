@@ -91,7 +91,8 @@ PolicyPage::PolicyPage(QWidget* parent)
     : QWidget(parent),
       iteration_(new QComboBox(this)),
       sentence_(new QLabel(this)),
-      end_(new QPushButton(tr("End L2 here…"), this)) {
+      end_(new QPushButton(tr("End L2 here…"), this)),
+      tables_(new QTabWidget(this)) {
   iteration_->setObjectName("iteration");
   iteration_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   iteration_->setAccessibleName(tr("Iteration of L2"));
@@ -127,14 +128,13 @@ PolicyPage::PolicyPage(QWidget* parent)
   bar->addWidget(iteration_);
   bar->addWidget(sentence_, 1);
   bar->addWidget(end_);
-  auto* tables = new QTabWidget(this);
-  tables->setDocumentMode(true);
-  tables->addTab(steps_, tr("Steps"));
-  tables->addTab(policies_, tr("Policies"));
+  tables_->setDocumentMode(true);
+  tables_->addTab(steps_, tr("Steps"));
+  tables_->addTab(policies_, tr("Policies"));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addLayout(bar);
-  column->addWidget(tables, 1);
+  column->addWidget(tables_, 1);
   connect(iteration_, &QComboBox::currentIndexChanged, this, &PolicyPage::showReport);
   setWaiting(false);
   setReports({});
@@ -195,6 +195,7 @@ void PolicyPage::showReport(int index) {
   }
   const RealityReport& report = reports_.at(static_cast<std::size_t>(index));
   sentence_->setText(sentenceOf(report));
+  tables_->setTabVisible(tables_->indexOf(steps_), !report.steps.empty());
   showSteps(report);
   showPolicies(report);
 }

@@ -7,6 +7,7 @@
 class QComboBox;
 class QLabel;
 class QPushButton;
+class QTabWidget;
 class QTableWidget;
 
 namespace btr::ui {
@@ -44,6 +45,7 @@ class PolicyPage : public QWidget {
   QComboBox* iteration_;
   QLabel* sentence_;
   QPushButton* end_;
+  QTabWidget* tables_;
   QTableWidget *steps_, *policies_;
 };
 

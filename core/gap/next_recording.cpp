@@ -12,27 +12,69 @@ namespace {
 
 constexpr double length_s = 8, sample_s = 0.008, rest_s = 0.5;
 
+/// A joint that a recording can move: to positions, or by a force, duty or voltage that lets it go where it will.
 struct CommandedJoint {
   std::size_t robot = 0, joint = 0;
-  std::string name, quantity;
-  double middle = 0, reach = 0;  ///< of the commands that were recorded, inside the joint's limits
+  std::string channel;
+  double middle = 0, reach = 0;  ///< of the commands that were recorded; positions inside the joint's limits
+  bool pushed = false;           ///< by a force
+  double low = 0, high = 0;      ///< of one that is pushed: where it was seen to be able to go
 };
 
+/// Of a joint that is pushed: the recorded positions, a little more than that, inside its limits.
+Extent rangeOf(const FitProblem& problem, const Binding::Input& input, const Joint& joint) {
+  constexpr double more = 0.1;
+  Extent seen;
+  for (const FitTrial& trial : problem.trials)
+    for (const auto& measured : trial.binding.measured)
+      if (measured.what == Binding::Measured::What::position && measured.object == input.robot &&
+          measured.part == input.joint)
+        seen.add(trial.recording.columns[measured.column]);
+  if (!seen.some()) return {};
+  const double slack = more * (seen.high - seen.low);
+  return {std::max(seen.low - slack, joint.lower), std::min(seen.high + slack, joint.upper)};
+}
+
 std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Scene& scene) {
+  using What = Binding::Input::What;
   std::vector<CommandedJoint> joints;
   for (const auto& input : problem.trials[0].binding.inputs) {
-    if (input.what != Binding::Input::What::command) continue;
+    if (input.what != What::command && input.what != What::duty && input.what != What::volts) continue;
     const SceneRobot& robot = scene.robots[input.robot];
     const Joint& joint = robot.model.joints[input.joint];
     Extent commanded;
     for (const FitTrial& trial : problem.trials) commanded.add(trial.recording.columns[input.column]);
-    if (!commanded.some() || robot.drives[input.joint].kind == Drive::Kind::torque) continue;
-    const double low = std::max(commanded.low, joint.lower), high = std::min(commanded.high, joint.upper);
-    joints.push_back({input.robot, input.joint, robot.name + "." + joint.name,
-                      joint.type == Joint::Type::slide ? "command_m" : "command_rad", (low + high) / 2,
-                      (high - low) / 2});
+    if (!commanded.some()) continue;
+    CommandedJoint found{input.robot, input.joint, problem.trials[0].recording.channels[input.column]};
+    found.pushed = input.what != What::command || robot.drives[input.joint].kind == Drive::Kind::torque;
+    if (found.pushed) {
+      const Extent range = rangeOf(problem, input, joint);
+      if (!range.some()) continue;  // nobody knows where it may go
+      found.low = range.low;
+      found.high = range.high;
+    } else {
+      commanded = {std::max(commanded.low, joint.lower), std::min(commanded.high, joint.upper)};
+    }
+    found.middle = (commanded.low + commanded.high) / 2;
+    found.reach = (commanded.high - commanded.low) / 2;
+    joints.push_back(found);
   }
   return joints;
+}
+
+/// Whether what is pushed stays where it was seen to be able to go.
+bool staysInRange(const std::vector<CommandedJoint>& joints, const Binding& binding,
+                  const ReplayedRecording& replayed) {
+  for (std::size_t c = 0; c < binding.measured.size(); ++c)
+    for (const CommandedJoint& joint : joints) {
+      const auto& measured = binding.measured[c];
+      if (!joint.pushed || measured.what != Binding::Measured::What::position || measured.object != joint.robot ||
+          measured.part != joint.joint)
+        continue;
+      const auto isOutside = [&](double place) { return !(place >= joint.low && place <= joint.high); };
+      if (std::ranges::any_of(replayed.values[c], isOutside)) return false;
+    }
+  return true;
 }
 
 /// A command over time for joint number `k` of a sequence; within ±1 of its reach.
@@ -69,26 +111,55 @@ std::vector<std::pair<std::string, Shape>> shapes(std::uint64_t seed) {
   return list;
 }
 
-Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial& like, const Shape& shape) {
+/// What is pushed gets `push` times its reach: the same force moves it far in one direction, or not at all.
+Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial& like, const Shape& shape,
+                      double push) {
   Recording recording;
   recording.source = "next command";
   recording.channels = {"time_s"};
   recording.columns.resize(1);
   for (double t = 0; t < length_s; t += sample_s) recording.columns[0].push_back(t);
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    recording.channels.push_back(joints[k].name + "." + joints[k].quantity);
+    recording.channels.push_back(joints[k].channel);
+    const double size = 0.95 * joints[k].reach * (joints[k].pushed ? push : 1);
     std::vector<double> column;
     for (const double t : recording.columns[0])
-      column.push_back(joints[k].middle +
-                       (t < rest_s ? 0 : 0.95 * joints[k].reach * std::clamp(shape(t - rest_s, k), -1.0, 1.0)));
+      column.push_back(joints[k].middle + (t < rest_s ? 0 : size * std::clamp(shape(t - rest_s, k), -1.0, 1.0)));
     recording.columns.push_back(column);
   }
   for (const auto& measured : like.binding.measured) {
+    if (recording.column(like.recording.channels[measured.column]) >= 0) continue;
     recording.channels.push_back(like.recording.channels[measured.column]);
     recording.columns.emplace_back(recording.columns[0].size(), NAN);
   }
   recording.settings = like.recording.settings;
   return recording;
+}
+
+/// How far the two simulators would be apart [noise floors, RMS]; 0 where one of them fails or leaves its range.
+double separationOf(const FitProblem& problem, const std::vector<CommandedJoint>& joints, const Scene& one,
+                    const Scene& other, const Recording& recording) {
+  const Binding binding = bind(one, recording);
+  StartState start = startState(one, recording, binding);
+  for (const CommandedJoint& joint : joints)
+    if (!joint.pushed) start.robots[joint.robot].positions[joint.joint] = joint.middle;
+  const ReplayedRecording a = replayRecording(one, recording, binding, start),
+                          b = replayRecording(other, recording, binding, start);
+  if (!a.fault.empty() || !b.fault.empty() || !staysInRange(joints, binding, a) || !staysInRange(joints, binding, b))
+    return 0;
+  const FitTrial& like = problem.trials[0];
+  double square = 0, count = 0;
+  for (std::size_t c = 0; c < binding.measured.size(); ++c) {
+    const double floor = c < like.noiseFloor.size() ? like.noiseFloor[c] : 0;
+    if (floor <= 0) continue;
+    for (std::size_t row = 0; row < recording.rows(); ++row) {
+      const double difference = (a.values[c][row] - b.values[c][row]) / floor;
+      if (!std::isfinite(difference)) continue;
+      square += difference * difference;
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(square / count) : 0;
 }
 
 }  // namespace
@@ -105,35 +176,21 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
   const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA);
   if (joints.empty()) return next;
 
+  const bool pushes = std::ranges::any_of(joints, &CommandedJoint::pushed);
+  const std::vector<double> pushed = pushes ? std::vector<double>{1, 0.5, 0.25, 0.1} : std::vector<double>{1};
   std::string shapeName;
-  for (const auto& [name, shape] : shapes(seed)) {
-    const Recording recording = recordingOf(joints, like, shape);
-    const Binding binding = bind(sceneA, recording);
-    StartState start = startState(sceneA, recording, binding);
-    for (const CommandedJoint& joint : joints) start.robots[joint.robot].positions[joint.joint] = joint.middle;
-    const ReplayedRecording a = replayRecording(sceneA, recording, binding, start),
-                            b = replayRecording(sceneB, recording, binding, start);
-    if (!a.fault.empty() || !b.fault.empty()) continue;
-    double square = 0, count = 0;
-    for (std::size_t c = 0; c < binding.measured.size(); ++c) {
-      const double floor = like.noiseFloor[c];
-      if (floor <= 0) continue;
-      for (std::size_t row = 0; row < recording.rows(); ++row) {
-        const double difference = (a.values[c][row] - b.values[c][row]) / floor;
-        if (!std::isfinite(difference)) continue;
-        square += difference * difference;
-        ++count;
-      }
+  for (const auto& [name, shape] : shapes(seed))
+    for (const double push : pushed) {
+      const Recording recording = recordingOf(joints, like, shape, push);
+      const double separation = separationOf(problem, joints, sceneA, sceneB, recording);
+      if (separation <= next.separation) continue;
+      next.separation = separation;
+      next.channels.assign(recording.channels.begin(),
+                           recording.channels.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
+      next.columns.assign(recording.columns.begin(),
+                          recording.columns.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
+      shapeName = name;
     }
-    const double separation = count > 0 ? std::sqrt(square / count) : 0;
-    if (separation <= next.separation) continue;
-    next.separation = separation;
-    next.channels.assign(recording.channels.begin(),
-                         recording.channels.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
-    next.columns.assign(recording.columns.begin(),
-                        recording.columns.begin() + 1 + static_cast<std::ptrdiff_t>(joints.size()));
-    shapeName = name;
-  }
   if (next.separation <= 0) return next;
   next.why = "separates " + inWords(doubted->effect.effect) + " at " + doubted->effect.at + " from " +
              inWords(doubted->rivals[0]) + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +

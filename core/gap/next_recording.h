@@ -3,8 +3,9 @@
 
 namespace btr {
 
-/// The command sequence, among sweeps, steps, slow ramps, fast small sines and holds inside the joints' limits, on
-/// which the fitted rivals differ most, in noise floors. None where there are no rivals or no commanded joint.
+/// The command sequence, among sweeps, steps, slow ramps, fast small sines and holds, on which the fitted rivals differ
+/// most, in noise floors. Positions stay inside the joints' limits; a joint that is pushed (by a force, a duty, a
+/// voltage) stays, in both simulators, where the recordings saw it. None where there are no rivals or no such joint.
 GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed);
 
 }  // namespace btr

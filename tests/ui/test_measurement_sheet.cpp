@@ -602,6 +602,23 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(banner->text(), QString());
   }
 
+  // What is clicked while a message comes must be the row that was aimed at.
+  void aMessageMovesNoRow() {
+    Stored s(4);
+    const auto placeOf = [&](int row) {
+      const QRect cell = s.sheet.view().visualRect(s.model().index(row, first));
+      return s.sheet.view().viewport()->mapTo(&s.sheet, cell.topLeft());
+    };
+    const QPoint before = placeOf(2);
+    s.goTo(0, first);
+    s.type("abc");
+    s.press(Qt::Key_Return);
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QTRY_VERIFY(banner->isVisible() && banner->height() > 10);
+    QCoreApplication::processEvents();
+    QCOMPARE(placeOf(2), before);
+  }
+
   void theProgressCountsWhatIsEnteredAndNotSaved() {
     Stored s(2);
     s.model().write({{0, first, "1"}, {1, first, "2"}}, "paste");

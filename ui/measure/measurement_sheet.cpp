@@ -39,8 +39,8 @@ MeasurementSheet::MeasurementSheet(QWidget* parent)
   layout->setContentsMargins(8, 8, 8, 8);
   layout->addLayout(head);
   layout->addWidget(makeToolBar());
-  layout->addWidget(banner_);
   layout->addWidget(view_, 1);
+  layout->addWidget(banner_);  // above the rows it would push them from under the hand that types
   layout->addWidget(makeFooter());
 
   connect(&model_, &MeasurementModel::changed, this, &MeasurementSheet::refresh);
@@ -53,6 +53,9 @@ MeasurementSheet::MeasurementSheet(QWidget* parent)
     banner_->showMessage(MessageBanner::Kind::error,
                          tr("Individual %1: %2").arg(model_.rows()[at].task.individual).arg(why));
   });
+  // The rows that it takes are the last ones: the current one stays in sight.
+  connect(
+      banner_, &MessageBanner::shown, view_, [this] { view_->scrollTo(view_->currentIndex()); }, Qt::QueuedConnection);
   connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::refresh);
   connect(view_, &MeasurementView::replayRequested, this, &MeasurementSheet::replayRequested);
   connect(view_, &MeasurementView::voidRequested, this, &MeasurementSheet::askVoid);

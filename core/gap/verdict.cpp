@@ -15,6 +15,8 @@ using Verdict = GapReport::Verdict;
 constexpr double atNoise = 1.3, stillNoise = 1.15, unexplained = 1.5, unexplainedShare = 0.2;
 // Where what is left stands well above the noise, a small share of what was there is too much already.
 constexpr double clearlyLeft = 4, clearlyLeftShare = 0.04;
+// And five noise floors are too much whatever their share: beside a large error, that of a wrong name is a small one.
+constexpr double muchLeft = 25;
 constexpr double leastMotion = 10;  // noise floors that something must move
 
 /// Largest movement of any compared channel about its mean, in noise floors.
@@ -155,13 +157,16 @@ std::string errorText(const Findings& e) {
          " calibrated to " + digits(std::sqrt(e.final)) + ". ";
 }
 
+std::string explainedText(const GapReport& report) {
+  const double share = report.remainder.explainedShare;
+  return share > 0.99 ? "more than 99 %" : wholePercent(share);
+}
+
 /// A large rest weighs more than the share that a name explains, however large that is.
 std::string caveatText(const GapReport& report, const Findings& e) {
   if (e.beyondStep() <= clearlyLeft) return "";
-  const double share = report.remainder.explainedShare;
-  return "The named effects explain " + (share > 0.99 ? "more than 99 %" : wholePercent(share)) +
-         " of the squared error beyond the noise, yet " + inFloors(e.final) +
-         " are left: the name may be a stand-in for something else. ";
+  return "The named effects explain " + explainedText(report) + " of the squared error beyond the noise, yet " +
+         inFloors(e.final) + " are left: the name may be a stand-in for something else. ";
 }
 
 std::string colourText(const Findings& e) {
@@ -186,9 +191,8 @@ void judgeUnexplained(GapReport& report, const Findings& e) {
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
   if (e.named && e.leftBeyondStep() <= unexplainedShare * e.excess)
-    report.sentence = whereText(report) + errorText(e) + "Most of it, " +
-                      wholePercent(report.remainder.explainedShare) + " of the squared error, is taken up by " +
-                      partly + ", but what is left, " + inFloors(e.final) +
+    report.sentence = whereText(report) + errorText(e) + "Most of it, " + explainedText(report) +
+                      " of the squared error, is taken up by " + partly + ", but what is left, " + inFloors(e.final) +
                       ", no effect of the library explains: the cause may be another. ";
   else
     report.sentence =
@@ -246,7 +250,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   const bool tooMuchLeft =
       e.named ? e.beyondStep() > stillNoise &&
                     (curveIsBetter || e.leftBeyondStep() > unexplainedShare * e.excess ||
-                     (e.beyondStep() > clearlyLeft && e.leftBeyondStep() > clearlyLeftShare * e.excess))
+                     (e.beyondStep() > clearlyLeft && e.leftBeyondStep() > clearlyLeftShare * e.excess) ||
+                     e.beyondStep() > muchLeft)
               : e.beyondStep() > unexplained;
   if (e.named && !tooMuchLeft)
     judgeNamed(report, e);

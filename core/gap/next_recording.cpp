@@ -18,8 +18,12 @@ struct CommandedJoint {
   std::string channel;
   double middle = 0, reach = 0;  ///< of the commands that were recorded; positions inside the joint's limits
   bool pushed = false;           ///< by a force
-  double low = 0, high = 0;      ///< of one that is pushed: where it was seen to be able to go
+  Extent range{};                ///< of one that is pushed: where it was seen to be able to go
 };
+
+bool isPositionOf(const Binding::Measured& measured, std::size_t robot, std::size_t joint) {
+  return measured.what == Binding::Measured::What::position && measured.object == robot && measured.part == joint;
+}
 
 /// Of a joint that is pushed: the recorded positions, a little more than that, inside its limits.
 Extent rangeOf(const FitProblem& problem, const Binding::Input& input, const Joint& joint) {
@@ -27,9 +31,7 @@ Extent rangeOf(const FitProblem& problem, const Binding::Input& input, const Joi
   Extent seen;
   for (const FitTrial& trial : problem.trials)
     for (const auto& measured : trial.binding.measured)
-      if (measured.what == Binding::Measured::What::position && measured.object == input.robot &&
-          measured.part == input.joint)
-        seen.add(trial.recording.columns[measured.column]);
+      if (isPositionOf(measured, input.robot, input.joint)) seen.add(trial.recording.columns[measured.column]);
   if (!seen.some()) return {};
   const double slack = more * (seen.high - seen.low);
   return {std::max(seen.low - slack, joint.lower), std::min(seen.high + slack, joint.upper)};
@@ -48,10 +50,8 @@ std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Sce
     CommandedJoint found{input.robot, input.joint, problem.trials[0].recording.channels[input.column]};
     found.pushed = input.what != What::command || robot.drives[input.joint].kind == Drive::Kind::torque;
     if (found.pushed) {
-      const Extent range = rangeOf(problem, input, joint);
-      if (!range.some()) continue;  // nobody knows where it may go
-      found.low = range.low;
-      found.high = range.high;
+      found.range = rangeOf(problem, input, joint);
+      if (!found.range.some()) continue;  // nobody knows where it may go
     } else {
       commanded = {std::max(commanded.low, joint.lower), std::min(commanded.high, joint.upper)};
     }
@@ -67,11 +67,8 @@ bool staysInRange(const std::vector<CommandedJoint>& joints, const Binding& bind
                   const ReplayedRecording& replayed) {
   for (std::size_t c = 0; c < binding.measured.size(); ++c)
     for (const CommandedJoint& joint : joints) {
-      const auto& measured = binding.measured[c];
-      if (!joint.pushed || measured.what != Binding::Measured::What::position || measured.object != joint.robot ||
-          measured.part != joint.joint)
-        continue;
-      const auto isOutside = [&](double place) { return !(place >= joint.low && place <= joint.high); };
+      if (!joint.pushed || !isPositionOf(binding.measured[c], joint.robot, joint.joint)) continue;
+      const auto isOutside = [&](double place) { return !(place >= joint.range.low && place <= joint.range.high); };
       if (std::ranges::any_of(replayed.values[c], isOutside)) return false;
     }
   return true;
@@ -128,7 +125,6 @@ Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial&
     recording.columns.push_back(column);
   }
   for (const auto& measured : like.binding.measured) {
-    if (recording.column(like.recording.channels[measured.column]) >= 0) continue;
     recording.channels.push_back(like.recording.channels[measured.column]);
     recording.columns.emplace_back(recording.columns[0].size(), NAN);
   }
@@ -150,7 +146,7 @@ double separationOf(const FitProblem& problem, const std::vector<CommandedJoint>
   const FitTrial& like = problem.trials[0];
   double square = 0, count = 0;
   for (std::size_t c = 0; c < binding.measured.size(); ++c) {
-    const double floor = c < like.noiseFloor.size() ? like.noiseFloor[c] : 0;
+    const double floor = like.noiseFloor[c];
     if (floor <= 0) continue;
     for (std::size_t row = 0; row < recording.rows(); ++row) {
       const double difference = (a.values[c][row] - b.values[c][row]) / floor;

@@ -84,12 +84,11 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
 }
 
 /// A motion that is longer than a trial makes every trial fail.
-void requireTimeForTheMotion(const PreparedExperiment& prepared) {
+void requireTimeForTheMotion(const PreparedExperiment& prepared, const Scene& scene) {
   std::vector<double> vector = prepared.start;
   if (vector.empty())
     for (const Parameter& p : prepared.genotype) vector.push_back(p.byDefault);
   const Values& settings = prepared.spec.controller.settings;
-  const Scene scene = prepared.scene(prepared.spec.simulator);
   const double motion_s = prepared.controller->begin(scene, settings, vector)->duration();
   const double trial_s = valueOf(stageParameters(), prepared.spec.stages, "trial_maximum_s");
   if (motion_s > trial_s + scene.controlPeriod_s / 2)
@@ -170,8 +169,9 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
     files.push_back({robot.model, std::move(hash), std::move(content)});
   }
   PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host);
-  requireTimeForTheMotion(prepared);
-  prepared.fitness->check(prepared.scene(spec.simulator));
+  const Scene arranged = prepared.scene(spec.simulator);
+  requireTimeForTheMotion(prepared, arranged);
+  prepared.fitness->check(arranged);
   return prepared;
 }
 

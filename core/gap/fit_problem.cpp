@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/gap/noise_sharing.h"
+#include "core/gap/report_figures.h"
 #include "core/gap/trial_scenes.h"
 #include "core/spec/error.h"
 
@@ -91,7 +92,7 @@ void chooseStep(FitProblem& problem) {
     for (std::size_t k = 0; k < fine.size(); ++k) square += (coarse[k] - fine[k]) * (coarse[k] - fine[k]);
     if (std::sqrt(square / static_cast<double>(fine.size())) < harmless) {
       problem.notes.push_back("fits use a step of " + toText(problem.scene.step_s) +
-                              " s: it changes the replay by less than " + toText(harmless) + " noise floors");
+                              " s: it changes the replay by less than " + digits(harmless, 2) + " noise floors");
       return;
     }
   }

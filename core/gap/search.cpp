@@ -79,7 +79,7 @@ void SearchRun::settle(SearchResult& result, bool fitToTheEnd, const std::string
 /// Whole numbers, as of teeth in a turn, are no parameters of a fit: neighbours are tried as long as one fits better.
 void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at) const {
   if (fit.model.effects.empty()) return;
-  constexpr int iterations = 8, mostRounds = 6;
+  constexpr int look = 3, iterations = 8, mostRounds = 6;
   constexpr double better = 0.995;
   const PlacedEffect last = fit.model.effects.back();
   for (const Parameter& p : parametersAt(problem_, last.effect, last.at)) {
@@ -93,8 +93,11 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
         model.effects.back().parameters[p.name] = here + by;
         jobs.push_back({model, fit.shifts});
       }
-      const std::vector<Fit> fits = fitAll(jobs, iterations, stage, at, at);
-      const auto least = std::min_element(fits.begin(), fits.end(), costsLess);
+      std::vector<Fit> fits = fitAll(jobs, look, stage, at, at);
+      std::ranges::sort(fits, costsLess);
+      if (fits.size() > 2) fits.resize(2);
+      fits = fitOn(fits, iterations, stage, at, at);
+      const auto least = std::ranges::min_element(fits, costsLess);
       if (least == fits.end() || !(least->cost < better * fit.cost)) break;
       fit = *least;
     }

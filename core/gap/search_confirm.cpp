@@ -12,7 +12,10 @@ namespace btr {
 namespace {
 
 constexpr int lastIterations = 15;
-constexpr double largeExcess = 1;  // mean squared error above that of noise
+constexpr double worthMore = 1.5;                     // by cost, of the best: other whole numbers and sizes are tried
+constexpr double leastToScan = 1.03, mostToScan = 4;  // mean squared error: with less nothing is missed; with more, it
+                                                      // is not a valley's bottom
+constexpr double largeExcess = 1;                     // mean squared error above that of noise
 
 /// The last effect of a model `size` times as large.
 FitModel resized(FitModel model, double size) {
@@ -22,6 +25,28 @@ FitModel resized(FitModel model, double size) {
       model.values[i] = std::clamp(p.given + size * (model.values[i] - p.given), p.minimum, p.maximum);
   }
   return model;
+}
+
+/// The numbers of a model that are not its last effect's, by their place among all.
+std::vector<std::size_t> besideTheLast(const FitModel& model) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (model.parameters[i].effect + 1 != static_cast<int>(model.effects.size())) places.push_back(i);
+  return places;
+}
+
+/// A model whose last effect stays as it is.
+FitModel withLastFixed(const FitModel& model) {
+  FitModel fixed;
+  fixed.effects = model.effects;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    if (model.parameters[i].effect + 1 == static_cast<int>(model.effects.size()))
+      fixed.effects.back().parameters[model.parameters[i].name] = model.values[i];
+  for (const std::size_t i : besideTheLast(model)) {
+    fixed.parameters.push_back(model.parameters[i]);
+    fixed.values.push_back(model.values[i]);
+  }
+  return fixed;
 }
 
 }  // namespace
@@ -58,6 +83,38 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
   const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
   for (std::size_t k = 0; k < again.size(); ++k)
     if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
+}
+
+/// Where an effect and a calibrated number do nearly the same (wind and rolling resistance on a ball that rolls until
+/// it stops), a fit creeps along a rough valley and ends too soon. The effect's size is moved and held while the others
+/// follow, set free there, and moved on for as long as that helps.
+void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
+  constexpr std::array<double, 2> sizes{0.9, 1.1};
+  constexpr int iterations = 8, mostRounds = 4;
+  constexpr double better = 0.998, inReach = 1.02;
+  for (int round = 0; round < mostRounds; ++round) {
+    std::vector<FitModel> moved;
+    std::vector<FitJob> jobs;
+    for (const double size : sizes) {
+      const FitModel model = resized(fit.model, size), held = withLastFixed(model);
+      if (model.values == fit.model.values || held.parameters.empty()) continue;
+      moved.push_back(model);
+      jobs.push_back({held, fit.shifts});
+    }
+    const std::vector<Fit> along = tryFits(jobs, iterations, stage, at, at);
+    std::vector<Fit> free;
+    for (std::size_t k = 0; k < along.size(); ++k) {
+      if (!(along[k].cost < inReach * fit.cost)) continue;
+      const std::vector<std::size_t> places = besideTheLast(moved[k]);
+      for (std::size_t i = 0; i < places.size(); ++i) moved[k].values[places[i]] = along[k].model.values[i];
+      free.push_back({moved[k], along[k].shifts, along[k].cost});
+    }
+    if (free.empty()) return;
+    const std::vector<Fit> again = fitOn(free, lastIterations, stage, at, at);
+    const Fit& best = *std::ranges::min_element(again, costsLess);
+    if (!(best.cost < better * fit.cost)) return;
+    fit = best;
+  }
 }
 
 void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const {
@@ -109,7 +166,12 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     (isClose ? close : far).push_back(which[i]);
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
-  for (Fit& fit : closeFits) climbWholeNumbers(fit, what, half);
+  for (Fit& fit : closeFits) {
+    if (fit.cost > worthMore * least) continue;
+    climbWholeNumbers(fit, what, half);
+    const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
+    if (left > leastToScan && left < mostToScan) scan(fit, what, half);
+  }
   std::vector<Scored> scored = scoreAll(farFits, what, half, half);
   if (judged_s < fitted_s) {
     problem_.scene.step_s = judged_s;

@@ -10,9 +10,10 @@ namespace {
 
 constexpr std::size_t mostHandedTo = 6;
 constexpr double leastShare = 0.25;  // of the best candidate's promise
-constexpr double inTheValley = 4;    // times the final cost
+constexpr double inTheValley = 4;    // times the final cost, on the way
+constexpr double atItsEnd = 2;       // and where nothing is kept
 constexpr double small = 0.1;        // of a typical size: where the way begins, all is linear
-constexpr int iterationsOnTheWay = 10;
+constexpr int iterationsOnTheWay = 18;
 constexpr std::array<double, 3> kept{0.7, 0.35, 0};
 
 /// The numbers of an effect with its sizes reduced to a share of what they are above neutral.
@@ -94,7 +95,8 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
     }
     const std::vector<Fit> fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
-    std::erase_if(ways, [&](const Way& way) { return way.fit.cost > inTheValley * finalCost; });
+    const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
+    std::erase_if(ways, [&](const Way& way) { return way.fit.cost > most; });
   }
   std::vector<FitJob> jobs;
   for (const Way& way : ways) jobs.push_back({way.fit.model, way.fit.shifts});

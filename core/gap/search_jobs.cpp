@@ -131,11 +131,13 @@ double stepErrorOf(const Eigen::VectorXd& stepChange) {
 
 double SearchRun::stepToSearchWith(const Fit& fit) const {
   constexpr double harmless = 0.3, ofError = 0.1;  // noise floors; of the error that there is to explain
+  constexpr double much = 5, ofMuch = 0.3;         // noise floors that stay unexplained; of those
   const double judged_s = problem_.scene.step_s;
   if (search_s_ <= judged_s) return judged_s;
   const Eigen::VectorXd fine = residualsOf(problem_, fit.model, fit.shifts);
   const auto count = static_cast<double>(std::max<Eigen::Index>(1, fine.size()));
-  const double most = std::max(harmless, ofError * fine.norm() / std::sqrt(count));
+  const double error = fine.norm() / std::sqrt(count);
+  const double most = std::max(harmless, (error > much ? ofMuch : ofError) * error);
   FitProblem coarse = problem_;
   for (coarse.scene.step_s = search_s_; coarse.scene.step_s > 1.01 * judged_s; coarse.scene.step_s /= 2)
     if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return coarse.scene.step_s;
@@ -144,11 +146,12 @@ double SearchRun::stepToSearchWith(const Fit& fit) const {
 
 void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
   const auto tooCoarse = [&](const Fit& fit) {
-    constexpr double hidden = 0.12, much = 10;  // noise floors
+    constexpr double hidden = 0.12, much = 5, most = 10;  // noise floors
+    constexpr double ofError = 0.05, ofMuch = 0.15;       // of the error: a four hundredth, a fiftieth of its square
     // Where much is unexplained anyway, the step is not what matters.
     const double error = std::sqrt(2 * fit.cost / static_cast<double>(std::max<std::size_t>(1, problem_.residuals())));
-    if (error > much && problem_.scene.step_s <= problem_.givenStep_s) return false;
-    return std::sqrt(stepErrorOf(stepChange(fit))) > std::max(hidden, 0.05 * error);
+    if (error > most && problem_.scene.step_s <= problem_.givenStep_s) return false;
+    return std::sqrt(stepErrorOf(stepChange(fit))) > std::max(hidden, (error > much ? ofMuch : ofError) * error);
   };
   judged = std::min(judged, fits.size());
   const auto halve = [&] {

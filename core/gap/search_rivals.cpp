@@ -9,6 +9,7 @@ namespace btr {
 namespace {
 
 constexpr std::size_t candidatesAsRivals = 6;  // half of them are fitted to the end and scored
+constexpr double mostOfEquals = 1.1;           // by squared error
 
 /// How many numbers an effect brings.
 std::size_t sizeOf(const FitModel& model, std::size_t effect) {
@@ -146,7 +147,9 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
     }
     const Comparison lost = compare(other.scored.blocks, result.final.blocks);
     const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
-    if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && !isWorse(lost))) chosen = &other;
+    // Where much is unexplained, few blocks tell little: equals leave about the same.
+    const bool equal = !isWorse(lost) && other.scored.mean() <= mostOfEquals * result.final.mean();
+    if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
   }
   if (!chosen) return false;
   const std::string text = chosen->attempt.candidate.text();

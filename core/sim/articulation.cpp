@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/sim/joint_space.h"
+
 namespace btr {
 namespace {
 using Eigen::Isometry3d;
@@ -25,7 +27,8 @@ void setMass(dBodyID body, double mass, const Matrix3d& inertia) {
 
 }  // namespace
 
-Articulation::Articulation(dWorldID world, const SceneRobot& robot) : world_(world), robot_(robot) {
+Articulation::Articulation(dWorldID world, const SceneRobot& robot)
+    : world_(world), robot_(robot), movesInOde_(!JointSpace::suits(robot)) {
   basePose_ = robot.start;
   groupLinks();
   findUniversals();

@@ -69,6 +69,8 @@ class Articulation {
   std::vector<int> jointOfModel;        ///< by joint of the model: index in `joints` or −1 (fixed)
 
   bool fixedBase() const { return !robot_.freeBase; }
+  /// False if JointSpace moves the robot: its bodies are in ODE then only to be read and placed.
+  bool movesInOde() const { return movesInOde_; }
   void set(const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin,
            std::span<const double> positions, std::span<const double> rates);
   /// Reads poses, velocities, joint positions and rates from ODE.
@@ -117,6 +119,7 @@ class Articulation {
 
   dWorldID world_;
   const SceneRobot& robot_;
+  bool movesInOde_;
   Eigen::Isometry3d basePose_ = Eigen::Isometry3d::Identity();  ///< of a fixed base's root link
   std::vector<int> groupOfLink_;                                ///< first link of the rigid group
   std::vector<Eigen::Isometry3d> linkInGroup_;

@@ -70,6 +70,7 @@ void Articulation::findUniversals() {
   const int count = static_cast<int>(joints_.size());
   universal_.assign(joints_.size(), -1);
   second_.assign(joints_.size(), 0);
+  if (!movesInOde_) return;
   for (int first = 0; first < count; ++first) {
     const int group = first + 1;
     if (joints_[first].type != Joint::Type::rotate || second_[first]) continue;

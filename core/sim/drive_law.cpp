@@ -176,6 +176,7 @@ double driveTorque(const Drive& drive, const JointState& state, double integral,
 void JointEffects::add(const SceneEffect& effect) {
   placed_.push_back({effect.effect.get(), &effect.values,
                      std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0)});
+  changeDrive_ = changeDrive_ || effect.effect->changesDrive();
 }
 
 void JointEffects::reset() {
@@ -193,6 +194,7 @@ CommandAround JointEffects::command(CommandAround command, const JointState& sta
 
 double JointEffects::throughEffects(Torques torques, const JointState& state, double h, bool keepState) {
   for (auto& placed : placed_) {
+    if (!placed.effect->changesDrive()) continue;
     if (!keepState) scratch_ = placed.state;
     std::vector<double>& memory = keepState ? placed.state : scratch_;
     const auto through = [&](double torque) {
@@ -225,12 +227,19 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
     moved.command = command.after;
     return Torques{earlier, driveTorque(drive, moved, integral, input)};
   };
-  const auto allAt = [&](const JointState& moved) { return throughEffects(lawAt(moved), moved, step.h, false); };
-  constexpr double small = 1e-6;  // rad, rad/s, m or m/s
-  const double byRate = (allAt(at(0, small)) - allAt(at(0, -small))) / (2 * small);
-  const double byPosition = (allAt(at(small, 0)) - allAt(at(-small, 0))) / (2 * small);
-  const double lawByRate = (lawAt(at(0, small)).mean() - lawAt(at(0, -small)).mean()) / (2 * small);
-  const double lawByPosition = (lawAt(at(small, 0)).mean() - lawAt(at(-small, 0)).mean()) / (2 * small);
+  struct Slopes {
+    double all, law;
+  };
+  const auto slopesAlong = [&](double position, double rate) {
+    constexpr double small = 1e-6;  // rad, rad/s, m or m/s
+    const JointState ahead = at(small * position, small * rate), behind = at(-small * position, -small * rate);
+    const Torques before = lawAt(behind), after = lawAt(ahead);
+    return Slopes{
+        (throughEffects(after, ahead, step.h, false) - throughEffects(before, behind, step.h, false)) / (2 * small),
+        (after.mean() - before.mean()) / (2 * small)};
+  };
+  const auto [byRate, lawByRate] = slopesAlong(0, 1);
+  const auto [byPosition, lawByPosition] = slopesAlong(1, 0);
 
   const Torques given = lawAt(state);
   const double torque = throughEffects(given, state, step.h, true);

@@ -71,6 +71,7 @@ class JointEffects {
  public:
   void add(const SceneEffect& effect);
   bool empty() const { return placed_.empty(); }
+  bool changeDrive() const { return changeDrive_; }
   /// Back to the start of a trial: all states zero.
   void reset();
   /// As a joint that has rested leaves them.
@@ -102,6 +103,7 @@ class JointEffects {
 
   std::vector<Placed> placed_;
   std::vector<double> scratch_;
+  bool changeDrive_ = false;
 };
 
 }  // namespace btr

@@ -77,6 +77,8 @@ class Effect {
                                 std::span<double> /*state*/, double /*dt*/) const {
     return command;
   }
+  /// True if driveTorque() changes anything; else it is never called.
+  virtual bool changesDrive() const { return false; }
   /// Drive torque after the servo law and its limit [N·m or N].
   virtual double driveTorque(double torque, const JointState&, std::span<const double> /*values*/,
                              std::span<double> /*state*/, double /*dt*/) const {

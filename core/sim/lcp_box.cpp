@@ -91,6 +91,12 @@ bool BoxSolver::pivot(const LcpProblem& p) {
 
 bool BoxSolver::solve(const LcpProblem& p, bool coulomb) {
   if (p.n > mostRows) return false;
+  if (p.n == 1 && !p.findex) {
+    const double x = p.bx[0] / p.a[0];
+    if (!(p.a[0] > 0) || !std::isfinite(x)) return false;
+    p.bx[1] = std::clamp(x, p.loHi[0], p.loHi[1]);
+    return true;
+  }
   low_.resize(p.n);
   high_.resize(p.n);
   x_.assign(p.n, 0);

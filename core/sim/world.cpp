@@ -1,5 +1,6 @@
 #include "core/sim/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,12 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     robot.scene = &sceneRobot;
     robot.body = std::make_unique<Articulation>(world, sceneRobot);
     robot.drives.resize(robot.body->joints.size());
+    if (!robot.body->movesInOde()) {
+      robot.alone = std::make_unique<JointSpace>();
+      robot.alone->begin(*robot.body);
+      robot.rows.resize(robot.drives.size());
+      for (const auto& body : robot.body->bodies) dBodyDisable(body.id);
+    }
     robot.contact.assign(sceneRobot.model.links.size(), 0);
     for (const auto& sensor : sceneRobot.model.sensors)
       if (sensor.kind == Sensor::Kind::accelerometer && robot.accelerometerLink < 0) {
@@ -65,6 +72,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     for (auto& ball : balls)
       if (effect.at == ball.spec->name || effect.at == "floor" || effect.at == "world") ball.effects.push_back(&effect);
   }
+  ode = !balls.empty() || std::ranges::any_of(robots, [](const WorldRobot& robot) { return !robot.alone; });
   for (auto& robot : robots) sense(robot, 0);
   checkFault();
 }
@@ -103,31 +111,37 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     robot.kick = robot.first && robot.body->fixedBase() ? 0.5 : 1;
     robot.first = false;
     robot.body->addRingTorques();
-    if (robot.kick < 1)
+    if (robot.kick < 1 && !robot.alone)
       for (const auto& body : robot.body->bodies) {
         const Eigen::Vector3d force = (robot.kick - 1) * body.mass_kg * scene.gravity_m_s2;
         dBodyAddForce(body.id, force.x(), force.y(), force.z());
       }
   }
   for (auto& robot : robots)
-    if (robot.hasEffects) weighLoads(robot);
+    if (robot.hasEffects || robot.alone) weighLoads(robot);
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
-  makeContacts(h);
-  for (auto& ball : balls) driveBall(ball, now, h);
-
-  try {
-    session.step(h);
-  } catch (const OdeFailure& failure) {
-    fault = failure.what();
-    return;
+  if (ode) {
+    makeContacts(h);
+    for (auto& ball : balls) driveBall(ball, now, h);
+    try {
+      session.step(h);
+    } catch (const OdeFailure& failure) {
+      fault = failure.what();
+      return;
+    }
+    contacts.clear();
   }
-  contacts.clear();
 
   for (auto& robot : robots) {
     for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].rateBefore = robot.body->joints[j].rate;
-    robot.body->refresh();
+    if (!robot.alone) {
+      robot.body->refresh();
+    } else if (!robot.alone->step(*robot.body, robot.rows, robot.kick, h)) {
+      fault = robot.scene->name + " cannot be moved: its forces are not finite";
+      return;
+    }
     // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
     robot.body->updateRings();
@@ -164,6 +178,7 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
                      const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates) {
   WorldRobot& robot = impl_->robots.at(index);
   robot.body->set(base, velocity, spin, positions, rates);
+  if (robot.alone) robot.alone->begin(*robot.body);
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
     drive.effects.reset();

@@ -3,6 +3,7 @@
 #include "core/sim/contact_builder.h"
 #include "core/sim/drive_law.h"
 #include "core/sim/elastic_gear.h"
+#include "core/sim/joint_space.h"
 #include "core/sim/ode_session.h"
 #include "core/sim/world.h"
 
@@ -31,13 +32,15 @@ struct JointDrive {
 struct WorldRobot {
   const SceneRobot* scene = nullptr;
   std::unique_ptr<Articulation> body;
-  std::vector<JointDrive> drives;  ///< by moving joint
-  std::vector<char> contact;       ///< by link
-  double kick = 1;                 ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
-  bool first = true;               ///< no step since its state was set
-  bool touches = false;            ///< anything, in the last step
-  bool hasEffects = false;         ///< at any joint
-  double allDrives = 0;            ///< sum of |torque| of all drives in the last step
+  std::unique_ptr<JointSpace> alone;  ///< moves it, where ODE does not
+  std::vector<JointRows> rows;        ///< of this step, by moving joint; for `alone`
+  std::vector<JointDrive> drives;     ///< by moving joint
+  std::vector<char> contact;          ///< by link
+  double kick = 1;                    ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
+  bool first = true;                  ///< no step since its state was set
+  bool touches = false;               ///< anything, in the last step
+  bool hasEffects = false;            ///< at any joint
+  double allDrives = 0;               ///< sum of |torque| of all drives in the last step
   int accelerometerLink = -1;
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
   Eigen::Vector3d accelerometerVelocity_m_s = Eigen::Vector3d::Zero();
@@ -67,6 +70,7 @@ struct World::Impl {
   long steps = 0;
   double until = 0;  ///< end of the present advance [s]
   std::string fault;
+  bool ode = true;  ///< something moves in ODE
 
   double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }
   JointState stateOf(const WorldRobot& robot, std::size_t joint, double now) const;
@@ -79,6 +83,7 @@ struct World::Impl {
   // world_joints.cpp
   void driveJoint(WorldRobot& robot, std::size_t joint, const JointInput& input, double now, double h);
   void weighLoads(WorldRobot& robot) const;
+  void setRows(WorldRobot& robot, std::size_t joint, const JointRows& rows);
   void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
   // world_contacts.cpp
   void makeContacts(double h);

@@ -47,6 +47,11 @@ JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, doub
 
 // What each joint carries is the tree of bodies beyond it: a body comes after the one that carries it.
 void World::Impl::weighLoads(WorldRobot& robot) const {
+  if (robot.alone) {
+    robot.alone->prepare(*robot.body, scene.gravity_m_s2);
+    for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].load = robot.alone->weight(j);
+    return;
+  }
   struct Carried {
     double mass_kg = 0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< mass times place
@@ -112,7 +117,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   state.command = command.mean();
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
   DriveRow row = driveRow(spec, state, command, drive.integral, acting, step);
-  if (!drive.effects.empty() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
+  if (drive.effects.changeDrive() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
     row = drive.effects.drive(row, spec, state, command, drive.integral, acting, step);
   if (switched && !prescribed)
     for (double* force : {&row.p, &row.d, &row.limit}) *force /= 2;
@@ -152,7 +157,17 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }
 
-  // A limited servo and passive terms do not fit into one row.
+  if (robot.alone)
+    robot.rows[index] = {row, passive, dry};
+  else
+    setRows(robot, index, {row, passive, dry});
+}
+
+/// As rows of ODE's solver. A limited servo and passive terms do not fit into one.
+void World::Impl::setRows(WorldRobot& robot, std::size_t index, const JointRows& rows) {
+  RobotJoint& joint = robot.body->joints[index];
+  JointDrive& drive = robot.drives[index];
+  auto [row, passive, dry] = rows;
   const bool apart = row.limited() && passive.d > noDamping;
   if (!joint.extra && (dry > 0 || apart)) robot.body->makeExtraRows(joint);
   if (dry > 0 || drive.dryRow) setExtraRow(joint, 0, 0, 0, dry);

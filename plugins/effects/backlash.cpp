@@ -32,6 +32,7 @@ class Backlash final : public btr::Effect {
     if (joint.load != 0) state[0] = std::copysign(values[0] / 2, -joint.load);
   }
 
+  bool changesDrive() const override { return true; }
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
                      std::span<double> state, double dt) const override {
     const double half = values[0] / 2;

@@ -20,6 +20,7 @@ class TorqueSpeedLimit final : public btr::Effect {
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
 
+  bool changesDrive() const override { return true; }
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values, std::span<double>,
                      double) const override {
     if (values[0] == 0 && values[1] == 0) return torque;

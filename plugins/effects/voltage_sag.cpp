@@ -18,6 +18,7 @@ class VoltageSag final : public btr::Effect {
   bool onEveryJoint() const override { return true; }
   bool dissipative() const override { return true; }
 
+  bool changesDrive() const override { return true; }
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values, std::span<double>,
                      double) const override {
     return torque / (1 + values[0] * joint.allDrives);

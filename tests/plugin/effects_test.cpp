@@ -227,6 +227,16 @@ TEST_P(Effects, NeverGiveNegativeFrictionOrDamping) {
     }
 }
 
+TEST_P(Effects, LeaveTheDriveAloneUnlessTheySaySo) {
+  bool changed = false;
+  for (const auto& values : corners()) {
+    auto state = freshState();
+    for (const JointState& joint : life(4))
+      changed = changed || effect->driveTorque(joint.drive, joint, values, state, 1e-3) != joint.drive;
+  }
+  EXPECT_EQ(effect->changesDrive(), changed);
+}
+
 TEST_P(Effects, AddNoEnergyIfTheySaySo) {
   if (!effect->dissipative()) return;
   for (const auto& values : corners()) {

@@ -149,6 +149,7 @@ struct Chain final : TestEffect {
     state[0] += 1;
     return {command.before + v[0], command.after + v[0]};
   }
+  bool changesDrive() const override { return true; }
   double driveTorque(double torque, const JointState& joint, std::span<const double>, std::span<double>,
                      double) const override {
     lastCommand = joint.command;

@@ -72,7 +72,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     for (auto& ball : balls)
       if (effect.at == ball.spec->name || effect.at == "floor" || effect.at == "world") ball.effects.push_back(&effect);
   }
-  ode = !balls.empty() || std::ranges::any_of(robots, [](const WorldRobot& robot) { return !robot.alone; });
+  inOde = !balls.empty() || std::ranges::any_of(robots, [](const WorldRobot& robot) { return !robot.alone; });
   for (auto& robot : robots) sense(robot, 0);
   checkFault();
 }
@@ -122,7 +122,7 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
-  if (ode) {
+  if (inOde) {
     makeContacts(h);
     for (auto& ball : balls) driveBall(ball, now, h);
     try {

@@ -34,7 +34,8 @@ struct RobotReadings {
 };
 
 /// One ODE world. ODE keeps process-wide state (its random numbers), so only one World may exist in a process at a time
-/// (checked), and it belongs to one thread. Frames: x forward, y left, z up.
+/// (checked), and it belongs to one thread. A robot whose base is fixed and that can touch nothing moves beside ODE, in
+/// joint coordinates (JointSpace). Frames: x forward, y left, z up.
 class World {
  public:
   /// Builds all bodies at their starting poses. The same scene and seed give the same bits.

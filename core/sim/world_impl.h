@@ -70,7 +70,7 @@ struct World::Impl {
   long steps = 0;
   double until = 0;  ///< end of the present advance [s]
   std::string fault;
-  bool ode = true;  ///< something moves in ODE
+  bool inOde = true;  ///< something moves in ODE
 
   double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }
   JointState stateOf(const WorldRobot& robot, std::size_t joint, double now) const;

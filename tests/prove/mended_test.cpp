@@ -53,6 +53,18 @@ TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
       << toPlainText(report);
 }
 
+// Wind over a ball that rolls until it stops: its fit ended in a rough valley of wind and rolling resistance, 5 % above
+// what the true numbers leave, and a slope, which left less than that, was named alone.
+TEST(Mended, WindOverARollingBallIsNotCalledASlopeAlone) {
+  const Plugins plugins;
+  const BlindCase blind = drawCase({20261155, 24, "ode", "carpet", ""}, plugins.library);
+  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "constant_wind");
+  const GapReport report = analysed(blind, plugins, {"constant_wind", "ground_slope"});
+  EXPECT_THAT(namedIn(report),
+              testing::AnyOf(testing::Contains("constant_wind"), testing::Contains("or constant_wind")))
+      << toPlainText(report);
+}
+
 // A ball that bounces, followed from its start with numbers that are right: a fit of the start ended where the second
 // trial's upward velocity was five standard errors off, and half of its way was missed.
 TEST(Mended, ABallsStartIsFoundAcrossItsBounces) {

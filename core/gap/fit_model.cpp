@@ -59,6 +59,13 @@ FitModel FitModel::with(const FitProblem& problem, const PlacedEffect& effect) c
   return model;
 }
 
+FitModel FitModel::withFixed(const FitProblem& problem, const PlacedEffect& effect) const {
+  FitModel model = with(problem, effect);
+  model.parameters.resize(parameters.size());
+  model.values.resize(values.size());
+  return model;
+}
+
 FitModel FitModel::without(std::size_t effect) const {
   FitModel model;
   model.effects = effects;

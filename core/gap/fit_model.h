@@ -29,6 +29,8 @@ struct FitModel {
   std::string text() const;
   /// The same model with one effect more, its parameters at `numbers` (all that it declares).
   FitModel with(const FitProblem& problem, const PlacedEffect& effect) const;
+  /// The same, but its numbers stay: no fit changes them.
+  FitModel withFixed(const FitProblem& problem, const PlacedEffect& effect) const;
   FitModel without(std::size_t effect) const;
 };
 

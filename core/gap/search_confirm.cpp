@@ -27,28 +27,6 @@ FitModel resized(FitModel model, double size) {
   return model;
 }
 
-/// The numbers of a model that are not its last effect's, by their place among all.
-std::vector<std::size_t> besideTheLast(const FitModel& model) {
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    if (model.parameters[i].effect + 1 != static_cast<int>(model.effects.size())) places.push_back(i);
-  return places;
-}
-
-/// A model whose last effect stays as it is.
-FitModel withLastFixed(const FitModel& model) {
-  FitModel fixed;
-  fixed.effects = model.effects;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i)
-    if (model.parameters[i].effect + 1 == static_cast<int>(model.effects.size()))
-      fixed.effects.back().parameters[model.parameters[i].name] = model.values[i];
-  for (const std::size_t i : besideTheLast(model)) {
-    fixed.parameters.push_back(model.parameters[i]);
-    fixed.values.push_back(model.values[i]);
-  }
-  return fixed;
-}
-
 }  // namespace
 
 bool SearchRun::isAtLeast(const Fit& fit) const {
@@ -92,11 +70,13 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
   constexpr std::array<double, 2> sizes{0.9, 1.1};
   constexpr int iterations = 8, mostRounds = 4;
   constexpr double better = 0.998, inReach = 1.02;
+  const std::size_t last = fit.model.effects.size() - 1;
   for (int round = 0; round < mostRounds; ++round) {
     std::vector<FitModel> moved;
     std::vector<FitJob> jobs;
     for (const double size : sizes) {
-      const FitModel model = resized(fit.model, size), held = withLastFixed(model);
+      const FitModel model = resized(fit.model, size);
+      const FitModel held = model.without(last).withFixed(problem_, model.simulator(problem_).effects.back());
       if (model.values == fit.model.values || held.parameters.empty()) continue;
       moved.push_back(model);
       jobs.push_back({held, fit.shifts});
@@ -105,8 +85,9 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
     std::vector<Fit> free;
     for (std::size_t k = 0; k < along.size(); ++k) {
       if (!(along[k].cost < inReach * fit.cost)) continue;
-      const std::vector<std::size_t> places = besideTheLast(moved[k]);
-      for (std::size_t i = 0; i < places.size(); ++i) moved[k].values[places[i]] = along[k].model.values[i];
+      auto followed = along[k].model.values.begin();
+      for (std::size_t i = 0; i < moved[k].values.size(); ++i)
+        if (moved[k].parameters[i].effect != static_cast<int>(last)) moved[k].values[i] = *followed++;
       free.push_back({moved[k], along[k].shifts, along[k].cost});
     }
     if (free.empty()) return;

@@ -23,13 +23,6 @@ Values reduced(const Effect& effect, Values numbers, double share) {
   return numbers;
 }
 
-FitModel withFixed(const FitModel& model, const FitProblem& problem, const PlacedEffect& effect) {
-  FitModel with = model.with(problem, effect);
-  with.parameters.resize(model.parameters.size());
-  with.values.resize(model.values.size());
-  return with;
-}
-
 }  // namespace
 
 /// Of another effect: the fit beside what is kept of the first one.
@@ -73,7 +66,7 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
   const auto effect = problem_.library.make(own.effect);
   const auto keeping = [&](double share) {
     if (share == 0) return rest;
-    return withFixed(rest, problem_, {own.effect, own.at, reduced(*effect, own.parameters, share)});
+    return rest.withFixed(problem_, {own.effect, own.at, reduced(*effect, own.parameters, share)});
   };
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(whole);

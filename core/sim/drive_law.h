@@ -21,6 +21,9 @@ struct DriveRow {
   bool limited() const { return limit < std::numeric_limits<double>::infinity(); }
 };
 
+/// Below this a row's d is none: its torque does not follow the rate.
+inline constexpr double noDamping = 1e-12;
+
 /// One step as the laws need it. ODE kicks velocities by the forces of the step's beginning, then moves by the new
 /// velocity: positions belong to the steps' ends and velocities to their middles (leapfrog).
 struct StepOf {

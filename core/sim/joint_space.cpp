@@ -9,8 +9,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double noDamping = 1e-12;
-
 }  // namespace
 
 bool JointSpace::suits(const SceneRobot& robot) {
@@ -30,7 +28,9 @@ void JointSpace::begin(const Articulation& robot) {
     Matrix3d inParent, inChild;
     inParent << joint.axisInParent, joint.u, joint.w;
     inChild << joint.axisInChild, joint.x, joint.axisInChild.cross(joint.x);
-    moving_.push_back({joint.child, joint.parent, inParent * inChild.transpose()});
+    const auto carrier = std::ranges::find(moving_, joint.parent, &Moving::child);
+    moving_.push_back({joint.child, carrier == moving_.end() ? -1 : static_cast<int>(carrier - moving_.begin()),
+                       inParent * inChild.transpose()});
     rate_[static_cast<Eigen::Index>(j)] = joint.rate;
   }
   beginRate_ = rate_;
@@ -89,13 +89,11 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
     if (!several) continue;
     bias_[row] = turn_[j].dot(carried.turning) + push_[j].dot(carried.force);
     mass_.row(row).head(row).setZero();
-    for (int body = moving_[j].parent; body >= 0;) {
-      const auto by = static_cast<std::size_t>(std::ranges::find(moving_, body, &Moving::child) - moving_.begin());
-      mass_(row, static_cast<Eigen::Index>(by)) = turn_[by].dot(angular) + push_[by].dot(linear);
-      body = moving_[by].parent;
-    }
-    if (moving_[j].parent < 0) continue;
-    Moved& carrier = moved_[static_cast<std::size_t>(moving_[j].parent)];
+    for (int by = moving_[j].carrier; by >= 0; by = moving_[static_cast<std::size_t>(by)].carrier)
+      mass_(row, by) =
+          turn_[static_cast<std::size_t>(by)].dot(angular) + push_[static_cast<std::size_t>(by)].dot(linear);
+    if (robot.joints[j].parent < 0) continue;
+    Moved& carrier = moved_[static_cast<std::size_t>(robot.joints[j].parent)];
     carrier.mass += carried.mass;
     carrier.moment += carried.moment;
     carrier.inertia += carried.inertia;

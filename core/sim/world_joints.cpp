@@ -6,8 +6,6 @@
 namespace btr {
 namespace {
 
-constexpr double noDamping = 1e-12;
-
 // Parameters of one of a joint's own motor rows.
 void setJointRow(const RobotJoint& joint, double velocity, double softness, double most) {
   const int g = joint.group;

@@ -97,6 +97,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   SceneCache scenes(problem, model);
   JacobianPolicy policy;
   policy.inherited = options.inherited;
+  policy.startsOnly = options.startsOnly;
 
   // Far outliers: beyond six times what residuals are at the start.
   const Eigen::VectorXd start = residualsOf(problem, model, fit.shifts);

@@ -173,6 +173,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       // well enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start,
       // and 5 to 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
       ready.differenceStep = 0.5;
+      ready.finestStep = 0.51;
     } else {
       ready.mayCoarsen = true;
       if (swingsFreely(scene, ready.trials[0])) {

@@ -180,7 +180,8 @@ SearchResult SearchRun::run() {
   result.ladder.push_back(step("as given", result.given));
   const double givenStep_s = problem_.scene.step_s;
   result.calibrated = calibrate();
-  if (problem_.scene.step_s < givenStep_s) result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
+  if (problem_.scene.step_s < givenStep_s)
+    result.given = scoreAsIs(problem_, {givenModel(problem_), result.given.fit.shifts, 0});
   // Where the fit began a trial may suit the numbers as given, too: what they are worth must not hang on where the
   // search for the initial states began.
   Scored again = scoreAsIs(problem_, {givenModel(problem_), result.calibrated.fit.shifts, 0});

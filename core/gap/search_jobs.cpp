@@ -145,25 +145,37 @@ double SearchRun::stepToSearchWith(const Fit& fit) const {
 }
 
 void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
-  const auto tooCoarse = [&](const Fit& fit) {
+  constexpr double leastSettled = 0.7;  // of the change, at the finest step
+  /// What half the step changes, of what may hide in the noise.
+  const auto coarsenessOf = [&](const Fit& fit) {
     constexpr double hidden = 0.12, much = 5, most = 10;  // noise floors
     constexpr double ofError = 0.05, ofMuch = 0.15;       // of the error: a four hundredth, a fiftieth of its square
     // Where much is unexplained anyway, the step is not what matters.
     const double error = std::sqrt(2 * fit.cost / static_cast<double>(std::max<std::size_t>(1, problem_.residuals())));
-    if (error > most && problem_.scene.step_s <= problem_.givenStep_s) return false;
-    return std::sqrt(stepErrorOf(stepChange(fit))) > std::max(hidden, (error > much ? ofMuch : ofError) * error);
+    if (error > most && problem_.scene.step_s <= problem_.givenStep_s) return 0.0;
+    return std::sqrt(stepErrorOf(stepChange(fit))) / std::max(hidden, (error > much ? ofMuch : ofError) * error);
   };
   judged = std::min(judged, fits.size());
-  const auto halve = [&] {
-    const bool halved = problem_.scene.step_s > finest_s_ &&
-                        std::any_of(fits.begin(), fits.begin() + static_cast<std::ptrdiff_t>(judged), tooCoarse);
-    if (halved) problem_.scene.step_s /= 2;
-    return halved;
+  const auto coarseness = [&] {
+    double worst = 0;
+    for (std::size_t i = 0; i < judged; ++i) worst = std::max(worst, coarsenessOf(fits[i]));
+    return worst;
   };
   // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
-  while (halve()) {
-    while (halve()) continue;
-    fits = fitOn(fits, againIterations, stage, at, at);
+  for (bool finer = true; finer;) {
+    const double before_s = problem_.scene.step_s, before = coarseness();
+    double now = before;
+    while (now > 1 && problem_.scene.step_s > problem_.finestStep * problem_.givenStep_s) {
+      problem_.scene.step_s /= 2;
+      now = coarseness();
+    }
+    finer = problem_.scene.step_s < before_s;
+    // Feet that land another way with each step do so at any.
+    if (now > std::max(1.0, leastSettled * before)) {
+      problem_.scene.step_s = before_s;
+      finer = false;
+    }
+    if (finer) fits = fitOn(fits, againIterations, stage, at, at);
   }
 }
 

@@ -28,8 +28,7 @@ inline bool costsLess(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 /// One search from calibration to rivals.
 class SearchRun {
  public:
-  SearchRun(const FitProblem& problem, const SearchOptions& options)
-      : problem_(problem), options_(options), finest_s_(0.126 * problem.givenStep_s) {}
+  SearchRun(const FitProblem& problem, const SearchOptions& options) : problem_(problem), options_(options) {}
 
   SearchResult run();
 
@@ -141,13 +140,12 @@ class SearchRun {
 
   /// Change of the residuals with half the step.
   Eigen::VectorXd stepChange(const Fit& fit) const;
-  /// Halves the step until half of it changes no fit by more than what hides in the noise, and fits again. Of `fits`,
-  /// the first `judged` are asked.
+  /// Halves the step until half of it changes no fit by more than what hides in the noise, and fits again; keeps the
+  /// step where none does (walks that part at each landing). Of `fits`, the first `judged` are asked.
   void refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at);
 
   FitProblem problem_;  ///< its step may become finer on the way
   const SearchOptions& options_;
-  double finest_s_;                 ///< an eighth of the scene's step: a servo in and out of saturation needs it
   double search_s_ = 0;             ///< the step that the calibrated simulator needs
   std::vector<FitParameter> held_;  ///< numbers that the calibrated simulator does not feel, as given
   mutable double told_ = 0;

@@ -43,7 +43,8 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
   Eigen::MatrixXd jacobian(here.size(), x.size());
   const Linearised* known = jacobian_.size() == 0 ? policy_.inherited : nullptr;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
+  if (policy_.startsOnly) jacobian.leftCols(parameters).setZero();
+  for (Eigen::Index i = policy_.startsOnly ? parameters : 0; i < x.size(); ++i) {
     if (known && i < known->raw.cols()) {
       jacobian.col(i) = known->raw.block(known->first[index_], i, here.size(), 1);
       continue;

@@ -15,6 +15,7 @@ struct JacobianPolicy {
   bool difference = true;                 ///< the next one
   int age = 0;                            ///< updates since the last differences
   const Linearised* inherited = nullptr;  ///< of a model that this one's first parameters and starts come from
+  bool startsOnly = false;                ///< the parameters stay: their columns are not asked for
   static constexpr int oldest = 6;
 };
 

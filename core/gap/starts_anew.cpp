@@ -9,6 +9,7 @@ namespace {
 constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times that of the (lower) middle segment
 constexpr double kick = 3;                          // standard errors
 constexpr int iterations = 20;
+constexpr std::size_t mostBeginnings = 7;  // as many as a ball has
 constexpr double better = 0.98;
 
 bool isRate(const Nuisance& nuisance) {
@@ -53,6 +54,18 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
   std::ranges::sort(sorted);
   const double limit = std::max(farFromNoise, asOthers * sorted[(sorted.size() - 1) / 2]);
 
+  /// The beginnings from which a fit has least to go.
+  const auto promising = [&](std::size_t s) {
+    std::vector<std::vector<double>> all = beginnings(problem.segments[s], fit.shifts[s]);
+    if (all.size() <= mostBeginnings) return all;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < all.size(); ++i) order.emplace_back(costOf(s, all[i]), i);
+    std::ranges::sort(order);
+    std::vector<std::vector<double>> few;
+    for (std::size_t k = 0; k < mostBeginnings; ++k) few.push_back(all[order[k].second]);
+    return few;
+  };
+
   // Of each segment the least cost, then the shifts that have it.
   const auto anew = bySegment(problem, iterations, [&](std::size_t s) {
     std::vector<double> best = fit.shifts[s];
@@ -66,7 +79,7 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
     FitProblem one = problem;
     one.segments = {problem.segments[s]};
     one.jobs = 1;
-    for (const std::vector<double>& begin : beginnings(problem.segments[s], fit.shifts[s])) {
+    for (const std::vector<double>& begin : promising(s)) {
       const std::vector<double> found =
           fitModel(one, fit.model, {begin}, {.iterations = iterations, .startsOnly = true}).shifts[0];
       const double cost = costOf(s, found);

@@ -164,7 +164,7 @@ TEST(Analysis, ASpringThatHardensIsNoSpringWithARipple) {
 }
 
 TEST(EffectCandidates, PeriodsAreCountedWhereTheMotionPassesTwoOfThem) {
-  const GapProblem recorded = recordedFrom({});
+  const GapProblem recorded = recordedInItsSteps();
   const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
   double low = INFINITY, high = -INFINITY;
   for (const Recording& recording : recorded.recordings)

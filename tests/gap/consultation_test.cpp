@@ -17,14 +17,14 @@ using testing::StartsWith;
 
 /// Trials of a healthy rig whose positions were written in another way.
 GapProblem written(double scale, double offset = 0) {
-  GapProblem problem = recordedFrom({});
+  GapProblem problem = recordedInItsSteps();
   for (Recording& recording : problem.recordings)
     for (double& value : recording.columns[2]) value = scale * value + offset;
   return problem;
 }
 
 TEST(Consultation, LetsHealthyRecordingsPassWithoutAWord) {
-  const Consultation found = consult(recordedFrom({}), library(), false);
+  const Consultation found = consult(recordedInItsSteps(), library(), false);
   EXPECT_EQ(found.caveat, "");
 }
 
@@ -36,7 +36,7 @@ TEST(Consultation, RefusesDegreesAndTurnedSignsWithWhatToChangeInTheMapping) {
               AllOf(StartsWith("trial_0.csv: rig.hinge.position_rad"), HasSubstr("is in degrees, not radians"),
                     HasSubstr("by 0.0174533"), HasSubstr("--as-recorded")));
   EXPECT_THAT(refusal(written(-1)), HasSubstr("a sign is turned"));
-  GapProblem heldOut = recordedFrom({});
+  GapProblem heldOut = recordedInItsSteps();
   heldOut.heldOut = written(-1).recordings;
   for (Recording& recording : heldOut.heldOut) recording.mapping = "turned.mapping.json";
   EXPECT_THAT(refusal(heldOut), HasSubstr("a sign is turned"));
@@ -45,7 +45,7 @@ TEST(Consultation, RefusesDegreesAndTurnedSignsWithWhatToChangeInTheMapping) {
 // Driven beyond its resonance a joint moves against its command; a mapping that turns a sign turns it in every
 // recording.
 TEST(Consultation, DoesNotRefuseASignThatOthersReadInTheSameWayDoNotTurn) {
-  GapProblem problem = recordedFrom({});
+  GapProblem problem = recordedInItsSteps();
   ASSERT_GT(problem.recordings.size(), 1u);
   Recording& odd = problem.recordings[1];
   for (double& value : odd.columns[2]) value = -value;
@@ -69,7 +69,7 @@ TEST(Consultation, SaysWhatMayBePhysicsWithoutRefusingIt) {
 }
 
 TEST(Consultation, PutsManyDroppedSamplesIntoTheSentence) {
-  GapProblem problem = recordedFrom({});
+  GapProblem problem = recordedInItsSteps();
   const auto drop = [&](std::size_t every) {
     Recording& recording = problem.recordings[0];
     for (auto& column : recording.columns) {

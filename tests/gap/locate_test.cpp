@@ -12,7 +12,7 @@ namespace {
 
 TEST(Locate, AServosLoadIsCalledCommandLessPosition) {
   // A weaker servo than the simulator's: its error follows the load, not the command.
-  const GapProblem problem = recordedFrom({{{"robots.rig.servos.hinge.p", 4}}, {}});
+  const GapProblem problem = recordedInItsSteps({{{"robots.rig.servos.hinge.p", 4}}, {}});
   const FitProblem fit = makeFitProblem(problem, problem.recordings, library(), 0);
   const auto located = locate(givenModel(fit), fit);
   ASSERT_EQ(located.size(), 1u);

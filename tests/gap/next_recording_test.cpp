@@ -59,7 +59,7 @@ GapProblem pushedCart() {
 }
 
 TEST(NextRecording, MovesAJointThatFollowsPositionsWithinThoseThatWereCommanded) {
-  const GapProblem given = recordedFrom({});
+  const GapProblem given = recordedInItsSteps();
   const FitProblem problem = makeFitProblem(given, given.recordings, library());
   const GapReport::NextRecording next = designNext(problem, rivals(problem, "rig.hinge", 0.03, 0.03), 1);
   ASSERT_THAT(next.channels, ElementsAre("time_s", "rig.hinge.command_rad"));

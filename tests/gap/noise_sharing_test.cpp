@@ -104,7 +104,7 @@ TEST(NoiseSharing, LeavesAColumnWithoutNumbersOut) {
 }
 
 TEST(NoiseSharing, ATrialWithoutAnyNumberIsRefused) {
-  GapProblem problem = recordedFrom({});
+  GapProblem problem = recordedInItsSteps();
   for (double& value : problem.recordings[1].columns[2]) value = std::nan("");
   EXPECT_THAT(test::refusal([&] { makeFitProblem(problem, problem.recordings, library(), 0); }),
               HasSubstr("trial_1.csv (rig.hinge.position_rad): a column without any number is not allowed"));

@@ -21,7 +21,7 @@ std::vector<std::string> unitsOf(const FitProblem& problem, const std::string& e
 }
 
 FitProblem rig() {
-  const GapProblem problem = recordedFrom({});
+  const GapProblem problem = recordedInItsSteps();
   return makeFitProblem(problem, problem.recordings, library(), 0);
 }
 

@@ -226,6 +226,13 @@ bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t ne
     reason = "its size is only " + toText(std::round(10 * errors) / 10) + " standard errors";
     return false;
   }
+  // Of first order: half the step takes half of the error away. Where feet land it stays far above the noise's share.
+  const double ofIntegration = 4 * stepErrorOf(stepChange(with.fit));
+  if (taken < ofIntegration) {
+    reason = "takes " + digits(taken, 2) + " noise floors² where the integration itself is wrong by about " +
+             digits(ofIntegration, 2);
+    return false;
+  }
   reason = "takes " + percent(comparison.gain) +
            " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")";
   return true;

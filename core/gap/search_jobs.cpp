@@ -162,20 +162,18 @@ void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std
     return worst;
   };
   // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
-  for (bool finer = true; finer;) {
+  const double finest_s = problem_.finestStep * problem_.givenStep_s;
+  while (problem_.scene.step_s > finest_s) {
     const double before_s = problem_.scene.step_s, before = coarseness();
     double now = before;
-    while (now > 1 && problem_.scene.step_s > problem_.finestStep * problem_.givenStep_s) {
+    while (now > 1 && problem_.scene.step_s > finest_s) {
       problem_.scene.step_s /= 2;
       now = coarseness();
     }
-    finer = problem_.scene.step_s < before_s;
     // Feet that land another way with each step do so at any.
-    if (now > std::max(1.0, leastSettled * before)) {
-      problem_.scene.step_s = before_s;
-      finer = false;
-    }
-    if (finer) fits = fitOn(fits, againIterations, stage, at, at);
+    if (now > std::max(1.0, leastSettled * before)) problem_.scene.step_s = before_s;
+    if (problem_.scene.step_s == before_s) return;
+    fits = fitOn(fits, againIterations, stage, at, at);
   }
 }
 

@@ -30,7 +30,7 @@ inline SceneSpec hingeScene() {
 inline constexpr double noise_rad = 0.0005;
 
 /// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise. The hinge moves
-/// from the beginning at `startRate_rad_s`. Reality takes steps of `step_s`, which no simulator of the tests takes.
+/// from the beginning at `startRate_rad_s`. Reality takes steps of `step_s`.
 inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0,
                                const EffectLibrary& effects = library(), double step_s = 0.0001) {
   GapProblem problem;
@@ -71,7 +71,7 @@ inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6
   return problem;
 }
 
-/// The same in the scene's own steps, a tenth of the work: where the test does not ask what the simulator lacks.
+/// The same in the scene's own steps, a tenth of the work: where the test does not ask for a verdict.
 inline GapProblem recordedInItsSteps(const SimulatorSpec& truth = {}) {
   return recordedFrom(truth, 0.6, 0, library(), hingeScene().step_s);
 }

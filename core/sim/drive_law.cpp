@@ -177,6 +177,8 @@ void JointEffects::add(const SceneEffect& effect) {
   placed_.push_back({effect.effect.get(), &effect.values,
                      std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0)});
   changeDrive_ = changeDrive_ || effect.effect->changesDrive();
+  const auto stageOf = [&](std::size_t i) { return placed_[i].effect->stage(); };
+  chain_.insert(std::ranges::upper_bound(chain_, effect.effect->stage(), {}, stageOf), placed_.size() - 1);
 }
 
 void JointEffects::reset() {
@@ -188,12 +190,16 @@ void JointEffects::rest(const JointState& state) {
 }
 
 CommandAround JointEffects::command(CommandAround command, const JointState& state, double dt) {
-  for (auto& placed : placed_) command = placed.effect->command(command, state, *placed.values, placed.state, dt);
+  for (const std::size_t i : chain_) {
+    Placed& placed = placed_[i];
+    command = placed.effect->command(command, state, *placed.values, placed.state, dt);
+  }
   return command;
 }
 
 double JointEffects::throughEffects(Torques torques, const JointState& state, double h, bool keepState) {
-  for (auto& placed : placed_) {
+  for (const std::size_t i : chain_) {
+    Placed& placed = placed_[i];
     if (!placed.effect->changesDrive()) continue;
     if (!keepState) scratch_ = placed.state;
     std::vector<double>& memory = keepState ? placed.state : scratch_;

@@ -104,7 +104,8 @@ class JointEffects {
   };
   double throughEffects(Torques torques, const JointState& state, double h, bool keepState);
 
-  std::vector<Placed> placed_;
+  std::vector<Placed> placed_;      ///< in the order of the simulator's list
+  std::vector<std::size_t> chain_;  ///< of these, by stage
   std::vector<double> scratch_;
   bool changeDrive_ = false;
 };

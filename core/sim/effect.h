@@ -49,11 +49,16 @@ struct CommandAround {
 class Effect {
  public:
   enum class Place { joint, link, ball, floor, world };
+  /// Where on the way from a command to what is measured of it.
+  enum class Stage { command, motor, supply, gear, sensor };
 
   virtual ~Effect() = default;
   /// Name, unit, meaning, bounds, default and neutral value of each parameter; `values` below follow this order.
   virtual std::vector<Parameter> parameters() const = 0;
   virtual Place place() const = 0;
+  /// The effects at a joint change its command and its drive torque in this order, in whichever they are listed: what
+  /// the sensor says closes the loop at once, however late commands arrive.
+  virtual Stage stage() const { return Stage::motor; }
   /// Names of simpler effects that this one becomes for some of its values: never its rivals.
   virtual std::vector<std::string> contains() const { return {}; }
   /// Names of simpler effects that at the same place together are the same law for some of its values: no recording of

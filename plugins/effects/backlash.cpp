@@ -27,6 +27,7 @@ class Backlash final : public btr::Effect {
              "speed of the motor per torque while it crosses the gap, m/(s·N) on a slide joint", 1, 100, 6}};
   }
   Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::gear; }
   int stateSize() const override { return 1; }
   void rest(const btr::JointState& joint, std::span<const double> values, std::span<double> state) const override {
     if (joint.load != 0) state[0] = std::copysign(values[0] / 2, -joint.load);

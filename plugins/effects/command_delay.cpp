@@ -62,6 +62,7 @@ class CommandDelay final : public btr::Effect {
     return {{"delay_s", "s", "age of the command that the drive follows", 0, longest_s, 0.024, 0.0}};
   }
   Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 2 + 2 * static_cast<int>(capacity); }
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,

@@ -13,6 +13,7 @@ class PositionOffset final : public btr::Effect {
     return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0.03, 0.0}};
   }
   Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::sensor; }
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
                              std::span<double>, double) const override {

@@ -15,6 +15,7 @@ class SensorLag final : public btr::Effect {
     return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}};
   }
   Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::sensor; }
   int stateSize() const override { return 4; }
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,

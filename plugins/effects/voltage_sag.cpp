@@ -15,6 +15,7 @@ class VoltageSag final : public btr::Effect {
     return {{"per_torque_1_nm", "1/(N·m)", "loss of voltage per torque of all drives together", 0, 5, 0.1, 0.0}};
   }
   Place place() const override { return Place::world; }
+  Stage stage() const override { return Stage::supply; }
   bool onEveryJoint() const override { return true; }
   bool dissipative() const override { return true; }
 

@@ -1,6 +1,7 @@
 #include "tests/prove/hide.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -8,6 +9,8 @@
 
 namespace btr::prove {
 namespace {
+
+constexpr double mostOfRoom = 0.7;  // between neutral and a bound
 
 std::vector<std::string> placesOf(Effect::Place place, const BlindWorld& world) {
   std::vector<std::string> places;
@@ -38,7 +41,13 @@ double drawShape(Random& random, const Parameter& parameter) {
   return parameter.integer ? std::round(within) : within;
 }
 
-/// Directions in which the sizes grow from neutral: share of the way to a bound, signed.
+/// What a size usually is, away from neutral.
+double typicalOf(const Parameter& size) {
+  const double usual = std::abs(size.byDefault - *size.neutral);
+  return usual > 0 ? usual : 0.1 * (size.maximum - size.minimum);
+}
+
+/// Directions in which the sizes grow from neutral: in what they usually are, signed.
 std::map<std::string, double> drawDirection(Random& random, const std::vector<Parameter>& parameters) {
   std::map<std::string, double> direction;
   std::size_t sizes = 0, signedSizes = 0;
@@ -70,8 +79,34 @@ void setSize(PlacedEffect& placed, const std::vector<Parameter>& parameters,
     const auto found = direction.find(parameter.name);
     const double way = found == direction.end() ? 0 : found->second;
     const double room = way < 0 ? neutral - parameter.minimum : parameter.maximum - neutral;
-    placed.parameters[parameter.name] = neutral + scale * way * room;
+    const double most = mostOfRoom * room;
+    placed.parameters[parameter.name] = neutral + std::clamp(scale * way * typicalOf(parameter), -most, most);
   }
+}
+
+/// Where the fits of a simpler relative begin: at its usual size and where it comes nearest among sizes from a
+/// hundredth to ten thousand times that, and as large as is allowed (what holds a joint is any friction above what its
+/// motor can).
+std::vector<SimulatorSpec> simplerStarts(const Effect& effect, PlacedEffect relative, const BlindWorld& world,
+                                         const SimulatorSpec& without, const EffectFactory& effects,
+                                         const std::vector<std::vector<double>>& recorded) {
+  constexpr std::array<double, 14> shares{1, 0.01, 0.03, 0.1, 0.3, 3, 10, 30, 100, 300, 1000, 3000, 10000, 1e9};
+  constexpr std::size_t nearest = 3;
+  std::vector<std::pair<double, SimulatorSpec>> starts;
+  for (const double share : shares) {
+    for (const Parameter& parameter : effect.parameters())
+      relative.parameters[parameter.name] =
+          std::clamp(parameter.byDefault * (parameter.neutral ? share : 1), parameter.minimum, parameter.maximum);
+    SimulatorSpec other = without;
+    other.effects.push_back(relative);
+    const double off = difference(noiseless(world, other, effects), recorded);
+    if (std::isfinite(off)) starts.emplace_back(off, std::move(other));
+  }
+  if (starts.size() > 1)
+    std::stable_sort(starts.begin() + 1, starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SimulatorSpec> chosen;
+  for (std::size_t i = 0; i < std::min(1 + nearest, starts.size()); ++i) chosen.push_back(starts[i].second);
+  return chosen;
 }
 
 }  // namespace
@@ -103,15 +138,21 @@ std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, 
     with.effects.push_back(placed);
     return difference(noiseless(world, with, effects), without);
   };
-  // Bisection of the size's logarithm. What breaks the simulation is too large.
-  double low = std::log(1e-4), high = std::log(0.7);
+  // Bisection of the size's logarithm. What breaks the simulation is too large. Where even the largest size moves less
+  // than wanted (a joint that is held cannot be held more), hardly larger than it takes for that.
+  double room = 1;
+  for (const Parameter& p : parameters)
+    if (p.neutral) room = std::max(room, (p.maximum - p.minimum) / typicalOf(p));
+  double low = std::log(1e-3), high = std::log(room);
   const double most = moved(std::exp(high));
   if (most < 2) return std::nullopt;
-  for (int i = 0; i < 9 && !(most <= wanted); ++i) {
+  constexpr double nearlyMost = 0.99;
+  const double target = most <= wanted ? nearlyMost * most : wanted;
+  for (int i = 0; i < 9; ++i) {
     const double middle = (low + high) / 2;
-    (moved(std::exp(middle)) < wanted ? low : high) = middle;
+    (moved(std::exp(middle)) < target ? low : high) = middle;
   }
-  const double got = moved(std::exp(most <= wanted ? high : low));
+  const double got = moved(std::exp(low));
   if (!(got >= 1)) return std::nullopt;
   return placed;
 }
@@ -145,21 +186,12 @@ void priceRemoval(ConcealedAnswer::Hidden& hidden, std::size_t index, const Blin
   const double unfitted = difference(noiseless(world, without, effects), recorded);
   hidden.costUnfitted = std::isfinite(unfitted) ? withNoise(unfitted) : 1e6;
   double left = leftAfterRefit(world, without, effects, recorded);
-  constexpr double asLargeAsAllowed = 1e9;  // what holds a joint is any friction above what its motor can
 
   for (const std::string& name : effects(hidden.placed.effect)->contains()) {
     if (std::find(library.names.begin(), library.names.end(), name) == library.names.end()) continue;
-    for (const double share : {0.1, 1.0, 4.0, asLargeAsAllowed}) {
+    const auto starts = simplerStarts(*effects(name), {name, hidden.placed.at, {}}, world, without, effects, recorded);
+    for (const SimulatorSpec& other : starts) {
       if (withNoise(left) < leastCost) break;
-      SimulatorSpec other = without;
-      PlacedEffect relative{name, hidden.placed.at, {}};
-      const auto effect = effects(name);
-      for (const Parameter& parameter : effect->parameters())
-        relative.parameters[parameter.name] =
-            std::clamp(parameter.byDefault * share, parameter.minimum, parameter.maximum);
-      other.effects.push_back(relative);
-      // The largest either holds the joint as it is held, or is far off.
-      if (share == asLargeAsAllowed && !(difference(noiseless(world, other, effects), recorded) < left)) continue;
       const int whole = static_cast<int>(other.effects.size()) - 1;
       left = std::min(left, leftAfterRefit(world, other, effects, recorded, whole));
     }

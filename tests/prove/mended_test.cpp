@@ -12,6 +12,13 @@
 namespace btr::prove {
 namespace {
 
+/// The world and the true numbers of a case with this hidden in it, whatever the generator would hide there now.
+BlindCase caseHiding(const PlacedEffect& hidden, const CaseRequest& request, const Plugins& plugins) {
+  BlindCase blind = drawCase(request, plugins.library);
+  blind.simulator.effects = {hidden};
+  return blind;
+}
+
 /// What the open folder of a case says.
 GapProblem problemOf(const BlindCase& blind, const Plugins& plugins) {
   const TemporaryFolder folder;
@@ -45,8 +52,9 @@ std::vector<std::string> namedIn(const GapReport& report) {
 // same law. A fit of the weight that began far away ended in a side minimum, so that only gravity was named.
 TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
   const Plugins plugins;
-  const BlindCase blind = drawCase({20261150, 1, "ode", "pendulum", ""}, plugins.library);
-  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "payload");
+  const PlacedEffect payload{
+      "payload", "rig.arm", {{"mass_kg", 0.023162}, {"x_m", 0.06206}, {"y_m", 0.086374}, {"z_m", 0.032537}}};
+  const BlindCase blind = caseHiding(payload, {20261150, 1, "ode", "pendulum", ""}, plugins);
   const GapReport report = analysed(blind, plugins, {"gravity_tilt", "payload", "position_offset"});
   EXPECT_THAT(namedIn(report), testing::AnyOf(testing::ElementsAre("gravity_tilt", "or payload"),
                                               testing::ElementsAre("payload", "or gravity_tilt")))
@@ -57,8 +65,8 @@ TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
 // what the true numbers leave, and a slope, which left less than that, was named alone.
 TEST(Mended, WindOverARollingBallIsNotCalledASlopeAlone) {
   const Plugins plugins;
-  const BlindCase blind = drawCase({20261155, 24, "ode", "carpet", ""}, plugins.library);
-  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "constant_wind");
+  const PlacedEffect wind{"constant_wind", "world", {{"x_m_s", 3.35076}, {"y_m_s", -3.70085}}};
+  const BlindCase blind = caseHiding(wind, {20261155, 24, "ode", "carpet", ""}, plugins);
   const GapReport report = analysed(blind, plugins, {"constant_wind", "ground_slope"});
   EXPECT_THAT(namedIn(report),
               testing::AnyOf(testing::Contains("constant_wind"), testing::Contains("or constant_wind")))
@@ -69,8 +77,8 @@ TEST(Mended, WindOverARollingBallIsNotCalledASlopeAlone) {
 // trial's upward velocity was five standard errors off, and half of its way was missed.
 TEST(Mended, ABallsStartIsFoundAcrossItsBounces) {
   const Plugins plugins;
-  const BlindCase blind = drawCase({20261150, 29, "ode", "flight", ""}, plugins.library);
-  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "air_drag");
+  const PlacedEffect drag{"air_drag", "ball", {{"drag_number", 0.315179}}};
+  const BlindCase blind = caseHiding(drag, {20261150, 29, "ode", "flight", ""}, plugins);
   const TemporaryFolder folder;
   writeCase(blind, plugins.library, folder.file("."));
   writeFresh(blind, plugins.library, folder.file("fresh"));
@@ -98,8 +106,8 @@ TEST(Mended, ABallsStartIsFoundAcrossItsBounces) {
 // hour.)
 TEST(Mended, AServoInItsPlayIsFollowedFromTheFlankThatItRestedOn) {
   const Plugins plugins;
-  const BlindCase blind = drawCase({20261150, 14, "ode", "pendulum", ""}, plugins.library);
-  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "backlash");
+  const PlacedEffect play{"backlash", "rig.shoulder", {{"free_speed_rad_s_nm", 3.112754}, {"width_rad", 0.0888316}}};
+  const BlindCase blind = caseHiding(play, {20261150, 14, "ode", "pendulum", ""}, plugins);
   GapProblem given = problemOf(blind, plugins);
   given.scene.step_s = 0.000125;
   given.simulator = blind.simulator;
@@ -113,8 +121,8 @@ TEST(Mended, AServoInItsPlayIsFollowedFromTheFlankThatItRestedOn) {
 // larger at rest, with two numbers more, was named.
 TEST(Mended, DryFrictionIsFoundFromTheRicherFrictionThatContainsIt) {
   const Plugins plugins;
-  const BlindCase blind = drawCase({20261148, 12, "ode", "pendulum", ""}, plugins.library);
-  ASSERT_EQ(blind.answer.hidden.at(0).placed.effect, "coulomb_friction");
+  const PlacedEffect friction{"coulomb_friction", "rig.shoulder", {{"torque_nm", 0.054504}}};
+  const BlindCase blind = caseHiding(friction, {20261148, 12, "ode", "pendulum", ""}, plugins);
   const GapReport report = analysed(blind, plugins, {"stribeck_friction", "coulomb_friction"});
   EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction")) << toPlainText(report);
 }

@@ -70,8 +70,10 @@ bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
   Vector3d wanted = Vector3d::UnitX();
   if (surface.slip1_m_s_n > 0 || surface.slip2_m_s_n > 0) {
     s.mode |= dContactSlip1 | dContactSlip2;
-    s.slip1 = surface.slip1_m_s_n;
-    s.slip2 = surface.slip2_m_s_n;
+    // The step turns a hit's momentum into a force as large as the step is short; creep asks for that of a real hit.
+    const double lasts = hit ? step_ / hitDuration_s : 1;
+    s.slip1 = lasts * surface.slip1_m_s_n;
+    s.slip2 = lasts * surface.slip2_m_s_n;
     wanted = surface.slip1Along;
   } else {
     const Vector3d sliding = velocity + approach * point.normal;

@@ -109,7 +109,7 @@ void World::Impl::brakeRolling(WorldBall& ball, double h) {
   Vector3d along(ball.state.spin_rad_s.x(), ball.state.spin_rad_s.y(), 0);
   const double spin = along.norm();
   along = spin > 1e-9 ? Vector3d(along / spin) : Vector3d::UnitX();
-  double across = most;
+  const double inertia = (1 + spec.inertiaFactor) * spec.mass_kg * spec.radius_m * spec.radius_m;
   if (const auto& [xx, xy, yy] = spec.directedRolling_m_s2; xx != 0 || xy != 0 || yy != 0) {
     // The ball rolls along v = spin × up; the moment that slows it by A²·v/|A·v| has a part across its spin.
     Eigen::Matrix2d matrix;
@@ -119,16 +119,15 @@ void World::Impl::brakeRolling(WorldBall& ball, double h) {
     const Eigen::Vector2d pulled = matrix * rolling;
     const double strength = pulled.norm();
     const Eigen::Vector2d deceleration = strength > 0 ? Eigen::Vector2d(matrix * pulled / strength) : pulled;
-    most = across = deceleration.dot(rolling) * perDeceleration;
-    // A ball that stops within a few steps is simply held.
-    const double inertia = (1 + spec.inertiaFactor) * spec.mass_kg * spec.radius_m * spec.radius_m;
+    most = deceleration.dot(rolling) * perDeceleration;
     if (spin * inertia > 3 * h * most) {
-      across = 0;
       const Eigen::Vector2d aside = (deceleration - deceleration.dot(rolling) * rolling) * -perDeceleration;
       // A moment M turns the spin; the velocity changes along M × up.
       dBodyAddTorque(ball.id, -aside.y(), aside.x(), 0);
     }
   }
+  // It turns against the motion alone: what pushes aside bends the way. A ball that stops within a few steps is held.
+  const double across = spin * inertia > 3 * h * most ? 0 : most;
   dJointSetAMotorAxis(ball.rolling, 0, 0, along.x(), along.y(), 0);
   dJointSetAMotorAxis(ball.rolling, 1, 0, -along.y(), along.x(), 0);
   dJointSetAMotorParam(ball.rolling, dParamFMax, most);

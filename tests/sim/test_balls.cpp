@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/sim/contact_builder.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -107,6 +108,35 @@ TEST(Ball, RollsAsFarAsItsDecelerationAllowsAndStaysThere) {
     }
 }
 
+// Rolling resistance a turns against the motion alone. Pulled aside by s, a ball bends its way at once, however small s
+// is: y = s·t²/2 as long as it has hardly turned. With s = a (the block thrown across a slope that just holds it)
+// d|v|/dt = −a·(1 − v_y/|v|) and dv_y/dt = a·(1 − v_y/|v|): |v| + v_y is kept, and |v| goes to half of what it was.
+TEST(Ball, WhatPullsARollingBallAsideBendsItsWay) {
+  constexpr double speed = 1.2, a = 0.4;
+  for (const double step : {0.0005, 0.002, 0.008})
+    for (const double heading : {0.0, 0.7})
+      for (const double share : {0.25, 1.0}) {
+        BallSpec ball = shell();
+        ball.rollingDeceleration_m_s2 = a;
+        Scene scene = ballScene(ball, step);
+        const double pull = share * a * (1 + ball.inertiaFactor);
+        const Vector3d aside(-std::sin(heading), std::cos(heading), 0);
+        scene.gravity_m_s2 << pull * aside.x(), pull * aside.y(), -9.7;
+        World world(scene, 1);
+        world.setBall(0, rolling(ball, speed, heading));
+        world.advance(nobody(scene), 0.4);
+        EXPECT_NEAR(0.5 * share * a * 0.4 * 0.4, world.ball(0).position_m.dot(aside), 0.04 * share * a * 0.4 * 0.4)
+            << step << " s, " << share;
+        if (share < 1) continue;
+        for (int k = 0; k < 8; ++k) {
+          const Vector3d v = world.ball(0).velocity_m_s;
+          EXPECT_NEAR(speed, v.norm() + v.dot(aside), 0.01 * speed) << step << " s";
+          world.advance(nobody(scene), 2);
+        }
+        EXPECT_NEAR(speed / 2, world.ball(0).velocity_m_s.norm(), 0.01 * speed) << step << " s";
+      }
+}
+
 TEST(Ball, BouncesToTheSquareOfItsRestitution) {
   BallSpec ball;
   ball.restitution = 0.7;
@@ -120,6 +150,26 @@ TEST(Ball, BouncesToTheSquareOfItsRestitution) {
     if (world.time() > fall * 1.1) highest = std::max(highest, world.ball(0).position_m.z() - ball.radius_m);
   }
   EXPECT_NEAR(0.5 * 0.49, highest, 0.01);
+}
+
+// In a hit the floor creeps by slip·momentum over the hit's time, and the ball's underside with it: of its speed u the
+// momentum m·u/(1 + 1/f + m·slip/time) is taken, whatever the step.
+TEST(Ball, AHitOnACreepingFloorDoesNotDependOnTheStep) {
+  constexpr double speed = 1.5, slip = 0.5;
+  for (const double step : {0.0001, 0.0005, 0.002, 0.008}) {
+    BallSpec ball = shell();
+    ball.restitution = 0.6;
+    ball.position_m = {0, 0, 0.3};
+    ball.velocity_m_s = {speed, 0, -1};
+    Scene scene = ballScene(ball, step);
+    scene.floor->friction = 10;
+    scene.floor->slip1_m_s_n = scene.floor->slip2_m_s_n = slip;
+    World world(scene, 1);
+    world.advance(nobody(scene), 0.25);
+    ASSERT_GT(world.ball(0).velocity_m_s.z(), 0);
+    const double taken = speed / (1 + 1 / ball.inertiaFactor + ball.mass_kg * slip / hitDuration_s);
+    EXPECT_NEAR(speed - taken, world.ball(0).velocity_m_s.x(), 0.005 * taken) << step << " s";
+  }
 }
 
 TEST(Ball, ACollisionOfTwoKeepsMomentumAndTheRestitution) {

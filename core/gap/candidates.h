@@ -44,7 +44,8 @@ struct Screened {
     std::vector<double> parameters;  ///< of the model, moved along to where they would go
     double share = 0;
   };
-  std::vector<Start> starts;  ///< the best that was looked at, then what others promise, best first
+  std::vector<Start> starts;  ///< the best that was looked at, then what others promise, best first; none: not felt at
+                              ///< any size
 };
 /// In the order of the candidates. Candidates of a model that cannot be simulated are not excited.
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,

@@ -41,6 +41,11 @@ class Projector {
 
 constexpr double worthLooking = 0.005;  // share of the squared error that a candidate must promise
 
+/// Squared change of all residuals that counts as felt.
+double leastFelt(const Linearised& linear) {
+  return std::min(0.01 * static_cast<double>(linear.residuals.size()), 25.0);
+}
+
 struct Try {
   Values effect;
   VectorXd change;            ///< of the residuals, initial states taken out
@@ -79,24 +84,35 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   };
   const auto gainOf = [&](const VectorXd& change) { return rest.squaredNorm() - (rest + change).squaredNorm(); };
   std::vector<Try> tries;
-  double felt = 0;
-  for (const Values& variant : candidate.variants) {
+  /// How much the residuals feel of it.
+  const auto tryOut = [&](const Values& variant) {
     Try attempt{variant, {}, {}};
     if (const auto change = changeBy(variant)) {
       attempt.change = *change;
     } else {
-      continue;
+      return 0.0;
     }
-    felt = std::max(felt, attempt.change.squaredNorm());
+    const double all = attempt.change.squaredNorm();
     attempt.left = projector.leftOf(attempt.change);
     const double norm = attempt.left.squaredNorm();
     // What the fitted parameters can do as well is no evidence.
-    if (norm <= 1e-6 * attempt.change.squaredNorm() || norm <= 0) continue;
+    if (norm <= 1e-6 * all || norm <= 0) return all;
     attempt.step = std::clamp(-rest.dot(attempt.left) / norm, 0.0, 20.0);
     attempt.gain = gainOf(attempt.step * attempt.left);
     attempt.gainAsIs = gainOf(attempt.left);
     tries.push_back(std::move(attempt));
-  }
+    return all;
+  };
+  double felt = 0;
+  for (const Values& variant : candidate.variants) felt = std::max(felt, tryOut(variant));
+  // What is too small to be felt where it is usual may be there in a size that is not: a ball that hardly rolls on a
+  // carpet feels creep only where there is a lot of it.
+  double feltAtAll = felt;
+  if (felt <= leastFelt(linear))
+    for (const double size : {50.0, 500.0})
+      for (std::size_t i = 0; i < std::min<std::size_t>(2, candidate.variants.size()); ++i)
+        feltAtAll = std::max(feltAtAll, tryOut(scaledVariant(candidate, candidate.variants[i], size)));
+  if (feltAtAll <= leastFelt(linear)) tries.clear();
   const double total = linear.profiled.squaredNorm();
   struct Found {
     double gain;
@@ -167,11 +183,6 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     }
   }
   return numbers;
-}
-
-/// Squared change of all residuals at a typical size that counts as felt.
-double leastFelt(const Linearised& linear) {
-  return std::min(0.01 * static_cast<double>(linear.residuals.size()), 25.0);
 }
 
 /// The segments where most is unexplained, a third of all, and what belongs to them.

@@ -133,7 +133,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   const auto fitsBetter = [&](std::size_t a, std::size_t b) { return costsLess(tried[a].fit, tried[b].fit); };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
-    if (tried[k].attempt.excited && !promises[tried[k].promise].starts.empty() &&
+    if (!promises[tried[k].promise].starts.empty() &&
         tried[k].attempt.share >= std::max(0.7 * leastGain, 0.1 * tried[0].attempt.share))
       promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
@@ -176,8 +176,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     constexpr double leastPromise = 0.01;
     std::vector<std::size_t> rest;
     for (const Tried& each : tried)
-      if (!each.attempt.fitted && each.attempt.excited && !promises[each.promise].starts.empty() &&
-          each.attempt.share >= leastPromise && rest.size() < most)
+      if (!each.attempt.fitted && !promises[each.promise].starts.empty() && each.attempt.share >= leastPromise &&
+          rest.size() < most)
         rest.push_back(static_cast<std::size_t>(&each - tried.data()));
     for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });

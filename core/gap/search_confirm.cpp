@@ -151,7 +151,8 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     if (fit.cost > worthMore * least) continue;
     climbWholeNumbers(fit, what, half);
     const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
-    if (left > leastToScan && left < mostToScan) scan(fit, what, half);
+    // What leaves no more than the noise may still stop behind a better one.
+    if ((left > leastToScan || fit.cost > leastToScan * least) && left < mostToScan) scan(fit, what, half);
   }
   std::vector<Scored> scored = scoreAll(farFits, what, half, half);
   if (judged_s < fitted_s) {

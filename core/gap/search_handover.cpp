@@ -36,8 +36,15 @@ struct SearchRun::Way {
 std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const {
   std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
+  // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
+  // smaller friction but another motion.
+  const std::vector<std::string> simpler = problem_.library.make(own.effect)->contains();
+  const auto isSimpler = [&](const EffectCandidate& candidate) {
+    return candidate.at == own.at && std::ranges::find(simpler, candidate.effect) != simpler.end();
+  };
   for (EffectCandidate& candidate : candidates)
-    for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
+    if (!isSimpler(candidate))
+      for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
   std::vector<Screened> promising = screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
                                            reporter("screening, rivals", candidates.size(), 0.95, 0.95));
   std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
@@ -45,9 +52,15 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
   std::ranges::stable_sort(promising, std::greater(), promised);
 
   std::vector<Way> ways;
+  std::size_t others = 0;
+  double leastPromise = 0;
   for (const Screened& each : promising) {
-    if (ways.size() == mostHandedTo || promised(each) < leastShare * promised(promising[0])) break;
     const EffectCandidate& candidate = candidates[each.candidate];
+    if (!isSimpler(candidate)) {
+      if (others == 0) leastPromise = leastShare * promised(each);
+      if (others == mostHandedTo || promised(each) < leastPromise) continue;
+      ++others;
+    }
     const Screened::Start& start = each.starts[0];
     Way way{candidate,
             rest.with(problem_, candidate.placed(scaledVariant(candidate, start.effect, 0))).values,

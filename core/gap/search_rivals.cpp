@@ -25,11 +25,19 @@ bool contains(const FitModel& model, const EffectCandidate& candidate) {
 /// Of a comparison with the final model.
 bool isWorse(const Comparison& lost) { return lost.t >= 2 && lost.gain > 0.01; }
 
+/// The same where the other may explain all but the noise already: what takes a few percent of the noise itself
+/// (sensors of counts are no dice) does not refute it.
+bool isRefuted(const Scored& other, const Scored& by) {
+  constexpr double ofNoise = 0.05;
+  const Comparison lost = compare(other.blocks, by.blocks);
+  return isWorse(lost) && !(other.mean() <= 1 && lost.gain < ofNoise);
+}
+
 /// Predicts worse and fits worse. What fits as well and predicts worse only pays for a number more: recordings that it
 /// explains as well do not tell it from the final model.
 bool isToldFrom(const Scored& other, const Scored& final) {
   constexpr double fitsWorse = 1.005;
-  return isWorse(compare(other.blocks, final.blocks)) && other.fit.cost > fitsWorse * final.fit.cost;
+  return isRefuted(other, final) && other.fit.cost > fitsWorse * final.fit.cost;
 }
 
 }  // namespace
@@ -141,14 +149,14 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
     if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
     if (chosen) {
       // A simpler one that does as well as the better one.
-      if (numbersOf(other) < numbersOf(*chosen) && !isWorse(compare(other.scored.blocks, chosen->scored.blocks)))
-        chosen = &other;
+      if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored)) chosen = &other;
       continue;
     }
     const Comparison lost = compare(other.scored.blocks, result.final.blocks);
     const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
     // Where much is unexplained, few blocks tell little: equals leave about the same.
-    const bool equal = !isWorse(lost) && other.scored.mean() <= mostOfEquals * result.final.mean();
+    const bool equal =
+        !isRefuted(other.scored, result.final) && other.scored.mean() <= mostOfEquals * result.final.mean();
     if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
   }
   if (!chosen) return false;

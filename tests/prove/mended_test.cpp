@@ -127,5 +127,34 @@ TEST(Mended, DryFrictionIsFoundFromTheRicherFrictionThatContainsIt) {
   EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction")) << toPlainText(report);
 }
 
+// Nearly as much dry friction as the servo is strong. From friction that differs by direction, both directions the
+// same, the way to it was never gone: a hundredth of what was taken away does nothing.
+TEST(Mended, DryFrictionTakesThePlaceOfFrictionByDirection) {
+  const Plugins plugins;
+  const PlacedEffect friction{"coulomb_friction", "rig.shoulder", {{"torque_nm", 0.852713}}};
+  const BlindCase blind = caseHiding(friction, {20261159, 88, "ode", "pendulum", ""}, plugins);
+  const GapReport report = analysed(blind, plugins, {"asymmetric_friction", "coulomb_friction"});
+  EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction")) << toPlainText(report);
+}
+
+// Sensors of counts alone: a weight, with four numbers, took 3 % off what an offset had left below the noise floor, and
+// was named without a rival.
+TEST(Mended, WhatTakesALittleOfTheNoiseDoesNotRefuteTheSimpler) {
+  const Plugins plugins;
+  const PlacedEffect offset{"position_offset", "rig.shoulder", {{"offset_rad", -0.206839}}};
+  const BlindCase blind = caseHiding(offset, {20261159, 85, "ode", "pendulum", ""}, plugins);
+  const GapReport report = analysed(blind, plugins, {"payload", "position_offset"});
+  EXPECT_THAT(namedIn(report), testing::ElementsAre("position_offset", "or payload")) << toPlainText(report);
+}
+
+// Three hundred times as much slip as is usual: looked at in usual sizes, the recordings seemed not to feel it.
+TEST(Mended, SlipIsLookedForInSizesThatAreFelt) {
+  const Plugins plugins;
+  const PlacedEffect slip{"slip", "floor", {{"slip_m_s_n", 5.959071}}};
+  const BlindCase blind = caseHiding(slip, {20261159, 34, "ode", "carpet", ""}, plugins);
+  const GapReport report = analysed(blind, plugins, {"slip", "ground_slope"});
+  EXPECT_THAT(namedIn(report), testing::ElementsAre("slip")) << toPlainText(report);
+}
+
 }  // namespace
 }  // namespace btr::prove

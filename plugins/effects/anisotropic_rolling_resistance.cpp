@@ -4,7 +4,8 @@
 /// ball loses a + ax, along w a + ay; between them it also turns aside, to where it rolls more easily (the ellipse of
 /// greatest dissipation). Acts while the ball lies on the floor. The elliptic limit with greatest dissipation is that
 /// of sliding friction (Goyal, Ruina and Papadopoulos 1991, Planar sliding with dry friction), carried over to rolling
-/// by definition. Neutral: ax = ay = 0; α then says nothing.
+/// by definition. Neutral: ax = ay = 0; α then says nothing. α stays within an eighth of a turn: beyond, the axes would
+/// only change places.
 #include <cmath>
 #include <memory>
 
@@ -16,7 +17,7 @@ class AnisotropicRollingResistance final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"along_x_m_s2", "m/s²", "speed lost per second when rolling along the pile's x", 0, 3, 0.4, 0.0},
             {"along_y_m_s2", "m/s²", "speed lost per second when rolling along the pile's y", 0, 3, 0.2, 0.0},
-            {"pile_rad", "rad", "turn of the pile about z", -1.5708, 1.5708, 0}};
+            {"pile_rad", "rad", "turn of the pile about z", -0.7854, 0.7854, 0}};
   }
   Place place() const override { return Place::ball; }
   std::vector<std::string> contains() const override { return {"rolling_resistance"}; }

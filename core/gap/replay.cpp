@@ -1,8 +1,10 @@
 #include "core/gap/replay.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/sim/world.h"
 #include "core/spec/parameter.h"
@@ -159,10 +161,13 @@ class Prescribed {
   std::vector<std::size_t> torques_;
 };
 
-/// A start is what the sensors said: where an effect puts a sensor off, the joint itself stands elsewhere.
-void standAsMeasured(World& world, const Binding& binding, const StartState& start) {
+/// Puts all robots where a start says and makes them forget. A start is what the sensors said: where an effect puts a
+/// sensor off, the joint itself stands elsewhere, unless its motion is prescribed.
+void stand(World& world, const Binding& binding, const StartState& start, bool prescribed) {
   for (std::size_t i = 0; i < start.robots.size(); ++i) {
     const StartState::Robot& robot = start.robots[i];
+    world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+    if (prescribed) continue;
     const std::vector<double> said = world.robot(i).position;
     std::vector<double> positions = robot.positions;
     for (const auto* list : {&binding.measured, &binding.startOnly})
@@ -172,6 +177,30 @@ void standAsMeasured(World& world, const Binding& binding, const StartState& sta
     if (positions != robot.positions)
       world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, positions, robot.rates);
   }
+}
+
+/// Whether anything remembers: its next steps follow from more than where everything is and how it moves.
+bool remembers(const Scene& scene) {
+  const auto isWound = [](const Drive& drive) { return drive.i != 0 || drive.gearCompliance > 0; };
+  return std::ranges::any_of(scene.effects, [](const SceneEffect& e) { return e.effect->stateSize() > 0; }) ||
+         std::ranges::any_of(scene.robots, [&](const SceneRobot& r) { return std::ranges::any_of(r.drives, isWound); });
+}
+
+/// Where a window that begins in the middle is run in from: what a delay, play or an elastic gear remembers there no
+/// recording says.
+struct Earlier {
+  std::size_t row;
+  StartState state;
+};
+
+std::optional<Earlier> beforeWindow(const Scene& scene, const Recording& recording, const Binding& binding,
+                                    std::size_t first) {
+  constexpr double runIn_s = 0.3;
+  if (first == 0 || !remembers(scene)) return std::nullopt;
+  const std::vector<double>& time = recording.columns[0];
+  std::size_t row = first;
+  while (row > 0 && time[first] - time[row] < runIn_s) --row;
+  return Earlier{row, startState(scene, recording, binding, row)};
 }
 
 }  // namespace
@@ -195,24 +224,36 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     prescribed.start(start);
   }
 
+  const std::optional<Earlier> earlier =
+      prescribed.any() ? std::nullopt : beforeWindow(scene, recording, binding, first);
   World world(scene, seed);
-  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
-    const StartState::Robot& robot = start.robots[i];
-    world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
-  }
-  if (!prescribed.any()) standAsMeasured(world, binding, start);
-  for (std::size_t i = 0; i < scene.robots.size(); ++i)
-    if (start.robots[i].rests) world.rest(i);
-  for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
-
   auto inputs = restingInputs(scene, start);
   for (const Input& input : binding.inputs)
     if (input.what == Input::What::command)
       inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();
-  // Inputs of a window that begins in the middle: the last ones that were given.
-  for (std::size_t row = 0; row < first; ++row) setInputs(recording, binding, row, inputs);
-
   const std::vector<double>& time = recording.columns[0];
+
+  // Inputs of a window that begins in the middle: the last ones that were given.
+  const std::size_t begins = earlier ? earlier->row : first;
+  for (std::size_t row = 0; row < begins; ++row) setInputs(recording, binding, row, inputs);
+  if (earlier) {
+    stand(world, binding, earlier->state, false);
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, earlier->state.balls[i]);
+    for (std::size_t row = begins; row < first; ++row) {
+      setInputs(recording, binding, row, inputs);
+      world.advance(inputs, time[row + 1] - time[row]);
+    }
+    for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+      const StartState::Robot& robot = start.robots[i];
+      world.moveRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+    }
+  } else {
+    stand(world, binding, start, prescribed.any());
+    for (std::size_t i = 0; i < scene.robots.size(); ++i)
+      if (start.robots[i].rests) world.rest(i);
+  }
+  for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
+
   for (std::size_t row = first; row < last; ++row) {
     if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};
     readMeasured(world, scene, recording, binding, row, replayed.values);

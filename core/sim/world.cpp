@@ -195,6 +195,27 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
   impl_->checkFault();
 }
 
+void World::moveRobot(std::size_t index, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
+                      const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates) {
+  WorldRobot& robot = impl_->robots.at(index);
+  std::vector<double> joints(positions.begin(), positions.end());
+  for (std::size_t j = 0; j < robot.drives.size(); ++j)
+    joints.at(static_cast<std::size_t>(robot.body->joints[j].modelJoint)) +=
+        robot.body->joints[j].position - robot.drives[j].measured;
+  robot.body->set(base, velocity, spin, joints, rates);
+  if (robot.alone) robot.alone->begin(*robot.body);
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    JointDrive& drive = robot.drives[j];
+    const double rate = robot.body->joints[j].rate;
+    drive.motorRate += rate - drive.rate;
+    drive.rate = rate;
+    drive.gear = {};
+  }
+  robot.first = true;
+  impl_->sense(robot, 0);
+  impl_->checkFault();
+}
+
 void World::rest(std::size_t index) {
   WorldRobot& robot = impl_->robots.at(index);
   impl_->weighLoads(robot);

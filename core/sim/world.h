@@ -49,6 +49,10 @@ class World {
   /// velocity.
   void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
                 const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates);
+  /// The same without forgetting: what effects, elastic gears and integrators remember of the steps before stays.
+  /// `positions` are what the sensors shall say: a joint stays as far from its sensor's reading as it is.
+  void moveRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
+                 const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates);
   /// Takes it that the robot's joints have rested where they are, each servo holding the weight that its joint carries:
   /// teeth lie on the flank that they push, elastic gears are wound up. (setRobot leaves gaps in their middle and gears
   /// slack.)

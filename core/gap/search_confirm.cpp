@@ -13,6 +13,7 @@ namespace {
 
 constexpr int lastIterations = 15;
 constexpr double worthMore = 1.5;                     // by cost, of the best: other whole numbers and sizes are tried
+constexpr double leastToLeap = 1.3, mostToLeap = 10;  // mean squared error: with more, a better start does not help
 constexpr double leastToScan = 1.03, mostToScan = 4;  // mean squared error: with less nothing is missed; with more, it
                                                       // is not a valley's bottom
 constexpr double largeExcess = 1;                     // mean squared error above that of noise
@@ -98,6 +99,40 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
   }
 }
 
+/// Play of a quarter of its width, crossed slowly, is a side minimum of play: what is left then is no valley, and no
+/// step by step leads out of it. The effect begins again far off, its other numbers where they usually are; calibrated
+/// numbers follow before it is set free.
+void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
+  constexpr std::array<double, 3> sizes{0.5, 2, 4};
+  constexpr int iterations = 8;
+  constexpr double better = 0.98;
+  const std::size_t last = fit.model.effects.size() - 1;
+  std::vector<FitModel> moved;
+  std::vector<FitJob> jobs;
+  for (const double size : sizes) {
+    FitModel model = resized(fit.model, size);
+    for (std::size_t i = 0; i < model.values.size(); ++i) {
+      const FitParameter& p = model.parameters[i];
+      if (p.effect == static_cast<int>(last) && !p.hasNeutral) model.values[i] = p.given;
+    }
+    moved.push_back(model);
+    jobs.push_back({model.without(last).withFixed(problem_, model.simulator(problem_).effects.back()), fit.shifts});
+  }
+  const std::vector<Fit> along = tryFits(jobs, iterations, stage, at, at);
+  std::vector<FitJob> free;
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    if (!std::isfinite(along[k].cost)) continue;
+    auto followed = along[k].model.values.begin();
+    for (std::size_t i = 0; i < moved[k].values.size(); ++i)
+      if (moved[k].parameters[i].effect != static_cast<int>(last)) moved[k].values[i] = *followed++;
+    free.push_back({moved[k], along[k].shifts});
+  }
+  const std::vector<Fit> again = tryFits(free, lastIterations, stage, at, at);
+  if (again.empty()) return;
+  const Fit& best = *std::ranges::min_element(again, costsLess);
+  if (best.cost < better * fit.cost) fit = best;
+}
+
 void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const {
   std::vector<FitJob> jobs;
   std::vector<std::size_t> owner;
@@ -151,6 +186,7 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     if (fit.cost > worthMore * least) continue;
     climbWholeNumbers(fit, what, half);
     const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
+    if (left > leastToLeap && left < mostToLeap && fit.cost <= least) leap(fit, what, half);
     // What leaves no more than the noise may still stop behind a better one.
     if ((left > leastToScan || fit.cost > leastToScan * least) && left < mostToScan) scan(fit, what, half);
   }

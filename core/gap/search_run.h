@@ -104,6 +104,7 @@ class SearchRun {
   bool isAtLeast(const Fit& fit) const;
   void shake(std::vector<Fit>& fits, const std::string& stage, double at) const;
   void scan(Fit& fit, const std::string& stage, double at) const;
+  void leap(Fit& fit, const std::string& stage, double at) const;
   std::vector<Fit> basesOf(const SearchResult& result, bool first) const;
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
               std::string& reason) const;

@@ -28,6 +28,19 @@ FitModel resized(FitModel model, double size) {
   return model;
 }
 
+/// A model with the last effect as it is and all other numbers as a fit without that effect has them.
+FitModel following(FitModel model, const Fit& others) {
+  auto followed = others.model.values.begin();
+  for (std::size_t i = 0; i < model.values.size(); ++i)
+    if (model.parameters[i].effect + 1 != static_cast<int>(model.effects.size())) model.values[i] = *followed++;
+  return model;
+}
+
+/// The same model with its last effect held.
+FitModel held(const FitProblem& problem, const FitModel& model) {
+  return model.without(model.effects.size() - 1).withFixed(problem, model.simulator(problem).effects.back());
+}
+
 }  // namespace
 
 bool SearchRun::isAtLeast(const Fit& fit) const {
@@ -71,25 +84,21 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
   constexpr std::array<double, 2> sizes{0.9, 1.1};
   constexpr int iterations = 8, mostRounds = 4;
   constexpr double better = 0.998, inReach = 1.02;
-  const std::size_t last = fit.model.effects.size() - 1;
   for (int round = 0; round < mostRounds; ++round) {
     std::vector<FitModel> moved;
     std::vector<FitJob> jobs;
     for (const double size : sizes) {
       const FitModel model = resized(fit.model, size);
-      const FitModel held = model.without(last).withFixed(problem_, model.simulator(problem_).effects.back());
-      if (model.values == fit.model.values || held.parameters.empty()) continue;
+      const FitModel others = held(problem_, model);
+      if (model.values == fit.model.values || others.parameters.empty()) continue;
       moved.push_back(model);
-      jobs.push_back({held, fit.shifts});
+      jobs.push_back({others, fit.shifts});
     }
     const std::vector<Fit> along = tryFits(jobs, iterations, stage, at, at);
     std::vector<Fit> free;
     for (std::size_t k = 0; k < along.size(); ++k) {
       if (!(along[k].cost < inReach * fit.cost)) continue;
-      auto followed = along[k].model.values.begin();
-      for (std::size_t i = 0; i < moved[k].values.size(); ++i)
-        if (moved[k].parameters[i].effect != static_cast<int>(last)) moved[k].values[i] = *followed++;
-      free.push_back({moved[k], along[k].shifts, along[k].cost});
+      free.push_back({following(moved[k], along[k]), along[k].shifts, along[k].cost});
     }
     if (free.empty()) return;
     const std::vector<Fit> again = fitOn(free, lastIterations, stage, at, at);
@@ -116,16 +125,17 @@ void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
       if (p.effect == static_cast<int>(last) && !p.hasNeutral) model.values[i] = p.given;
     }
     moved.push_back(model);
-    jobs.push_back({model.without(last).withFixed(problem_, model.simulator(problem_).effects.back()), fit.shifts});
+    jobs.push_back({held(problem_, model), fit.shifts});
   }
-  const std::vector<Fit> along = tryFits(jobs, iterations, stage, at, at);
+  // Where nothing follows, nothing need be held.
+  std::vector<Fit> along;
+  if (!jobs[0].model.parameters.empty()) along = tryFits(jobs, iterations, stage, at, at);
   std::vector<FitJob> free;
-  for (std::size_t k = 0; k < along.size(); ++k) {
-    if (!std::isfinite(along[k].cost)) continue;
-    auto followed = along[k].model.values.begin();
-    for (std::size_t i = 0; i < moved[k].values.size(); ++i)
-      if (moved[k].parameters[i].effect != static_cast<int>(last)) moved[k].values[i] = *followed++;
-    free.push_back({moved[k], along[k].shifts});
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    if (along.empty())
+      free.push_back({moved[k], fit.shifts});
+    else if (std::isfinite(along[k].cost))
+      free.push_back({following(moved[k], along[k]), along[k].shifts});
   }
   const std::vector<Fit> again = tryFits(free, lastIterations, stage, at, at);
   if (again.empty()) return;

@@ -233,12 +233,17 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
       inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double>& time = recording.columns[0];
 
+  const auto begin = [&](const StartState& state) {
+    stand(world, binding, state, prescribed.any());
+    for (std::size_t i = 0; i < scene.robots.size(); ++i)
+      if (state.robots[i].rests) world.rest(i);
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, state.balls[i]);
+  };
+  begin(earlier ? earlier->state : start);
   // Inputs of a window that begins in the middle: the last ones that were given.
   const std::size_t begins = earlier ? earlier->row : first;
   for (std::size_t row = 0; row < begins; ++row) setInputs(recording, binding, row, inputs);
   if (earlier) {
-    stand(world, binding, earlier->state, false);
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, earlier->state.balls[i]);
     for (std::size_t row = begins; row < first; ++row) {
       setInputs(recording, binding, row, inputs);
       world.advance(inputs, time[row + 1] - time[row]);
@@ -247,12 +252,8 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
       const StartState::Robot& robot = start.robots[i];
       world.moveRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
     }
-  } else {
-    stand(world, binding, start, prescribed.any());
-    for (std::size_t i = 0; i < scene.robots.size(); ++i)
-      if (start.robots[i].rests) world.rest(i);
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
   }
-  for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
 
   for (std::size_t row = first; row < last; ++row) {
     if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};

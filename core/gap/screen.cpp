@@ -86,12 +86,9 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   std::vector<Try> tries;
   /// How much the residuals feel of it.
   const auto tryOut = [&](const Values& variant) {
-    Try attempt{variant, {}, {}};
-    if (const auto change = changeBy(variant)) {
-      attempt.change = *change;
-    } else {
-      return 0.0;
-    }
+    const auto change = changeBy(variant);
+    if (!change) return 0.0;
+    Try attempt{variant, *change, {}};
     const double all = attempt.change.squaredNorm();
     attempt.left = projector.leftOf(attempt.change);
     const double norm = attempt.left.squaredNorm();

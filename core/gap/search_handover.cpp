@@ -38,10 +38,8 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
   // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
   // smaller friction but another motion.
-  const std::vector<std::string> simpler = problem_.library.make(own.effect)->contains();
-  const auto isSimpler = [&](const EffectCandidate& candidate) {
-    return candidate.at == own.at && std::ranges::find(simpler, candidate.effect) != simpler.end();
-  };
+  const EffectCandidate whole{own.effect, own.at, {}, {}};
+  const auto isSimpler = [&](const EffectCandidate& candidate) { return isRicher(whole, candidate.placed({})); };
   for (EffectCandidate& candidate : candidates)
     if (!isSimpler(candidate))
       for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);

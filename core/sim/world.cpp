@@ -174,11 +174,22 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
 World::World(const Scene& scene, std::uint64_t seed) : impl_(std::make_unique<Impl>(scene, seed)) {}
 World::~World() = default;
 
+namespace {
+
+/// Where its joints and its root frame are and how they move; nothing that it remembers.
+void place(WorldRobot& robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
+           const Eigen::Vector3d& spin, std::span<const double> joints, std::span<const double> rates) {
+  robot.body->set(base, velocity, spin, joints, rates);
+  if (robot.alone) robot.alone->begin(*robot.body);
+  robot.first = true;
+}
+
+}  // namespace
+
 void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,
                      const Eigen::Vector3d& spin, std::span<const double> positions, std::span<const double> rates) {
   WorldRobot& robot = impl_->robots.at(index);
-  robot.body->set(base, velocity, spin, positions, rates);
-  if (robot.alone) robot.alone->begin(*robot.body);
+  place(robot, base, velocity, spin, positions, rates);
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
     drive.effects.reset();
@@ -190,7 +201,6 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
     drive.fresh = true;
   }
   robot.allDrives = 0;
-  robot.first = true;
   impl_->sense(robot, 0);
   impl_->checkFault();
 }
@@ -202,8 +212,7 @@ void World::moveRobot(std::size_t index, const Eigen::Isometry3d& base, const Ei
   for (std::size_t j = 0; j < robot.drives.size(); ++j)
     joints.at(static_cast<std::size_t>(robot.body->joints[j].modelJoint)) +=
         robot.body->joints[j].position - robot.drives[j].measured;
-  robot.body->set(base, velocity, spin, joints, rates);
-  if (robot.alone) robot.alone->begin(*robot.body);
+  place(robot, base, velocity, spin, joints, rates);
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
     const double rate = robot.body->joints[j].rate;
@@ -211,7 +220,6 @@ void World::moveRobot(std::size_t index, const Eigen::Isometry3d& base, const Ei
     drive.rate = rate;
     drive.gear = {};
   }
-  robot.first = true;
   impl_->sense(robot, 0);
   impl_->checkFault();
 }

@@ -12,11 +12,7 @@ namespace {
 /// and with what its sensor says, from the same rows of a replay from the beginning.
 double strayOfWindow(const PlacedEffect& effect) {
   GapProblem problem = recordedInItsSteps({{}, {effect}});
-  const TemporaryFolder folder;
-  folder.write("rig.urdf", rigUrdf);
-  SceneSpec spec = problem.scene;
-  spec.directory = folder.file(".");
-  const Scene scene = makeScene(spec, problem.models, {{}, {effect}}, library().make);
+  const Scene scene = makeScene(problem.scene, problem.models, {{}, {effect}}, library().make);
   Recording& recording = problem.recordings[0];
   recording.channels.push_back("rig.hinge.velocity_rad_s");
   recording.columns.emplace_back(recording.rows(), 0.0);

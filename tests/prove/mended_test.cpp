@@ -31,8 +31,11 @@ GapProblem problemOf(const BlindCase& blind, const Plugins& plugins) {
   return problem;
 }
 
-/// What the analysis makes of it, from `effects` alone.
-GapReport analysed(const BlindCase& blind, const Plugins& plugins, const std::vector<std::string>& effects) {
+/// What the analysis makes of such a case, from `effects` alone.
+GapReport analysedHiding(const PlacedEffect& hidden, const CaseRequest& request,
+                         const std::vector<std::string>& effects) {
+  const Plugins plugins;
+  const BlindCase blind = caseHiding(hidden, request, plugins);
   AnalysisOptions options;
   options.effects = effects;
   return analyse(problemOf(blind, plugins), {plugins.library.make, plugins.library.names}, options);
@@ -51,11 +54,10 @@ std::vector<std::string> namedIn(const GapReport& report) {
 // A weight beside a small arm, and a servo of which nothing is trusted: gravity that leans and a stronger servo are the
 // same law. A fit of the weight that began far away ended in a side minimum, so that only gravity was named.
 TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
-  const Plugins plugins;
   const PlacedEffect payload{
       "payload", "rig.arm", {{"mass_kg", 0.023162}, {"x_m", 0.06206}, {"y_m", 0.086374}, {"z_m", 0.032537}}};
-  const BlindCase blind = caseHiding(payload, {20261150, 1, "ode", "pendulum", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"gravity_tilt", "payload", "position_offset"});
+  const GapReport report =
+      analysedHiding(payload, {20261150, 1, "ode", "pendulum", ""}, {"gravity_tilt", "payload", "position_offset"});
   EXPECT_THAT(namedIn(report), testing::AnyOf(testing::ElementsAre("gravity_tilt", "or payload"),
                                               testing::ElementsAre("payload", "or gravity_tilt")))
       << toPlainText(report);
@@ -64,10 +66,8 @@ TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {
 // Wind over a ball that rolls until it stops: its fit ended in a rough valley of wind and rolling resistance, 5 % above
 // what the true numbers leave, and a slope, which left less than that, was named alone.
 TEST(Mended, WindOverARollingBallIsNotCalledASlopeAlone) {
-  const Plugins plugins;
   const PlacedEffect wind{"constant_wind", "world", {{"x_m_s", 3.35076}, {"y_m_s", -3.70085}}};
-  const BlindCase blind = caseHiding(wind, {20261155, 24, "ode", "carpet", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"constant_wind", "ground_slope"});
+  const GapReport report = analysedHiding(wind, {20261155, 24, "ode", "carpet", ""}, {"constant_wind", "ground_slope"});
   EXPECT_THAT(namedIn(report),
               testing::AnyOf(testing::Contains("constant_wind"), testing::Contains("or constant_wind")))
       << toPlainText(report);
@@ -120,39 +120,34 @@ TEST(Mended, AServoInItsPlayIsFollowedFromTheFlankThatItRestedOn) {
 // Dry friction that stops a weak servo again and again: a fit of it alone ended in a side minimum, and friction that is
 // larger at rest, with two numbers more, was named.
 TEST(Mended, DryFrictionIsFoundFromTheRicherFrictionThatContainsIt) {
-  const Plugins plugins;
   const PlacedEffect friction{"coulomb_friction", "rig.shoulder", {{"torque_nm", 0.054504}}};
-  const BlindCase blind = caseHiding(friction, {20261148, 12, "ode", "pendulum", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"stribeck_friction", "coulomb_friction"});
+  const GapReport report =
+      analysedHiding(friction, {20261148, 12, "ode", "pendulum", ""}, {"stribeck_friction", "coulomb_friction"});
   EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction")) << toPlainText(report);
 }
 
 // Nearly as much dry friction as the servo is strong. From friction that differs by direction, both directions the
 // same, the way to it was never gone: a hundredth of what was taken away does nothing.
 TEST(Mended, DryFrictionTakesThePlaceOfFrictionByDirection) {
-  const Plugins plugins;
   const PlacedEffect friction{"coulomb_friction", "rig.shoulder", {{"torque_nm", 0.852713}}};
-  const BlindCase blind = caseHiding(friction, {20261159, 88, "ode", "pendulum", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"asymmetric_friction", "coulomb_friction"});
+  const GapReport report =
+      analysedHiding(friction, {20261159, 88, "ode", "pendulum", ""}, {"asymmetric_friction", "coulomb_friction"});
   EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction")) << toPlainText(report);
 }
 
 // Sensors of counts alone: a weight, with four numbers, took 3 % off what an offset had left below the noise floor, and
 // was named without a rival.
 TEST(Mended, WhatTakesALittleOfTheNoiseDoesNotRefuteTheSimpler) {
-  const Plugins plugins;
   const PlacedEffect offset{"position_offset", "rig.shoulder", {{"offset_rad", -0.206839}}};
-  const BlindCase blind = caseHiding(offset, {20261159, 85, "ode", "pendulum", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"payload", "position_offset"});
+  const GapReport report =
+      analysedHiding(offset, {20261159, 85, "ode", "pendulum", ""}, {"payload", "position_offset"});
   EXPECT_THAT(namedIn(report), testing::ElementsAre("position_offset", "or payload")) << toPlainText(report);
 }
 
 // Three hundred times as much slip as is usual: looked at in usual sizes, the recordings seemed not to feel it.
 TEST(Mended, SlipIsLookedForInSizesThatAreFelt) {
-  const Plugins plugins;
   const PlacedEffect slip{"slip", "floor", {{"slip_m_s_n", 5.959071}}};
-  const BlindCase blind = caseHiding(slip, {20261159, 34, "ode", "carpet", ""}, plugins);
-  const GapReport report = analysed(blind, plugins, {"slip", "ground_slope"});
+  const GapReport report = analysedHiding(slip, {20261159, 34, "ode", "carpet", ""}, {"slip", "ground_slope"});
   EXPECT_THAT(namedIn(report), testing::ElementsAre("slip")) << toPlainText(report);
 }
 

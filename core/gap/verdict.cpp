@@ -5,6 +5,8 @@
 #include <map>
 
 #include "core/gap/report_figures.h"
+#include "core/gap/residual.h"
+#include "core/gap/self_excited.h"
 
 namespace btr {
 namespace {
@@ -103,6 +105,19 @@ RestColour colourOf(const FitProblem& problem, const Eigen::VectorXd& residuals)
   }
   if (pairs == 0 || squares <= 0) return {};
   return {products / pairs / (squares / static_cast<double>(residuals.size())), pairs};
+}
+
+/// A servo that hunts: what it does grows out of nothing that was recorded, so that fits find no way to its cause.
+std::string swingText(const FitProblem& problem, const GapReport& report) {
+  const auto swing = selfExcitedSwing(problem, report.trials);
+  if (!swing) return "";
+  const std::string unit = unitOfChannel(swing->channel);
+  return "In " + swing->trial + ", from " + digits(swing->from_s, 2) + " to " + digits(swing->to_s, 2) + " s, " +
+         swing->channel + " swings at " + digits(swing->frequency_hz, 2) + " Hz by ±" + digits(swing->amplitude, 2) +
+         (unit.empty() ? "" : " " + unit) +
+         ", where its command and the simulator have less than a fifth of that: the servo may hunt by itself, as a "
+         "gear that gives way or plays, a delay, a lagging sensor or a large gain make it. No fit begun where it does "
+         "not hunt finds the cause; record it with gains at which it does not. ";
 }
 
 /// What the verdict rests on; mean squared errors in noise floors².
@@ -266,6 +281,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
     report.sentence += "Nothing in the recordings moves by more than " + toText(leastMotion) + noiseFloors +
                        ": they can show little. ";
+  if (report.verdict == Verdict::unexplained || e.beyondStep() > clearlyLeft)
+    report.sentence += swingText(problem, report);
   if (!report.remainder.on.empty())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +
                        " would take " + wholePercent(report.remainder.shareOfRest) +

@@ -191,5 +191,33 @@ TEST(Verdict, ACurveThatDoesBetterThanTheEffectsMakesThemDoubtful) {
   EXPECT_EQ(judged(400, 100, 1.1, true, true).verdict, Verdict::missingPhysics) << "nothing is left to do better";
 }
 
+TEST(Verdict, AServoThatHuntsIsSaidBesideWhatIsUnexplained) {
+  // Four seconds; the last of them swings at 9.75 Hz, though nothing asks for it, in thirds that tell it to 0.75 Hz.
+  FitProblem problem = recorded();
+  FitTrial& trial = problem.trials[0];
+  trial.recording.channels.push_back("rig.hinge.command_rad");
+  trial.recording.columns = {{}, {}, {}};
+  trial.binding.inputs = {{Binding::Input::What::command, 0, 0, 2}};
+  GapReport report;
+  report.trials.resize(1);
+  report.trials[0].name = "swing.csv";
+  GapReport::Series series;
+  series.channel = "rig.hinge.position_rad";
+  series.noiseFloor = trial.noiseFloor[0];
+  for (int row = 0; row <= 400; ++row) {
+    const double t = 0.01 * row;
+    const double swing = t > 3 ? 0.5 * std::sin(2 * M_PI * 9.75 * t) : 0;
+    trial.recording.columns[0].push_back(t);
+    trial.recording.columns[1].push_back(std::sin(t) + swing);
+    trial.recording.columns[2].push_back(std::sin(t));
+    series.withEffects.push_back(std::sin(t));
+  }
+  series.recorded = trial.recording.columns[1];
+  report.trials[0].series = {series};
+  EXPECT_THAT(judged(400, 100, 100, false, false, problem, {}, report).sentence,
+              HasSubstr("In swing.csv, from 2.7 to 4 s, rig.hinge.position_rad swings at 9.8 Hz by ±"));
+  EXPECT_THAT(judged(400, 100, 1.1, true, false, problem, {}, report).sentence, Not(HasSubstr("swings")));
+}
+
 }  // namespace
 }  // namespace btr

@@ -209,6 +209,7 @@ SearchResult SearchRun::run() {
   result.final = result.calibrated;
   holdUntold(result);
 
+  bool recalibrated = false;
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
     if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
@@ -229,6 +230,11 @@ SearchResult SearchRun::run() {
     for (const Tried& each : tried) remember(result.attempts, each.attempt);
     if (winner < tried.size()) {
       result.final = converged(tried[winner].scored, "confirming", to);
+      if (stage == 0 && !recalibrated && calibrateFrom(result)) {
+        recalibrated = true;
+        --stage;
+        continue;
+      }
       result.ladder.push_back(step("+ " + tried[winner].attempt.candidate.text(), result.final));
     } else if (Scored pair; static_cast<int>(result.final.fit.model.effects.size()) + 2 <= options_.maximumEffects &&
                             excessOf(result.final) > unexplainedExcess && promisesAPair(tried) &&

@@ -50,13 +50,9 @@ void SearchRun::prune(SearchResult& result) {
       jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
     auto scored = fitAndScore(jobs, result.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
-      const auto matters = [&](const Scored& dropped) {
-        const Comparison comparison = compare(dropped.blocks, result.final.blocks);
-        return comparison.t >= 2 && comparison.gain >= leastGain;
-      };
-      if (matters(scored[i])) continue;
+      if (isMissed(scored[i], result.final)) continue;
       bringToStep(scored[i], "dropping each in turn", 0.86);
-      if (matters(scored[i])) continue;
+      if (isMissed(scored[i], result.final)) continue;
       const PlacedEffect& dropped = result.final.fit.model.effects[i];
       result.ladder.push_back(step("− " + dropped.effect + " at " + dropped.at, scored[i]));
       for (Attempt& attempt : result.attempts)

@@ -23,6 +23,12 @@ inline constexpr double felt = 0.5;          // noise floors, all residuals toge
 inline constexpr double farWorse = 2;        // by cost: no winner at any step
 inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at which what was accepted is fitted on
 
+/// Whether a model without something predicts worse than the one with it.
+inline bool isMissed(const Scored& without, const Scored& with) {
+  const Comparison comparison = compare(without.blocks, with.blocks);
+  return comparison.t >= 2 && comparison.gain >= leastGain;
+}
+
 inline bool costsLess(const Fit& a, const Fit& b) { return a.cost < b.cost; }
 
 /// One search from calibration to rivals.
@@ -119,6 +125,9 @@ class SearchRun {
   /// Numbers that were held and are felt beside what was added: a servo that saturates with the rotor that was left out
   /// alone. Fitted again with them where that helps.
   void giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const;
+  /// Of the first effect: true if the calibrated numbers, begun where the effect left them, do as well without it. They
+  /// are the calibrated simulator then, and the search begins anew.
+  bool calibrateFrom(SearchResult& result);
   void prune(SearchResult& result);
   void takeApart(SearchResult& result);
   bool isRicher(const EffectCandidate& candidate, const PlacedEffect& effect) const;

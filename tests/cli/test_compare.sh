@@ -13,7 +13,7 @@ for arm in parameters recordings; do
     -e 's/"after_stage": 1/"after_stage": 0/' -e "s#\.\./scenes#$root/resources/scenes#" \
     "$root/resources/experiments/worn-knee-$arm.json" > "$folder/worn-knee-$arm.json"
 done
-sed -e 's#\.\./experiments/##' -e 's/\[1, 2, 3, 4, 5\]/[1]/' "$root/resources/comparisons/worn-knee.json" > "$folder/c.json"
+sed -e 's#\.\./experiments/##' -e 's/\[1, [0-9, ]*\]/[1]/' "$root/resources/comparisons/worn-knee.json" > "$folder/c.json"
 expect 0 "a small comparison" "$btr" compare "$folder/c.json" --db "$folder/a.db" --quiet --csv "$folder/c.csv"
 says out "parameters alone"
 [ "$(wc -l < "$folder/c.csv")" = 3 ] || fail "a header and two rows were expected"

@@ -16,6 +16,7 @@ namespace {
 struct DataArguments {
   std::string database, csv, what, from;
   Id run = 0, individual = 0;
+  std::vector<Id> runs;
   std::size_t largestTrace_kib = largestKeptTrace_bytes / 1024;
 };
 
@@ -52,7 +53,7 @@ void exportCommand(const DataArguments& a, Shell& shell) {
 void mergeCommand(const DataArguments& a, Shell& shell) {
   Database::open(a.from, Database::Mode::readOnly);  // before a database is made for it
   Database db = Database::open(a.database, Database::Mode::create);
-  const MergedRuns merged = db.merge(a.from, 1024 * a.largestTrace_kib);
+  const MergedRuns merged = db.merge(a.from, 1024 * a.largestTrace_kib, a.runs);
   if (shell.json)
     printJson({{"experiments", merged.experiments}, {"runs", merged.runs}, {"individuals", merged.individuals}});
   else
@@ -83,13 +84,15 @@ void addDataCommands(CLI::App& app, Shell& shell) {
       ->check(CLI::IsMember({"generations", "individuals", "gaps", "simulators", "measurements", "policies", "steps"}));
   exportApp->callback([a, &shell] { exportCommand(*a, shell); });
 
-  CLI::App* mergeApp = app.add_subcommand("merge", "copy all runs of another database into this one");
+  CLI::App* mergeApp = app.add_subcommand("merge", "copy the runs of another database into this one");
   mergeApp->add_option("from", a->from, "database that is read")->required();
   mergeApp->add_option("--db", a->database, "database that takes them; made if it is not there")->required();
   mergeApp
       ->add_option("--largest-trace-kib", a->largestTrace_kib, "larger traces stay behind; a replay makes them again")
       ->transform(wholeNumber(0, 1 << 20))
       ->capture_default_str();
+  mergeApp->add_option("--runs", a->runs, "these runs of it alone, with their experiments and recordings")
+      ->transform(wholeNumber(1));
   mergeApp->callback([a, &shell] { mergeCommand(*a, shell); });
 }
 

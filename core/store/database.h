@@ -154,8 +154,9 @@ class Database {
   /// Copies all experiments, runs, grids and recordings of another database, with new numbers; experiments of the same
   /// name and specification become one. The other file is only read. Traces of more than `largestTrace` bytes stay
   /// behind (their hashes come along: a replay makes them again). Refuses, and copies nothing, where a run or grid is
-  /// in both.
-  MergedRuns merge(const std::string& path, std::size_t largestTrace);
+  /// in both. With `runs` (the other database's numbers) these alone come along, with their experiments and recordings,
+  /// and no grid or rig; one that is not there is refused.
+  MergedRuns merge(const std::string& path, std::size_t largestTrace, const std::vector<Id>& runs = {});
 
  private:
   explicit Database(std::unique_ptr<Connection> connection);

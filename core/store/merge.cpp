@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/spec/error.h"
 #include "core/store/connection.h"
@@ -85,6 +86,45 @@ class Schema {
   std::map<std::pair<std::string, std::string>, std::vector<Key>> keys_;
 };
 
+/// Which rows of the other database are copied: all, or those of some runs.
+class Choice {
+ public:
+  Choice(const Schema& schema, const std::vector<Id>& runs) : schema_(schema) {
+    for (const Id run : runs) list_ += (list_.empty() ? "(" : ", ") + std::to_string(run);
+    if (!list_.empty()) list_ += ")";
+  }
+  bool isAll() const { return list_.empty(); }
+  /// A condition on a row of the table; empty where there is none.
+  std::string of(const std::string& table) const {
+    // Files are shared by content.
+    if (isAll() || table == "stored_file") return "";
+    if (table == "run") return "id IN " + list_;
+    if (table == "experiment") return "id IN (SELECT experiment_id FROM other.run WHERE id IN " + list_ + ")";
+    // Grids and rigs are no runs.
+    if (table.starts_with("grid") || table == "rig_simulator") return "0";
+    std::string all;
+    for (const Column& column : schema_.columns(table)) {
+      if (column.table == "run") return column.name + " IN " + list_;
+      if (column.table.empty() || column.table == table) continue;
+      all += (all.empty() ? "(" : " AND (") + column.name + " IS NULL OR " + column.name +
+             " IN (SELECT id FROM other." + column.table + " WHERE " + of(column.table) + "))";
+    }
+    return all;
+  }
+  /// Of the runs that are chosen.
+  std::string ofRuns(const std::string& id) const { return isAll() ? "" : " AND " + id + " IN " + list_; }
+
+ private:
+  const Schema& schema_;
+  std::string list_;
+};
+
+void refuseWhatIsMissing(const Connection& connection, const std::vector<Id>& runs, const std::string& path) {
+  for (const Id run : runs)
+    if (!Query(connection, "SELECT id FROM other.run WHERE id = ?", run).next())
+      connection.refuse("there is no run " + std::to_string(run) + " in " + path + "; nothing was copied");
+}
+
 /// Numbers inside an evidence text: ["individuals", …] and ["recordings", …] of JSON objects.
 std::string movedEvidence(const std::map<std::string, std::int64_t>& offsets) {
   std::string text = "evidence";
@@ -97,10 +137,11 @@ std::string movedEvidence(const std::map<std::string, std::int64_t>& offsets) {
   return text;
 }
 
-void refuseWhatIsThere(const Connection& connection, const std::string& path) {
+void refuseWhatIsThere(const Connection& connection, const Choice& choice, const std::string& path) {
   // `same`: the first pair of ids, ours and theirs, of rows that are the same.
-  const auto refuse = [&](const std::string& kind, const std::string& is, const std::string& why, const char* same) {
-    Query pairs(connection, same);
+  const auto refuse = [&](const std::string& kind, const std::string& is, const std::string& why,
+                          const std::string& same) {
+    Query pairs(connection, same.c_str());
     if (!pairs.next()) return;
     Id ours = 0, theirs = 0;
     pairs.get(ours, theirs);
@@ -109,7 +150,9 @@ void refuseWhatIsThere(const Connection& connection, const std::string& path) {
   };
   refuse("run", "is", " (the same experiment, seed and start)",
          "SELECT a.id, b.id FROM main.run a JOIN other.run b ON a.spec_sha256 = b.spec_sha256 AND a.seed = b.seed "
-         "AND a.started_at = b.started_at ORDER BY b.id LIMIT 1");
+         "AND a.started_at = b.started_at" +
+             choice.ofRuns("b.id") + " ORDER BY b.id LIMIT 1");
+  if (!choice.isAll()) return;
   refuse("grid", "learns what", " learns (the same points, method and seed)",
          "SELECT a.id, b.id FROM main.grid a JOIN other.grid b ON a.spec_sha256 = b.spec_sha256 "
          "AND a.method = b.method AND a.seed = b.seed ORDER BY b.id LIMIT 1");
@@ -121,7 +164,7 @@ void refuseWhatIsThere(const Connection& connection, const std::string& path) {
 
 }  // namespace
 
-MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
+MergedRuns Database::merge(const std::string& path, std::size_t largestTrace, const std::vector<Id>& runs) {
   std::string source;
   {
     // Refuses what is no database of ours, an older or a damaged one, and says why.
@@ -132,8 +175,10 @@ MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
   const Connection& c = *connection_;
   const Attached attached(c, source);
   const Schema schema(c);
+  const Choice choice(schema, runs);
   return c.write([&] {
-    refuseWhatIsThere(c, path);
+    refuseWhatIsMissing(c, runs, path);
+    refuseWhatIsThere(c, choice, path);
     c.database().exec("PRAGMA defer_foreign_keys = ON");
     std::map<std::string, std::int64_t> offsets;
     for (const std::string& table : schema.tables())
@@ -150,11 +195,17 @@ MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
       known.get(theirs, ours);
       same[theirs] = ours;
     }
+    // Runs that come alone are numbered without gaps.
+    std::map<Id, Id> renumbered;
+    for (const Id run : std::set<Id>(runs.begin(), runs.end()))
+      renumbered[run] = offsets.at("run") + static_cast<Id>(renumbered.size()) + 1;
     const auto moved = [&](const Column& column) {
       const std::string by = column.name + " + " + std::to_string(offsets.at(column.table));
-      if (column.table != "experiment" || same.empty()) return by;
+      const std::map<Id, Id> none;
+      const std::map<Id, Id>& moves = column.table == "experiment" ? same : column.table == "run" ? renumbered : none;
+      if (moves.empty()) return by;
       std::string text = "CASE " + column.name;
-      for (const auto& [from, to] : same) text += " WHEN " + std::to_string(from) + " THEN " + std::to_string(to);
+      for (const auto& [from, to] : moves) text += " WHEN " + std::to_string(from) + " THEN " + std::to_string(to);
       return text + " ELSE " + by + " END";
     };
 
@@ -182,12 +233,12 @@ MergedRuns Database::merge(const std::string& path, std::size_t largestTrace) {
                                             : column.table.empty()                                ? column.name
                                                                                                   : moved(column));
       }
-      std::string which;
+      std::string which = choice.of(table);
+      const auto also = [&](const std::string& condition) { which += (which.empty() ? "" : " AND ") + condition; };
       if (table == "experiment")
-        for (const auto& [from, to] : same)
-          which += (which.empty() ? " WHERE id NOT IN (" : ", ") + std::to_string(from);
-      if (!which.empty()) which += ")";
-      if (table == "trace") which = " WHERE length(packed) <= " + std::to_string(largestTrace);
+        for (const auto& [from, to] : same) also("id <> " + std::to_string(from));
+      if (table == "trace") also("length(packed) <= " + std::to_string(largestTrace));
+      if (!which.empty()) which = " WHERE " + which;
       // Files are shared by content.
       const std::string verb = table == "stored_file" ? "INSERT OR IGNORE INTO main." : "INSERT INTO main.";
       const int count =

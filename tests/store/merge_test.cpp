@@ -120,6 +120,39 @@ TEST_F(Merge, AllRowsOfBothAreThereAndReferToEachOtherAsBefore) {
   }
 }
 
+TEST_F(Merge, SomeRunsComeAloneWithAllThatIsTheirs) {
+  Database theirs = Database::open(pathOf("lab.db"), Mode::create);
+  fill(theirs, 1, "bad");
+  const Id wanted = fill(theirs, 2, "good");
+  fill(theirs, 3, "good");
+  // What one run brings, from a database that has it alone.
+  Database alone = Database::open(pathOf("alone.db"), Mode::create);
+  fill(alone, 2, "good");
+
+  Database ours = create();
+  const MergedRuns merged = ours.merge(pathOf("lab.db"), large, {wanted});
+  EXPECT_EQ(merged.runs, 1);
+  EXPECT_EQ(merged.experiments, 1);
+  const auto expected = counts(pathOf("alone.db"));
+  for (const auto& [table, rows] : counts(file()))
+    if (table != "stored_file") {
+      EXPECT_EQ(rows, expected.at(table)) << table;
+    }
+  EXPECT_EQ(number(file(), "SELECT count(*) FROM pragma_foreign_key_check"), 0);
+  EXPECT_EQ(ours.runs()[0].seed, 2u);
+  EXPECT_EQ(ours.runs()[0].id, 1) << "numbered without gaps";
+  EXPECT_EQ(ours.individuals(ours.runs()[0].id).size(), theirs.individuals(wanted).size());
+
+  // The others may follow, this one not again.
+  EXPECT_THAT(refusal([&] { ours.merge(pathOf("lab.db"), large, {wanted}); }), HasSubstr("run 1 is run 2 of "));
+  EXPECT_THAT(refusal([&] {
+                ours.merge(pathOf("lab.db"), large, {1, 7});
+              }),
+              testing::AllOf(HasSubstr("there is no run 7 in "), HasSubstr("nothing was copied")));
+  EXPECT_EQ(ours.merge(pathOf("lab.db"), large, {3, 1}).runs, 2);
+  EXPECT_EQ(ours.experiments().size(), 2u);
+}
+
 TEST_F(Merge, LargeTracesStayBehindAndTheirHashesComeAlong) {
   Database ours = create();
   Database theirs = Database::open(pathOf("lab.db"), Mode::create);

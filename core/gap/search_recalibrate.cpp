@@ -29,9 +29,9 @@ bool SearchRun::calibrateFrom(SearchResult& result) {
       attempt.reason = "useless once the calibrated numbers were fitted from where it left them";
     }
   result.calibrated = result.final = calibrated;
-  result.ladder.back() = step("calibrated", calibrated);
   search_s_ = problem_.scene.step_s;
   result.given = scoreAsIs(problem_, {givenModel(problem_), result.given.fit.shifts, 0});
+  result.ladder = {step("as given", result.given), step("calibrated", calibrated)};
   result.calibratedLinear = linearise(problem_, calibrated.fit);
   result.calibratedUncertainty = uncertaintyOf(problem_, calibrated.fit, result.calibratedLinear);
   held_.clear();

@@ -69,6 +69,30 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
   return ways;
 }
 
+/// A simpler form of what was taken away, beside the other numbers as they are now, in the size that does best there.
+/// Dry friction that stops a joint again and again is found by no fit from another size: its costs are full of steps.
+FitModel SearchRun::simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate) const {
+  constexpr double smallest = 0.02, largest = 50, ratio = 1.15;  // of a typical size
+  constexpr std::array<double, 4> closer{0.93, 0.97, 1.03, 1.07};
+  std::vector<Values> sizes;
+  for (const Values& variant : candidate.variants)
+    for (double size = smallest; size < largest; size *= ratio)
+      sizes.push_back(scaledVariant(candidate, variant, size));
+  const auto best = [&](const std::vector<Values>& of) {
+    const auto costs = parallel(options_.jobs, of.size(), [&](std::size_t k) {
+      const FitModel model = rest.with(problem_, candidate.placed(of[k]));
+      return std::vector<double>{residualsOf(problem_, model, full.shifts).squaredNorm()};
+    });
+    // What cannot be simulated has no cost.
+    const auto costsLess = [](const auto& a, const auto& b) { return !a.empty() && (b.empty() || a[0] < b[0]); };
+    return of[static_cast<std::size_t>(std::ranges::min_element(costs, costsLess) - costs.begin())];
+  };
+  const Values found = best(sizes);
+  std::vector<Values> around{found};
+  for (const double size : closer) around.push_back(scaledVariant(candidate, found, size));
+  return rest.with(problem_, candidate.placed(best(around)));
+}
+
 void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others) {
   const Fit& whole = result.final.fit;
   PlacedEffect own = whole.model.effects[i];
@@ -102,11 +126,20 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
     const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
     std::erase_if(ways, [&](const Way& way) { return way.fit.cost > most; });
   }
+  std::vector<EffectCandidate> offered;
   std::vector<FitJob> jobs;
-  for (const Way& way : ways) jobs.push_back({way.fit.model, way.fit.shifts});
+  for (const Way& way : ways) {
+    offered.push_back(way.candidate);
+    jobs.push_back({way.fit.model, way.fit.shifts});
+  }
+  for (const EffectCandidate& candidate : candidatesFor(problem_, rest, options_.names)) {
+    if (!isRicher({own.effect, own.at, {}, {}}, candidate.placed({})) || candidate.variants.empty()) continue;
+    offered.push_back(candidate);
+    jobs.push_back({simplerFormOf(whole, rest, candidate), whole.shifts});
+  }
   const std::vector<Fit> arrived = tryFits(jobs, toTheEnd, "handing over", 0.95, 0.95);
   const std::vector<Scored> scored = scoreAll(arrived, "handing over", 0.95, 0.95);
-  for (std::size_t w = 0; w < ways.size(); ++w) addRival(ways[w].candidate, scored[w], result, others);
+  for (std::size_t w = 0; w < offered.size(); ++w) addRival(offered[w], scored[w], result, others);
   problem_.scene.step_s = judged_s;
 }
 

@@ -140,6 +140,7 @@ class SearchRun {
   /// and at each what is offered its place is fitted on. From afar, a fit would stop in a side minimum.
   void handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others);
   struct Way;
+  FitModel simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate) const;
   std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const;
   void addRival(const EffectCandidate& candidate, const Scored& scored, const SearchResult& result,
                 std::vector<Tried>& others) const;

@@ -5,19 +5,38 @@
 namespace btr {
 
 void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
-  std::vector<Asked*> open(problem_.segments.size(), nullptr);
-  std::size_t columns = 1;
-  for (Asked& asked : costs_)
-    if (asked.cost->simulatesAt(asked.blocks.data(), jacobians)) {
-      open[asked.cost->segment()] = &asked;
-      if (jacobians) columns = std::max(columns, 1 + asked.cost->parameters());
-    }
-  if (std::all_of(open.begin(), open.end(), [](const Asked* asked) { return !asked; })) return;
-  const auto numbers = bySegment(problem_, static_cast<int>(columns), [&](std::size_t s) {
-    return open[s] ? open[s]->cost->simulated(open[s]->blocks.data(), jacobians) : std::vector<double>{};
+  constexpr std::size_t piecesPerWorker = 4;
+  std::vector<const Asked*> open;
+  for (const Asked& asked : costs_)
+    if (asked.cost->simulatesAt(asked.blocks.data(), jacobians)) open.push_back(&asked);
+  if (open.empty()) return;
+
+  // Few long segments keep no two workers busy: their columns are divided.
+  struct Piece {
+    const Asked* of;
+    Eigen::Index from, to;
+  };
+  std::vector<Piece> pieces;
+  const std::size_t wanted =
+      jacobians ? (piecesPerWorker * static_cast<std::size_t>(problem_.jobs) + open.size() - 1) / open.size() : 1;
+  int replays = 1;
+  for (const Asked* asked : open) {
+    const Eigen::Index columns = jacobians && asked->cost->differencesNext() ? asked->cost->columns() : 0;
+    const auto count = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(wanted), 1, std::max<Eigen::Index>(1, columns));
+    for (Eigen::Index k = 0; k < count; ++k) pieces.push_back({asked, k * columns / count, (k + 1) * columns / count});
+    replays = std::max(replays, 1 + static_cast<int>(columns));
+  }
+  const auto numbers = inWorkers(problem_, pieces.size(), replays, [&](std::size_t k) {
+    const Piece& piece = pieces[k];
+    return piece.of->cost->simulated(piece.of->blocks.data(), piece.from, piece.to);
   });
-  for (std::size_t s = 0; s < open.size(); ++s)
-    if (open[s]) open[s]->cost->take(open[s]->blocks.data(), numbers[s]);
+  for (std::size_t k = 0; k < pieces.size();) {
+    const Asked& of = *pieces[k].of;
+    std::vector<double> all;
+    const bool failed = numbers[k].empty();  // Evaluate simulates it, and says why
+    for (; k < pieces.size() && pieces[k].of == &of; ++k) all.insert(all.end(), numbers[k].begin(), numbers[k].end());
+    if (!failed) of.cost->take(of.blocks.data(), all);
+  }
 }
 
 }  // namespace btr

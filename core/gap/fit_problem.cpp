@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/gap/horizon.h"
 #include "core/gap/noise_sharing.h"
 #include "core/gap/report_figures.h"
 #include "core/gap/trial_scenes.h"
@@ -160,6 +161,12 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
 
   const Scene scene = ready.sceneOf(ready.given, 0);
   ready.impacts = isTossed(scene);
+  const bool walks = hasFreeBase(scene) && !ready.impacts;
+  if (walks) {
+    ready.differenceStep = 0.5;
+    ready.finestStep = 0.51;
+    ready.dear = true;
+  }
   if (window_s < 0) {
     window_s = 0;
     if (ready.impacts) {
@@ -168,13 +175,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       constexpr double oneImpact_s = 0.1, leastSamples = 12;
       window_s = std::max(oneImpact_s, leastSamples * ready.trials[0].recording.samplePeriod());
       ready.differenceStep = 0.1;
-    } else if (hasFreeBase(scene)) {
-      // Runs freely, from where it stood or was let go: in the middle of a walk nothing recorded tells its contacts
-      // well enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start,
-      // and 5 to 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
-      ready.differenceStep = 0.5;
-      ready.finestStep = 0.51;
-    } else {
+    } else if (!walks) {
       ready.mayCoarsen = true;
       if (swingsFreely(scene, ready.trials[0])) {
         window_s = 1;
@@ -190,6 +191,13 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
                             " s from the recorded state: free runs would show where errors have drifted to");
   }
   cutSegments(ready, window_s);
+  if (walks && window_s == 0) {
+    // Runs freely, from where it stood or was let go: in the middle of a walk nothing recorded tells its contacts well
+    // enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start, and 5 to
+    // 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
+    keepPredictable(ready);
+    cutSegments(ready, 0);
+  }
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }

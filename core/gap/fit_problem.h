@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -44,6 +46,8 @@ struct FitTrial {
   Recording recording;
   Binding binding;
   std::vector<double> noiseFloor;  ///< by measured channel [its unit]; 0: not compared
+  std::size_t compared = SIZE_MAX;  ///< rows from here on are not compared: see keepPredictable
+  std::size_t rows() const { return std::min(compared, recording.rows()); }
 };
 
 /// Recordings made ready for fits: bound to the scene, cut into segments, blocks and folds.
@@ -59,6 +63,7 @@ struct FitProblem {
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
   double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
   bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
+  bool dear = false;        ///< a robot that walks: effects are looked for in the beginnings of its trials
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
   double differenceStep = 1e-2;

@@ -42,11 +42,16 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
   return results;
 }
 
-std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
+std::vector<std::vector<double>> inWorkers(const FitProblem& problem, std::size_t count, int replays,
                                            const std::function<std::vector<double>(std::size_t)>& f) {
   constexpr double worthAFork = 5000;  // steps of at least 3 µs; a fork takes about a millisecond
   const bool worth = problem.jobs > 1 && replays * problem.steps() > worthAFork;
-  auto results = parallel(worth ? problem.jobs : 1, problem.segments.size(), f);
+  return parallel(worth ? problem.jobs : 1, count, f);
+}
+
+std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
+                                           const std::function<std::vector<double>(std::size_t)>& f) {
+  auto results = inWorkers(problem, problem.segments.size(), replays, f);
   // What failed in a worker fails here again, and says why.
   for (std::size_t s = 0; s < results.size(); ++s)
     if (results[s].empty()) results[s] = f(s);

@@ -39,25 +39,30 @@ Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
-Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const {
+Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here, Eigen::Index from,
+                                         Eigen::Index to) const {
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
-  Eigen::MatrixXd jacobian(here.size(), x.size());
+  Eigen::MatrixXd jacobian(here.size(), to - from);
   const Linearised* known = jacobian_.size() == 0 ? policy_.inherited : nullptr;
-  if (policy_.startsOnly) jacobian.leftCols(parameters).setZero();
-  for (Eigen::Index i = policy_.startsOnly ? parameters : 0; i < x.size(); ++i) {
+  for (Eigen::Index i = from; i < to; ++i) {
+    auto column = jacobian.col(i - from);
+    if (policy_.startsOnly && i < parameters) {
+      column.setZero();
+      continue;
+    }
     if (known && i < known->raw.cols()) {
-      jacobian.col(i) = known->raw.block(known->first[index_], i, here.size(), 1);
+      column = known->raw.block(known->first[index_], i, here.size(), 1);
       continue;
     }
     if (known && i >= parameters) {
-      jacobian.col(i) = known->rawStarts[index_].col(i - parameters);
+      column = known->rawStarts[index_].col(i - parameters);
       continue;
     }
     const double step =
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;
     Eigen::VectorXd moved = x;
     moved[i] += step;
-    jacobian.col(i) = (simulate(moved) - here) / step;
+    column = (simulate(moved) - here) / step;
   }
   return jacobian;
 }
@@ -76,12 +81,16 @@ bool SegmentCost::simulatesAt(double const* const* blocks, bool jacobian) const 
   return last_.size() == 0 || x != last_ || (jacobian && differencesNext() && (aheadAt_.size() == 0 || x != aheadAt_));
 }
 
-std::vector<double> SegmentCost::simulated(double const* const* blocks, bool jacobian) const {
+Eigen::Index SegmentCost::columns() const {
+  return static_cast<Eigen::Index>(model_.parameters.size() + segment_.nuisances.size());
+}
+
+std::vector<double> SegmentCost::simulated(double const* const* blocks, Eigen::Index from, Eigen::Index to) const {
   const Eigen::VectorXd x = gathered(blocks);
   const Eigen::VectorXd here = last_.size() > 0 && x == last_ ? here_ : simulate(x);
-  std::vector<double> numbers(here.begin(), here.end());
-  if (!jacobian || !differencesNext()) return numbers;
-  const Eigen::MatrixXd columns = differences(x, here);
+  std::vector<double> numbers;
+  if (from == 0) numbers.assign(here.begin(), here.end());
+  const Eigen::MatrixXd columns = differences(x, here, from, to);
   numbers.insert(numbers.end(), columns.data(), columns.data() + columns.size());
   return numbers;
 }
@@ -109,7 +118,7 @@ bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, doubl
   if (!jacobians) return true;
 
   if (differencesNext()) {
-    jacobian_ = aheadAt_.size() > 0 && x == aheadAt_ ? ahead_ : differences(x, here_);
+    jacobian_ = aheadAt_.size() > 0 && x == aheadAt_ ? ahead_ : differences(x, here_, 0, x.size());
     aheadAt_.resize(0);  // what it was may have been inherited: not for a second time
   } else if (const Eigen::VectorXd step = x - base_; step.squaredNorm() > 0) {
     jacobian_ += (here_ - residuals_ - jacobian_ * step) * step.transpose() / step.squaredNorm();

@@ -32,17 +32,21 @@ class SegmentCost final : public ceres::CostFunction {
   std::size_t parameters() const { return model_.parameters.size(); }
   /// True if Evaluate would simulate at these numbers, given whether derivatives are wanted.
   bool simulatesAt(double const* const* blocks, bool jacobian) const;
-  /// What Evaluate would simulate at these numbers: residuals, then the columns of the Jacobian that it would
-  /// difference. Changes nothing.
-  std::vector<double> simulated(double const* const* blocks, bool jacobian) const;
-  /// Takes what another process simulated.
+  bool differencesNext() const { return policy_.difference || jacobian_.size() == 0; }
+  /// Columns of the Jacobian that Evaluate would difference: of parameters, then of the initial state.
+  Eigen::Index columns() const;
+  /// What Evaluate would simulate at these numbers: residuals, then columns [from, to) of its Jacobian; of later parts
+  /// (from > 0) the columns alone. Changes nothing.
+  std::vector<double> simulated(double const* const* blocks, Eigen::Index from, Eigen::Index to) const;
+  /// Takes what other processes simulated, all parts of it in order.
   void take(double const* const* blocks, const std::vector<double>& simulated);
 
  private:
   Eigen::VectorXd gathered(double const* const* blocks) const;  ///< scaled parameters, then shifts
-  bool differencesNext() const { return policy_.difference || jacobian_.size() == 0; }
   Eigen::VectorXd simulate(const Eigen::VectorXd& x) const;
-  Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const;
+  /// Columns [from, to).
+  Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here, Eigen::Index from,
+                              Eigen::Index to) const;
 
   const FitProblem& problem_;
   const FitModel& model_;

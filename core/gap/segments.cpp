@@ -181,8 +181,9 @@ void cutSegments(FitProblem& problem, double window_s) {
   double total = 0, shortest = INFINITY;
   for (const FitTrial& trial : problem.trials) {
     const auto& time = trial.recording.columns[0];
-    total += time.back() - time.front();
-    shortest = std::min(shortest, time.back() - time.front());
+    const double length_s = time[trial.rows() - 1] - time.front();
+    total += length_s;
+    shortest = std::min(shortest, length_s);
   }
   // Half-second blocks where there are enough of them for a test.
   problem.block_s = std::clamp(total / 60, std::min(0.05, shortest / 2), 0.5);
@@ -191,7 +192,7 @@ void cutSegments(FitProblem& problem, double window_s) {
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const FitTrial& trial = problem.trials[t];
     const auto& time = trial.recording.columns[0];
-    const std::size_t rows = trial.recording.rows();
+    const std::size_t rows = trial.rows();
     const auto blockOf = [&](std::size_t row) { return static_cast<int>((time[row] - time[0]) / problem.block_s); };
     for (std::size_t first = 0; first + 4 < rows;) {
       std::size_t last = rows;

@@ -193,7 +193,8 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
   for (Fit& fit : closeFits) {
-    if (fit.cost > worthMore * least) continue;
+    // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
+    if (fit.cost > (problem_.dear ? 1 : worthMore) * least) continue;
     climbWholeNumbers(fit, what, half);
     const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
     if (left > leastToLeap && left < mostToLeap && fit.cost <= least) leap(fit, what, half);

@@ -2,34 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "core/gap/analysis.h"
 #include "core/gap/fit.h"
-#include "tests/gap/temporary_folder.h"
-#include "tests/prove/prove_fixture.h"
+#include "tests/prove/open_case.h"
 
 namespace btr::prove {
 namespace {
-
-/// The world and the true numbers of a case with this hidden in it, whatever the generator would hide there now.
-BlindCase caseHiding(const PlacedEffect& hidden, const CaseRequest& request, const Plugins& plugins) {
-  BlindCase blind = drawCase(request, plugins.library);
-  blind.simulator.effects = {hidden};
-  return blind;
-}
-
-/// What the open folder of a case says.
-GapProblem problemOf(const BlindCase& blind, const Plugins& plugins) {
-  const TemporaryFolder folder;
-  writeCase(blind, plugins.library, folder.file("."));
-  GapProblem problem;
-  problem.scene = loadScene(folder.file("scene.json"));
-  problem.models = loadModels(problem.scene);
-  for (int trial = 1; std::filesystem::exists(folder.file("trial_" + std::to_string(trial) + ".csv")); ++trial)
-    problem.recordings.push_back(loadRecording(folder.file("trial_" + std::to_string(trial) + ".csv")));
-  return problem;
-}
 
 /// What the analysis makes of such a case, from `effects` alone.
 GapReport analysedHiding(const PlacedEffect& hidden, const CaseRequest& request,

@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+
+#include "core/gap/analysis.h"
+#include "tests/gap/temporary_folder.h"
+#include "tests/prove/prove_fixture.h"
+
+namespace btr::prove {
+
+/// The world and the true numbers of a case with this hidden in it, whatever the generator would hide there now.
+inline BlindCase caseHiding(const PlacedEffect& hidden, const CaseRequest& request, const Plugins& plugins) {
+  BlindCase blind = drawCase(request, plugins.library);
+  blind.simulator.effects = {hidden};
+  return blind;
+}
+
+/// What the open folder of a case says.
+inline GapProblem problemOf(const BlindCase& blind, const Plugins& plugins) {
+  const TemporaryFolder folder;
+  writeCase(blind, plugins.library, folder.file("."));
+  GapProblem problem;
+  problem.scene = loadScene(folder.file("scene.json"));
+  problem.models = loadModels(problem.scene);
+  for (int trial = 1; std::filesystem::exists(folder.file("trial_" + std::to_string(trial) + ".csv")); ++trial)
+    problem.recordings.push_back(loadRecording(folder.file("trial_" + std::to_string(trial) + ".csv")));
+  return problem;
+}
+
+}  // namespace btr::prove

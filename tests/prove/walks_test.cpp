@@ -1,0 +1,93 @@
+// Walks: feet that land a little earlier decide where a run ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/gap/beginnings.h"
+#include "tests/prove/open_case.h"
+
+namespace btr::prove {
+namespace {
+
+const PlacedEffect sag{"voltage_sag", "world", {{"per_torque_1_nm", 0.599564}}};
+const CaseRequest request{77, 0, "ode", "walk", ""};
+
+/// Of the rows [from, to) of a segment [noise floors, root mean square].
+double errorIn(const FitProblem& problem, const Segment& segment, const std::vector<double>& residuals, std::size_t from,
+               std::size_t to) {
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    if (segment.row[k] >= from && segment.row[k] < to) {
+      sum += residuals[k] * residuals[k];
+      ++count;
+    }
+  EXPECT_GT(count, 0) << problem.trials.size();
+  return std::sqrt(sum / count);
+}
+
+// The dog's sagging voltage and true servos, over all that was recorded: within what is compared the simulator that
+// made the recording tells it, from the start as the recording shows it; later it tells of another walk.
+TEST(Walk, IsComparedAsFarAsItsOwnSimulatorTellsIt) {
+  const Plugins plugins;
+  const BlindCase blind = caseHiding(sag, request, plugins);
+  const GapProblem given = problemOf(blind, plugins);
+  FitProblem problem = makeFitProblem(given, given.recordings, {plugins.library.make, plugins.library.names});
+  const std::size_t compared = problem.trials[0].compared, all = given.recordings[0].rows();
+  ASSERT_LT(compared, all);
+  EXPECT_THAT(problem.notes, testing::Contains(testing::HasSubstr("trial_1.csv: compared over its first 0.8 s")));
+  for (const Segment& segment : problem.segments)
+    for (const std::size_t row : segment.row) ASSERT_LT(row, problem.trials[segment.trial].rows());
+
+  for (FitTrial& trial : problem.trials) trial.compared = all;
+  cutSegments(problem, 0);
+  const Segment& whole = problem.segments[0];
+  const std::vector<double> residuals =
+      residualsOf(problem, whole, problem.sceneOf(blind.simulator, 0), std::vector<double>(whole.nuisances.size(), 0));
+  const double within = errorIn(problem, whole, residuals, 0, compared);
+  const double beyond = errorIn(problem, whole, residuals, compared, all);
+  EXPECT_LT(within, 2);
+  EXPECT_GT(beyond, 2 * within);
+}
+
+TEST(Walk, IsLookedThroughInItsBeginnings) {
+  const Plugins plugins;
+  const GapProblem given = problemOf(caseHiding(sag, request, plugins), plugins);
+  FitProblem problem = makeFitProblem(given, given.recordings, {plugins.library.make, plugins.library.names});
+  for (FitTrial& trial : problem.trials) trial.compared = trial.recording.rows();  // of a steadier walk
+  cutSegments(problem, 0);
+  const std::vector<Segment> whole = problem.segments;
+  const std::size_t residuals = problem.residuals();
+  {
+    const OnBeginnings beginnings(problem);
+    ASSERT_EQ(problem.segments.size(), whole.size());
+    EXPECT_LT(problem.residuals(), residuals);
+    for (std::size_t s = 0; s < whole.size(); ++s) {
+      EXPECT_EQ(problem.segments[s].nuisances.size(), whole[s].nuisances.size());
+      EXPECT_THAT(whole[s].row, testing::IsSupersetOf(std::set(problem.segments[s].row.begin(),
+                                                               problem.segments[s].row.end())));
+      for (const std::size_t row : problem.segments[s].row) EXPECT_LT(row, problem.segments[s].last);
+    }
+  }
+  EXPECT_EQ(problem.residuals(), residuals);
+}
+
+// The shortest of three trials alone. Compared over all of its four seconds the sag was one side minimum among many.
+TEST(Walk, ShowsThatItsVoltageSags) {
+  const Plugins plugins;
+  GapProblem given = problemOf(caseHiding(sag, request, plugins), plugins);
+  given.recordings.resize(1);
+  AnalysisOptions options;
+  options.effects = {"voltage_sag", "gravity_tilt"};
+  options.jobs = 2;
+  options.maximumEffects = 1;
+  const GapReport report = analyse(given, {plugins.library.make, plugins.library.names}, options);
+  std::vector<std::string> named;
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) named.push_back(effect.effect);
+  EXPECT_THAT(named, testing::ElementsAre("voltage_sag")) << toPlainText(report);
+}
+
+}  // namespace
+}  // namespace btr::prove

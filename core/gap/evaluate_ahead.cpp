@@ -22,7 +22,8 @@ void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
   int replays = 1;
   for (const Asked* asked : open) {
     const Eigen::Index columns = jacobians && asked->cost->differencesNext() ? asked->cost->columns() : 0;
-    const auto count = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(wanted), 1, std::max<Eigen::Index>(1, columns));
+    const auto count =
+        std::clamp<Eigen::Index>(static_cast<Eigen::Index>(wanted), 1, std::max<Eigen::Index>(1, columns));
     for (Eigen::Index k = 0; k < count; ++k) pieces.push_back({asked, k * columns / count, (k + 1) * columns / count});
     replays = std::max(replays, 1 + static_cast<int>(columns));
   }

@@ -84,8 +84,8 @@ std::vector<double> blockScores(const FitProblem& problem, const Eigen::VectorXd
 std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
                                           const std::function<std::vector<double>(std::size_t)>& f,
                                           const std::function<bool(std::size_t)>& goOn = {});
-/// f(0 … count−1) in the problem's worker processes where about `replays` replays of everything are worth them; a failed
-/// one gives an empty vector.
+/// f(0 … count−1) in the problem's worker processes where about `replays` replays of everything are worth them; a
+/// failed one gives an empty vector.
 std::vector<std::vector<double>> inWorkers(const FitProblem& problem, std::size_t count, int replays,
                                            const std::function<std::vector<double>(std::size_t)>& f);
 /// f of every segment, in the problem's worker processes where about `replays` replays of everything are worth them.

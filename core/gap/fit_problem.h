@@ -45,8 +45,8 @@ struct Segment {
 struct FitTrial {
   Recording recording;
   Binding binding;
-  std::vector<double> noiseFloor;  ///< by measured channel [its unit]; 0: not compared
-  std::size_t compared = SIZE_MAX;  ///< rows from here on are not compared: see keepPredictable
+  std::vector<double> noiseFloor;   ///< by measured channel [its unit]; 0: not compared
+  std::size_t compared = SIZE_MAX;  ///< rows from here on are not compared: of a walk, what nobody can foretell
   std::size_t rows() const { return std::min(compared, recording.rows()); }
 };
 
@@ -63,7 +63,7 @@ struct FitProblem {
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
   double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
   bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
-  bool dear = false;        ///< a robot that walks: effects are looked for in the beginnings of its trials
+  bool walks = false;       ///< a robot with a free base and joints: free runs, compared over their first steps
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
   double differenceStep = 1e-2;

@@ -285,12 +285,12 @@ std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProb
   FitProblem windows = problem;
   Eigen::VectorXd residuals;
   const FitProblem* used = &windows;
-  if (!problem.dear) {
+  if (!problem.walks) {
     cutSegments(windows, std::max(0.2, 20 * problem.trials[0].recording.samplePeriod()));
     const Fit fit = fitModel(windows, calibrated, {}, {3, true});
     residuals = residualsOf(windows, fit.model, fit.shifts);
   }
-  if (residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size()) || problem.dear) {
+  if (residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size()) || problem.walks) {
     // Too short to feel it: the fit's own segments then.
     used = &problem;
     const Fit whole = fitModel(problem, calibrated, {}, {3, true});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/beginnings.h"
 #include "core/gap/extent.h"
 #include "core/gap/learned_force.h"
 
@@ -75,16 +74,11 @@ struct Learned {
   Uncertainty uncertainty;
 };
 
-/// The option whose knots would take most away by the score test (of dear trials: of their beginnings), fitted to the
-/// end.
+/// The option whose knots would take most away by the score test, fitted to the end.
 std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const Linearised& linear, int jobs) {
   const std::vector<Option> options = optionsOf(problem, problem.sceneOf(base.model.simulator(problem), 0));
-  FitProblem beginnings = problem;
-  beginnings.segments = beginningsOf(problem);
-  const bool isCut = beginnings.residuals() < problem.residuals();
-  const Linearised ofBeginnings = isCut ? linearise(beginnings, base) : linear;
   const auto shareOf = [&](std::size_t i) -> std::vector<double> {
-    FitProblem with = beginnings;
+    FitProblem with = problem;
     with.library = withLearnedForce(problem.library, options[i].force);
     EffectCandidate candidate{
         options[i].force.name(), options[i].at, with.library.make(options[i].force.name())->parameters(), {}};
@@ -96,7 +90,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
       variant[p.name] = -p.byDefault;
       candidate.variants.push_back(variant);
     }
-    return {screen(with, base, ofBeginnings, {candidate}, 1)[0].share};
+    return {screen(with, base, linear, {candidate}, 1)[0].share};
   };
   const auto shares = parallel(jobs, options.size(), shareOf);
   double most = 0;

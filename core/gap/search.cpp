@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "core/gap/beginnings.h"
 #include "core/gap/search_run.h"
 #include "core/spec/random.h"
 
@@ -37,7 +35,6 @@ Scored SearchRun::calibrate() {
       const FitParameter& p = given.parameters[i];
       starts[s].values[i] = std::clamp(p.given + 2 * p.scale * random.uniform(-1, 1), p.minimum, p.maximum);
     }
-  std::optional<OnBeginnings> beginnings(std::in_place, problem_);
   std::vector<Fit> fits = fitAll({{given, {}}}, 15, "calibrating", 0.02, 0.05);
   // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
   if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
@@ -45,9 +42,6 @@ Scored SearchRun::calibrate() {
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
-  const std::size_t begun = problem_.residuals();
-  beginnings.reset();
-  if (problem_.residuals() > begun) best = fitOn(best, 15, "calibrating", 0.08, 0.08);
   startAnew(best[0], "calibrating", 0.08);
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   refineStep(best, 1, "calibrating", 0.08);

@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
-#include "core/gap/beginnings.h"
 #include "core/gap/report_figures.h"
 #include "core/gap/search_run.h"
 
@@ -73,14 +71,10 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   const double part = (to - from) / 3;
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(models[0]);
-  // Looked for in the beginnings of dear trials, confirmed in all of them.
-  std::optional<OnBeginnings> beginnings(std::in_place, problem_);
   std::vector<Base> bases;
-  for (const Fit& fit : models) {
-    const bool isKnown = known && bases.empty() && problem_.scene.step_s == judged_s &&
-                         known->residuals.size() == static_cast<Eigen::Index>(problem_.residuals());
-    bases.push_back({fit, isKnown ? *known : linearise(problem_, fit)});
-  }
+  for (const Fit& fit : models)
+    bases.push_back(
+        {fit, known && bases.empty() && problem_.scene.step_s == judged_s ? *known : linearise(problem_, fit)});
   const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
   std::vector<std::vector<Screened>> screened;
   std::vector<double> totals;
@@ -173,7 +167,6 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     if (contained) best.push_back(k);
     return contained;
   });
-  beginnings.reset();
   bool any = confirm(tried, best, without, judged_s, stage, from + 2 * part, to) ||
              confirm(tried, next, without, judged_s, stage, to, to);
   // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
@@ -186,9 +179,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       if (!each.attempt.fitted && !promises[each.promise].starts.empty() && each.attempt.share >= leastPromise &&
           rest.size() < most)
         rest.push_back(static_cast<std::size_t>(&each - tried.data()));
-    beginnings.emplace(problem_);
     for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
-    beginnings.reset();
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
     std::stable_sort(rest.begin(), rest.end(), fitsBetter);
     if (rest.size() > confirmed) rest.resize(confirmed);

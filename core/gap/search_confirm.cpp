@@ -194,7 +194,7 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   }
   for (Fit& fit : closeFits) {
     // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
-    if (fit.cost > (problem_.dear ? 1 : worthMore) * least) continue;
+    if (fit.cost > (problem_.walks ? 1 : worthMore) * least) continue;
     climbWholeNumbers(fit, what, half);
     const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
     if (left > leastToLeap && left < mostToLeap && fit.cost <= least) leap(fit, what, half);

@@ -105,9 +105,9 @@ TEST(Mended, DryFrictionIsFoundFromTheRicherFrictionThatContainsIt) {
 }
 
 // Nearly as much dry friction as the servo is strong. From friction that differs by direction, both directions the
-// same, the way to it was never gone: a hundredth of what was taken away does nothing. Where the whole of it is offered,
-// rounding (another library of mathematical functions is enough) decides whether a fit gets there, so that its size is
-// looked for.
+// same, the way to it was never gone: a hundredth of what was taken away does nothing. Where the whole of it is
+// offered, rounding (another library of mathematical functions is enough) decides whether a fit gets there, so that its
+// size is looked for.
 TEST(Mended, DryFrictionTakesThePlaceOfFrictionByDirection) {
   const PlacedEffect friction{"coulomb_friction", "rig.shoulder", {{"torque_nm", 0.852713}}};
   const GapReport report =

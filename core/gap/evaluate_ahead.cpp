@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/sim/worker_pool.h"
+
 namespace btr {
 
 void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
@@ -17,8 +19,9 @@ void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
     Eigen::Index from, to;
   };
   std::vector<Piece> pieces;
+  const bool divides = jacobians && !WorkerPool::inWorker();
   const std::size_t wanted =
-      jacobians ? (piecesPerWorker * static_cast<std::size_t>(problem_.jobs) + open.size() - 1) / open.size() : 1;
+      divides ? (piecesPerWorker * static_cast<std::size_t>(problem_.jobs) + open.size() - 1) / open.size() : 1;
   int replays = 1;
   for (const Asked* asked : open) {
     const Eigen::Index columns = jacobians && asked->cost->differencesNext() ? asked->cost->columns() : 0;

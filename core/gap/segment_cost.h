@@ -28,8 +28,6 @@ class SegmentCost final : public ceres::CostFunction {
               const JacobianPolicy& policy, double limit);
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override;
 
-  std::size_t segment() const { return index_; }
-  std::size_t parameters() const { return model_.parameters.size(); }
   /// True if Evaluate would simulate at these numbers, given whether derivatives are wanted.
   bool simulatesAt(double const* const* blocks, bool jacobian) const;
   bool differencesNext() const { return policy_.difference || jacobian_.size() == 0; }

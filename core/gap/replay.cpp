@@ -45,10 +45,11 @@ void setInputs(const Recording& recording, const Binding& binding, std::size_t r
 }
 
 /// Simulated counterparts of the measured columns. Quaternions take the sign that is nearer to the recorded one.
+/// `robots` is scratch.
 void readMeasured(const World& world, const Scene& scene, const Recording& recording, const Binding& binding,
-                  std::size_t row, std::vector<std::vector<double>>& values) {
-  std::vector<RobotReadings> robots;
-  for (std::size_t i = 0; i < scene.robots.size(); ++i) robots.push_back(world.robot(i));
+                  std::size_t row, std::vector<RobotReadings>& robots, std::vector<std::vector<double>>& values) {
+  robots.resize(scene.robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) world.read(i, robots[i]);
   std::vector<double> agreement(scene.robots.size(), 0);
   const auto orientation = [&](const Measured& measured) {
     const Eigen::Quaterniond q(robots[measured.object].base.linear());
@@ -255,9 +256,10 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
   }
 
+  std::vector<RobotReadings> robots;
   for (std::size_t row = first; row < last; ++row) {
     if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};
-    readMeasured(world, scene, recording, binding, row, replayed.values);
+    readMeasured(world, scene, recording, binding, row, robots, replayed.values);
     setInputs(recording, binding, row, inputs);
     if (row + 1 == last) break;
     prescribed.aim(row + 1, inputs);

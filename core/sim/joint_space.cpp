@@ -47,7 +47,13 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
   for (std::size_t j = 0; j < moving_.size(); ++j) {
     const RobotJoint& joint = robot.joints[j];
     turn_[j] = joint.slides ? Vector3d(Vector3d::Zero()) : joint.axis;
-    push_[j] = joint.slides ? joint.axis : (robot.poseOf(joint.parent) * joint.anchorInParent).cross(joint.axis);
+    if (joint.slides) {
+      push_[j] = joint.axis;
+    } else {
+      const Isometry3d& parent = robot.poseOf(joint.parent);
+      const Vector3d anchor = Matrix3d(parent.linear()) * joint.anchorInParent + parent.translation();
+      push_[j] = anchor.cross(joint.axis);
+    }
     const RobotBody& body = robot.bodies[static_cast<std::size_t>(joint.child)];
     Moved& moved = moved_[static_cast<std::size_t>(joint.child)];
     const Vector3d& centre = body.pose.translation();
@@ -177,8 +183,10 @@ void JointSpace::place(Articulation& robot) const {
     RobotJoint& joint = robot.joints[j];
     RobotBody& child = robot.bodies[static_cast<std::size_t>(joint.child)];
     const Isometry3d& parent = robot.poseOf(joint.parent);
-    joint.axis = parent.linear() * joint.axisInParent;
-    const Vector3d anchor = parent * joint.anchorInParent;
+    const Matrix3d turned = parent.linear();
+    joint.axis = turned * joint.axisInParent;
+    const Vector3d anchor = turned * joint.anchorInParent + parent.translation();
+    Matrix3d linear;
     Vector3d spin = Vector3d::Zero(), velocity = Vector3d::Zero();  // of the parent; of its point at the anchor
     if (joint.parent >= 0) {
       const RobotBody& carrier = robot.bodies[static_cast<std::size_t>(joint.parent)];
@@ -186,16 +194,17 @@ void JointSpace::place(Articulation& robot) const {
       velocity = carrier.velocity_m_s + spin.cross(anchor - carrier.pose.translation());
     }
     if (joint.slides) {
-      child.pose.linear() = parent.linear() * moving_[j].turnAtZero;
-      child.pose.translation() = anchor + joint.position * joint.axis - child.pose.linear() * joint.anchorInChild;
+      linear = turned * moving_[j].turnAtZero;
+      child.pose.translation() = anchor + joint.position * joint.axis - linear * joint.anchorInChild;
       child.velocity_m_s = velocity + spin.cross(child.pose.translation() - anchor) + joint.rate * joint.axis;
     } else {
-      child.pose.linear() =
-          parent.linear() * Eigen::AngleAxisd(joint.position, joint.axisInParent) * moving_[j].turnAtZero;
-      child.pose.translation() = anchor - child.pose.linear() * joint.anchorInChild;
+      const Matrix3d turn = Eigen::AngleAxisd(joint.position, joint.axisInParent).toRotationMatrix();
+      linear = turned * turn * moving_[j].turnAtZero;
+      child.pose.translation() = anchor - linear * joint.anchorInChild;
       spin += joint.rate * joint.axis;
       child.velocity_m_s = velocity + spin.cross(child.pose.translation() - anchor);
     }
+    child.pose.linear() = linear;
     child.spin_rad_s = spin;
   }
 }

@@ -65,6 +65,8 @@ class World {
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
 
   RobotReadings robot(std::size_t index) const;
+  /// The same into readings that were read before: allocates nothing.
+  void read(std::size_t index, RobotReadings& readings) const;
   BallState ball(std::size_t index) const;
   Eigen::Isometry3d ballPose(std::size_t index) const;
   /// Poses of all links of a robot in the world.

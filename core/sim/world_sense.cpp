@@ -77,8 +77,13 @@ void World::Impl::sense(WorldRobot& robot, double dt) {
 }
 
 RobotReadings World::robot(std::size_t index) const {
-  const WorldRobot& robot = impl_->robots.at(index);
   RobotReadings readings;
+  read(index, readings);
+  return readings;
+}
+
+void World::read(std::size_t index, RobotReadings& readings) const {
+  const WorldRobot& robot = impl_->robots.at(index);
   readings.base = robot.body->base();
   if (!robot.body->fixedBase()) {
     readings.baseVelocity_m_s = robot.body->pointVelocity(0, readings.base.translation());
@@ -96,7 +101,6 @@ RobotReadings World::robot(std::size_t index) const {
   }
   readings.contact = robot.contact;
   readings.accelerometer_m_s2 = robot.specificForce_m_s2;
-  return readings;
 }
 
 std::vector<Isometry3d> World::linkPoses(std::size_t robot) const { return impl_->robots.at(robot).body->linkPoses(); }

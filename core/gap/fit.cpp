@@ -147,7 +147,7 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
   }
 
   ceres::Solver::Options solver;
-  solver.function_tolerance = 3e-4;
+  solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-6;
   solver.initial_trust_region_radius = 10;
   // Steps are cut off at the bounds and judged there. A line search along each, Ceres' default where there are bounds,

@@ -19,6 +19,7 @@ struct FitOptions {
   const Linearised* inherited = nullptr;
   /// Called after each iteration with the share of all that were allowed; false throws Cancelled.
   std::function<bool(double)> goOn = {};
+  double tolerance = 3e-4;  ///< ends where an iteration takes a smaller share of the cost
 };
 
 /// A model fitted to the recordings.

@@ -10,11 +10,13 @@ namespace {
 
 constexpr std::size_t mostHandedTo = 6;
 constexpr double leastShare = 0.25;  // of the best candidate's promise
-constexpr double inTheValley = 4;    // times the final cost, on the way
-constexpr double atItsEnd = 2;       // and where nothing is kept
 constexpr double small = 0.1;        // of a typical size: where the way begins, all is linear
 constexpr int iterationsOnTheWay = 18;
+constexpr double toleranceOnTheWay = 2e-3;  // what arrives is fitted on
 constexpr std::array<double, 3> kept{0.7, 0.35, 0};
+// Times the final cost, for who goes on. What costs a half more where two thirds are gone ends at more than twice as
+// much: costs rise with the square of what is missing.
+constexpr std::array<double, 3> inTheValley{4, 1.5, 2};
 
 /// The numbers of an effect with its sizes reduced to a share of what they are above neutral.
 Values reduced(const Effect& effect, Values numbers, double share) {
@@ -119,11 +121,11 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
         next.values[n] = std::clamp(here[n] + on * (here[n] - way.before[n]), next.parameters[n].minimum,
                                     next.parameters[n].maximum);
       if (k > 0) way.before = here;
-      jobs.push_back({next, way.fit.shifts});
+      jobs.push_back({next, way.fit.shifts, nullptr, toleranceOnTheWay});
     }
     const std::vector<Fit> fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
-    const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
+    const double most = inTheValley[k] * finalCost;
     std::erase_if(ways, [&](const Way& way) { return way.fit.cost > most; });
   }
   std::vector<EffectCandidate> offered;

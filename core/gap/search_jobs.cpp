@@ -39,7 +39,7 @@ int SearchRun::workersFor(std::size_t count) const {
 std::vector<Fit> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
                                     double from, double to) const {
   const auto fitOne = [&](std::size_t i) {
-    FitOptions options{iterations, false, jobs[i].inherited, {}};
+    FitOptions options{.iterations = iterations, .inherited = jobs[i].inherited, .tolerance = jobs[i].tolerance};
     if (options_.progress && !WorkerPool::inWorker())
       options.goOn = [&, i](double share) {
         const double done = (static_cast<double>(i) + share) / static_cast<double>(jobs.size());
@@ -61,7 +61,7 @@ std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iteratio
                                    double from, double to) const {
   std::vector<Fit> fits = tryFits(jobs, iterations, stage, from, to);
   const bool any = std::ranges::any_of(fits, [](const Fit& fit) { return std::isfinite(fit.cost); });
-  if (!jobs.empty() && !any) fitModel(problem_, jobs[0].model, jobs[0].shifts, {1, false, nullptr, {}});
+  if (!jobs.empty() && !any) fitModel(problem_, jobs[0].model, jobs[0].shifts, {.iterations = 1});
   return fits;
 }
 

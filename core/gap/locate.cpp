@@ -281,28 +281,25 @@ std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel) {
 }  // namespace
 
 std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProblem& problem) {
+  const auto residualsIn = [&](const FitProblem& segments) {
+    const Fit fit = fitModel(segments, calibrated, {}, {3, true});
+    return residualsOf(segments, fit.model, fit.shifts);
+  };
   // Short windows see an error where it is made, but for a robot that walks: no window can begin in a step.
-  FitProblem windows = problem;
-  Eigen::VectorXd residuals;
-  const FitProblem* used = &windows;
-  if (!problem.walks) {
-    cutSegments(windows, std::max(0.2, 20 * problem.trials[0].recording.samplePeriod()));
-    const Fit fit = fitModel(windows, calibrated, {}, {3, true});
-    residuals = residualsOf(windows, fit.model, fit.shifts);
-  }
-  if (residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size()) || problem.walks) {
-    // Too short to feel it: the fit's own segments then.
-    used = &problem;
-    const Fit whole = fitModel(problem, calibrated, {}, {3, true});
-    residuals = residualsOf(problem, whole.model, whole.shifts);
+  FitProblem used = problem;
+  if (!problem.walks) cutSegments(used, std::max(0.2, 20 * problem.trials[0].recording.samplePeriod()));
+  Eigen::VectorXd residuals = residualsIn(used);
+  if (!problem.walks && residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size())) {
+    used = problem;  // windows are too short to feel it
+    residuals = residualsIn(used);
   }
 
   const Scene scene = problem.sceneOf(calibrated.simulator(problem), 0);
   std::map<std::string, ChannelExcess> channels;
   Eigen::Index at = 0;
-  for (const Segment& segment : used->segments)
+  for (const Segment& segment : used.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
-      const FitTrial& trial = used->trials[segment.trial];
+      const FitTrial& trial = used.trials[segment.trial];
       const Measured& measured = trial.binding.measured[segment.channel[k]];
       ChannelExcess& channel = channels[trial.recording.channels[measured.column]];
       if (channel.trials.empty() || channel.trials.back() != segment.trial) {

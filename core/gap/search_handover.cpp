@@ -10,13 +10,12 @@ namespace {
 
 constexpr std::size_t mostHandedTo = 6;
 constexpr double leastShare = 0.25;  // of the best candidate's promise
+constexpr double inTheValley = 4;    // times the final cost, on the way
+constexpr double atItsEnd = 2;       // and where nothing is kept
 constexpr double small = 0.1;        // of a typical size: where the way begins, all is linear
 constexpr int iterationsOnTheWay = 18;
 constexpr double toleranceOnTheWay = 2e-3;  // what arrives is fitted on
 constexpr std::array<double, 3> kept{0.7, 0.35, 0};
-// Times the final cost, for who goes on. What costs a half more where two thirds are gone ends at more than twice as
-// much: costs rise with the square of what is missing.
-constexpr std::array<double, 3> inTheValley{4, 1.5, 2};
 
 /// The numbers of an effect with its sizes reduced to a share of what they are above neutral.
 Values reduced(const Effect& effect, Values numbers, double share) {
@@ -125,7 +124,7 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
     }
     const std::vector<Fit> fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
-    const double most = inTheValley[k] * finalCost;
+    const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
     std::erase_if(ways, [&](const Way& way) { return way.fit.cost > most; });
   }
   std::vector<EffectCandidate> offered;

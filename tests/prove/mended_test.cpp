@@ -19,16 +19,6 @@ GapReport analysedHiding(const PlacedEffect& hidden, const CaseRequest& request,
   return analyse(problemOf(blind, plugins), {plugins.library.make, plugins.library.names}, options);
 }
 
-std::vector<std::string> namedIn(const GapReport& report) {
-  std::vector<std::string> named;
-  for (const GapReport::Effect& effect : report.tried) {
-    if (!effect.accepted) continue;
-    named.push_back(effect.effect);
-    for (const GapReport::Rival& rival : effect.rivals) named.push_back("or " + rival.effect);
-  }
-  return named;
-}
-
 // A weight beside a small arm, and a servo of which nothing is trusted: gravity that leans and a stronger servo are the
 // same law. A fit of the weight that began far away ended in a side minimum, so that only gravity was named.
 TEST(Mended, AWeightBesideAnArmIsNotToldFromGravityThatLeans) {

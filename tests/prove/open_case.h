@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/gap/analysis.h"
 #include "tests/gap/temporary_folder.h"
@@ -24,6 +26,17 @@ inline GapProblem problemOf(const BlindCase& blind, const Plugins& plugins) {
   for (int trial = 1; std::filesystem::exists(folder.file("trial_" + std::to_string(trial) + ".csv")); ++trial)
     problem.recordings.push_back(loadRecording(folder.file("trial_" + std::to_string(trial) + ".csv")));
   return problem;
+}
+
+/// What a report names, each effect followed by its rivals.
+inline std::vector<std::string> namedIn(const GapReport& report) {
+  std::vector<std::string> named;
+  for (const GapReport::Effect& effect : report.tried) {
+    if (!effect.accepted) continue;
+    named.push_back(effect.effect);
+    for (const GapReport::Rival& rival : effect.rivals) named.push_back("or " + rival.effect);
+  }
+  return named;
 }
 
 }  // namespace btr::prove

@@ -59,10 +59,7 @@ TEST(Walk, ShowsThatItsVoltageSags) {
   options.jobs = 2;
   options.maximumEffects = 1;
   const GapReport report = analyse(given, {plugins.library.make, plugins.library.names}, options);
-  std::vector<std::string> named;
-  for (const GapReport::Effect& effect : report.tried)
-    if (effect.accepted) named.push_back(effect.effect);
-  EXPECT_THAT(named, testing::ElementsAre("voltage_sag")) << toPlainText(report);
+  EXPECT_THAT(namedIn(report), testing::ElementsAre("voltage_sag")) << toPlainText(report);
 }
 
 }  // namespace

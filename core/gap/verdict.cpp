@@ -188,6 +188,36 @@ std::string colourText(const Findings& e) {
   return "successive samples of it correlate by " + digits(e.colour.correlation, 2);
 }
 
+/// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
+/// recordings cannot: a number or an effect that fits, and misleads.
+std::string unseenText(const GapReport& report, bool named) {
+  constexpr double worse = 1.05;
+  if (std::ranges::none_of(report.trials, &GapReport::Trial::heldOut)) return "";
+  double given = 0, calibrated = 0, final = 0, channels = 0;
+  for (const GapReport::Channel& channel : report.channels) {
+    const double floor2 = channel.noiseFloor * channel.noiseFloor;
+    if (floor2 <= 0 || channel.heldoutAsGiven <= 0) continue;
+    given += channel.heldoutAsGiven * channel.heldoutAsGiven / floor2;
+    calibrated += channel.heldoutCalibrated * channel.heldoutCalibrated / floor2;
+    final += channel.heldoutWithEffects * channel.heldoutWithEffects / floor2;
+    ++channels;
+  }
+  if (channels == 0) return "";
+  std::string text = "Recordings that no fit saw are left by " + inFloors(given / channels) + " as given, " +
+                     digits(std::sqrt(calibrated / channels)) + " calibrated";
+  if (named) text += ", " + digits(std::sqrt(final / channels)) + " with what was found";
+  text += ". ";
+  if (named && final > worse * worse * calibrated)
+    text +=
+        "There it does worse than calibration alone: it does not hold for motions like those; record and fit some "
+        "of them before it is adopted. ";
+  else if (!named && calibrated > worse * worse * given)
+    text +=
+        "There the numbers as given do better: what was calibrated does not hold for motions like those; record "
+        "and fit some of them before it is adopted. ";
+  return text;
+}
+
 void judgeNamed(GapReport& report, const Findings& e) {
   report.verdict = Verdict::missingPhysics;
   std::string list, rivals;
@@ -281,6 +311,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
     report.sentence += "Nothing in the recordings moves by more than " + toText(leastMotion) + noiseFloors +
                        ": they can show little. ";
+  if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named);
   if (report.verdict == Verdict::unexplained || e.beyondStep() > clearlyLeft)
     report.sentence += swingText(problem, report);
   if (!report.remainder.on.empty())

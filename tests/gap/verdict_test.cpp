@@ -85,6 +85,34 @@ TEST(Verdict, AboveTwoNoiseFloorsATwentyFifthOfTheExcessIsTooMuch) {
   EXPECT_EQ(judged(600, 501, 16, true).verdict, Verdict::missingPhysics);
 }
 
+/// Held-out recordings left by so many noise floors.
+GapReport unseen(double given, double calibrated, double withEffects) {
+  GapReport report;
+  report.trials.resize(2);
+  report.trials[1].heldOut = true;
+  GapReport::Channel channel;
+  channel.noiseFloor = 0.01;
+  channel.heldoutAsGiven = 0.01 * given;
+  channel.heldoutCalibrated = 0.01 * calibrated;
+  channel.heldoutWithEffects = 0.01 * withEffects;
+  report.channels = {channel};
+  return report;
+}
+
+TEST(Verdict, SaysWhatRecordingsThatNoFitSawAreLeftBy) {
+  const GapReport better = judged(400, 100, 1, true, false, recorded(), {}, unseen(18, 9, 1.5));
+  EXPECT_THAT(better.sentence,
+              HasSubstr("Recordings that no fit saw are left by 18 noise floors as given, 9 calibrated, "
+                        "1.5 with what was found. "));
+  EXPECT_THAT(better.sentence, Not(HasSubstr("worse")));
+  const GapReport worse = judged(400, 100, 1, true, false, recorded(), {}, unseen(18, 9, 14));
+  EXPECT_THAT(worse.sentence, HasSubstr("There it does worse than calibration alone"));
+  const GapReport misled = judged(400, 1, 1, false, false, recorded(), {}, unseen(2, 9, 9));
+  EXPECT_EQ(misled.verdict, Verdict::parametersSuffice);
+  EXPECT_THAT(misled.sentence, HasSubstr("There the numbers as given do better"));
+  EXPECT_THAT(judged(400, 100, 1, true).sentence, Not(HasSubstr("no fit saw")));
+}
+
 /// All samples of the channel compared, in one segment.
 FitProblem compared() {
   FitProblem problem = recorded();

@@ -49,7 +49,7 @@ class SearchRun {
   struct FitJob {
     FitModel model;
     std::vector<std::vector<double>> shifts;
-    const Linearised* inherited = nullptr;            ///< see FitOptions
+    const Linearised* inherited = nullptr;  ///< see FitOptions
     double tolerance = FitOptions{}.tolerance;
   };
   bool isConsidered(const std::string& effect) const {

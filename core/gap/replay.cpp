@@ -50,14 +50,18 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
                   std::size_t row, std::vector<RobotReadings>& robots, std::vector<std::vector<double>>& values) {
   robots.resize(scene.robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) world.read(i, robots[i]);
-  std::vector<double> agreement(scene.robots.size(), 0);
   const auto orientation = [&](const Measured& measured) {
     const Eigen::Quaterniond q(robots[measured.object].base.linear());
     return std::array{q.w(), q.x(), q.y(), q.z()}[measured.part];
   };
-  for (const Measured& measured : binding.measured)
-    if (measured.what == Measured::What::baseOrientation && std::isfinite(recording.columns[measured.column][row]))
-      agreement[measured.object] += orientation(measured) * recording.columns[measured.column][row];
+  const auto agreement = [&](std::size_t robot) {
+    double sum = 0;
+    for (const Measured& measured : binding.measured)
+      if (measured.what == Measured::What::baseOrientation && measured.object == robot &&
+          std::isfinite(recording.columns[measured.column][row]))
+        sum += orientation(measured) * recording.columns[measured.column][row];
+    return sum;
+  };
 
   for (std::size_t i = 0; i < binding.measured.size(); ++i) {
     const Measured& measured = binding.measured[i];
@@ -76,7 +80,7 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
         value = robots[measured.object].base.translation()[static_cast<int>(measured.part)];
         break;
       case Measured::What::baseOrientation:
-        value = agreement[measured.object] < 0 ? -orientation(measured) : orientation(measured);
+        value = agreement(measured.object) < 0 ? -orientation(measured) : orientation(measured);
         break;
       case Measured::What::ballPosition:
         value = world.ball(measured.object).position_m[static_cast<int>(measured.part)];

@@ -192,7 +192,6 @@ std::string colourText(const Findings& e) {
 /// recordings cannot: a number or an effect that fits, and misleads.
 std::string unseenText(const GapReport& report, bool named) {
   constexpr double worse = 1.05;
-  if (std::ranges::none_of(report.trials, &GapReport::Trial::heldOut)) return "";
   double given = 0, calibrated = 0, final = 0, channels = 0;
   for (const GapReport::Channel& channel : report.channels) {
     const double floor2 = channel.noiseFloor * channel.noiseFloor;
@@ -202,19 +201,16 @@ std::string unseenText(const GapReport& report, bool named) {
     final += channel.heldoutWithEffects * channel.heldoutWithEffects / floor2;
     ++channels;
   }
-  if (channels == 0) return "";
+  if (channels == 0) return "";  // none was held out
   std::string text = "Recordings that no fit saw are left by " + inFloors(given / channels) + " as given, " +
                      digits(std::sqrt(calibrated / channels)) + " calibrated";
   if (named) text += ", " + digits(std::sqrt(final / channels)) + " with what was found";
   text += ". ";
-  if (named && final > worse * worse * calibrated)
-    text +=
-        "There it does worse than calibration alone: it does not hold for motions like those; record and fit some "
-        "of them before it is adopted. ";
-  else if (!named && calibrated > worse * worse * given)
-    text +=
-        "There the numbers as given do better: what was calibrated does not hold for motions like those; record "
-        "and fit some of them before it is adopted. ";
+  const bool misleads = named ? final > worse * worse * calibrated : calibrated > worse * worse * given;
+  if (misleads)
+    text += std::string(named ? "There it does worse than calibration alone: it"
+                              : "There the numbers as given do better: what was calibrated") +
+            " does not hold for motions like those; record and fit some of them before it is adopted. ";
   return text;
 }
 

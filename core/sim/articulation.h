@@ -92,6 +92,7 @@ class Articulation {
   Eigen::Isometry3d linkPose(int link) const;
   Eigen::Vector3d pointVelocity(int link, const Eigen::Vector3d& world) const;
   const Eigen::Isometry3d& poseOf(int body) const { return body < 0 ? basePose_ : bodies[body].pose; }
+  Eigen::Matrix3d rotationOf(int body) const { return poseOf(body).linear(); }
   dBodyID idOf(int body) const { return body < 0 ? nullptr : bodies[body].id; }
   int bodyOfLink(int link) const { return bodyOfLink_[link]; }
 
@@ -115,7 +116,6 @@ class Articulation {
   void finishJoint(RobotJoint& joint, const std::vector<LinkState>& zero);
   void aimJoints(const Eigen::Isometry3d& base);
   double inertiaHeldBy(const RobotJoint& joint, const std::vector<LinkState>& zero) const;
-  Eigen::Matrix3d rotationOf(int body) const { return poseOf(body).linear(); }
 
   dWorldID world_;
   const SceneRobot& robot_;

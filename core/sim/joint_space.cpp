@@ -9,6 +9,11 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// In the world. (Eigen multiplies whole matrices in place, the parts of a pose by calls.)
+Vector3d anchorOf(const Articulation& robot, const RobotJoint& joint) {
+  return robot.rotationOf(joint.parent) * joint.anchorInParent + robot.poseOf(joint.parent).translation();
+}
+
 }  // namespace
 
 bool JointSpace::suits(const SceneRobot& robot) {
@@ -47,13 +52,7 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
   for (std::size_t j = 0; j < moving_.size(); ++j) {
     const RobotJoint& joint = robot.joints[j];
     turn_[j] = joint.slides ? Vector3d(Vector3d::Zero()) : joint.axis;
-    if (joint.slides) {
-      push_[j] = joint.axis;
-    } else {
-      const Isometry3d& parent = robot.poseOf(joint.parent);
-      const Vector3d anchor = Matrix3d(parent.linear()) * joint.anchorInParent + parent.translation();
-      push_[j] = anchor.cross(joint.axis);
-    }
+    push_[j] = joint.slides ? joint.axis : anchorOf(robot, joint).cross(joint.axis);
     const RobotBody& body = robot.bodies[static_cast<std::size_t>(joint.child)];
     Moved& moved = moved_[static_cast<std::size_t>(joint.child)];
     const Vector3d& centre = body.pose.translation();
@@ -182,10 +181,9 @@ void JointSpace::place(Articulation& robot) const {
   for (std::size_t j = 0; j < moving_.size(); ++j) {
     RobotJoint& joint = robot.joints[j];
     RobotBody& child = robot.bodies[static_cast<std::size_t>(joint.child)];
-    const Isometry3d& parent = robot.poseOf(joint.parent);
-    const Matrix3d turned = parent.linear();
+    const Matrix3d turned = robot.rotationOf(joint.parent);
     joint.axis = turned * joint.axisInParent;
-    const Vector3d anchor = turned * joint.anchorInParent + parent.translation();
+    const Vector3d anchor = anchorOf(robot, joint);
     Matrix3d linear;
     Vector3d spin = Vector3d::Zero(), velocity = Vector3d::Zero();  // of the parent; of its point at the anchor
     if (joint.parent >= 0) {

@@ -65,7 +65,7 @@ class World {
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
 
   RobotReadings robot(std::size_t index) const;
-  /// The same into readings that were read before: allocates nothing.
+  /// The same into readings whose room is used again: of the same robot, nothing is allocated.
   void read(std::size_t index, RobotReadings& readings) const;
   BallState ball(std::size_t index) const;
   Eigen::Isometry3d ballPose(std::size_t index) const;

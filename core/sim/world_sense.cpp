@@ -85,10 +85,10 @@ RobotReadings World::robot(std::size_t index) const {
 void World::read(std::size_t index, RobotReadings& readings) const {
   const WorldRobot& robot = impl_->robots.at(index);
   readings.base = robot.body->base();
-  if (!robot.body->fixedBase()) {
-    readings.baseVelocity_m_s = robot.body->pointVelocity(0, readings.base.translation());
-    readings.baseSpin_rad_s = robot.body->bodies[0].spin_rad_s;
-  }
+  const bool moves = !robot.body->fixedBase();
+  readings.baseVelocity_m_s =
+      moves ? robot.body->pointVelocity(0, readings.base.translation()) : Vector3d(Vector3d::Zero());
+  readings.baseSpin_rad_s = moves ? robot.body->bodies[0].spin_rad_s : Vector3d(Vector3d::Zero());
   const std::size_t joints = robot.scene->model.joints.size();
   readings.position.assign(joints, 0);
   readings.rate.assign(joints, 0);

@@ -88,8 +88,6 @@ TEST(Verdict, AboveTwoNoiseFloorsATwentyFifthOfTheExcessIsTooMuch) {
 /// Held-out recordings left by so many noise floors.
 GapReport unseen(double given, double calibrated, double withEffects) {
   GapReport report;
-  report.trials.resize(2);
-  report.trials[1].heldOut = true;
   GapReport::Channel channel;
   channel.noiseFloor = 0.01;
   channel.heldoutAsGiven = 0.01 * given;

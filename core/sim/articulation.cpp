@@ -107,21 +107,16 @@ void Articulation::makeColliders() {
   const auto& links = robot_.model.links;
   std::size_t mesh = 0;
   for (int link = 0; link < static_cast<int>(links.size()); ++link) {
-    // A link that lacks the kind that was asked for collides with the other one.
-    bool hasMesh = false, hasPrimitive = false;
-    for (const auto& shape : links[link].shapes)
-      if (shape.collides) (shape.kind == Shape::Kind::mesh ? hasMesh : hasPrimitive) = true;
-    const bool useMesh = hasMesh && (robot_.collision == "mesh" || !hasPrimitive);
+    const bool useMesh = collidesAsMesh(links[link], robot_.collision);
     for (const auto& shape : links[link].shapes) {
       if (!shape.collides) continue;
       const bool isMesh = shape.kind == Shape::Kind::mesh;
-      std::shared_ptr<const Hull> hull;
-      if (isMesh) {
-        hull = mesh < robot_.hulls.size() ? robot_.hulls[mesh] : convexHull(shape.vertices);
-        ++mesh;
-      }
+      const std::size_t index = isMesh ? mesh++ : 0;
       const int body = bodyOfLink_[link];
       if (isMesh != useMesh) continue;
+      std::shared_ptr<const Hull> hull;
+      if (isMesh && index < robot_.hulls.size()) hull = robot_.hulls[index];
+      if (isMesh && !hull) hull = convexHull(shape.vertices);
       // Fixed parts keep their place in the body; a swallowed part is round about its joint: it stays as at position 0.
       Isometry3d place = linkInGroup_[link];
       const int group = groupOfLink_[link];

@@ -178,6 +178,13 @@ std::shared_ptr<const Hull> convexHull(const std::vector<Eigen::Vector3f>& verti
   return hull;
 }
 
+bool collidesAsMesh(const Link& link, const std::string& collision) {
+  bool hasMesh = false, hasPrimitive = false;
+  for (const Shape& shape : link.shapes)
+    if (shape.collides) (shape.kind == Shape::Kind::mesh ? hasMesh : hasPrimitive) = true;
+  return hasMesh && (collision == "mesh" || !hasPrimitive);
+}
+
 Collider makeCollider(const Shape& shape, const Isometry3d& linkInBody, int link, std::shared_ptr<const Hull> hull) {
   Collider collider{shape.kind, linkInBody * shape.pose, shape.size_m, 0, std::move(hull), link};
   switch (shape.kind) {

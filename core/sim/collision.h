@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/model/robot_model.h"
@@ -15,6 +16,10 @@ struct Hull {
   std::vector<Eigen::Vector4d> planes;  ///< of each face: outward unit normal and offset, n·x ≤ w inside
 };
 std::shared_ptr<const Hull> convexHull(const std::vector<Eigen::Vector3f>& vertices);
+
+/// Whether a link's meshes collide, not its primitives: as `collision` says ("mesh", "primitives"), but a link that lacks
+/// the kind that was asked for collides with the other one.
+bool collidesAsMesh(const Link& link, const std::string& collision);
 
 /// A solid that can touch floor or ball. Poses are in its body's frame.
 struct Collider {

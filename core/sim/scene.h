@@ -47,8 +47,8 @@ struct SceneRobot {
   std::vector<Drive> drives;           ///< by joint of the model; fixed joints: Kind::none
   std::string collision = "primitives";
   bool mergeFixed = true;
-  /// Simplified meshes of the model's colliding mesh shapes, in the order of links and shapes; makeScene fills it so
-  /// that a world needs not. May be empty.
+  /// Simplified meshes of the model's colliding mesh shapes, in the order of links and shapes; makeScene fills in those
+  /// that `collision` asks for, so that a world needs not. May be empty.
   std::vector<std::shared_ptr<const Hull>> hulls;
 };
 

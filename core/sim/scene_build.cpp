@@ -79,7 +79,8 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
   for (const auto& link : model.links)
     for (const auto& shape : link.shapes)
-      if (shape.collides && shape.kind == Shape::Kind::mesh) robot.hulls.push_back(convexHull(shape.vertices));
+      if (shape.collides && shape.kind == Shape::Kind::mesh)
+        robot.hulls.push_back(collidesAsMesh(link, spec.collision) ? convexHull(shape.vertices) : nullptr);
 
   const std::string place = "scene robots." + spec.name;
   for (const auto& [name, start] : spec.jointStart)

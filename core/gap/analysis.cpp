@@ -109,18 +109,15 @@ std::vector<GapReport::Number> numbersOf(const FitProblem& problem, const Attemp
 }
 
 std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertainty& uncertainty, int effect) {
-  constexpr double normal95 = 1.96;
   std::vector<GapReport::Number> numbers;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const FitParameter& p = model.parameters[i];
     if (p.effect != effect) continue;
     GapReport::Number number{p.name, p.unit, p.given, model.values[i], {}, false, true};
-    const double range = p.maximum - p.minimum;
-    const double half =
-        normal95 * uncertainty.standardError[i] + (uncertainty.unsettled.empty() ? 0 : uncertainty.unsettled[i]);
+    const double half = uncertainty.half95(i);
     number.ci95 = {std::max(p.minimum, model.values[i] - half), std::min(p.maximum, model.values[i] + half)};
     number.atBound = isAtBound(model.values[i], p);
-    number.excited = half < 0.5 * range;
+    number.excited = isTold(p, half);
     numbers.push_back(number);
   }
   return numbers;

@@ -68,7 +68,12 @@ struct Uncertainty {
   std::vector<double> standardError;  ///< in the parameter's unit; infinite where the recordings do not tell it
   Eigen::MatrixXd correlation;
   std::vector<double> unsettled;  ///< unsettled(), where it was asked for; else empty
+
+  /// Half the 95 % interval of a parameter, in its unit.
+  double half95(std::size_t parameter) const;
 };
+/// Whether an interval of which this is the half says where a parameter is between its bounds.
+bool isTold(const FitParameter& parameter, double half95);
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linearised);
 
 /// How far each parameter may still be from where it belongs, beside what noise does, in its unit: the way that the

@@ -130,6 +130,15 @@ std::vector<double> unsettled(const FitProblem& problem, const Fit& fit, const L
   return ways;
 }
 
+double Uncertainty::half95(std::size_t parameter) const {
+  constexpr double normal95 = 1.96;
+  return normal95 * standardError[parameter] + (unsettled.empty() ? 0 : unsettled[parameter]);
+}
+
+bool isTold(const FitParameter& parameter, double half95) {
+  return half95 < 0.5 * (parameter.maximum - parameter.minimum);
+}
+
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linear) {
   const Eigen::Index p = linear.columns.cols();
   Uncertainty result;

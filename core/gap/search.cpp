@@ -132,31 +132,6 @@ void SearchRun::remember(std::vector<Attempt>& attempts, const Attempt& attempt)
   attempts.push_back(attempt);
 }
 
-/// Calibrated numbers that the recordings do not feel stay as given from here on: each costs a replay a step.
-void SearchRun::holdUntold(SearchResult& result) {
-  FitModel& model = result.final.fit.model;
-  FitModel kept = model;
-  kept.parameters.clear();
-  kept.values.clear();
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    if (result.calibratedLinear.columns.col(column).norm() < felt) {
-      held_.push_back(model.parameters[i]);
-      continue;
-    }
-    kept.parameters.push_back(model.parameters[i]);
-    kept.values.push_back(model.values[i]);
-    columns.push_back(column);
-  }
-  if (columns.size() == model.parameters.size()) return;
-  model = kept;
-  for (Eigen::MatrixXd* matrix : {&result.calibratedLinear.columns, &result.calibratedLinear.raw}) {
-    const Eigen::MatrixXd left = (*matrix)(Eigen::all, columns);
-    *matrix = left;
-  }
-}
-
 /// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it may
 /// have bent them to take up what is missing.
 std::vector<Fit> SearchRun::basesOf(const SearchResult& result, bool first) const {
@@ -262,11 +237,16 @@ SearchResult SearchRun::run() {
   if (!result.final.fit.model.effects.empty()) settle(result, true, "fitting once more", 0.86);
   findRivals(result);
   result.step_s = problem_.scene.step_s;
+  measure(result);
+  if (leaveUntold(result)) measure(result);
+  return result;
+}
+
+void SearchRun::measure(SearchResult& result) const {
   result.stepChange = stepChange(result.final.fit);
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
   result.finalUncertainty.unsettled = unsettled(problem_, result.final.fit, result.finalLinear, result.stepChange);
-  return result;
 }
 
 double excessOf(const Scored& scored) { return std::max(0.0, scored.mean() - 1); }

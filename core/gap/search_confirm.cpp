@@ -143,34 +143,6 @@ void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
   if (best.cost < better * fit.cost) fit = best;
 }
 
-void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const {
-  std::vector<FitJob> jobs;
-  std::vector<std::size_t> owner;
-  for (std::size_t i = 0; i < fits.size() && !held_.empty(); ++i) {
-    FitModel model = fits[i].model;
-    const Eigen::VectorXd here = residualsOf(problem_, model, fits[i].shifts);
-    for (const FitParameter& p : held_) {
-      const auto isOne = [&](const FitParameter& other) { return other.effect < 0 && other.name == p.name; };
-      if (std::ranges::any_of(fits[i].model.parameters, isOne)) continue;
-      FitModel with = model;
-      with.parameters.push_back(p);
-      with.values.push_back(p.given);
-      const auto isFelt = [&](double by) {
-        FitModel moved = with;
-        moved.values.back() = std::clamp(p.given + by, p.minimum, p.maximum);
-        return (residualsOf(problem_, moved, fits[i].shifts) - here).norm() >= felt;
-      };
-      if (isFelt(p.scale) || isFelt(-p.scale)) model = with;
-    }
-    if (model.parameters.size() == fits[i].model.parameters.size()) continue;
-    jobs.push_back({model, fits[i].shifts});
-    owner.push_back(i);
-  }
-  const std::vector<Fit> again = fitAll(jobs, 2 * lastIterations, stage, at, at);
-  for (std::size_t k = 0; k < again.size(); ++k)
-    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
-}
-
 bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
                         double judged_s, const std::string& stage, double from, double to) {
   if (which.empty()) return false;

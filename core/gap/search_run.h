@@ -122,10 +122,16 @@ class SearchRun {
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  /// Calibrated numbers that the recordings do not feel stay as given from here on: each costs a replay a step.
   void holdUntold(SearchResult& result);
   /// Numbers that were held and are felt beside what was added: a servo that saturates with the rotor that was left out
   /// alone. Fitted again with them where that helps.
   void giveBack(std::vector<Fit>& fits, const std::string& stage, double at) const;
+  /// In the end, numbers that the recordings hardly tell are as given where they explain the recordings as well: what
+  /// they went elsewhere for is noise, and other motions may feel it. True if one is.
+  bool leaveUntold(SearchResult& result) const;
+  /// Sensitivities and uncertainties of the final model.
+  void measure(SearchResult& result) const;
   /// Of the first effect: true if the calibrated numbers, begun where the effect left them, do as well without it. They
   /// are the calibrated simulator then, and the search begins anew.
   bool calibrateFrom(SearchResult& result);

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/gap/analysis.h"
 #include "core/gap/fit.h"
 #include "tests/prove/open_case.h"
@@ -133,6 +135,22 @@ TEST(Mended, WhatOnlyShowsTheCalibrationItsWayIsNoEffect) {
   EXPECT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << toPlainText(report);
   for (const GapReport::Number& number : report.calibrated)
     EXPECT_NEAR(number.value / blind.simulator.values.at(number.name), 1, 1e-3) << number.name;
+}
+
+// A joint in honey: what it does follows from the servo's gain over the friction, and both had gone half as far again as
+// they are, along a valley without a slope. What recordings do not tell is as given, and here that is the truth.
+TEST(Mended, NumbersThatRecordingsDoNotTellAreAsGiven) {
+  constexpr double coefficient = 135.265940;
+  const PlacedEffect friction{"viscous_friction", "rig.shoulder", {{"coefficient_nm_s_rad", coefficient}}};
+  const GapReport report = analysedHiding(friction, {20261165, 59, "ode", "pendulum", ""}, {"viscous_friction"});
+  ASSERT_EQ(report.calibrated.size(), 3u);
+  for (const GapReport::Number& number : report.calibrated) {
+    EXPECT_FALSE(number.excited) << number.name;
+    EXPECT_EQ(number.value, number.before) << number.name;
+  }
+  ASSERT_THAT(namedIn(report), testing::ElementsAre("viscous_friction")) << toPlainText(report);
+  const auto found = std::ranges::find_if(report.tried, &GapReport::Effect::accepted);
+  EXPECT_NEAR(found->parameters.at(0).value / coefficient, 1, 0.05);
 }
 
 }  // namespace

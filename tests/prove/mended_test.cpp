@@ -137,8 +137,8 @@ TEST(Mended, WhatOnlyShowsTheCalibrationItsWayIsNoEffect) {
     EXPECT_NEAR(number.value / blind.simulator.values.at(number.name), 1, 1e-3) << number.name;
 }
 
-// A joint in honey: what it does follows from the servo's gain over the friction, and both had gone half as far again as
-// they are, along a valley without a slope. What recordings do not tell is as given, and here that is the truth.
+// A joint in honey: what it does follows from the servo's gain over the friction, and both had gone half as far again
+// as they are, along a valley without a slope. What recordings do not tell is as given, and here that is the truth.
 TEST(Mended, NumbersThatRecordingsDoNotTellAreAsGiven) {
   constexpr double coefficient = 135.265940;
   const PlacedEffect friction{"viscous_friction", "rig.shoulder", {{"coefficient_nm_s_rad", coefficient}}};

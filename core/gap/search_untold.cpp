@@ -12,6 +12,15 @@ std::size_t placeIn(const FitModel& model, const FitParameter& p) {
   return static_cast<std::size_t>(std::ranges::find_if(model.parameters, same) - model.parameters.begin());
 }
 
+/// The model with the other's values of what that fits, and all else as given.
+FitModel valuesFrom(const FitModel& fitted, FitModel model) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const std::size_t place = placeIn(fitted, model.parameters[i]);
+    model.values[i] = place < fitted.values.size() ? fitted.values[place] : model.parameters[i].given;
+  }
+  return model;
+}
+
 /// Numbers of the scene that went elsewhere untold, the least told first.
 std::vector<std::size_t> strayed(const FitModel& model, const Uncertainty& uncertainty) {
   std::vector<std::pair<double, std::size_t>> found;
@@ -125,14 +134,14 @@ bool SearchRun::leaveUntold(SearchResult& result) const {
   const FitModel fitted = least.fit.model;
   if (fitted.parameters.size() == whole.parameters.size()) return false;
   // They remain numbers of the fit: what is not known of them widens the intervals of others.
-  least.fit.model = whole;
-  for (std::size_t i = 0; i < whole.parameters.size(); ++i) {
-    const std::size_t place = placeIn(fitted, whole.parameters[i]);
-    least.fit.model.values[i] = place < fitted.values.size() ? fitted.values[place] : whole.parameters[i].given;
-  }
-  result.final = least;
-  if (whole.effects.empty()) result.calibrated = least;
-  result.ladder.back() = step(result.ladder.back().what, least);
+  const auto widened = [&](const FitModel& model) {
+    Scored scored = least;
+    scored.fit.model = valuesFrom(fitted, model);
+    return scored;
+  };
+  result.final = widened(whole);
+  if (whole.effects.empty()) result.calibrated = widened(result.calibrated.fit.model);
+  result.ladder.back() = step(result.ladder.back().what, result.final);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/gap/analysis.h"
 #include "core/gap/fit.h"
@@ -151,6 +152,32 @@ TEST(Mended, NumbersThatRecordingsDoNotTellAreAsGiven) {
   ASSERT_THAT(namedIn(report), testing::ElementsAre("viscous_friction")) << toPlainText(report);
   const auto found = std::ranges::find_if(report.tried, &GapReport::Effect::accepted);
   EXPECT_NEAR(found->parameters.at(0).value / coefficient, 1, 0.05);
+}
+
+// The same joint whose friction the scene knows, less of it: of gain and friction one must follow the other, which
+// stays as given. The largest torque, which the simulator does not feel, is in the report beside them.
+TEST(Mended, OfTwoNumbersThatAreToldTogetherOneIsAsGiven) {
+  const Plugins plugins;
+  const std::string servo = "robots.rig.servos.shoulder.",
+                    friction = "robots.rig.joints.shoulder.viscous_friction_nm_s_rad";
+  constexpr double coefficient = 135.265940;
+  const PlacedEffect hidden{"viscous_friction", "rig.shoulder", {{"coefficient_nm_s_rad", coefficient}}};
+  const BlindCase blind = caseHiding(hidden, {20261165, 59, "ode", "pendulum", ""}, plugins);
+  GapProblem given = problemOf(blind, plugins);
+  given.simulator.values[friction] = 100;
+  given.scene.calibrate.push_back({friction, 10, 1000});
+  AnalysisOptions options;
+  options.effects = {"backlash"};
+  const GapReport report = analyse(given, {plugins.library.make, plugins.library.names}, options);
+  EXPECT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << toPlainText(report);
+  ASSERT_EQ(report.calibrated.size(), 4u) << toPlainText(report);
+  std::map<std::string, GapReport::Number> numbers;
+  for (const GapReport::Number& number : report.calibrated) numbers[number.name] = number;
+  const auto isAsGiven = [&](const std::string& name) { return numbers.at(name).value == numbers.at(name).before; };
+  EXPECT_TRUE(isAsGiven(servo + "max_torque_nm")) << toPlainText(report);
+  EXPECT_NE(isAsGiven(servo + "p"), isAsGiven(friction)) << toPlainText(report);
+  const double ratio = numbers.at(friction).value / numbers.at(servo + "p").value;
+  EXPECT_NEAR(ratio / (coefficient / blind.simulator.values.at(servo + "p")), 1, 0.05) << toPlainText(report);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ class Trial {
         break;
       }
       // After its end a motion's last commands are held.
-      if (moving) motion->command(world_.time(), world_.robot(0), inputs_[0]);
+      if (moving) motion->command(world_.time(), readings_, inputs_[0]);
       world_.advance(inputs_, scene_.controlPeriod_s);
       record(result);
     }
@@ -70,12 +70,13 @@ class Trial {
   }
 
  private:
-  void record(TrialResult& result) const {
+  /// Reads the first robot, too.
+  void record(TrialResult& result) {
     if (options_.recordTrace) world_.sample(result.trace.values);
     if (scene_.robots.empty()) return;
-    const Eigen::Isometry3d base = world_.robot(0).base;
-    const auto& axes = base.linear();
-    result.basePath.push_back({base.translation(), std::atan2(axes(1, 0), axes(0, 0)), axes(2, 2)});
+    world_.read(0, readings_);
+    const auto& axes = readings_.base.linear();
+    result.basePath.push_back({readings_.base.translation(), std::atan2(axes(1, 0), axes(0, 0)), axes(2, 2)});
   }
 
   /// True if nothing more is to be seen after the motion.
@@ -155,6 +156,7 @@ class Trial {
   const TrialOptions& options_;
   World world_;
   std::vector<std::vector<JointInput>> inputs_;
+  RobotReadings readings_;  ///< of the first robot, as last recorded
 };
 
 }  // namespace

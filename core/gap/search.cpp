@@ -76,34 +76,6 @@ void SearchRun::settle(SearchResult& result, bool fitToTheEnd, const std::string
   result.ladder.back() = step(result.ladder.back().what, result.final);
 }
 
-/// Whole numbers, as of teeth in a turn, are no parameters of a fit: neighbours are tried as long as one fits better.
-void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at) const {
-  if (fit.model.effects.empty()) return;
-  constexpr int look = 3, iterations = 8, mostRounds = 6;
-  constexpr double better = 0.995;
-  const PlacedEffect last = fit.model.effects.back();
-  for (const Parameter& p : parametersAt(problem_, last.effect, last.at)) {
-    if (!p.integer) continue;
-    for (int round = 0; round < mostRounds; ++round) {
-      const double here = fit.model.effects.back().parameters.at(p.name);
-      std::vector<FitJob> jobs;
-      for (const double by : {-3, -2, -1, 1, 2, 3}) {
-        if (here + by < p.minimum || here + by > p.maximum) continue;
-        FitModel model = fit.model;
-        model.effects.back().parameters[p.name] = here + by;
-        jobs.push_back({model, fit.shifts});
-      }
-      std::vector<Fit> fits = fitAll(jobs, look, stage, at, at);
-      std::ranges::sort(fits, costsLess);
-      if (fits.size() > 2) fits.resize(2);
-      fits = fitOn(fits, iterations, stage, at, at);
-      const auto least = std::ranges::min_element(fits, costsLess);
-      if (least == fits.end() || !(least->cost < better * fit.cost)) break;
-      fit = *least;
-    }
-  }
-}
-
 GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {
   GapReport::Step step{what, std::sqrt(scored.mean()), 0};
   double n = 0, square = 0;

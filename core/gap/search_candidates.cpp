@@ -11,6 +11,8 @@ namespace {
 
 constexpr int firstIterations = 8;
 constexpr double hopeless = 4;
+constexpr double inReach =
+    16;  // by cost, of the best: a wrong number of waves leaves many times what the right one does
 constexpr std::size_t candidatesInPairs = 4;
 
 /// Where the fit of a candidate may begin.
@@ -149,6 +151,11 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (std::size_t k = again.size(); k < promising.size(); ++k)
     if (isContained(promising[k], again)) again.push_back(promising[k]);
   fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
+  double least = INFINITY;
+  for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
+  for (const std::size_t k : promising)
+    if (tried[k].fit.cost <= inReach * least)
+      fitFromWindows(tried[k].fit, bases[0].fit.model, "fitting candidates" + stage, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
 
   for (Tried& each : tried)

@@ -87,6 +87,8 @@ class SearchRun {
                                   double from, double to);
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
+  /// A candidate with a whole number that leaves much: other numbers, begun in short windows.
+  void fitFromWindows(Fit& fit, const FitModel& without, const std::string& stage, double at) const;
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   void startAnew(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);

@@ -33,12 +33,6 @@ FitProblem inWindows(const FitProblem& problem, double length_s) {
   return windows;
 }
 
-std::vector<std::vector<double>> noShifts(const FitProblem& problem) {
-  std::vector<std::vector<double>> shifts;
-  for (const Segment& segment : problem.segments) shifts.emplace_back(segment.nuisances.size(), 0.0);
-  return shifts;
-}
-
 /// The last effect's whole number around where it is, its numbers without a neutral value all over their range.
 std::vector<FitModel> wavesLike(const FitModel& base, const Parameter& whole) {
   const int last = static_cast<int>(base.effects.size()) - 1;
@@ -82,10 +76,9 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
 
   SearchRun windows(inWindows(problem_, shortest_s), options_);
   windows.told_ = told_;
-  const auto shifts = noShifts(windows.problem_);
   const auto errors = parallel(
       options_.jobs, waves.size(),
-      [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem_, waves[i], shifts).squaredNorm()}; },
+      [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem_, waves[i], {}).squaredNorm()}; },
       reporter(stage, waves.size(), at, at));
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < waves.size(); ++i)
@@ -95,7 +88,7 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   for (const std::size_t i : order)
     if (starts.size() < mostStarts &&
         std::ranges::none_of(starts, [&](const FitJob& start) { return numberOf(start.model) == numberOf(waves[i]); }))
-      starts.push_back({waves[i], shifts});
+      starts.push_back({waves[i], {}});
 
   std::vector<Fit> fits = windows.tryFits(starts, nearby, stage, at, at);
   if (fits.empty()) return;
@@ -110,7 +103,7 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   };
   for (double length_s = longer * shortest_s; length_s < longest_s; length_s *= longer) {
     windows.problem_ = inWindows(problem_, length_s);
-    goOn(windows, noShifts(windows.problem_));
+    goOn(windows, {});
   }
   goOn(*this, fit.shifts);
   const auto least = std::ranges::min_element(fits, costsLess);

@@ -332,7 +332,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (progress && !progress("locating", 0.96)) throw Cancelled{};
   report.located = locate(found.calibrated.fit.model, problem);
   if (progress && !progress("looking at what remains", 0.97)) throw Cancelled{};
-  report.remainder = findRemainder(problem, found, options.jobs);
+  if (options.learnRest) report.remainder = findRemainder(problem, found, options.jobs);
   const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs);
   if (options.designNext) report.next = designNext(problem, found, options.seed);
   judge(report, problem, found, curveIsBetter);

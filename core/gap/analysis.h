@@ -25,6 +25,7 @@ struct AnalysisOptions {
   int maximumEffects = 3;
   std::vector<std::string> effects;  ///< which to consider; empty: all
   bool designNext = true;
+  bool learnRest = true;    ///< step 9: what named effects leave as a curve; it takes longer than all else on a floor
   bool asRecorded = false;  ///< goes on where the doctor is certain that a column is not what its name says
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "core/spec/json_reader.h"
@@ -9,8 +10,28 @@
 namespace btr {
 namespace {
 
-bool isHung(const PreparedExperiment& prepared) {
-  return valueOf(recordingParameters(), prepared.spec.recordings.settings, "robot") == 0;
+/// Analysed after it was hung up: what that said of its joints stays.
+bool afterHanging(const RecordingsSpec& spec, RobotPose pose) {
+  return pose == RobotPose::onFloor && spec.poses().size() > 1;
+}
+
+/// What the analysis may fit, "path in [minimum, maximum]".
+std::vector<CalibratePath> numbersToFit(const RecordingsSpec& spec, const SimulatorSpec& simulator, RobotPose pose) {
+  const bool later = afterHanging(spec, pose);
+  const std::vector<std::string> servos{"servo_p_nm_rad", "servo_d_nm_s_rad", "servo_max_torque_nm"},
+      floor{"friction", "slip1_m_s_n", "slip2_m_s_n"};
+  const std::vector<std::string>& named = later ? spec.calibrateOnFloor : spec.calibrate;
+  const double within = valueOf(recordingParameters(), spec.settings, "calibrate_within");
+  std::vector<CalibratePath> paths;
+  for (const std::string& name : !named.empty() ? named : later ? floor : servos) {
+    const Parameter& p = *find(simulatorParameters(), name);
+    const double value = valueOf(simulatorParameters(), simulator.values, name), most = within * std::abs(value);
+    // Nobody has an idea of a floor beforehand.
+    const bool anywhere = later || most <= 0;
+    paths.push_back({name, anywhere ? p.minimum : std::max(p.minimum, value - most),
+                     anywhere ? p.maximum : std::min(p.maximum, value + most)});
+  }
+  return paths;
 }
 
 void drop(Recording& recording, std::size_t channel) {
@@ -60,10 +81,10 @@ void leaveOutUnseenBranches(GapProblem& problem, const std::vector<std::string>&
 
 }  // namespace
 
-Scene recordedScene(const PreparedExperiment& prepared, const SimulatorSpec& simulator) {
+Scene recordedScene(const PreparedExperiment& prepared, const SimulatorSpec& simulator, RobotPose pose) {
   constexpr double higher_m = 1;
   Scene scene = prepared.scene(simulator);
-  if (isHung(prepared)) {
+  if (pose == RobotPose::hungUp) {
     SceneRobot& robot = scene.robots.front();
     robot.freeBase = false;
     robot.start.translation().z() += higher_m;
@@ -72,7 +93,7 @@ Scene recordedScene(const PreparedExperiment& prepared, const SimulatorSpec& sim
 }
 
 GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSpec& simulator,
-                           std::vector<Recording> recordings) {
+                           std::vector<Recording> recordings, RobotPose pose) {
   const RecordingsSpec& spec = prepared.spec.recordings;
   GapProblem problem;
   problem.scene = prepared.sceneSpec;
@@ -81,7 +102,7 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   problem.recordings = std::move(recordings);
 
   // Where the controller has put robot and ball.
-  const Scene arranged = recordedScene(prepared, simulator);
+  const Scene arranged = recordedScene(prepared, simulator, pose);
   RobotSpec& robot = problem.scene.robots.front();
   const SceneRobot& placed = arranged.robots.front();
   const Eigen::Quaterniond turned(placed.start.linear());
@@ -90,23 +111,15 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   for (std::size_t b = 0; b < arranged.balls.size(); ++b)
     problem.scene.balls[b].position_m = arranged.balls[b].position_m;
   // In the air nothing is touched.
-  if (isHung(prepared)) {
+  if (pose == RobotPose::hungUp) {
     robot.base = "fixed";
     robot.collision = "none";
   }
 
-  const std::vector<std::string> servos{"servo_p_nm_rad", "servo_d_nm_s_rad", "servo_max_torque_nm"};
-  const double within = valueOf(recordingParameters(), spec.settings, "calibrate_within");
-  problem.scene.calibrate.clear();
-  for (const std::string& name : spec.calibrate.empty() ? servos : spec.calibrate) {
-    const Parameter& p = *find(simulatorParameters(), name);
-    const double value = valueOf(simulatorParameters(), simulator.values, name), most = within * std::abs(value);
-    problem.scene.calibrate.push_back({name, most > 0 ? std::max(p.minimum, value - most) : p.minimum,
-                                       most > 0 ? std::min(p.maximum, value + most) : p.maximum});
-  }
+  problem.scene.calibrate = numbersToFit(spec, simulator, pose);
 
   const auto isCompared = [&](const std::string& channel) {
-    if (spec.joints.empty() || !channel.ends_with(".position_rad")) return true;
+    if (spec.joints.empty() || afterHanging(spec, pose) || !channel.ends_with(".position_rad")) return true;
     return std::ranges::any_of(spec.joints,
                                [&](const std::string& joint) { return channel == joint + ".position_rad"; });
   };
@@ -114,26 +127,38 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   for (Recording& recording : problem.recordings)
     for (const std::string& channel : recording.channels)
       if (!isCompared(channel)) recording.notCompared.push_back(channel);
-  if (isHung(prepared)) leaveOutUnseenBranches(problem, spec.joints);
+  if (pose == RobotPose::hungUp) leaveOutUnseenBranches(problem, spec.joints);
   return problem;
 }
 
-std::vector<std::string> consideredEffects(const PreparedExperiment& prepared, const PluginHost& host) {
-  const std::vector<std::string>& named = prepared.spec.recordings.effects;
+std::vector<std::string> consideredEffects(const PreparedExperiment& prepared, const PluginHost& host, RobotPose pose) {
+  const RecordingsSpec& spec = prepared.spec.recordings;
+  const bool later = afterHanging(spec, pose);
+  const std::vector<std::string>& named = later ? spec.effectsOnFloor : spec.effects;
   if (!named.empty()) return named;
   std::vector<std::string> names = host.effects();
-  if (isHung(prepared))
-    std::erase_if(names, [&](const std::string& name) { return host.effect(name)->place() != Effect::Place::joint; });
+  const auto actsOnJoints = [&](const std::string& name) { return host.effect(name)->place() == Effect::Place::joint; };
+  if (pose == RobotPose::hungUp) std::erase_if(names, std::not_fn(actsOnJoints));
+  if (later) std::erase_if(names, actsOnJoints);
   return names;
 }
 
-void writeRecording(const Trace& trace, const std::string& path, Random& random) {
+RobotPose poseOf(const Recording& recording) {
+  const bool seesBody = std::ranges::any_of(recording.channels, [](const std::string& channel) {
+    const auto name = parseChannel(channel);
+    return name && name->part == "base";
+  });
+  return seesBody ? RobotPose::onFloor : RobotPose::hungUp;
+}
+
+void writeRecording(const Trace& trace, const std::string& path, RobotPose pose, Random& random) {
   std::string text;
   std::vector<std::size_t> kept;
   for (std::size_t c = 0; c < trace.channels.size(); ++c) {
     const std::string& name = trace.channels[c];
+    const bool isSeen = name.starts_with("ball") || (pose == RobotPose::onFloor && name.find(".base.") != name.npos);
     const bool wanted = name == "time_s" || name.ends_with(".command_rad") || name.ends_with(".position_rad") ||
-                        (name.starts_with("ball") && (name.ends_with(".x_m") || name.ends_with(".y_m")));
+                        (isSeen && (name.ends_with(".x_m") || name.ends_with(".y_m")));
     if (!wanted) continue;
     text += (kept.empty() ? "" : ",") + name;
     kept.push_back(c);

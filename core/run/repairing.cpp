@@ -54,28 +54,42 @@ std::vector<Id> whomToRecord(const RunContext& context, int stage) {
   return who;
 }
 
-/// The individuals' recordings, in their order; several of one in the order in which they came.
-std::vector<RecordingRecord> recordingsOf(const RunContext& context, const std::vector<Id>& who) {
+/// A stored recording and its trials.
+struct Recorded {
+  RecordingRecord record;  ///< without csv
+  std::vector<Recording> trials;
+};
+
+/// The individuals' recordings in that pose, in their order; several of one in the order in which they came.
+std::vector<Recorded> recordingsOf(const RunContext& context, const std::vector<Id>& who, RobotPose pose) {
+  const ScratchFolder scratch;
   const std::vector<RecordingRecord> all = context.database.recordings(context.record.experiment);
-  std::vector<RecordingRecord> found;
+  const bool both = context.prepared.spec.recordings.poses().size() > 1;
+  std::vector<Recorded> found;
   for (const Id individual : who)
-    for (const RecordingRecord& recording : all)
-      if (recording.individual == individual) found.push_back(recording);
+    for (const RecordingRecord& record : all) {
+      if (record.individual != individual) continue;
+      // Two recordings may have the same name: each gets a folder of its own.
+      const std::string folder = scratch.file(std::to_string(record.id));
+      Recorded recorded{record, loadTrials(exportRecording(context.database, record.id, folder))};
+      if (!both || poseOf(recorded.trials.front()) == pose) found.push_back(std::move(recorded));
+    }
   return found;
 }
 
 /// The stand-in robot is recorded. False if stopped.
-bool recordStandIn(RunContext& context, const std::vector<Id>& who) {
+bool recordStandIn(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
   const ScratchFolder scratch;
   StandIn robot(StandIn::programFor(context.prepared.spec), context.database.path(), context.record.id);
   for (const Id individual : who) {
-    if (!recordingsOf(context, {individual}).empty()) continue;
+    if (!recordingsOf(context, {individual}, pose).empty()) continue;
     if (context.stopped()) return false;
     RecordingRecord record;
     record.experiment = context.record.experiment;
     record.individual = individual;
-    record.name = "run-" + std::to_string(context.record.id) + "-individual-" + std::to_string(individual) + ".csv";
-    robot.measure(context.database.individual(individual).parameters, 0, scratch.file(record.name));
+    record.name = "run-" + std::to_string(context.record.id) + "-individual-" + std::to_string(individual) +
+                  (pose == RobotPose::onFloor ? "-on-floor.csv" : ".csv");
+    robot.measure(context.database.individual(individual).parameters, 0, {scratch.file(record.name), pose});
     record.csv = readFile(scratch.file(record.name));
     record.sha256 = sha256(record.csv);
     record.source = "stand-in reality";
@@ -93,8 +107,9 @@ nlohmann::json numbersOf(const std::vector<GapReport::Number>& numbers) {
   return all;
 }
 
-std::string evidenceOf(const GapReport& report, int stage, const std::vector<RecordingRecord>& recordings) {
+std::string evidenceOf(const GapReport& report, int stage, RobotPose pose, const std::vector<Recorded>& recordings) {
   nlohmann::json evidence{{"stage", stage},
+                          {"robot", toText(pose)},
                           {"verdict", toText(report.verdict)},
                           {"sentence", report.sentence},
                           {"calibrated", numbersOf(report.calibrated)},
@@ -110,38 +125,32 @@ std::string evidenceOf(const GapReport& report, int stage, const std::vector<Rec
           {{"effect", effect.effect}, {"at", effect.at}, {"parameters", numbersOf(effect.parameters)}});
   for (const GapReport::Step& step : report.ladder)
     evidence["ladder"].push_back({{"what", step.what}, {"error_in_noise_floors", step.error}});
-  for (const RecordingRecord& recording : recordings) {
-    evidence["recordings"].push_back(recording.id);
-    evidence["recordings_sha256"].push_back(recording.sha256);
+  for (const Recorded& recorded : recordings) {
+    evidence["recordings"].push_back(recorded.record.id);
+    evidence["recordings_sha256"].push_back(recorded.record.sha256);
   }
   return evidence.dump();
 }
 
 /// The analysis of the recordings; nothing if stopped.
 std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorSpec& simulator,
-                                           const std::vector<RecordingRecord>& recordings) {
+                                           const std::vector<Recorded>& recordings, RobotPose pose) {
   std::vector<Recording> trials;
-  {
-    const ScratchFolder scratch;
-    for (const RecordingRecord& stored : recordings) {
-      // Two recordings may have the same name: each gets a folder of its own.
-      const std::string folder = scratch.file(std::to_string(stored.id));
-      for (Recording& trial : loadTrials(exportRecording(context.database, stored.id, folder)))
-        trials.push_back(std::move(trial));
-    }
-  }
+  for (const Recorded& recorded : recordings)
+    trials.insert(trials.end(), recorded.trials.begin(), recorded.trials.end());
   AnalysisOptions options;
   options.jobs = context.jobs();
   options.seed = context.record.seed;
   options.maximumEffects = static_cast<int>(settingOf(context, "maximum_effects"));
-  options.effects = consideredEffects(context.prepared, context.host);
+  options.effects = consideredEffects(context.prepared, context.host, pose);
   options.designNext = false;
+  options.learnRest = false;  // nobody looks at its curve here
   const EffectLibrary library{context.host.effectFactory(), context.host.effects()};
   context.progress.stage = "gap analysis";
   context.progress.stageTotal = 100;
   context.progress.secondsLeft = -1;
   try {
-    return analyse(recordedProblem(context.prepared, simulator, std::move(trials)), library, options,
+    return analyse(recordedProblem(context.prepared, simulator, std::move(trials), pose), library, options,
                    [&](const std::string& what, double share) {
                      context.progress.stageDone = static_cast<int>(100 * share);
                      context.progress.message = what;
@@ -154,41 +163,52 @@ std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorS
 }
 
 /// What was adopted by hand in the meantime names no stage.
-bool isRepairOf(const SimulatorRecord& version, int stage) {
+bool isRepairOf(const SimulatorRecord& version, int stage, RobotPose pose) {
   if (version.madeBy != "gap analysis") return false;
   const auto evidence = nlohmann::json::parse(version.evidence, nullptr, false);
-  return evidence.is_object() && evidence.value("stage", 0) == stage;
+  // Versions of one pose did not always say which.
+  return evidence.is_object() && evidence.value("stage", 0) == stage &&
+         evidence.value("robot", toText(pose)) == toText(pose);
 }
 
-}  // namespace
+/// How a person is told which recordings are waited for, where there are two kinds.
+std::string describe(const PreparedExperiment& prepared, RobotPose pose) {
+  if (prepared.spec.recordings.poses().size() < 2) return "";
+  if (pose == RobotPose::hungUp) return " of the robot hung up, without its body's place";
+  const std::string body = prepared.sceneSpec.robots.front().name + ".base.";
+  return " on the floor, with its body's place (" + body + "x_m, " + body + "y_m)";
+}
 
-StageEnd repairSimulator(RunContext& context, int stage) {
+/// One pose's recordings, analysis and version.
+StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   Database& db = context.database;
   const Id run = context.record.id;
-  if (static_cast<double>(stage) != settingOf(context, "after_stage")) return StageEnd::done;
   // Done before, or L3 has begun without it.
   const SimulatorRecord parent = context.simulator();
-  if (std::ranges::any_of(db.simulators(run), [&](const SimulatorRecord& s) { return isRepairOf(s, stage); }))
+  if (std::ranges::any_of(db.simulators(run), [&](const SimulatorRecord& s) { return isRepairOf(s, stage, pose); }))
     return StageEnd::done;
   if (!db.adaptations(run, stage).empty()) return StageEnd::done;
 
   db.setRunState(run, RunState::adapting, "");
   const std::vector<Id> who = whomToRecord(context, stage);
   if (who.empty()) return StageEnd::done;
-  if (context.record.reality == "stand_in" && !recordStandIn(context, who)) return StageEnd::stopped;
-  const std::vector<RecordingRecord> recordings = recordingsOf(context, who);
+  if (context.record.reality == "stand_in" && !recordStandIn(context, who, pose)) return StageEnd::stopped;
+  const std::vector<Recorded> recordings = recordingsOf(context, who, pose);
   if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
-  const auto missing = std::ranges::count_if(who, [&](Id i) { return recordingsOf(context, {i}).empty(); });
+  const auto missing = std::ranges::count_if(who, [&](Id individual) {
+    return std::ranges::none_of(recordings, [&](const Recorded& r) { return r.record.individual == individual; });
+  });
   if (missing > 0 && !context.withoutRecordings()) {
     context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
-                               std::to_string(who.size()) +
-                               " individuals wait for a recording (btr gap recordings import --individual); "
+                               std::to_string(who.size()) + " individuals wait for a recording" +
+                               describe(context.prepared, pose) +
+                               " (btr gap recordings import --individual); "
                                "btr run --without-recordings goes on with those that are there";
     context.publish(true);
     return StageEnd::waiting;
   }
 
-  const auto report = analyseRecordings(context, parent.simulator, recordings);
+  const auto report = analyseRecordings(context, parent.simulator, recordings, pose);
   if (!report) return StageEnd::stopped;
   // A version even if nothing was found: that the analysis was made, and what it said, is part of the lineage.
   SimulatorRecord version;
@@ -196,11 +216,20 @@ StageEnd repairSimulator(RunContext& context, int stage) {
   version.parent = parent.id;
   version.simulator = report->after;
   version.madeBy = "gap analysis";
-  version.evidence = evidenceOf(*report, stage, recordings);
+  version.evidence = evidenceOf(*report, stage, pose, recordings);
   version.madeAfterGeneration = context.measuredAfter(stage);
   version.createdAt = utcNow();
   db.addSimulator(version);
   context.progress.message.clear();
+  return StageEnd::done;
+}
+
+}  // namespace
+
+StageEnd repairSimulator(RunContext& context, int stage) {
+  if (static_cast<double>(stage) != settingOf(context, "after_stage")) return StageEnd::done;
+  for (const RobotPose pose : context.prepared.spec.recordings.poses())
+    if (const StageEnd end = repairFrom(context, stage, pose); end != StageEnd::done) return end;
   return StageEnd::done;
 }
 

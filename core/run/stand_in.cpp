@@ -126,7 +126,7 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
 }
 
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
-                          std::span<const double> parameters, int repeat, const std::string& recordTo,
+                          std::span<const double> parameters, int repeat, const RecordTo& record,
                           const RealWorld& world) {
   const auto trial = [&](const Scene& scene, bool recordTrace) {
     return world.trial ? world.trial(prepared, scene, parameters, recordTrace)
@@ -144,8 +144,12 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
         std::string(answer.note.empty() ? "" : "; ") + "the stand-in's trial failed: " + toText(result.outcome);
   }
   // A run of its own: a robot that hangs does not kick.
-  if (!recordTo.empty())
-    writeRecording(trial(recordedScene(prepared, concealed.simulator), true).trace, recordTo, random);
+  if (record.pose == RobotPose::onFloor)  // another occasion than the robot's hanging: noise of its own
+    random = Random::forPurpose(concealed.seed ^ keyOf(parameters), "recording on the floor",
+                                static_cast<std::uint64_t>(repeat));
+  if (!record.file.empty())
+    writeRecording(trial(recordedScene(prepared, concealed.simulator, record.pose), true).trace, record.file,
+                   record.pose, random);
   return answer;
 }
 
@@ -171,7 +175,7 @@ void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, st
     JsonReader request = JsonReader::parse(line, "request to the stand-in");
     const std::vector<double> parameters = request.numbers("parameters", prepared.genotype.size());
     const auto repeat = static_cast<int>(request.integer("repeat", 0, 1'000'000, 0));
-    const std::string record = request.text("record", "");
+    const RecordTo record{request.text("record", ""), robotPose(request.text("robot", "hung_up"), "request /robot")};
     request.finish();
     const RealAnswer answer = measureStandIn(prepared, concealed, parameters, repeat, record, world);
     out << json{{"fitness", answer.fitness}, {"void", answer.isVoid}, {"note", answer.note}}.dump() << std::endl;

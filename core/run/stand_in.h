@@ -41,6 +41,12 @@ struct RealAnswer {
   std::string note;
 };
 
+/// Where a recording goes, "" for none.
+struct RecordTo {
+  std::string file = {};
+  RobotPose pose = RobotPose::hungUp;
+};
+
 /// Who moves the robot: another engine, for one. A trial as PreparedExperiment::trial(); empty is our own simulator.
 struct RealWorld {
   std::string name;  ///< stands in the note of each answer
@@ -50,13 +56,12 @@ struct RealWorld {
 };
 
 /// Measures one individual for the n-th time (0, 1, …): the concealed trial plus noise. The same arguments give the
-/// same bits. With `recordTo` not empty, the individual is also recorded as the experiment wants it (recordedScene())
-/// into a file of that name.
+/// same bits. With `record` naming a file, the individual is also recorded into it, in that pose (recordedScene()).
 RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& concealed,
-                          std::span<const double> parameters, int repeat, const std::string& recordTo = {},
+                          std::span<const double> parameters, int repeat, const RecordTo& record = {},
                           const RealWorld& world = {});
 
-/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE"} on `in`, one answer a
+/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE", "robot": "hung_up"} on `in`, one answer a
 /// line
 /// {"fitness": 0.5, "void": false, "note": ""} on `out`, until `in` ends.
 void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out,
@@ -72,7 +77,7 @@ class StandIn {
   StandIn& operator=(const StandIn&) = delete;
 
   /// Throws InputError if the process died or answered nonsense.
-  RealAnswer measure(const std::vector<double>& parameters, int repeat, const std::string& recordTo = {});
+  RealAnswer measure(const std::vector<double>& parameters, int repeat, const RecordTo& record = {});
 
   /// Who plays the robot of an experiment: $UCHILSIM_BTR, else "btr" beside the running program; with "played_by":
   /// "program" the one that $UCHILSIM_STAND_IN names. Throws InputError if that is not set.

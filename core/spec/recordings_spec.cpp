@@ -19,7 +19,21 @@ std::vector<std::string> distinct(JsonReader& reader, const std::string& key) {
 
 }  // namespace
 
+const char* toText(RobotPose pose) { return pose == RobotPose::hungUp ? "hung_up" : "on_floor"; }
+
+RobotPose robotPose(const std::string& word, const std::string& place) {
+  for (const RobotPose pose : {RobotPose::hungUp, RobotPose::onFloor})
+    if (word == toText(pose)) return pose;
+  throw InputError(place, "\"" + word + "\"", "hung_up or on_floor");
+}
+
 bool RecordingsSpec::wanted() const { return valueOf(recordingParameters(), settings, "after_stage") > 0; }
+
+std::vector<RobotPose> RecordingsSpec::poses() const {
+  const double robot = valueOf(recordingParameters(), settings, "robot");
+  if (robot == 2) return {RobotPose::hungUp, RobotPose::onFloor};
+  return {robot == 1 ? RobotPose::onFloor : RobotPose::hungUp};
+}
 
 const std::vector<Parameter>& recordingParameters() {
   static const std::vector<Parameter> parameters{
@@ -27,13 +41,13 @@ const std::vector<Parameter>& recordingParameters() {
       {"individuals", "", "how many of its individuals are recorded, in the order of measuring", 1, 1000, 10, {}, true},
       {"robot",
        "",
-       "hung up by its body, legs in the air, or on the floor as in the trial",
+       "hung up by its body, legs in the air, on the floor as in the trial, or one after the other",
        0,
-       1,
+       2,
        0,
        {},
        false,
-       {"hung_up", "on_floor"}},
+       {"hung_up", "on_floor", "hung_up_then_on_floor"}},
       {"calibrate_within", "", "fitted numbers stay within this share of their value, or their range if it is 0", 0.01,
        100, 0.5},
       {"maximum_effects", "", "most effects that the analysis adds", 0, 10, 2, {}, true},
@@ -46,21 +60,34 @@ RecordingsSpec recordingsFrom(JsonReader& experiment, const std::string& key) {
   auto reader = experiment.objectIfAny(key);
   if (!reader) return recordings;
   recordings.settings = reader->values("settings", recordingParameters());
-  recordings.calibrate = distinct(*reader, "calibrate");
-  for (const std::string& name : recordings.calibrate)
-    if (!find(simulatorParameters(), name))
-      reader->refuse("calibrate", "names of the simulator's parameters; \"" + name + "\" is not");
+  const auto numbers = [&](const char* list) {
+    std::vector<std::string> names = distinct(*reader, list);
+    for (const std::string& name : names)
+      if (!find(simulatorParameters(), name))
+        reader->refuse(list, "names of the simulator's parameters; \"" + name + "\" is not");
+    return names;
+  };
+  recordings.calibrate = numbers("calibrate");
   recordings.effects = distinct(*reader, "effects");
   recordings.joints = distinct(*reader, "joints");
+  recordings.calibrateOnFloor = numbers("calibrate_on_floor");
+  recordings.effectsOnFloor = distinct(*reader, "effects_on_floor");
+  if (recordings.poses().size() < 2)
+    for (const auto& [list, names] : {std::pair{"calibrate_on_floor", recordings.calibrateOnFloor},
+                                      std::pair{"effects_on_floor", recordings.effectsOnFloor}})
+      if (!names.empty()) reader->refuse(list, "nothing, unless \"robot\" is hung_up_then_on_floor");
   reader->finish();
   return recordings;
 }
 
 nlohmann::json toJson(const RecordingsSpec& recordings) {
-  return {{"settings", toJson(recordings.settings, recordingParameters())},
-          {"calibrate", recordings.calibrate},
-          {"effects", recordings.effects},
-          {"joints", recordings.joints}};
+  nlohmann::json block{{"settings", toJson(recordings.settings, recordingParameters())},
+                       {"calibrate", recordings.calibrate},
+                       {"effects", recordings.effects},
+                       {"joints", recordings.joints}};
+  if (!recordings.calibrateOnFloor.empty()) block["calibrate_on_floor"] = recordings.calibrateOnFloor;
+  if (!recordings.effectsOnFloor.empty()) block["effects_on_floor"] = recordings.effectsOnFloor;
+  return block;
 }
 
 ConcealedSpec concealedFrom(JsonReader& experiment, const std::string& key) {

@@ -43,7 +43,7 @@ TEST_F(Rival, AHungDogFollowsItsCommandsAsInOurSimulator) {
   prepared.sceneSpec.step_s = 0.001;
   std::vector<double> middle;
   for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
-  const Scene hung = recordedScene(prepared, prepared.spec.simulator);
+  const Scene hung = recordedScene(prepared, prepared.spec.simulator, RobotPose::hungUp);
   const Trace ours = prepared.trial(hung, middle, 1, true).trace;
   TrialOptions options;
   options.recordTrace = true;
@@ -83,7 +83,7 @@ TEST_F(Rival, AtTheStepThatTheExamplePlaysWithEnginesAgree) {
     ASSERT_EQ(concealed.simulator.effects.size(), 1u);
     const std::string name = concealed.simulator.effects[0].at + ".position_rad";
     concealed.simulator.effects.clear();
-    const Scene hung = recordedScene(reality, concealed.simulator);
+    const Scene hung = recordedScene(reality, concealed.simulator, RobotPose::hungUp);
     const Trace ours = reality.trial(hung, kick, 1, true).trace;
     TrialOptions options;
     options.recordTrace = true;

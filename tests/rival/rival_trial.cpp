@@ -71,6 +71,7 @@ class RivalTrial {
 
   void nameChannels(Trace& trace) const {
     trace.channels = {"time_s"};
+    for (const char* axis : {"x_m", "y_m", "z_m"}) trace.channels.push_back(robot_.name + ".base." + axis);
     for (std::size_t j = 0; j < joints(); ++j) {
       if (!moves(j)) continue;
       const std::string name = robot_.name + "." + robot_.model.joints[j].name;
@@ -89,6 +90,7 @@ class RivalTrial {
     auto& values = result.trace.values;
     const double dt = values.empty() ? 0 : scene_.controlPeriod_s;
     values.push_back(world_.time());
+    values.insert(values.end(), base.translation().begin(), base.translation().end());
     for (std::size_t j = 0; j < joints(); ++j) {
       if (!moves(j)) continue;
       values.push_back(world_.measured(j, dt));

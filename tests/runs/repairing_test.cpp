@@ -106,7 +106,8 @@ TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttache
   Random noise(3);
   const std::string csv = folder_.file("knee.csv");
   const auto parameters = database.individual(tasks[0].individual).parameters;
-  writeRecording(prepared.trial(recordedScene(prepared, plain), parameters, 1, true).trace, csv, noise);
+  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), parameters, 1, true).trace, csv,
+                 RobotPose::hungUp, noise);
   importRecording(database, database.run(run).experiment, csv, "", tasks[0].individual);
   ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);  // for the second stage's measurements
   EXPECT_EQ(database.simulators(run).at(1).madeBy, "gap analysis");
@@ -132,7 +133,7 @@ TEST_F(Repairing, WithAPersonItGoesOnWithoutRecordingsIfToldSo) {
 
 TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  const Scene hung = recordedScene(prepared, spec().simulator), stands = prepared.scene(spec().simulator);
+  const Scene hung = recordedScene(prepared, spec().simulator, RobotPose::hungUp), stands = prepared.scene(spec().simulator);
   EXPECT_FALSE(hung.robots[0].freeBase);
   EXPECT_DOUBLE_EQ(hung.robots[0].start.translation().z(), stands.robots[0].start.translation().z() + 1);
   std::vector<double> middle;
@@ -144,9 +145,9 @@ TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
   // On the floor it is the trial itself.
   text_["recordings"]["settings"]["robot"] = "on_floor";
   const PreparedExperiment free = prepareFromFiles(spec(), host_);
-  EXPECT_TRUE(recordedScene(free, spec().simulator).robots[0].freeBase);
-  EXPECT_EQ(recordedProblem(free, spec().simulator, {}).scene.robots[0].base, "free");
-  EXPECT_EQ(recordedProblem(prepared, spec().simulator, {}).scene.robots[0].base, "fixed");
+  EXPECT_TRUE(recordedScene(free, spec().simulator, RobotPose::onFloor).robots[0].freeBase);
+  EXPECT_EQ(recordedProblem(free, spec().simulator, {}, RobotPose::onFloor).scene.robots[0].base, "free");
+  EXPECT_EQ(recordedProblem(prepared, spec().simulator, {}, RobotPose::hungUp).scene.robots[0].base, "fixed");
 }
 
 TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
@@ -155,7 +156,7 @@ TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
   Recording recording;
   recording.channels = {"time_s", "ers7.LF_J3.command_rad", "ers7.LF_J3.position_rad", "ers7.RF_J3.position_rad"};
   recording.columns = {{0, 1}, {0, 0}, {1, 1}, {2, 2}};
-  const GapProblem problem = recordedProblem(prepared, spec().simulator, {recording});
+  const GapProblem problem = recordedProblem(prepared, spec().simulator, {recording}, RobotPose::hungUp);
   EXPECT_EQ(problem.recordings[0].channels,
             (std::vector<std::string>{"time_s", "ers7.LF_J3.command_rad", "ers7.LF_J3.position_rad"}));
   ASSERT_EQ(problem.scene.calibrate.size(), 1u);
@@ -172,13 +173,14 @@ TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
   Random noise(3);
   const std::string csv = folder_.file("legs.csv");
   const SimulatorSpec plain = spec().simulator;
-  writeRecording(prepared.trial(recordedScene(prepared, plain), middle, 1, true).trace, csv, noise);
+  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), middle, 1, true).trace, csv,
+                 RobotPose::hungUp, noise);
 
   // One knee as it is replayed with all other joints moving, and alone with its leg.
   const auto knee = [&](const std::vector<std::string>& joints) {
     PreparedExperiment asked = prepared;
     asked.spec.recordings.joints = joints;
-    const GapProblem problem = recordedProblem(asked, plain, {loadRecording(csv)});
+    const GapProblem problem = recordedProblem(asked, plain, {loadRecording(csv)}, RobotPose::hungUp);
     const Scene scene = makeScene(problem.scene, problem.models, plain, prepared.effects);
     const Recording& recording = problem.recordings[0];
     const Binding binding = bind(scene, recording);
@@ -208,8 +210,9 @@ TEST_F(Repairing, AServoBeginsAtRestOrInMotionWhicheverItsSamplesSay) {
   Random noise(3);
   const std::string csv = folder_.file("legs.csv");
   const SimulatorSpec plain = spec().simulator;
-  writeRecording(prepared.trial(recordedScene(prepared, plain), middle, 1, true).trace, csv, noise);
-  const Scene scene = recordedScene(prepared, plain);
+  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), middle, 1, true).trace, csv,
+                 RobotPose::hungUp, noise);
+  const Scene scene = recordedScene(prepared, plain, RobotPose::hungUp);
   Recording recording = loadRecording(csv);
   const auto column = static_cast<std::size_t>(recording.column("ers7.LF_J3.position_rad"));
   const auto rate = [&] {

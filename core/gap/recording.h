@@ -28,6 +28,7 @@ struct Recording {
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
   std::vector<std::string> notes;            ///< what was skipped or looks odd
+  bool beginsAtRest = false;                 ///< known beforehand: nothing moves at its first row
   FilePlaces places;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }

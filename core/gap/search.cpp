@@ -42,6 +42,7 @@ Scored SearchRun::calibrate() {
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
+  if (problem_.walks && fits.size() > 1) scatter(best[0], "calibrating", 0.08);
   startAnew(best[0], "calibrating", 0.08);
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   refineStep(best, 1, "calibrating", 0.08);

@@ -89,6 +89,8 @@ class SearchRun {
   Scored calibrate();
   /// A candidate with a whole number that leaves much: other numbers, begun in short windows.
   void fitFromWindows(Fit& fit, const FitModel& without, const std::string& stage, double at) const;
+  /// Of a walk: the calibrated numbers begun where replays alone, all over their ranges, say that it is best.
+  void scatter(Fit& fit, const std::string& stage, double at) const;
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   void startAnew(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);

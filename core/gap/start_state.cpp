@@ -32,6 +32,11 @@ Start startOfBody(std::span<const double> time, std::span<const double> values, 
   return estimateStart(time, values, flightWindow_s, falls ? gravity : 0);
 }
 
+/// Of what is known to rest: its first value, as a mean over the next ones would already follow it away.
+Start startAtRest(std::span<const double> values) {
+  return {*std::ranges::find_if(values, [](double value) { return std::isfinite(value); }), 0, false};
+}
+
 /// A joint: where it moves and its velocity was measured too, that is its rate, and the slope of that the bend of its
 /// path, which a line through positions would not follow.
 Start startOfJoint(std::span<const double> time, std::span<const double> values, std::span<const double> rates) {
@@ -120,6 +125,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
   }
 
   const auto time = tail(recording.columns[0], row);
+  const bool rests = recording.beginsAtRest && row == 0;
   std::vector<std::array<std::span<const double>, 4>> attitudes(scene.robots.size());
   std::vector<Measured> known = binding.measured;
   known.insert(known.end(), binding.startOnly.begin(), binding.startOnly.end());
@@ -131,19 +137,20 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     if (ofBase && !scene.robots[measured.object].freeBase) continue;  // it stands where the scene says
     const int axis = static_cast<int>(measured.part);
     if (measured.what == Measured::What::position) {
-      const Start start = startOfJoint(time, values, rateColumn(recording, known, measured, row));
+      const Start start =
+          rests ? startAtRest(values) : startOfJoint(time, values, rateColumn(recording, known, measured, row));
       state.robots[measured.object].positions[measured.part] = start.position;
       state.robots[measured.object].rates[measured.part] = start.rate;
     } else if (measured.what == Measured::What::basePosition) {
       const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
       state.robots[measured.object].base.translation()[axis] = start.position;
-      state.robots[measured.object].velocity_m_s[axis] = start.rate;
+      state.robots[measured.object].velocity_m_s[axis] = rests ? 0 : start.rate;
     } else if (measured.what == Measured::What::baseOrientation) {
       attitudes[measured.object][measured.part] = values;
     } else if (measured.what == Measured::What::ballPosition) {
       const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
       state.balls[measured.object].position_m[axis] = start.position;
-      state.balls[measured.object].velocity_m_s[axis] = start.rate;
+      state.balls[measured.object].velocity_m_s[axis] = rests ? 0 : start.rate;
     }
   }
 
@@ -162,7 +169,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
   }
   if (row > 0) return state;
-  restWhereThatExplainsMore(scene, recording, binding, state);
+  if (!rests) restWhereThatExplainsMore(scene, recording, binding, state);
   for (std::size_t i = 0; i < scene.robots.size(); ++i)
     state.robots[i].rests =
         !scene.robots[i].freeBase && std::ranges::all_of(state.robots[i].rates, [](double rate) { return rate == 0; });

@@ -127,6 +127,9 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   for (Recording& recording : problem.recordings)
     for (const std::string& channel : recording.channels)
       if (!isCompared(channel)) recording.notCompared.push_back(channel);
+  // A trial begins with a robot that stands; what the floor does to its joints next is not taken for a start in motion.
+  if (pose == RobotPose::onFloor)
+    for (Recording& recording : problem.recordings) recording.beginsAtRest = true;
   if (pose == RobotPose::hungUp) leaveOutUnseenBranches(problem, spec.joints);
   return problem;
 }

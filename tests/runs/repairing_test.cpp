@@ -83,6 +83,93 @@ TEST_F(Repairing, TheStandInIsRecordedAndTheRunGoesOnInTheRepairedSimulator) {
   EXPECT_EQ(other.lastGeneration(again)->best, database.lastGeneration(run)->best);
 }
 
+TEST_F(Repairing, InBothPosesEachIsRecordedAndAnalysedAndTheSecondBuildsOnTheFirst) {
+  text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
+  text_["recordings"]["effects_on_floor"] = {"contact_compliance"};
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 2), RunEnd::finished);
+
+  const Id individual = database.measurementTasks(run, 1)[0].individual;
+  const auto recordings = database.recordings(database.run(run).experiment);
+  ASSERT_EQ(recordings.size(), 2u);
+  std::vector<Recording> first;
+  for (const RecordingRecord& recording : recordings) {
+    EXPECT_EQ(recording.individual, individual);
+    first.push_back(loadRecording(exportRecording(database, recording.id, folder_.file("out"))));
+  }
+  EXPECT_EQ(poseOf(first[0]), RobotPose::hungUp);
+  EXPECT_EQ(poseOf(first[1]), RobotPose::onFloor);
+
+  const std::vector<SimulatorRecord> all = database.simulators(run);
+  ASSERT_GE(all.size(), 4u);
+  const auto evidence = [&](std::size_t version) { return nlohmann::json::parse(all[version].evidence); };
+  for (std::size_t version : {1u, 2u}) {
+    EXPECT_EQ(all[version].madeBy, "gap analysis");
+    EXPECT_EQ(all[version].parent, all[version - 1].id);
+    EXPECT_EQ(evidence(version)["recordings"], nlohmann::json{recordings[version - 1].id});
+  }
+  EXPECT_EQ(all[3].madeBy, "L3");
+  EXPECT_EQ(evidence(1)["robot"], "hung_up");
+  EXPECT_TRUE(evidence(1)["calibrated"].contains("servo_p_nm_rad"));
+  EXPECT_EQ(evidence(2)["robot"], "on_floor");
+  EXPECT_EQ(evidence(2)["calibrated"].size(), 3u);
+  for (const char* name : {"friction", "slip1_m_s_n", "slip2_m_s_n"})
+    EXPECT_TRUE(evidence(2)["calibrated"].contains(name)) << name;
+  // What the hung-up robot said of its servos stays.
+  EXPECT_EQ(all[2].simulator.values.at("servo_p_nm_rad"), all[1].simulator.values.at("servo_p_nm_rad"));
+}
+
+TEST_F(Repairing, AFloorThatNobodyMeasuredIsToldByRecordingsOnIt) {
+  text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
+  PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  prepared.sceneSpec.step_s = 0.002;
+  const SimulatorSpec given = spec().simulator;
+  SimulatorSpec real = given;
+  const std::map<std::string, double> truth{{"friction", 0.7}, {"slip1_m_s_n", 0.002}, {"slip2_m_s_n", 0.03}};
+  for (const auto& [name, value] : truth) real.values[name] = value;
+  std::vector<Recording> recordings;
+  Random noise(3), kicks(4);
+  for (int i = 0; i < 2; ++i) {
+    std::vector<double> kick;
+    for (const Parameter& p : prepared.genotype) kick.push_back(kicks.uniform(p.minimum, p.maximum));
+    const std::string csv = folder_.file("floor" + std::to_string(i) + ".csv");
+    writeRecording(prepared.trial(recordedScene(prepared, real, RobotPose::onFloor), kick, 1, true).trace, csv,
+                   RobotPose::onFloor, noise);
+    recordings.push_back(loadRecording(csv));
+  }
+  AnalysisOptions options;
+  options.maximumEffects = 0;
+  options.designNext = options.learnRest = false;
+  options.effects = {"contact_compliance"};
+  const GapReport report = analyse(recordedProblem(prepared, given, recordings, RobotPose::onFloor),
+                                   {host_.effectFactory(), host_.effects()}, options);
+  EXPECT_EQ(toText(report.verdict), std::string("parameters_suffice")) << report.sentence;
+  ASSERT_EQ(report.calibrated.size(), truth.size());
+  for (const GapReport::Number& number : report.calibrated) {
+    const double off = std::abs(number.value - truth.at(number.name));
+    // Twice the half width of 95 %: of three numbers one lies outside its 95 % in one of seven draws of noise.
+    EXPECT_LT(off, number.ci95.high - number.ci95.low) << number.name << " " << number.value;
+    EXPECT_LT(off, 0.25 * std::abs(number.before - truth.at(number.name))) << number.name << " " << number.value;
+  }
+}
+
+TEST_F(Repairing, AfterHangingEffectsOfTheFloorAreConsideredUnlessOthersAreNamed) {
+  text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
+  const auto considered = [&](RobotPose pose) {
+    return consideredEffects(prepareFromFiles(spec(), host_), host_, pose);
+  };
+  const std::vector<std::string> hung = considered(RobotPose::hungUp), floor = considered(RobotPose::onFloor);
+  EXPECT_EQ(hung.size() + floor.size(), host_.effects().size());
+  EXPECT_EQ(std::ranges::count(hung, "backlash"), 1);
+  EXPECT_EQ(std::ranges::count(floor, "slip"), 1);
+  text_["recordings"]["effects_on_floor"] = {"restitution"};
+  EXPECT_EQ(considered(RobotPose::onFloor), std::vector<std::string>{"restitution"});
+  text_["recordings"].erase("effects_on_floor");
+  text_["recordings"]["settings"]["robot"] = "on_floor";
+  EXPECT_EQ(considered(RobotPose::onFloor), host_.effects());
+}
+
 TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttached) {
   text_["reality"] = "person";
   Database database = fresh("a.db");
@@ -112,6 +199,43 @@ TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttache
   ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);  // for the second stage's measurements
   EXPECT_EQ(database.simulators(run).at(1).madeBy, "gap analysis");
   EXPECT_EQ(database.run(run).stage, 1);
+}
+
+TEST_F(Repairing, WithAPersonBothPosesAreAskedForOneAfterTheOther) {
+  text_["reality"] = "person";
+  text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
+  text_["recordings"]["effects_on_floor"] = {"contact_compliance"};
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  const std::vector<MeasurementTask> tasks = database.measurementTasks(run, 1);
+  for (const MeasurementTask& task : tasks) {
+    MeasurementRecord value;
+    value.run = run;
+    value.individual = task.individual;
+    value.value = 0.5;
+    database.addMeasurement(value);
+  }
+  const PreparedExperiment prepared = prepareFromRun(database.run(run), host_);
+  const SimulatorSpec plain = database.latestSimulator(run).simulator;
+  const auto parameters = database.individual(tasks[0].individual).parameters;
+  const auto attach = [&](RobotPose pose) {
+    Random noise(3);
+    const std::string csv = folder_.file(std::string(toText(pose)) + ".csv");
+    writeRecording(prepared.trial(recordedScene(prepared, plain, pose), parameters, 1, true).trace, csv, pose, noise);
+    importRecording(database, database.run(run).experiment, csv, "", tasks[0].individual);
+  };
+  // The order in which they come does not matter.
+  attach(RobotPose::onFloor);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  EXPECT_THAT(database.run(run).message, HasSubstr("1 of 1 individuals wait for a recording of the robot hung up"));
+  ASSERT_EQ(database.simulators(run).size(), 1u);
+  attach(RobotPose::hungUp);
+  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);  // for the second stage's measurements
+  EXPECT_EQ(database.run(run).stage, 1);
+  ASSERT_GE(database.simulators(run).size(), 3u);
+  EXPECT_EQ(nlohmann::json::parse(database.simulators(run)[1].evidence)["robot"], "hung_up");
+  EXPECT_EQ(nlohmann::json::parse(database.simulators(run)[2].evidence)["robot"], "on_floor");
 }
 
 TEST_F(Repairing, WithAPersonItGoesOnWithoutRecordingsIfToldSo) {

@@ -50,9 +50,28 @@ TEST(Recordings, AreReadBackAsTheyWereWritten) {
   EXPECT_EQ(read(nlohmann::json::parse(toJsonText(spec))), spec);
 }
 
+TEST(Recordings, InBothPosesHaveASecondListOfNumbersAndEffects) {
+  nlohmann::json text = kick();
+  text["recordings"] = {{"settings", {{"after_stage", 1}, {"robot", "hung_up_then_on_floor"}}},
+                        {"calibrate_on_floor", {"friction"}},
+                        {"effects_on_floor", {"contact_compliance"}}};
+  const ExperimentSpec spec = read(text);
+  EXPECT_EQ(spec.recordings.poses(), (std::vector{RobotPose::hungUp, RobotPose::onFloor}));
+  EXPECT_EQ(spec.recordings.calibrateOnFloor, std::vector<std::string>{"friction"});
+  EXPECT_EQ(read(nlohmann::json::parse(toJsonText(spec))), spec);
+  // In one pose there is one analysis, and nobody would read the second list.
+  text["recordings"]["settings"]["robot"] = "on_floor";
+  EXPECT_THAT(complaint(text), HasSubstr("hung_up_then_on_floor"));
+  text["recordings"].erase("calibrate_on_floor");
+  text["recordings"].erase("effects_on_floor");
+  EXPECT_EQ(read(text).recordings.poses(), std::vector{RobotPose::onFloor});
+}
+
 TEST(Recordings, RefuseWhatNobodyKnows) {
   nlohmann::json text = kick();
   text["recordings"] = {{"calibrate", {"wind"}}};
+  EXPECT_THAT(complaint(text), HasSubstr("\"wind\""));
+  text["recordings"] = {{"settings", {{"robot", "hung_up_then_on_floor"}}}, {"calibrate_on_floor", {"wind"}}};
   EXPECT_THAT(complaint(text), HasSubstr("\"wind\""));
   text["recordings"] = {{"settings", {{"after_stage", 0.5}}}};
   EXPECT_THAT(complaint(text), HasSubstr("after_stage"));

@@ -202,7 +202,12 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   recorded_->setText(tr("Joints compared: %1. Fitted: %2. Effects considered: %3.")
                          .arg(list(spec.recordings.joints, tr("all")),
                               list(spec.recordings.calibrate, tr("p, d and largest torque of the servos")),
-                              list(spec.recordings.effects, tr("all that can act"))));
+                              list(spec.recordings.effects, tr("all that can act"))) +
+                     (spec.recordings.poses().size() < 2
+                          ? QString()
+                          : tr(" On the floor then, fitted: %1. Effects considered: %2.")
+                                .arg(list(spec.recordings.calibrateOnFloor, tr("friction and slip")),
+                                     list(spec.recordings.effectsOnFloor, tr("all that do not act on joints")))));
 
   QStringList effects;
   for (const auto& effect : spec.simulator.effects)

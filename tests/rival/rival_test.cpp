@@ -100,6 +100,39 @@ TEST_F(Rival, AtTheStepThatTheExamplePlaysWithEnginesAgree) {
   }
 }
 
+TEST_F(Rival, OnTheFloorACameraSeesItsBodyToo) {
+  PreparedExperiment prepared = prepareFromFiles(spec(), host_);
+  prepared.sceneSpec.step_s = 0.001;
+  std::vector<double> middle;
+  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  for (const RobotPose pose : {RobotPose::hungUp, RobotPose::onFloor}) {
+    TrialOptions options;
+    options.recordTrace = true;
+    const Trace trace = runMujocoTrial(recordedScene(prepared, prepared.spec.simulator, pose), *prepared.controller,
+                                       prepared.spec.controller.settings, middle, options)
+                            .trace;
+    Random noise(1);
+    const std::string csv = folder_.file(std::string(toText(pose)) + ".csv");
+    writeRecording(trace, csv, pose, noise);
+    EXPECT_EQ(poseOf(loadRecording(csv)), pose);
+  }
+}
+
+TEST_F(Rival, AWorldThatFailsLeavesARecordingUpToThere) {
+  const PreparedExperiment prepared = prepareFromFiles(spec(), host_);  // 8 ms: its feet are too stiff for that
+  std::vector<double> middle;
+  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  TrialOptions options;
+  options.recordTrace = true;
+  const TrialResult result =
+      runMujocoTrial(recordedScene(prepared, prepared.spec.simulator, RobotPose::onFloor), *prepared.controller,
+                     prepared.spec.controller.settings, middle, options);
+  ASSERT_EQ(result.outcome, TrialResult::Outcome::exploded);
+  ASSERT_GT(result.trace.rows(), 1u);
+  for (std::size_t row = 1; row < result.trace.rows(); ++row)
+    EXPECT_GT(result.trace.at(row, 0), result.trace.at(row - 1, 0));
+}
+
 TEST_F(Rival, LearnedKicksSendTheBallAboutAsFar) {
   const SceneSpec kick = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
   const auto controller = host_.controller("kick");

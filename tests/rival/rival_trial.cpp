@@ -46,7 +46,7 @@ class RivalTrial {
       }
       if (moving) motion->command(world_.time(), readings(), inputs_);
       world_.advance(inputs_, scene_.controlPeriod_s);
-      record(result);
+      if (!world_.failed()) record(result);  // a failed world begins anew, its clock too
     }
     result.remarks = motion->remarks();
     conclude(result);

@@ -61,8 +61,8 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
                           std::span<const double> parameters, int repeat, const RecordTo& record = {},
                           const RealWorld& world = {});
 
-/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE", "robot": "hung_up"} on `in`, one answer a
-/// line
+/// The process' loop: one JSON request a line {"parameters": […], "repeat": 0, "record": "FILE", "robot": "hung_up"} on
+/// `in`, one answer a line
 /// {"fitness": 0.5, "void": false, "note": ""} on `out`, until `in` ends.
 void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out,
                   const RealWorld& world = {});

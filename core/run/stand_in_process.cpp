@@ -59,12 +59,11 @@ StandIn::StandIn(const std::string& program, const std::string& database, Id run
 StandIn::~StandIn() = default;
 
 RealAnswer StandIn::measure(const std::vector<double>& parameters, int repeat, const RecordTo& record) {
-  const std::string request = nlohmann::json{{"parameters", parameters},
-                                             {"repeat", repeat},
-                                             {"record", record.file},
-                                             {"robot", toText(record.pose)}}
-                                  .dump() +
-                              '\n';
+  const std::string request =
+      nlohmann::json{
+          {"parameters", parameters}, {"repeat", repeat}, {"record", record.file}, {"robot", toText(record.pose)}}
+          .dump() +
+      '\n';
   std::size_t sent = 0;
   while (sent < request.size()) {
     const ssize_t n = write(impl_->toChild, request.data() + sent, request.size() - sent);

@@ -9,8 +9,8 @@ namespace btr {
 
 class JsonReader;
 
-/// How a robot is recorded. Hung up by its body with the legs in the air it shows what its servos and gears do, whatever
-/// the ground does, and its joints can be simulated without contacts. On the floor, as in the trial, it shows
+/// How a robot is recorded. Hung up by its body with the legs in the air it shows what its servos and gears do,
+/// whatever the ground does, and its joints can be simulated without contacts. On the floor, as in the trial, it shows
 /// everything at once.
 enum class RobotPose { hungUp, onFloor };
 const char* toText(RobotPose pose);  ///< "hung_up", "on_floor"
@@ -19,9 +19,9 @@ RobotPose robotPose(const std::string& word, const std::string& place);
 
 /// The block "recordings" of an experiment: after one measurement stage the measured individuals are recorded as well,
 /// gap analysis compares the recordings with the simulator, and the repaired simulator becomes its next version. With
-/// all at its defaults (after_stage 0) nothing is recorded and L3 changes parameters alone. Recorded in both poses, each
-/// gets an analysis of its own: what hanging says of servos and gears stays, and the floor's recordings, which hang on
-/// every hair, are asked for the floor alone.
+/// all at its defaults (after_stage 0) nothing is recorded and L3 changes parameters alone. Recorded in both poses,
+/// each gets an analysis of its own: what hanging says of servos and gears stays, and the floor's recordings, which
+/// hang on every hair, are asked for the floor alone.
 struct RecordingsSpec {
   Values settings;  ///< recordingParameters()
   std::vector<std::string>
@@ -32,7 +32,7 @@ struct RecordingsSpec {
   /// ranges, and the effects (empty: all that do not act on joints).
   std::vector<std::string> calibrateOnFloor = {}, effectsOnFloor = {};
   bool operator==(const RecordingsSpec&) const = default;
-  bool wanted() const;  ///< after_stage is not 0
+  bool wanted() const;                   ///< after_stage is not 0
   std::vector<RobotPose> poses() const;  ///< one or both, in the order in which they are analysed
 };
 

@@ -124,9 +124,8 @@ TEST_F(Rival, AWorldThatFailsLeavesARecordingUpToThere) {
   for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
   TrialOptions options;
   options.recordTrace = true;
-  const TrialResult result =
-      runMujocoTrial(recordedScene(prepared, prepared.spec.simulator, RobotPose::onFloor), *prepared.controller,
-                     prepared.spec.controller.settings, middle, options);
+  const TrialResult result = runMujocoTrial(recordedScene(prepared, prepared.spec.simulator, RobotPose::onFloor),
+                                            *prepared.controller, prepared.spec.controller.settings, middle, options);
   ASSERT_EQ(result.outcome, TrialResult::Outcome::exploded);
   ASSERT_GT(result.trace.rows(), 1u);
   for (std::size_t row = 1; row < result.trace.rows(); ++row)

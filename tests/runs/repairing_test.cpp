@@ -263,7 +263,8 @@ TEST_F(Repairing, WithAPersonItGoesOnWithoutRecordingsIfToldSo) {
 
 TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  const Scene hung = recordedScene(prepared, spec().simulator, RobotPose::hungUp), stands = prepared.scene(spec().simulator);
+  const Scene hung = recordedScene(prepared, spec().simulator, RobotPose::hungUp),
+              stands = prepared.scene(spec().simulator);
   EXPECT_FALSE(hung.robots[0].freeBase);
   EXPECT_DOUBLE_EQ(hung.robots[0].start.translation().z(), stands.robots[0].start.translation().z() + 1);
   std::vector<double> middle;

@@ -144,7 +144,7 @@ std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorS
   options.maximumEffects = static_cast<int>(settingOf(context, "maximum_effects"));
   options.effects = consideredEffects(context.prepared, context.host, pose);
   options.designNext = false;
-  options.learnRest = false;  // nobody looks at its curve here
+  options.learnRest = pose == RobotPose::hungUp;  // on the floor its curve takes minutes, and nobody sees it
   const EffectLibrary library{context.host.effectFactory(), context.host.effects()};
   context.progress.stage = "gap analysis";
   context.progress.stageTotal = 100;

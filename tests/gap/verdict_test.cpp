@@ -217,6 +217,22 @@ TEST(Verdict, ACurveThatDoesBetterThanTheEffectsMakesThemDoubtful) {
   EXPECT_EQ(judged(400, 100, 1.1, true, true).verdict, Verdict::missingPhysics) << "nothing is left to do better";
 }
 
+TEST(Verdict, WhatHasAShapeIsNotExplainedByTheNamesThatLeaveIt) {
+  const auto left = [](double final, double share) {
+    GapReport report;
+    report.remainder.at = "rig.hinge";
+    report.remainder.on = "position";
+    report.remainder.shareOfRest = share;
+    return judged(400, 100, final, true, false, recorded(), {}, report);
+  };
+  const GapReport much = left(2, 0.6);
+  EXPECT_EQ(much.verdict, Verdict::unexplained);
+  EXPECT_THAT(much.sentence, HasSubstr("the cause may be another"));
+  EXPECT_THAT(much.sentence, HasSubstr("would take 60 % of the rest"));
+  EXPECT_EQ(left(2, 0.2).verdict, Verdict::missingPhysics) << "a small part of it";
+  EXPECT_EQ(left(1.1, 0.6).verdict, Verdict::missingPhysics) << "of noise";
+}
+
 TEST(Verdict, AServoThatHuntsIsSaidBesideWhatIsUnexplained) {
   // Four seconds; the last of them swings at 9.75 Hz, though nothing asks for it, in thirds that tell it to 0.75 Hz.
   FitProblem problem = recorded();

@@ -121,7 +121,7 @@ GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult
   if (rest < worthLooking) return remainder;
   const auto learned = learn(problem, found.final.fit, found.finalLinear, jobs);
   if (!learned) return remainder;
-  const Comparison comparison = compare(found.final.blocks, learned->scored.blocks);
+  const PairedTest comparison = compare(found.final.blocks, learned->scored.blocks);
   const double share = (found.final.mean() - learned->scored.mean()) / rest;
   remainder.pValue = comparison.pValue;
   remainder.shareOfRest = std::clamp(share, 0.0, 1.0);

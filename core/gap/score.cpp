@@ -108,7 +108,7 @@ double studentOf(const std::vector<double>& differences) {
 
 }  // namespace
 
-Comparison compare(const std::vector<double>& without, const std::vector<double>& with) {
+PairedTest compare(const std::vector<double>& without, const std::vector<double>& with) {
   constexpr double resolution = 0.02;  // of a block's mean square: quantised rest gives 0
   std::vector<double> logarithms, raw;
   double before = 0, after = 0;
@@ -119,7 +119,7 @@ Comparison compare(const std::vector<double>& without, const std::vector<double>
     before += without[b];
     after += with[b];
   }
-  Comparison result;
+  PairedTest result;
   if (raw.size() < 3 || before <= 0) return result;
   result.gain = 1 - after / before;
   const double byLogarithm = studentOf(logarithms), byError = studentOf(raw);

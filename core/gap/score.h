@@ -24,13 +24,13 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit);
 Scored scoreAsIs(const FitProblem& problem, const Fit& fit);
 
 /// Paired comparison of two models by block.
-struct Comparison {
+struct PairedTest {
   double t = 0;       ///< Student's t; positive: `with` is better
   double pValue = 1;  ///< one-sided
   double gain = 0;    ///< 1 − mean squared error with / without
 };
 /// On the logarithms of the blocks' errors (a model that is better where errors are small counts too) and on the errors
 /// themselves (one that matters in few blocks): the more decisive of both, its p-value doubled for the choice.
-Comparison compare(const std::vector<double>& without, const std::vector<double>& with);
+PairedTest compare(const std::vector<double>& without, const std::vector<double>& with);
 
 }  // namespace btr

@@ -25,7 +25,7 @@ struct Attempt {
   bool excited = true;
   bool fitted = false, scored = false, accepted = false;
   Values values;                                             ///< of the fit, or of the screening's best start
-  Comparison comparison;                                     ///< with the model before it
+  PairedTest comparison;                                     ///< with the model before it
   double qValue = std::numeric_limits<double>::quiet_NaN();  ///< see GapReport::Effect
   std::string reason;
 };
@@ -33,7 +33,7 @@ struct Attempt {
 /// An effect of the final simulator.
 struct Found {
   PlacedEffect effect;
-  Comparison comparison;  ///< with the final simulator without it
+  PairedTest comparison;  ///< with the final simulator without it
   double qValue = 1;      ///< among all that its place was offered to
   std::vector<GapReport::Rival> rivals;
   std::vector<FitModel> rivalModels;  ///< the whole simulator with each rival in its place

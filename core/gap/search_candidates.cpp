@@ -213,7 +213,7 @@ bool SearchRun::tryPair(const Scored& current, const std::vector<Tried>& singles
     bringToStep(single, "in pairs", 0.5);
     const auto seconds = tryCandidates(single, {single.fit}, nullptr, candidatesInPairs, ", in pairs", 0.5, 0.6);
     if (seconds.empty() || !seconds[0].attempt.scored || seconds[0].attempt.qValue > mostFalse) continue;
-    Comparison comparison;
+    PairedTest comparison;
     std::string reason;
     // Each of the two must be worth it beside the other, and both together.
     if (!passes(single, seconds[0].scored, seconds[0].fit.model.effects.size() - 1, comparison, reason)) continue;

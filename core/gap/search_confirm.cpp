@@ -221,7 +221,7 @@ void SearchRun::controlFalseDiscoveries(std::vector<Tried>& tried) {
   }
 }
 
-bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
+bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, PairedTest& comparison,
                        std::string& reason) const {
   comparison = compare(without.blocks, with.blocks);
   const double excess = excessOf(without);

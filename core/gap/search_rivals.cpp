@@ -23,13 +23,13 @@ bool contains(const FitModel& model, const EffectCandidate& candidate) {
 }
 
 /// Of a comparison with the final model.
-bool isWorse(const Comparison& lost) { return lost.t >= 2 && lost.gain > 0.01; }
+bool isWorse(const PairedTest& lost) { return lost.t >= 2 && lost.gain > 0.01; }
 
 /// The same where the other may explain all but the noise already: what takes a few percent of the noise itself
 /// (sensors of counts are no dice) does not refute it.
 bool isRefuted(const Scored& other, const Scored& by) {
   constexpr double ofNoise = 0.05;
-  const Comparison lost = compare(other.blocks, by.blocks);
+  const PairedTest lost = compare(other.blocks, by.blocks);
   return isWorse(lost) && !(other.mean() <= 1 && lost.gain < ofNoise);
 }
 
@@ -148,7 +148,7 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
       if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored)) chosen = &other;
       continue;
     }
-    const Comparison lost = compare(other.scored.blocks, result.final.blocks);
+    const PairedTest lost = compare(other.scored.blocks, result.final.blocks);
     const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
     // Where much is unexplained, few blocks tell little: equals leave about the same.
     const bool equal =

@@ -25,7 +25,7 @@ inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at wh
 
 /// Whether a model without something predicts worse than the one with it.
 inline bool isMissed(const Scored& without, const Scored& with) {
-  const Comparison comparison = compare(without.blocks, with.blocks);
+  const PairedTest comparison = compare(without.blocks, with.blocks);
   return comparison.t >= 2 && comparison.gain >= leastGain;
 }
 
@@ -117,7 +117,7 @@ class SearchRun {
   void scan(Fit& fit, const std::string& stage, double at) const;
   void leap(Fit& fit, const std::string& stage, double at) const;
   std::vector<Fit> basesOf(const SearchResult& result, bool first) const;
-  bool passes(const Scored& without, const Scored& with, std::size_t newEffect, Comparison& comparison,
+  bool passes(const Scored& without, const Scored& with, std::size_t newEffect, PairedTest& comparison,
               std::string& reason) const;
   /// Adjusts the p-values of a round for all that it looked at; what passes only without that does not pass.
   static void controlFalseDiscoveries(std::vector<Tried>& tried);

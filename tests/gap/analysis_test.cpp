@@ -381,7 +381,7 @@ TEST(Comparison, IsStudentsPairedTest) {
     without.push_back(x);
     with.push_back((x + 0.02) / 2 * (1 + 0.01 * (x - 3.5)) - 0.02);
   }
-  const Comparison comparison = compare(without, with);
+  const PairedTest comparison = compare(without, with);
   double mean = 0, square = 0;
   std::vector<double> d;
   for (std::size_t i = 0; i < with.size(); ++i) d.push_back(std::log((without[i] + 0.02) / (with[i] + 0.02)));

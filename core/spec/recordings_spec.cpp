@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/simulator_spec.h"
 

@@ -105,13 +105,13 @@ QString IndividualsModel::toCsv(const std::vector<int>& rows) const {
     const IndividualRecord& r = at(row);
     const Measured* entry = measured(row);
     const Spread* spread = measuredAt(row);
-    const int number = simulatorNumber(r.simulator);
+    const int version = simulatorNumber(r.simulator);
     text += QStringList{QString::number(r.id),
                         QString::number(r.generation),
                         QString::number(r.slot),
                         isHidden(r) ? QString() : exactText(r.fitness),
                         QString::fromStdString(r.outcome),
-                        number < 0 ? QString() : QString::number(number),
+                        version < 0 ? QString() : QString::number(version),
                         r.sameAs ? QString::number(r.sameAs) : QString(),
                         spread ? exactText(spread->mean) : QString(),
                         spread && spread->count > 1 ? exactText(spread->deviation) : QString(),

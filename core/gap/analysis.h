@@ -25,7 +25,9 @@ struct AnalysisOptions {
   int maximumEffects = 3;
   std::vector<std::string> effects;  ///< which to consider; empty: all
   bool designNext = true;
-  bool learnRest = true;    ///< step 9: what named effects leave as a curve; it takes longer than all else on a floor
+  /// Step 9: what named effects leave as a curve. It takes longer than all else on a floor; without it no verdict knows
+  /// whether the rest has a shape.
+  bool learnRest = true;
   bool asRecorded = false;  ///< goes on where the doctor is certain that a column is not what its name says
 };
 

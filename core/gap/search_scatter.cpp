@@ -1,6 +1,5 @@
 // Calibration of robots on their feet: where it begins decides where it ends.
 #include <algorithm>
-#include <cmath>
 
 #include "core/gap/search_run.h"
 #include "core/spec/random.h"

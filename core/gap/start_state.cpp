@@ -71,8 +71,7 @@ void restWhereThatExplainsMore(const Scene& scene, const Recording& recording, c
     const auto& values = recording.columns[joint.column];
     const bool isServo = scene.robots[joint.object].drives[joint.part].kind == Drive::Kind::servo;
     if (rate == 0 || !isServo || !rateColumn(recording, all.measured, joint, 0).empty()) continue;
-    const auto first = std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
-    resting.robots[joint.object].positions[joint.part] = *first;
+    resting.robots[joint.object].positions[joint.part] = startAtRest(values).position;
     resting.robots[joint.object].rates[joint.part] = 0;
     unsure.push_back(i);
   }
@@ -126,6 +125,11 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
 
   const auto time = tail(recording.columns[0], row);
   const bool rests = recording.beginsAtRest && row == 0;
+  const auto bodyStart = [&](std::span<const double> values, double gravity) {
+    Start start = startOfBody(time, values, gravity);
+    if (rests) start.rate = 0;
+    return start;
+  };
   std::vector<std::array<std::span<const double>, 4>> attitudes(scene.robots.size());
   std::vector<Measured> known = binding.measured;
   known.insert(known.end(), binding.startOnly.begin(), binding.startOnly.end());
@@ -142,15 +146,15 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
       state.robots[measured.object].positions[measured.part] = start.position;
       state.robots[measured.object].rates[measured.part] = start.rate;
     } else if (measured.what == Measured::What::basePosition) {
-      const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
+      const Start start = bodyStart(values, scene.gravity_m_s2[axis]);
       state.robots[measured.object].base.translation()[axis] = start.position;
-      state.robots[measured.object].velocity_m_s[axis] = rests ? 0 : start.rate;
+      state.robots[measured.object].velocity_m_s[axis] = start.rate;
     } else if (measured.what == Measured::What::baseOrientation) {
       attitudes[measured.object][measured.part] = values;
     } else if (measured.what == Measured::What::ballPosition) {
-      const Start start = startOfBody(time, values, scene.gravity_m_s2[axis]);
+      const Start start = bodyStart(values, scene.gravity_m_s2[axis]);
       state.balls[measured.object].position_m[axis] = start.position;
-      state.balls[measured.object].velocity_m_s[axis] = rests ? 0 : start.rate;
+      state.balls[measured.object].velocity_m_s[axis] = start.rate;
     }
   }
 

@@ -28,10 +28,11 @@ std::string toJsonText(const FitnessClues& c) {
               {"gap", c.gap},
               {"tried", c.tried},
               {"alike", c.alike},
-              {"record", {{"individual", c.recordIndividual},
-                          {"channel", c.recordChannel},
-                          {"unit", c.recordUnit},
-                          {"spread", c.recordSpread}}},
+              {"record",
+               {{"individual", c.recordIndividual},
+                {"channel", c.recordChannel},
+                {"unit", c.recordUnit},
+                {"spread", c.recordSpread}}},
               {"sentence", c.sentence},
               {"clues", clues}}
       .dump(1);

@@ -10,6 +10,12 @@
 namespace btr {
 namespace {
 
+/// Where a robot's body is.
+bool isOfBody(const std::string& channel) {
+  const auto name = parseChannel(channel);
+  return name && name->part == "base";
+}
+
 /// Analysed after it was hung up: what that said of its joints stays.
 bool afterHanging(const RecordingsSpec& spec, RobotPose pose) {
   return pose == RobotPose::onFloor && spec.poses().size() > 1;
@@ -147,11 +153,7 @@ std::vector<std::string> consideredEffects(const PreparedExperiment& prepared, c
 }
 
 RobotPose poseOf(const Recording& recording) {
-  const bool seesBody = std::ranges::any_of(recording.channels, [](const std::string& channel) {
-    const auto name = parseChannel(channel);
-    return name && name->part == "base";
-  });
-  return seesBody ? RobotPose::onFloor : RobotPose::hungUp;
+  return std::ranges::any_of(recording.channels, isOfBody) ? RobotPose::onFloor : RobotPose::hungUp;
 }
 
 void writeRecording(const Trace& trace, const std::string& path, RobotPose pose, Random& random) {
@@ -159,7 +161,7 @@ void writeRecording(const Trace& trace, const std::string& path, RobotPose pose,
   std::vector<std::size_t> kept;
   for (std::size_t c = 0; c < trace.channels.size(); ++c) {
     const std::string& name = trace.channels[c];
-    const bool isSeen = name.starts_with("ball") || (pose == RobotPose::onFloor && name.find(".base.") != name.npos);
+    const bool isSeen = name.starts_with("ball") || (pose == RobotPose::onFloor && isOfBody(name));
     const bool wanted = name == "time_s" || name.ends_with(".command_rad") || name.ends_with(".position_rad") ||
                         (isSeen && (name.ends_with(".x_m") || name.ends_with(".y_m")));
     if (!wanted) continue;

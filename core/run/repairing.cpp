@@ -77,12 +77,19 @@ std::vector<Recorded> recordingsOf(const RunContext& context, const std::vector<
   return found;
 }
 
+/// Who of them has no recording among these.
+std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<Recorded>& recordings) {
+  std::erase_if(who, [&](Id individual) {
+    return std::ranges::any_of(recordings, [&](const Recorded& r) { return r.record.individual == individual; });
+  });
+  return who;
+}
+
 /// The stand-in robot is recorded. False if stopped.
 bool recordStandIn(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
   const ScratchFolder scratch;
   StandIn robot(StandIn::programFor(context.prepared.spec), context.database.path(), context.record.id);
   for (const Id individual : who) {
-    if (!recordingsOf(context, {individual}, pose).empty()) continue;
     if (context.stopped()) return false;
     RecordingRecord record;
     record.experiment = context.record.experiment;
@@ -192,15 +199,17 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   db.setRunState(run, RunState::adapting, "");
   const std::vector<Id> who = whomToRecord(context, stage);
   if (who.empty()) return StageEnd::done;
-  if (context.record.reality == "stand_in" && !recordStandIn(context, who, pose)) return StageEnd::stopped;
-  const std::vector<Recorded> recordings = recordingsOf(context, who, pose);
+  std::vector<Recorded> recordings = recordingsOf(context, who, pose);
+  std::vector<Id> missing = withoutRecording(who, recordings);
+  if (context.record.reality == "stand_in" && !missing.empty()) {
+    if (!recordStandIn(context, missing, pose)) return StageEnd::stopped;
+    recordings = recordingsOf(context, who, pose);
+    missing.clear();
+  }
   if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
-  const auto missing = std::ranges::count_if(who, [&](Id individual) {
-    return std::ranges::none_of(recordings, [&](const Recorded& r) { return r.record.individual == individual; });
-  });
-  if (missing > 0 && !context.withoutRecordings()) {
-    context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing) + " of " +
-                               std::to_string(who.size()) + " individuals wait for a recording" +
+  if (!missing.empty() && !context.withoutRecordings()) {
+    context.progress.message = "measurement stage " + std::to_string(stage) + ": " + std::to_string(missing.size()) +
+                               " of " + std::to_string(who.size()) + " individuals wait for a recording" +
                                describe(context.prepared, pose) +
                                " (btr gap recordings import --individual); "
                                "btr run --without-recordings goes on with those that are there";

@@ -144,12 +144,12 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
         std::string(answer.note.empty() ? "" : "; ") + "the stand-in's trial failed: " + toText(result.outcome);
   }
   // A run of its own: a robot that hangs does not kick.
+  if (record.file.empty()) return answer;
   if (record.pose == RobotPose::onFloor)  // another occasion than the robot's hanging: noise of its own
     random = Random::forPurpose(concealed.seed ^ keyOf(parameters), "recording on the floor",
                                 static_cast<std::uint64_t>(repeat));
-  if (!record.file.empty())
-    writeRecording(trial(recordedScene(prepared, concealed.simulator, record.pose), true).trace, record.file,
-                   record.pose, random);
+  writeRecording(trial(recordedScene(prepared, concealed.simulator, record.pose), true).trace, record.file, record.pose,
+                 random);
   return answer;
 }
 

@@ -43,6 +43,32 @@ class Repairing : public testing::Test {
     options.withoutRecordings = without;
     return continueRun(database, host_, run, StopFlag{false}, options);
   }
+  /// A run whose first stage a person has measured, all at 0.5; it waits.
+  Id measuredByAPerson(Database& database) {
+    text_["reality"] = "person";
+    const Id run = startRun(database, host_, spec(), 7);
+    EXPECT_EQ(goOn(database, run, 1), RunEnd::waiting);
+    for (const MeasurementTask& task : database.measurementTasks(run, 1)) {
+      MeasurementRecord value;
+      value.run = run;
+      value.individual = task.individual;
+      value.value = 0.5;
+      database.addMeasurement(value);
+    }
+    return run;
+  }
+  static std::vector<double> middleOf(const PreparedExperiment& prepared) {
+    std::vector<double> middle;
+    for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+    return middle;
+  }
+  /// The individual's recording by a robot that is as that simulator; the file's path.
+  std::string record(const PreparedExperiment& prepared, const SimulatorSpec& robot, std::span<const double> parameters,
+                     RobotPose pose, const std::string& name, Random& noise) const {
+    const std::string csv = folder_.file(name);
+    writeRecording(prepared.trial(recordedScene(prepared, robot, pose), parameters, 1, true).trace, csv, pose, noise);
+    return csv;
+  }
   Database fresh(const std::string& name) { return Database::open(folder_.file(name), Database::Mode::create); }
 
   TemporaryFolder folder_;
@@ -133,10 +159,8 @@ TEST_F(Repairing, AFloorThatNobodyMeasuredIsToldByRecordingsOnIt) {
   for (int i = 0; i < 2; ++i) {
     std::vector<double> kick;
     for (const Parameter& p : prepared.genotype) kick.push_back(kicks.uniform(p.minimum, p.maximum));
-    const std::string csv = folder_.file("floor" + std::to_string(i) + ".csv");
-    writeRecording(prepared.trial(recordedScene(prepared, real, RobotPose::onFloor), kick, 1, true).trace, csv,
-                   RobotPose::onFloor, noise);
-    recordings.push_back(loadRecording(csv));
+    const std::string name = "floor" + std::to_string(i) + ".csv";
+    recordings.push_back(loadRecording(record(prepared, real, kick, RobotPose::onFloor, name, noise)));
   }
   AnalysisOptions options;
   options.maximumEffects = 0;
@@ -177,18 +201,9 @@ TEST_F(Repairing, AfterHangingEffectsOfTheFloorAreConsideredUnlessOthersAreNamed
 }
 
 TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttached) {
-  text_["reality"] = "person";
   Database database = fresh("a.db");
-  const Id run = startRun(database, host_, spec(), 7);
-  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  const Id run = measuredByAPerson(database);
   const std::vector<MeasurementTask> tasks = database.measurementTasks(run, 1);
-  for (const MeasurementTask& task : tasks) {
-    MeasurementRecord value;
-    value.run = run;
-    value.individual = task.individual;
-    value.value = 0.5;
-    database.addMeasurement(value);
-  }
   ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
   EXPECT_THAT(database.run(run).message, HasSubstr("1 of 1 individuals wait for a recording"));
   ASSERT_EQ(database.simulators(run).size(), 1u);
@@ -197,10 +212,8 @@ TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttache
   const PreparedExperiment prepared = prepareFromRun(database.run(run), host_);
   const SimulatorSpec plain = database.latestSimulator(run).simulator;
   Random noise(3);
-  const std::string csv = folder_.file("knee.csv");
   const auto parameters = database.individual(tasks[0].individual).parameters;
-  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), parameters, 1, true).trace, csv,
-                 RobotPose::hungUp, noise);
+  const std::string csv = record(prepared, plain, parameters, RobotPose::hungUp, "knee.csv", noise);
   importRecording(database, database.run(run).experiment, csv, "", tasks[0].individual);
   ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);  // for the second stage's measurements
   EXPECT_EQ(database.simulators(run).at(1).madeBy, "gap analysis");
@@ -208,27 +221,17 @@ TEST_F(Repairing, WithAPersonTheRunWaitsForRecordingsAndTakesThoseThatAreAttache
 }
 
 TEST_F(Repairing, WithAPersonBothPosesAreAskedForOneAfterTheOther) {
-  text_["reality"] = "person";
   text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
   text_["recordings"]["effects_on_floor"] = {"contact_compliance"};
   Database database = fresh("a.db");
-  const Id run = startRun(database, host_, spec(), 7);
-  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
+  const Id run = measuredByAPerson(database);
   const std::vector<MeasurementTask> tasks = database.measurementTasks(run, 1);
-  for (const MeasurementTask& task : tasks) {
-    MeasurementRecord value;
-    value.run = run;
-    value.individual = task.individual;
-    value.value = 0.5;
-    database.addMeasurement(value);
-  }
   const PreparedExperiment prepared = prepareFromRun(database.run(run), host_);
   const SimulatorSpec plain = database.latestSimulator(run).simulator;
   const auto parameters = database.individual(tasks[0].individual).parameters;
   const auto attach = [&](RobotPose pose) {
     Random noise(3);
-    const std::string csv = folder_.file(std::string(toText(pose)) + ".csv");
-    writeRecording(prepared.trial(recordedScene(prepared, plain, pose), parameters, 1, true).trace, csv, pose, noise);
+    const std::string csv = record(prepared, plain, parameters, pose, std::string(toText(pose)) + ".csv", noise);
     importRecording(database, database.run(run).experiment, csv, "", tasks[0].individual);
   };
   // The order in which they come does not matter.
@@ -245,17 +248,8 @@ TEST_F(Repairing, WithAPersonBothPosesAreAskedForOneAfterTheOther) {
 }
 
 TEST_F(Repairing, WithAPersonItGoesOnWithoutRecordingsIfToldSo) {
-  text_["reality"] = "person";
   Database database = fresh("a.db");
-  const Id run = startRun(database, host_, spec(), 7);
-  ASSERT_EQ(goOn(database, run, 1), RunEnd::waiting);
-  for (const MeasurementTask& task : database.measurementTasks(run, 1)) {
-    MeasurementRecord value;
-    value.run = run;
-    value.individual = task.individual;
-    value.value = 0.5;
-    database.addMeasurement(value);
-  }
+  const Id run = measuredByAPerson(database);
   ASSERT_EQ(goOn(database, run, 1, true), RunEnd::waiting);
   EXPECT_EQ(database.run(run).stage, 1);
   EXPECT_EQ(database.simulators(run).at(1).madeBy, "L3");
@@ -267,8 +261,7 @@ TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
               stands = prepared.scene(spec().simulator);
   EXPECT_FALSE(hung.robots[0].freeBase);
   EXPECT_DOUBLE_EQ(hung.robots[0].start.translation().z(), stands.robots[0].start.translation().z() + 1);
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = middleOf(prepared);
   const TrialResult result = prepared.trial(hung, middle, 1, true);
   EXPECT_EQ(result.baseEnd_m, result.baseStart_m);
   EXPECT_EQ(result.balls[0].rest_m.head<2>(), result.balls[0].start_m.head<2>());
@@ -299,13 +292,10 @@ TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
 
 TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = middleOf(prepared);
   Random noise(3);
-  const std::string csv = folder_.file("legs.csv");
   const SimulatorSpec plain = spec().simulator;
-  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), middle, 1, true).trace, csv,
-                 RobotPose::hungUp, noise);
+  const std::string csv = record(prepared, plain, middle, RobotPose::hungUp, "legs.csv", noise);
 
   // One knee as it is replayed with all other joints moving, and alone with its leg.
   const auto knee = [&](const std::vector<std::string>& joints) {
@@ -336,13 +326,10 @@ TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
 
 TEST_F(Repairing, AServoBeginsAtRestOrInMotionWhicheverItsSamplesSay) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = middleOf(prepared);
   Random noise(3);
-  const std::string csv = folder_.file("legs.csv");
   const SimulatorSpec plain = spec().simulator;
-  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::hungUp), middle, 1, true).trace, csv,
-                 RobotPose::hungUp, noise);
+  const std::string csv = record(prepared, plain, middle, RobotPose::hungUp, "legs.csv", noise);
   const Scene scene = recordedScene(prepared, plain, RobotPose::hungUp);
   Recording recording = loadRecording(csv);
   const auto column = static_cast<std::size_t>(recording.column("ers7.LF_J3.position_rad"));
@@ -363,13 +350,10 @@ TEST_F(Repairing, AServoBeginsAtRestOrInMotionWhicheverItsSamplesSay) {
 TEST_F(Repairing, OnTheFloorARecordingBeginsWhereItsFirstSampleSaysAndAtRest) {
   text_["recordings"]["settings"]["robot"] = "on_floor";
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = middleOf(prepared);
   Random noise(3);
-  const std::string csv = folder_.file("floor.csv");
   const SimulatorSpec plain = spec().simulator;
-  writeRecording(prepared.trial(recordedScene(prepared, plain, RobotPose::onFloor), middle, 1, true).trace, csv,
-                 RobotPose::onFloor, noise);
+  const std::string csv = record(prepared, plain, middle, RobotPose::onFloor, "floor.csv", noise);
   const GapProblem problem = recordedProblem(prepared, plain, {loadRecording(csv)}, RobotPose::onFloor);
   const Recording& recording = problem.recordings[0];
   EXPECT_GE(recording.column("ers7.base.x_m"), 0);

@@ -1,7 +1,11 @@
 // The experiments that come with the program.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "core/spec/comparison_spec.h"
 #include "core/spec/experiment_spec.h"
+#include "core/spec/json_reader.h"
 #include "core/spec/scene_spec.h"
 
 namespace btr {
@@ -64,6 +68,25 @@ TEST(ExampleExperiments, TheirScenesCanBeRead) {
     const SceneSpec scene = loadScene(spec.directory + "/" + spec.scene);
     EXPECT_EQ(1u, scene.robots.size());
     EXPECT_EQ(spec.controller.name == "kick" ? 1u : 0u, scene.balls.size());
+  }
+}
+
+// Else a chart would show more than one cause.
+TEST(ExampleExperiments, WhatIsComparedDiffersInRecordingsAlone) {
+  for (const char* name : {"worn-knee.json", "other-engine.json", "other-engine-walk.json"}) {
+    const ComparisonSpec comparison = loadComparison(std::string(SOURCE_DIR) + "/resources/comparisons/" + name);
+    ASSERT_GE(comparison.arms.size(), 2u);
+    nlohmann::json first;
+    for (const ComparisonSpec::Arm& arm : comparison.arms) {
+      const std::string path = comparison.directory + "/" + arm.experiment;
+      const ExperimentSpec spec = loadExperiment(path);
+      EXPECT_EQ(arm.name != "parameters alone", spec.recordings.wanted()) << path;
+      nlohmann::json rest = nlohmann::json::parse(readFile(path));
+      rest.erase("name");
+      rest.erase("recordings");
+      if (first.is_null()) first = rest;
+      EXPECT_EQ(first, rest) << path;
+    }
   }
 }
 

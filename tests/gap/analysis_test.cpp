@@ -374,7 +374,7 @@ TEST(EffectCandidates, EveryEffectIsTriedAtEveryPlaceThatItFits) {
                                             "payload at rig.bob", "payload at rig.cart", "gravity_tilt at world"));
 }
 
-TEST(Comparison, IsStudentsPairedTest) {
+TEST(PairedTest, IsStudentsPairedTest) {
   // Differences of logarithms: with the resolution of 0.02 added, ln 2 ± 0: by construction all blocks fall by half.
   std::vector<double> without, with;
   for (const double x : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
@@ -392,7 +392,7 @@ TEST(Comparison, IsStudentsPairedTest) {
   EXPECT_NEAR(comparison.gain, 1 - (with[0] + with[1] + with[2] + with[3] + with[4] + with[5]) / 21, 1e-12);
 }
 
-TEST(Comparison, OfEqualModelsDecidesNothing) {
+TEST(PairedTest, OfEqualModelsDecidesNothing) {
   Random random(3);
   int decided = 0;
   for (int repeat = 0; repeat < 400; ++repeat) {

@@ -12,6 +12,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"
+#include "tests/genotypes.h"
 #include "tests/rival/rival_trial.h"
 
 namespace btr::rival {
@@ -41,8 +42,7 @@ class Rival : public testing::Test {
 TEST_F(Rival, AHungDogFollowsItsCommandsAsInOurSimulator) {
   PreparedExperiment prepared = prepareFromFiles(spec(), host_);
   prepared.sceneSpec.step_s = 0.001;
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   const Scene hung = recordedScene(prepared, prepared.spec.simulator, RobotPose::hungUp);
   const Trace ours = prepared.trial(hung, middle, 1, true).trace;
   TrialOptions options;
@@ -76,8 +76,7 @@ TEST_F(Rival, AtTheStepThatTheExamplePlaysWithEnginesAgree) {
       prepareFromFiles(loadExperiment(SOURCE_DIR "/resources/experiments/other-engine-recordings.json"), host_);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Random random = Random::forPurpose(seed, "a kick");
-    std::vector<double> kick;
-    for (const Parameter& p : prepared.genotype) kick.push_back(random.uniform(p.minimum, p.maximum));
+    const std::vector<double> kick = test::drawnFrom(prepared.genotype, random);
     const PreparedExperiment reality = asReality(prepared, seed);
     Concealed concealed = drawConcealed(reality, host_);
     ASSERT_EQ(concealed.simulator.effects.size(), 1u);
@@ -103,8 +102,7 @@ TEST_F(Rival, AtTheStepThatTheExamplePlaysWithEnginesAgree) {
 TEST_F(Rival, OnTheFloorACameraSeesItsBodyToo) {
   PreparedExperiment prepared = prepareFromFiles(spec(), host_);
   prepared.sceneSpec.step_s = 0.001;
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   for (const RobotPose pose : {RobotPose::hungUp, RobotPose::onFloor}) {
     TrialOptions options;
     options.recordTrace = true;
@@ -120,8 +118,7 @@ TEST_F(Rival, OnTheFloorACameraSeesItsBodyToo) {
 
 TEST_F(Rival, AWorldThatFailsLeavesARecordingUpToThere) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);  // 8 ms: its feet are too stiff for that
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   TrialOptions options;
   options.recordTrace = true;
   const TrialResult result = runMujocoTrial(recordedScene(prepared, prepared.spec.simulator, RobotPose::onFloor),

@@ -9,6 +9,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
+#include "tests/genotypes.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/refusal.h"
 
@@ -61,8 +62,7 @@ TEST(PreparedExperiment, FromItsRunIsTheSameToTheLastBit) {
   EXPECT_EQ(again.genotype.size(), first.genotype.size());
   EXPECT_EQ(makeRunRecord(again, 1, 5).specSha256, run.specSha256);
 
-  std::vector<double> middle;
-  for (const Parameter& p : first.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = test::middleOf(first.genotype);
   const auto result = [&](const PreparedExperiment& prepared) {
     return prepared.trial(prepared.scene(prepared.spec.simulator), middle, 11, true);
   };

@@ -14,6 +14,7 @@
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"
+#include "tests/genotypes.h"
 
 namespace btr {
 namespace {
@@ -56,11 +57,6 @@ class Repairing : public testing::Test {
       database.addMeasurement(value);
     }
     return run;
-  }
-  static std::vector<double> middleOf(const PreparedExperiment& prepared) {
-    std::vector<double> middle;
-    for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
-    return middle;
   }
   /// The individual's recording by a robot that is as that simulator; the file's path.
   std::string record(const PreparedExperiment& prepared, const SimulatorSpec& robot, std::span<const double> parameters,
@@ -157,8 +153,7 @@ TEST_F(Repairing, AFloorThatNobodyMeasuredIsToldByRecordingsOnIt) {
   std::vector<Recording> recordings;
   Random noise(3), kicks(4);
   for (int i = 0; i < 2; ++i) {
-    std::vector<double> kick;
-    for (const Parameter& p : prepared.genotype) kick.push_back(kicks.uniform(p.minimum, p.maximum));
+    const std::vector<double> kick = test::drawnFrom(prepared.genotype, kicks);
     const std::string name = "floor" + std::to_string(i) + ".csv";
     recordings.push_back(loadRecording(record(prepared, real, kick, RobotPose::onFloor, name, noise)));
   }
@@ -261,7 +256,7 @@ TEST_F(Repairing, AHungRobotMovesItsLegsAndStaysWhereItHangs) {
               stands = prepared.scene(spec().simulator);
   EXPECT_FALSE(hung.robots[0].freeBase);
   EXPECT_DOUBLE_EQ(hung.robots[0].start.translation().z(), stands.robots[0].start.translation().z() + 1);
-  const std::vector<double> middle = middleOf(prepared);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   const TrialResult result = prepared.trial(hung, middle, 1, true);
   EXPECT_EQ(result.baseEnd_m, result.baseStart_m);
   EXPECT_EQ(result.balls[0].rest_m.head<2>(), result.balls[0].start_m.head<2>());
@@ -292,7 +287,7 @@ TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
 
 TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  const std::vector<double> middle = middleOf(prepared);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   Random noise(3);
   const SimulatorSpec plain = spec().simulator;
   const std::string csv = record(prepared, plain, middle, RobotPose::hungUp, "legs.csv", noise);
@@ -326,7 +321,7 @@ TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {
 
 TEST_F(Repairing, AServoBeginsAtRestOrInMotionWhicheverItsSamplesSay) {
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  const std::vector<double> middle = middleOf(prepared);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   Random noise(3);
   const SimulatorSpec plain = spec().simulator;
   const std::string csv = record(prepared, plain, middle, RobotPose::hungUp, "legs.csv", noise);
@@ -350,7 +345,7 @@ TEST_F(Repairing, AServoBeginsAtRestOrInMotionWhicheverItsSamplesSay) {
 TEST_F(Repairing, OnTheFloorARecordingBeginsWhereItsFirstSampleSaysAndAtRest) {
   text_["recordings"]["settings"]["robot"] = "on_floor";
   const PreparedExperiment prepared = prepareFromFiles(spec(), host_);
-  const std::vector<double> middle = middleOf(prepared);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   Random noise(3);
   const SimulatorSpec plain = spec().simulator;
   const std::string csv = record(prepared, plain, middle, RobotPose::onFloor, "floor.csv", noise);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/genotypes.h"
 #include "tests/plugin/built_plugins.h"
 
 namespace {
@@ -63,8 +64,7 @@ TEST(StandIn, ConcealsEffectsOfHalfToOneAndAHalfTimesTheirTypicalSize) {
 TEST(StandIn, MeasuresTheSameIndividualTwiceWithDifferentNoiseAndRepeatably) {
   const PreparedExperiment prepared = kick(2, 1);
   const Concealed concealed = drawConcealed(prepared, host());
-  std::vector<double> middle;
-  for (const Parameter& p : prepared.genotype) middle.push_back((p.minimum + p.maximum) / 2);
+  const std::vector<double> middle = test::middleOf(prepared.genotype);
   const double first = measureStandIn(prepared, concealed, middle, 0).fitness;
   EXPECT_EQ(first, measureStandIn(prepared, concealed, middle, 0).fitness);
   const double second = measureStandIn(prepared, concealed, middle, 1).fitness;

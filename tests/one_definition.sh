@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Each name of a type at namespace scope stands for one type in the whole program (C++ [basic.def.odr]): two of the same name
-# make the linker keep one constructor for both. No compiler and no linker reports it.
+# make the linker keep one constructor for both, and it says so only when all is optimised at once (-flto -Wodr), as no
+# build here is.
 # Reads the definitions that begin a line; types in a class or in an unnamed namespace are free.
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 2

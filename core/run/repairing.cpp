@@ -204,7 +204,7 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   if (context.record.reality == "stand_in" && !missing.empty()) {
     if (!recordStandIn(context, missing, pose)) return StageEnd::stopped;
     recordings = recordingsOf(context, who, pose);
-    missing.clear();
+    missing = withoutRecording(who, recordings);
   }
   if (context.withoutRecordings() && recordings.empty()) return StageEnd::done;
   if (!missing.empty() && !context.withoutRecordings()) {

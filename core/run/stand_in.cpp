@@ -143,8 +143,8 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
     answer.note +=
         std::string(answer.note.empty() ? "" : "; ") + "the stand-in's trial failed: " + toText(result.outcome);
   }
-  // A run of its own: a robot that hangs does not kick.
   if (record.file.empty()) return answer;
+  // A run of its own: a robot that hangs does not kick.
   if (record.pose == RobotPose::onFloor)  // another occasion than the robot's hanging: noise of its own
     random = Random::forPurpose(concealed.seed ^ keyOf(parameters), "recording on the floor",
                                 static_cast<std::uint64_t>(repeat));

@@ -17,6 +17,7 @@ struct GapProblem {
   SimulatorSpec simulator;            ///< as given
   std::vector<Recording> recordings;  ///< training and cross-validation
   std::vector<Recording> heldOut;     ///< never used in a fit or a choice; scored at the end
+  double firstSteps_s = 0.8;          ///< of a walk, what is compared: later, the landing of a foot decides all
 };
 
 struct AnalysisOptions {

@@ -103,8 +103,7 @@ void chooseStep(FitProblem& problem) {
 /// the six walks of the blind trial's seed 77, cases 0 and 1, it tells two to their ends and parts from the others
 /// after 1.0 to 3.8 s (13 noise floors off soon after). A sagging voltage was one side minimum among many over four
 /// seconds, and is found over the first steps.
-void keepFirstSteps(FitProblem& problem) {
-  constexpr double firstSteps_s = 0.8;
+void keepFirstSteps(FitProblem& problem, double firstSteps_s) {
   for (FitTrial& trial : problem.trials) {
     const std::vector<double>& time = trial.recording.columns[0];
     const auto last = std::ranges::upper_bound(time, time.front() + firstSteps_s);
@@ -209,7 +208,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   // Runs freely, from where it stood or was let go: in the middle of a walk nothing recorded tells its contacts well
   // enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start, and 5 to
   // 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
-  if (ready.walks && window_s == 0) keepFirstSteps(ready);
+  if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
   cutSegments(ready, window_s);
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;

@@ -8,6 +8,7 @@
 
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
+#include "core/run/told_numbers.h"
 #include "core/spec/sha256.h"
 
 namespace btr {
@@ -158,10 +159,18 @@ std::string evidenceText(const Evidence& evidence, int stage, double error, doub
 
 bool Adaptation::begin() {
   learner_ = context_.host.learner(context_.prepared.spec.adaptation.name);
-  learner_->start(context_.prepared.adapted, context_.prepared.spec.adaptation.settings, random_);
-  // A population is drawn over all of the bounds, as in the papers; a learner with a centre begins at the parent.
   for (const Parameter& p : context_.prepared.adapted)
     present_.push_back(valueOf(simulatorParameters(), parent_.simulator.values, p.name));
+  std::vector<Parameter> adapted = context_.prepared.adapted;
+  if (context_.recordingSetting("told_numbers") == 1)
+    adapted = withinTold(std::move(adapted), toldNumbers(context_.database.simulators(parent_.run), parent_), present_);
+  Values settings = context_.prepared.spec.adaptation.settings;
+  // A step of one parameter may be wider than its narrowed bounds.
+  for (const Parameter& p : learner_->settingsFor(adapted))
+    if (const auto set = settings.find(p.name); set != settings.end())
+      set->second = std::clamp(set->second, p.minimum, p.maximum);
+  learner_->start(adapted, settings, random_);
+  // A population is drawn over all of the bounds, as in the papers; a learner with a centre begins at the parent.
   learner_->beginAt(present_, {.share = 0}, random_);
 
   const std::vector<AdaptationRecord> earlier = context_.database.adaptations(context_.record.id, stage_);

@@ -7,6 +7,7 @@
 #include "core/gap/gap_report.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/run_lock.h"
+#include "core/run/told_numbers.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -53,6 +54,7 @@ std::string evidenceOf(const std::string& report, const GapReport& found, const 
                           {"report_sha256", hash},
                           {"verdict", toText(found.verdict)},
                           {"sentence", found.sentence},
+                          {"calibrated", toEvidence(found.calibrated)},
                           {"seed", found.seed},
                           {"version", found.version},
                           {"recordings_sha256", nlohmann::json::array()}};

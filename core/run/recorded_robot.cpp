@@ -136,6 +136,7 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   // A trial begins with a robot that stands; what the floor does to its joints next is not taken for a start in motion.
   if (pose == RobotPose::onFloor)
     for (Recording& recording : problem.recordings) recording.beginsAtRest = true;
+  problem.firstSteps_s = valueOf(recordingParameters(), spec.settings, "floor_compared_s");
   if (pose == RobotPose::hungUp) leaveOutUnseenBranches(problem, spec.joints);
   return problem;
 }

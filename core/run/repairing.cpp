@@ -9,6 +9,7 @@
 #include "core/run/run_context.h"
 #include "core/run/stand_in.h"
 #include "core/run/stored_recordings.h"
+#include "core/run/told_numbers.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -38,10 +39,6 @@ class ScratchFolder {
   fs::path path_;
 };
 
-double settingOf(const RunContext& context, const char* name) {
-  return valueOf(recordingParameters(), context.prepared.spec.recordings.settings, name);
-}
-
 /// Whom this stage records: the first in the order of measuring, without those whose trials all failed and without
 /// those held out: what is made of the recordings must not know them.
 std::vector<Id> whomToRecord(const RunContext& context, int stage) {
@@ -49,8 +46,8 @@ std::vector<Id> whomToRecord(const RunContext& context, int stage) {
   for (const RealFitness& real : realFitness(context.database.measurementTasks(context.record.id, stage),
                                              context.database.measurements(context.record.id), stage))
     if (real.iteration == 0 && !real.heldOut) who.push_back(real.individual);
-  if (static_cast<double>(who.size()) > settingOf(context, "individuals"))
-    who.resize(static_cast<std::size_t>(settingOf(context, "individuals")));
+  if (static_cast<double>(who.size()) > context.recordingSetting("individuals"))
+    who.resize(static_cast<std::size_t>(context.recordingSetting("individuals")));
   return who;
 }
 
@@ -105,21 +102,12 @@ bool recordStandIn(RunContext& context, const std::vector<Id>& who, RobotPose po
   return true;
 }
 
-nlohmann::json numbersOf(const std::vector<GapReport::Number>& numbers) {
-  nlohmann::json all = nlohmann::json::object();
-  for (const GapReport::Number& n : numbers)
-    all[n.name] = {{"before", n.before},
-                   {"value", n.value},
-                   {"ci95", n.ci95.known() ? nlohmann::json{n.ci95.low, n.ci95.high} : nlohmann::json()}};
-  return all;
-}
-
 std::string evidenceOf(const GapReport& report, int stage, RobotPose pose, const std::vector<Recorded>& recordings) {
   nlohmann::json evidence{{"stage", stage},
                           {"robot", toText(pose)},
                           {"verdict", toText(report.verdict)},
                           {"sentence", report.sentence},
-                          {"calibrated", numbersOf(report.calibrated)},
+                          {"calibrated", toEvidence(report.calibrated)},
                           {"effects", nlohmann::json::array()},
                           {"ladder", nlohmann::json::array()},
                           {"recordings", nlohmann::json::array()},
@@ -129,7 +117,7 @@ std::string evidenceOf(const GapReport& report, int stage, RobotPose pose, const
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted)
       evidence["effects"].push_back(
-          {{"effect", effect.effect}, {"at", effect.at}, {"parameters", numbersOf(effect.parameters)}});
+          {{"effect", effect.effect}, {"at", effect.at}, {"parameters", toEvidence(effect.parameters)}});
   for (const GapReport::Step& step : report.ladder)
     evidence["ladder"].push_back({{"what", step.what}, {"error_in_noise_floors", step.error}});
   for (const Recorded& recorded : recordings) {
@@ -148,7 +136,7 @@ std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorS
   AnalysisOptions options;
   options.jobs = context.jobs();
   options.seed = context.record.seed;
-  options.maximumEffects = static_cast<int>(settingOf(context, "maximum_effects"));
+  options.maximumEffects = static_cast<int>(context.recordingSetting("maximum_effects"));
   options.effects = consideredEffects(context.prepared, context.host, pose);
   options.designNext = false;
   options.learnRest = pose == RobotPose::hungUp;  // on the floor its curve takes minutes, and nobody sees it
@@ -236,7 +224,7 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
 }  // namespace
 
 StageEnd repairSimulator(RunContext& context, int stage) {
-  if (static_cast<double>(stage) != settingOf(context, "after_stage")) return StageEnd::done;
+  if (static_cast<double>(stage) != context.recordingSetting("after_stage")) return StageEnd::done;
   for (const RobotPose pose : context.prepared.spec.recordings.poses())
     if (const StageEnd end = repairFrom(context, stage, pose); end != StageEnd::done) return end;
   return StageEnd::done;

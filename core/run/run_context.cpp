@@ -65,6 +65,10 @@ double RunContext::adaptationSetting(const std::string& name) const {
   return valueOf(adaptationParameters(), prepared.spec.adaptationSettings, name);
 }
 
+double RunContext::recordingSetting(const std::string& name) const {
+  return valueOf(recordingParameters(), prepared.spec.recordings.settings, name);
+}
+
 double RunContext::realitySetting(const std::string& name) const {
   return valueOf(realityLearningParameters(), prepared.spec.realitySettings, name);
 }

@@ -38,6 +38,7 @@ class RunContext {
   bool withoutRecordings() const { return options_.withoutRecordings; }
   int stageSetting(const std::string& name) const;          ///< of stageParameters()
   double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()
+  double recordingSetting(const std::string& name) const;   ///< of recordingParameters()
   double realitySetting(const std::string& name) const;     ///< of realityLearningParameters()
   std::uint64_t trialSeed() const;                          ///< the one seed of all trials of this run
   /// L1 generation after which stage k = 1, 2, … measures, at most the total.

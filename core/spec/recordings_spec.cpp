@@ -52,6 +52,16 @@ const std::vector<Parameter>& recordingParameters() {
       {"calibrate_within", "", "fitted numbers stay within this share of their value, or their range if it is 0", 0.01,
        100, 0.5},
       {"maximum_effects", "", "most effects that the analysis adds", 0, 10, 2, {}, true},
+      {"floor_compared_s", "s", "how long a recording on the floor is compared, from its start", 0.1, 600, 0.8},
+      {"told_numbers",
+       "",
+       "whether L3 changes what recordings told of numbers anywhere, or within the 95 % intervals alone",
+       0,
+       1,
+       0,
+       {},
+       false,
+       {"anywhere", "within_intervals"}},
   };
   return parameters;
 }

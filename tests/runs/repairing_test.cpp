@@ -105,6 +105,37 @@ TEST_F(Repairing, TheStandInIsRecordedAndTheRunGoesOnInTheRepairedSimulator) {
   EXPECT_EQ(other.lastGeneration(again)->best, database.lastGeneration(run)->best);
 }
 
+/// How many values of the p gain L3 tried outside the interval that the recordings had told, and of how many.
+std::pair<int, int> outsideOfWhatWasTold(const Database& database, Id run) {
+  const nlohmann::json told =
+      nlohmann::json::parse(database.simulators(run)[1].evidence)["calibrated"]["servo_p_nm_rad"];
+  int outside = 0, all = 0;
+  for (const int stage : {1, 2})
+    for (const AdaptationRecord& generation : database.adaptations(run, stage))
+      for (const AdaptationCandidate& candidate : generation.candidates) {
+        const double p = candidate.parameters.at(1);  // beside the mass of the body
+        outside += p < told["ci95"][0] || p > told["ci95"][1];
+        ++all;
+      }
+  return {outside, all};
+}
+
+TEST_F(Repairing, L3LeavesWhatRecordingsToldInItsIntervalWhereThatIsWanted) {
+  text_["adaptation"]["parameters"] = {"servo_p_nm_rad", "body_mass_kg"};
+  for (const char* wanted : {"anywhere", "within_intervals"}) {
+    text_["recordings"]["settings"]["told_numbers"] = wanted;
+    Database database = fresh(std::string(wanted) + ".db");
+    const Id run = startRun(database, host_, spec(), 7);
+    ASSERT_EQ(goOn(database, run, 2), RunEnd::finished);
+    const auto [outside, all] = outsideOfWhatWasTold(database, run);
+    EXPECT_EQ(all, 4) << wanted;
+    if (wanted == std::string("anywhere"))
+      EXPECT_GT(outside, 0);  // of 2 to 30 N·m/rad
+    else
+      EXPECT_EQ(outside, 0);
+  }
+}
+
 TEST_F(Repairing, InBothPosesEachIsRecordedAndAnalysedAndTheSecondBuildsOnTheFirst) {
   text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
   text_["recordings"]["effects_on_floor"] = {"contact_compliance"};

@@ -1,0 +1,51 @@
+#include "core/run/told_numbers.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace btr {
+
+nlohmann::json toEvidence(const std::vector<GapReport::Number>& numbers) {
+  nlohmann::json all = nlohmann::json::object();
+  for (const GapReport::Number& n : numbers)
+    all[n.name] = {{"before", n.before},
+                   {"value", n.value},
+                   {"ci95", n.ci95.known() ? nlohmann::json{n.ci95.low, n.ci95.high} : nlohmann::json()}};
+  return all;
+}
+
+std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<SimulatorRecord>& versions,
+                                                       const SimulatorRecord& newest) {
+  std::map<std::string, GapReport::Interval> told;
+  const SimulatorRecord* version = &newest;
+  while (version) {
+    const auto evidence = nlohmann::json::parse(version->evidence, nullptr, false);
+    if (evidence.is_object() && evidence.contains("calibrated"))
+      for (const auto& [name, number] : evidence["calibrated"].items())
+        if (const auto& interval = number.at("ci95"); interval.is_array())
+          told.try_emplace(name, GapReport::Interval{interval.at(0).get<double>(), interval.at(1).get<double>()});
+    // A reverting version comes from the one whose values it has again, not from the one that it follows.
+    const bool reverts = evidence.is_object() && evidence.contains("reverts_to");
+    const auto origin = reverts
+                            ? std::ranges::find(versions, evidence["reverts_to"].get<int>(), &SimulatorRecord::number)
+                            : std::ranges::find(versions, version->parent, &SimulatorRecord::id);
+    version = origin == versions.end() ? nullptr : &*origin;
+  }
+  return told;
+}
+
+std::vector<Parameter> withinTold(std::vector<Parameter> declared,
+                                  const std::map<std::string, GapReport::Interval>& told,
+                                  std::span<const double> present) {
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    Parameter& p = declared[i];
+    const auto found = told.find(p.name);
+    if (found == told.end()) continue;
+    p.minimum = std::max(p.minimum, std::min(found->second.low, present[i]));
+    p.maximum = std::min(p.maximum, std::max(found->second.high, present[i]));
+    p.byDefault = std::clamp(p.byDefault, p.minimum, p.maximum);
+  }
+  return declared;
+}
+
+}  // namespace btr

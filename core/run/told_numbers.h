@@ -1,0 +1,29 @@
+#pragma once
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/gap/gap_report.h"
+#include "core/spec/parameter.h"
+#include "core/store/records.h"
+
+namespace btr {
+
+// What recordings told of a simulator's numbers, on its way through the versions of a run.
+
+/// Fitted numbers as a version's evidence keeps them: {NAME: {"before", "value", "ci95": [low, high] or null}}.
+nlohmann::json toEvidence(const std::vector<GapReport::Number>& numbers);
+
+/// By name the 95 % intervals of the numbers that gap analyses calibrated, in this version and those that it comes
+/// from; of several analyses the newest. What an analysis could not tell is not in it.
+std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<SimulatorRecord>& versions,
+                                                       const SimulatorRecord& newest);
+
+/// The declared parameters with bounds narrowed to what was told, never without `present` (values in their order).
+std::vector<Parameter> withinTold(std::vector<Parameter> declared,
+                                  const std::map<std::string, GapReport::Interval>& told,
+                                  std::span<const double> present);
+
+}  // namespace btr

@@ -95,6 +95,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
   const FitTrial& trial = problem.trials[index];
   const Scene scene = problem.sceneOf(problem.given, index);
   StartState state = startState(scene, trial.recording, trial.binding, row);
+  const bool rests = trial.recording.beginsAtRest && row == 0;  // which is known, and no question to a fit
   const std::span<const double> time(trial.recording.columns[0]);
   nuisances.clear();
 
@@ -119,7 +120,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       add(Nuisance::What::jointPosition, measured.part, std::max(noise, local.known ? local.valueError : noise));
       // A line through the first samples says "at rest" of all that is slower than its noise: a servo with a heavy
       // rotor may still swing then.
-      if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
+      if (!rests && (local.known || rate != 0 || drive.kind != Drive::Kind::servo))
         add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
       const Local local = localParabola(time, values, row, reach_s, noise);
@@ -130,12 +131,12 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
         state.robots[measured.object].velocity_m_s[axis] = local.slope;
       }
       add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError));
-      add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      if (!rests) add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
     } else if (measured.what == Measured::What::baseOrientation && measured.part > 0 &&
                scene.robots[measured.object].freeBase) {
       // A quaternion's noise is half an angle's.
       add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise);
-      add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
+      if (!rests) add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
     } else if (measured.what == Measured::What::ballPosition) {
       const Local local = localParabola(time, values, row, reach_s, noise);
       if (!local.known) continue;
@@ -147,7 +148,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       }
       if (ball.onFloor && axis == 2) continue;
       add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError));
-      add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      if (!rests) add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
     }
   }
   for (std::size_t r = 0; r < state.robots.size() && row > 0; ++r) {

@@ -162,8 +162,9 @@ bool Adaptation::begin() {
   for (const Parameter& p : context_.prepared.adapted)
     present_.push_back(valueOf(simulatorParameters(), parent_.simulator.values, p.name));
   std::vector<Parameter> adapted = context_.prepared.adapted;
-  if (context_.recordingSetting("told_numbers") == 1)
-    adapted = withinTold(std::move(adapted), toldNumbers(context_.database.simulators(parent_.run), parent_), present_);
+  if (const double wanted = context_.recordingSetting("told_numbers"); wanted > 0)
+    adapted = withinTold(std::move(adapted), toldNumbers(context_.database.simulators(parent_.run), parent_), present_,
+                         wanted == 2 ? Untold::stay : Untold::free);
   Values settings = context_.prepared.spec.adaptation.settings;
   // A step of one parameter may be wider than its narrowed bounds.
   for (const Parameter& p : learner_->settingsFor(adapted))

@@ -124,8 +124,11 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
 
   problem.scene.calibrate = numbersToFit(spec, simulator, pose);
 
+  const bool placesAlone = valueOf(recordingParameters(), spec.settings, "floor_compares") == 1;
   const auto isCompared = [&](const std::string& channel) {
-    if (spec.joints.empty() || afterHanging(spec, pose) || !channel.ends_with(".position_rad")) return true;
+    if (!channel.ends_with(".position_rad")) return true;
+    if (afterHanging(spec, pose)) return !placesAlone;
+    if (spec.joints.empty()) return true;
     return std::ranges::any_of(spec.joints,
                                [&](const std::string& joint) { return channel == joint + ".position_rad"; });
   };

@@ -41,13 +41,16 @@ class ScratchFolder {
 
 /// Whom this stage records: the first in the order of measuring, without those whose trials all failed and without
 /// those held out: what is made of the recordings must not know them.
-std::vector<Id> whomToRecord(const RunContext& context, int stage) {
+std::vector<Id> whomToRecord(const RunContext& context, int stage, RobotPose pose) {
   std::vector<Id> who;
   for (const RealFitness& real : realFitness(context.database.measurementTasks(context.record.id, stage),
                                              context.database.measurements(context.record.id), stage))
     if (real.iteration == 0 && !real.heldOut) who.push_back(real.individual);
-  if (static_cast<double>(who.size()) > context.recordingSetting("individuals"))
-    who.resize(static_cast<std::size_t>(context.recordingSetting("individuals")));
+  double most = context.recordingSetting("individuals");
+  const double hungUp = context.recordingSetting("hung_up_individuals");
+  const bool both = context.prepared.spec.recordings.poses().size() > 1;
+  if (both && pose == RobotPose::hungUp && hungUp > 0) most = std::min(most, hungUp);
+  if (static_cast<double>(who.size()) > most) who.resize(static_cast<std::size_t>(most));
   return who;
 }
 
@@ -185,7 +188,7 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   if (!db.adaptations(run, stage).empty()) return StageEnd::done;
 
   db.setRunState(run, RunState::adapting, "");
-  const std::vector<Id> who = whomToRecord(context, stage);
+  const std::vector<Id> who = whomToRecord(context, stage, pose);
   if (who.empty()) return StageEnd::done;
   std::vector<Recorded> recordings = recordingsOf(context, who, pose);
   std::vector<Id> missing = withoutRecording(who, recordings);

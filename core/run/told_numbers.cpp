@@ -36,13 +36,18 @@ std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<Simulat
 
 std::vector<Parameter> withinTold(std::vector<Parameter> declared,
                                   const std::map<std::string, GapReport::Interval>& told,
-                                  std::span<const double> present) {
+                                  std::span<const double> present, Untold untold) {
+  const auto isTold = [&](const Parameter& p) { return told.contains(p.name); };
+  if (std::ranges::none_of(declared, isTold)) return declared;
   for (std::size_t i = 0; i < declared.size(); ++i) {
     Parameter& p = declared[i];
     const auto found = told.find(p.name);
-    if (found == told.end()) continue;
-    p.minimum = std::max(p.minimum, std::min(found->second.low, present[i]));
-    p.maximum = std::min(p.maximum, std::max(found->second.high, present[i]));
+    if (found != told.end()) {
+      p.minimum = std::max(p.minimum, std::min(found->second.low, present[i]));
+      p.maximum = std::min(p.maximum, std::max(found->second.high, present[i]));
+    } else if (untold == Untold::stay) {
+      p.minimum = p.maximum = present[i];
+    }
     p.byDefault = std::clamp(p.byDefault, p.minimum, p.maximum);
   }
   return declared;

@@ -21,9 +21,13 @@ nlohmann::json toEvidence(const std::vector<GapReport::Number>& numbers);
 std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<SimulatorRecord>& versions,
                                                        const SimulatorRecord& newest);
 
-/// The declared parameters with bounds narrowed to what was told, never without `present` (values in their order).
+/// What becomes of the others where something was told.
+enum class Untold { free, stay };
+
+/// The declared parameters with bounds narrowed to what was told, never without `present` (values in their order). With
+/// Untold::stay the others have no other value than that. Where nothing was told, all are as declared.
 std::vector<Parameter> withinTold(std::vector<Parameter> declared,
                                   const std::map<std::string, GapReport::Interval>& told,
-                                  std::span<const double> present);
+                                  std::span<const double> present, Untold untold = Untold::free);
 
 }  // namespace btr

@@ -36,8 +36,9 @@ struct RecordingsSpec {
   std::vector<RobotPose> poses() const;  ///< one or both, in the order in which they are analysed
 };
 
-/// after_stage, individuals, robot (hung_up | on_floor | hung_up_then_on_floor), calibrate_within, maximum_effects,
-/// floor_compared_s, told_numbers (anywhere | within_intervals).
+/// after_stage, individuals, hung_up_individuals, robot (hung_up | on_floor | hung_up_then_on_floor), calibrate_within,
+/// maximum_effects, floor_compared_s, floor_compares (everything | body_and_ball), told_numbers (anywhere |
+/// within_intervals | within_intervals_alone).
 const std::vector<Parameter>& recordingParameters();
 
 /// The block as it stands in the file; what is absent keeps its default. Throws InputError.

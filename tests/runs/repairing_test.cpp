@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/fit_problem.h"
 #include "core/gap/replay.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/recorded_robot.h"
@@ -134,6 +135,24 @@ TEST_F(Repairing, L3LeavesWhatRecordingsToldInItsIntervalWhereThatIsWanted) {
     else
       EXPECT_EQ(outside, 0);
   }
+}
+
+TEST_F(Repairing, InBothPosesFewerMayHangThanStand) {
+  text_["recordings"]["settings"]["robot"] = "hung_up_then_on_floor";
+  text_["recordings"]["settings"]["individuals"] = 2;
+  text_["recordings"]["settings"]["hung_up_individuals"] = 1;
+  text_["recordings"]["effects_on_floor"] = {"contact_compliance"};
+  Database database = fresh("a.db");
+  const Id run = startRun(database, host_, spec(), 7);
+  ASSERT_EQ(goOn(database, run, 2), RunEnd::finished);
+  std::map<RobotPose, std::vector<Id>> recorded;
+  for (const RecordingRecord& recording : database.recordings(database.run(run).experiment))
+    recorded[poseOf(loadRecording(exportRecording(database, recording.id, folder_.file("out"))))].push_back(
+        recording.individual);
+  const std::vector<MeasurementTask> tasks = database.measurementTasks(run, 1);
+  EXPECT_EQ(recorded[RobotPose::hungUp], std::vector{tasks[0].individual});
+  EXPECT_EQ(recorded[RobotPose::onFloor], (std::vector{tasks[0].individual, tasks[1].individual}));
+  EXPECT_EQ(nlohmann::json::parse(database.simulators(run)[2].evidence)["recordings"].size(), 2u);
 }
 
 TEST_F(Repairing, InBothPosesEachIsRecordedAndAnalysedAndTheSecondBuildsOnTheFirst) {
@@ -314,6 +333,52 @@ TEST_F(Repairing, OnlyTheNamedJointsAreCompared) {
   // Within half of 7.5 N·m/rad, the experiment's own number.
   EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].minimum, 3.75);
   EXPECT_DOUBLE_EQ(problem.scene.calibrate[0].maximum, 11.25);
+}
+
+TEST_F(Repairing, AfterHangingTheFloorMayBeAskedForThePlacesOfBodyAndBallAlone) {
+  const std::vector<std::string> joints{"ers7.LF_J3.position_rad", "ers7.RF_J3.position_rad"};
+  Recording recording;
+  recording.channels = {"time_s", joints[0], joints[1], "ers7.base.x_m", "ball.x_m"};
+  recording.columns = {{0, 1}, {1, 1}, {2, 2}, {0, 0}, {0, 0}};
+  const auto notCompared = [&](RobotPose pose) {
+    return recordedProblem(prepareFromFiles(spec(), host_), spec().simulator, {recording}, pose)
+        .recordings[0]
+        .notCompared;
+  };
+  auto& settings = text_["recordings"]["settings"];
+  settings["robot"] = "hung_up_then_on_floor";
+  EXPECT_THAT(notCompared(RobotPose::onFloor), testing::IsEmpty());
+  settings["floor_compares"] = "body_and_ball";
+  EXPECT_EQ(notCompared(RobotPose::onFloor), joints);
+  // Nothing but the floor's recordings tells of the servos.
+  settings["robot"] = "on_floor";
+  EXPECT_EQ(notCompared(RobotPose::onFloor), std::vector{joints[1]});  // as the experiment names LF_J3 alone
+}
+
+/// Recorded on the floor, of a walk that begins with a lead-in; what is compared of it, and what a fit may shift.
+TEST_F(Repairing, OnTheFloorAsManySecondsAreComparedAsAreWantedAndNoVelocityIsAsked) {
+  text_["recordings"]["settings"]["robot"] = "on_floor";
+  const std::vector<double> middle = test::middleOf(prepareFromFiles(spec(), host_).genotype);
+  const SimulatorSpec plain = spec().simulator;
+  Random noise(3);
+  const std::string csv =
+      record(prepareFromFiles(spec(), host_), plain, middle, RobotPose::onFloor, "floor.csv", noise);
+  const EffectLibrary library{host_.effectFactory(), host_.effects()};
+  for (const double wanted_s : {0.1, 0.2}) {
+    text_["recordings"]["settings"]["floor_compared_s"] = wanted_s;
+    const GapProblem given =
+        recordedProblem(prepareFromFiles(spec(), host_), plain, {loadRecording(csv)}, RobotPose::onFloor);
+    const FitProblem problem = makeFitProblem(given, given.recordings, library);
+    const std::vector<double>& time = problem.trials[0].recording.columns[0];
+    ASSERT_LT(problem.trials[0].rows(), time.size());
+    EXPECT_LE(time[problem.trials[0].rows() - 1], wanted_s);
+    EXPECT_GT(time[problem.trials[0].rows()], wanted_s);
+    for (const Nuisance& nuisance : problem.segments[0].nuisances) {
+      EXPECT_NE(nuisance.what, Nuisance::What::baseVelocity);
+      EXPECT_NE(nuisance.what, Nuisance::What::ballVelocity);
+      EXPECT_NE(nuisance.what, Nuisance::What::jointRate);
+    }
+  }
 }
 
 TEST_F(Repairing, BranchesThatNobodyComparesCanBeLeftOutOfAHungRobot) {

@@ -63,5 +63,15 @@ TEST(ToldNumbers, NarrowBoundsThatStillHoldThePresentValue) {
   }
 }
 
+TEST(ToldNumbers, MayBeTheOnlyOnesThatChange) {
+  const std::vector<Parameter> declared{{"a", "", "told", 0, 10, 5}, {"b", "", "not told", 0, 10, 5}};
+  const auto within = withinTold(declared, {{"a", {2, 3}}}, std::vector<double>{2.5, 7}, Untold::stay);
+  EXPECT_EQ(within[0].maximum, 3);
+  EXPECT_EQ(within[1].minimum, 7);
+  EXPECT_EQ(within[1].maximum, 7);
+  // Before the recordings, or where no number of L3 was told, nothing is held: L3 would have nothing to do.
+  EXPECT_EQ(withinTold(declared, {{"c", {2, 3}}}, std::vector<double>{2.5, 7}, Untold::stay)[1].maximum, 10);
+}
+
 }  // namespace
 }  // namespace btr

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int firstIterations = 8;
 constexpr double hopeless = 4;
+constexpr double leastToScatter = 1.3;  // mean squared error that the best candidate leaves
 constexpr double inReach =
     16;  // by cost, of the best: a wrong number of waves leaves many times what the right one does
 constexpr std::size_t candidatesInPairs = 4;
@@ -156,6 +157,9 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (const std::size_t k : promising)
     if (tried[k].fit.cost <= inReach * least)
       fitFromWindows(tried[k].fit, bases[0].fit.model, "fitting candidates" + stage, from + 2 * part);
+  for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
+  if (2 * least > leastToScatter * static_cast<double>(problem_.residuals()))
+    fitFromScatter(tried, promising, models, "fitting candidates" + stage, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
 
   for (Tried& each : tried)

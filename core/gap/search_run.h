@@ -91,6 +91,20 @@ class SearchRun {
   void fitFromWindows(Fit& fit, const FitModel& without, const std::string& stage, double at) const;
   /// Of a walk: the calibrated numbers begun where replays alone, all over their ranges, say that it is best.
   void scatter(Fit& fit, const std::string& stage, double at) const;
+  /// Candidates at joints, where none explains it yet: an effect's own numbers begun so in short windows, all others as
+  /// one of the fits without it has them.
+  void fitFromScatter(std::vector<Tried>& tried, const std::vector<std::size_t>& which,
+                      const std::vector<Fit>& without, const std::string& stage, double at) const;
+  /// A search over the same recordings in windows of that length, in which a motion begins anew and stays near.
+  SearchRun inWindows(double length_s) const;
+  /// Fits from windows of that length, gone on with in ever longer ones and at last over whole trials from `shifts`.
+  std::vector<Fit> inLongerWindows(std::vector<Fit> fits, double length_s,
+                                   const std::vector<std::vector<double>>& shifts, const std::string& stage,
+                                   double at) const;
+  /// The best of replays with these parameters drawn all over their ranges and then ever closer around the best.
+  FitModel drawnAround(const FitModel& start, const std::vector<std::vector<double>>& shifts,
+                       const std::vector<std::size_t>& which, const std::string& purpose, const std::string& stage,
+                       double at) const;
   void climbWholeNumbers(Fit& fit, const std::string& stage, double at) const;
   void startAnew(Fit& fit, const std::string& stage, double at) const;
   Scored converged(const Scored& scored, const std::string& stage, double at);

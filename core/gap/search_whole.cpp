@@ -12,26 +12,7 @@ constexpr double farOff = 4;    // mean squared error: whoever leaves more may h
 constexpr double widest = 1.3;  // whole numbers from a fit's own by this factor down and up
 constexpr double mostNumbers = 24;
 constexpr int phases = 16;
-constexpr double shortest_s = 0.1, longer = 4, longest_s = 3;  // windows: from the shortest on, by this factor
-
-/// A motion that begins anew in each window stays near the recorded one, whatever is wrong. As many windows from all
-/// over the recordings as 8 s hold; in each of them the samples that there must be to know its beginning.
-FitProblem inWindows(const FitProblem& problem, double length_s) {
-  constexpr double samples = 8, replayed_s = 8;
-  for (const FitTrial& trial : problem.trials) {
-    const auto& time = trial.recording.columns[0];
-    const double sample_s = (time[trial.rows() - 1] - time[0]) / static_cast<double>(trial.rows() - 1);
-    length_s = std::max(length_s, samples * sample_s);
-  }
-  FitProblem windows = problem;
-  cutSegments(windows, length_s);
-  const double total_s = length_s * static_cast<double>(windows.segments.size());
-  const auto every = static_cast<std::size_t>(std::max(1.0, std::round(total_s / replayed_s)));
-  std::vector<Segment> kept;
-  for (std::size_t i = 0; i < windows.segments.size(); i += every) kept.push_back(std::move(windows.segments[i]));
-  windows.segments = std::move(kept);
-  return windows;
-}
+constexpr double shortest_s = 0.1;
 
 /// The last effect's whole number around where it is, its numbers without a neutral value all over their range.
 std::vector<FitModel> wavesLike(const FitModel& base, const Parameter& whole) {
@@ -59,7 +40,7 @@ std::vector<FitModel> wavesLike(const FitModel& base, const Parameter& whole) {
 /// trials comes back from there: the number of waves that was found is the one that hides it best.
 void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::string& stage, double at) const {
   constexpr std::size_t mostStarts = 3;
-  constexpr int nearby = 8, iterations = 15;
+  constexpr int nearby = 8;
   constexpr double better = 0.995;
   const std::vector<Parameter> declared =
       parametersAt(problem_, fit.model.effects.back().effect, fit.model.effects.back().at);
@@ -74,8 +55,7 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   std::vector<FitModel> waves = wavesLike(fit.model, *whole);
   std::ranges::copy(wavesLike(fresh, *whole), std::back_inserter(waves));
 
-  SearchRun windows(inWindows(problem_, shortest_s), options_);
-  windows.told_ = told_;
+  SearchRun windows = inWindows(shortest_s);
   const auto errors = parallel(
       options_.jobs, waves.size(),
       [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem_, waves[i], {}).squaredNorm()}; },
@@ -95,17 +75,7 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   std::ranges::sort(fits, costsLess);
   if (!std::isfinite(fits[0].cost)) return;
   windows.climbWholeNumbers(fits[0], stage, at);
-  // From window to window to whole trials: each is near enough to begin the next.
-  const auto goOn = [&](const SearchRun& run, const std::vector<std::vector<double>>& from) {
-    std::vector<FitJob> jobs;
-    for (const Fit& each : fits) jobs.push_back({each.model, from});
-    fits = run.tryFits(jobs, iterations, stage, at, at);
-  };
-  for (double length_s = longer * shortest_s; length_s < longest_s; length_s *= longer) {
-    windows.problem_ = inWindows(problem_, length_s);
-    goOn(windows, {});
-  }
-  goOn(*this, fit.shifts);
+  fits = inLongerWindows(std::move(fits), shortest_s, fit.shifts, stage, at);
   const auto least = std::ranges::min_element(fits, costsLess);
   if (least->cost < better * fit.cost) fit = *least;
 }

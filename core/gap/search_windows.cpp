@@ -7,6 +7,8 @@
 namespace btr {
 namespace {
 
+constexpr int wholeIterations = 15;
+
 /// A motion that begins anew in each window stays near the recorded one, whatever is wrong. As many windows from all
 /// over the recordings as 8 s hold; in each of them the samples that there must be to know its beginning.
 FitProblem cutShort(const FitProblem& problem, double length_s) {
@@ -38,12 +40,11 @@ SearchRun SearchRun::inWindows(double length_s) const {
 std::vector<Fit> SearchRun::inLongerWindows(std::vector<Fit> fits, double length_s,
                                             const std::vector<std::vector<double>>& shifts, const std::string& stage,
                                             double at) const {
-  constexpr int iterations = 15;
   constexpr double longer = 4, longest_s = 3;
   const auto goOn = [&](const SearchRun& run, const std::vector<std::vector<double>>& from) {
     std::vector<FitJob> jobs;
     for (const Fit& each : fits) jobs.push_back({each.model, from});
-    fits = run.tryFits(jobs, iterations, stage, at, at);
+    fits = run.tryFits(jobs, wholeIterations, stage, at, at);
   };
   while ((length_s *= longer) < longest_s) goOn(inWindows(length_s), {});
   goOn(*this, shifts);
@@ -88,7 +89,11 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
     if (!(each.error <= inReach * least)) continue;
     std::vector<Fit> fits = windows.tryFits({{each.model, {}}}, nearby, stage, at, at);
     if (std::isfinite(fits[0].cost)) fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
-    if (costsLess(fits[0], tried[each.tried].fit)) tried[each.tried].fit = fits[0];
+    // What the candidate has so far was broken off after a few iterations; it is judged with as many.
+    Fit& fit = tried[each.tried].fit;
+    if (!costsLess(fits[0], fit)) continue;
+    const Fit goneOn = tryFits({{fit.model, fit.shifts}}, wholeIterations, stage, at, at)[0];
+    if (costsLess(fits[0], goneOn)) fit = fits[0];
   }
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/run/run_lock.h"
+#include "core/run/told_numbers.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
@@ -180,6 +181,14 @@ TEST_F(Adoption, TheReportIsTheEvidence) {
   EXPECT_EQ(evidence["verdict"], "missing_physics");
   EXPECT_EQ(evidence["sentence"], report.sentence);
   EXPECT_EQ(evidence["recordings_sha256"].size(), 5u);
+  // What the recordings told of numbers is known to the stages that follow.
+  const auto told = toldNumbers(database_.simulators(run_), adopted);
+  ASSERT_FALSE(report.calibrated.empty());
+  for (const GapReport::Number& number : report.calibrated) {
+    ASSERT_TRUE(number.ci95.known());
+    EXPECT_EQ(told.at(number.name).low, number.ci95.low);
+    EXPECT_EQ(told.at(number.name).high, number.ci95.high);
+  }
 
   SimulatorSpec other = repaired();
   other.values["servo_p_nm_rad"] = 5;

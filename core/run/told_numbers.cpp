@@ -1,9 +1,16 @@
 #include "core/run/told_numbers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace btr {
+namespace {
+
+/// JSON has no infinity: an end that is nowhere is null.
+double endOf(const nlohmann::json& end, double nowhere) { return end.is_number() ? end.get<double>() : nowhere; }
+
+}  // namespace
 
 nlohmann::json toEvidence(const std::vector<GapReport::Number>& numbers) {
   nlohmann::json all = nlohmann::json::object();
@@ -23,7 +30,8 @@ std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<Simulat
     if (evidence.is_object() && evidence.contains("calibrated"))
       for (const auto& [name, number] : evidence["calibrated"].items())
         if (const auto& interval = number.at("ci95"); interval.is_array())
-          told.try_emplace(name, GapReport::Interval{interval.at(0).get<double>(), interval.at(1).get<double>()});
+          told.try_emplace(name,
+                           GapReport::Interval{endOf(interval.at(0), -INFINITY), endOf(interval.at(1), INFINITY)});
     // A reverting version comes from the one whose values it has again, not from the one that it follows.
     const bool reverts = evidence.is_object() && evidence.contains("reverts_to");
     const auto origin = reverts

@@ -152,13 +152,16 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (std::size_t k = again.size(); k < promising.size(); ++k)
     if (isContained(promising[k], again)) again.push_back(promising[k]);
   fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
-  double least = INFINITY;
-  for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
+  const auto leastCost = [&] {
+    double least = INFINITY;
+    for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
+    return least;
+  };
+  const double least = leastCost();
   for (const std::size_t k : promising)
     if (tried[k].fit.cost <= inReach * least)
       fitFromWindows(tried[k].fit, bases[0].fit.model, "fitting candidates" + stage, from + 2 * part);
-  for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
-  if (2 * least > leastToScatter * static_cast<double>(problem_.residuals()))
+  if (2 * leastCost() > leastToScatter * static_cast<double>(problem_.residuals()))
     fitFromScatter(tried, promising, models, "fitting candidates" + stage, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
 

@@ -89,6 +89,11 @@ void addRoundings(const FitTrial& trial, std::vector<Nuisance>& nuisances) {
       nuisances.push_back({Nuisance::What::rounding, i, 0, trial.noiseFloor[i]});
 }
 
+bool isVelocity(Nuisance::What what) {
+  using enum Nuisance::What;
+  return what == jointRate || what == baseVelocity || what == baseSpin || what == ballVelocity;
+}
+
 }  // namespace
 
 StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row, std::vector<Nuisance>& nuisances) {
@@ -104,7 +109,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
     const std::span<const double> values(trial.recording.columns[measured.column]);
     const double noise = trial.noiseFloor[i];
     const auto add = [&](Nuisance::What what, std::size_t part, double unit) {
-      nuisances.push_back({what, measured.object, part, unit});
+      if (!rests || !isVelocity(what)) nuisances.push_back({what, measured.object, part, unit});
     };
     if (measured.what == Measured::What::position) {
       const Drive& drive = scene.robots[measured.object].drives[measured.part];
@@ -120,7 +125,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       add(Nuisance::What::jointPosition, measured.part, std::max(noise, local.known ? local.valueError : noise));
       // A line through the first samples says "at rest" of all that is slower than its noise: a servo with a heavy
       // rotor may still swing then.
-      if (!rests && (local.known || rate != 0 || drive.kind != Drive::Kind::servo))
+      if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
         add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
       const Local local = localParabola(time, values, row, reach_s, noise);
@@ -131,12 +136,12 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
         state.robots[measured.object].velocity_m_s[axis] = local.slope;
       }
       add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError));
-      if (!rests) add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
     } else if (measured.what == Measured::What::baseOrientation && measured.part > 0 &&
                scene.robots[measured.object].freeBase) {
       // A quaternion's noise is half an angle's.
       add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise);
-      if (!rests) add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
+      add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
     } else if (measured.what == Measured::What::ballPosition) {
       const Local local = localParabola(time, values, row, reach_s, noise);
       if (!local.known) continue;
@@ -148,7 +153,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       }
       if (ball.onFloor && axis == 2) continue;
       add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError));
-      if (!rests) add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
     }
   }
   for (std::size_t r = 0; r < state.robots.size() && row > 0; ++r) {

@@ -152,17 +152,10 @@ TEST_F(Rival, LargePlayIsFoundInRecordingsOfWalksThatHang) {
                                                 0.49941176470588233,
                                                 0.01192156862745098,
                                                 8}};
-  const RealWorld mujoco{
-      "MuJoCo",
-      [](const PreparedExperiment& asked, const Scene& arranged, std::span<const double> parameters, bool recordTrace) {
-        TrialOptions options;
-        options.recordTrace = recordTrace;
-        return runMujocoTrial(arranged, *asked.controller, asked.spec.controller.settings, parameters, options);
-      }};
   std::vector<Recording> recordings;
   for (const std::vector<double>& gait : gaits) {
     const std::string csv = folder_.file(std::to_string(recordings.size()) + ".csv");
-    measureStandIn(reality, concealed, gait, 0, {csv, RobotPose::hungUp}, mujoco);
+    measureStandIn(reality, concealed, gait, 0, {csv, RobotPose::hungUp}, mujocoWorld());
     recordings.push_back(loadRecording(csv));
   }
 

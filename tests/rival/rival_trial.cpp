@@ -143,4 +143,15 @@ TrialResult runMujocoTrial(const Scene& scene, const Controller& controller, con
   return RivalTrial(scene, options).run(controller, settings, parameters);
 }
 
+RealWorld mujocoWorld() {
+  return {"MuJoCo", [](const PreparedExperiment& prepared, const Scene& arranged, std::span<const double> parameters,
+                       bool recordTrace) {
+            TrialOptions options;
+            options.maximum_s = valueOf(stageParameters(), prepared.spec.stages, "trial_maximum_s");
+            options.recordTrace = recordTrace;
+            return runMujocoTrial(arranged, *prepared.controller, prepared.spec.controller.settings, parameters,
+                                  options);
+          }};
+}
+
 }  // namespace btr::rival

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 
+#include "core/run/stand_in.h"
 #include "core/sim/trial.h"
 
 namespace btr::rival {
@@ -10,5 +11,8 @@ namespace btr::rival {
 /// joint effects act. MuJoCo draws nothing by chance: the same arguments give the same result.
 TrialResult runMujocoTrial(const Scene& scene, const Controller& controller, const Values& settings,
                            std::span<const double> parameters, const TrialOptions& options = {});
+
+/// MuJoCo as the world of a stand-in robot.
+RealWorld mujocoWorld();
 
 }  // namespace btr::rival

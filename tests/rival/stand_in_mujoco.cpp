@@ -22,15 +22,7 @@ int main(int count, char** words) {
   try {
     const PluginHost host(PLUGIN_DIR);
     const RunRecord record = Database::open(given[2], Database::Mode::readOnly).run(std::stoll(given[4]));
-    const RealWorld mujoco{"MuJoCo", [](const PreparedExperiment& prepared, const Scene& arranged,
-                                        std::span<const double> parameters, bool recordTrace) {
-                             TrialOptions options;
-                             options.maximum_s = valueOf(stageParameters(), prepared.spec.stages, "trial_maximum_s");
-                             options.recordTrace = recordTrace;
-                             return rival::runMujocoTrial(arranged, *prepared.controller,
-                                                          prepared.spec.controller.settings, parameters, options);
-                           }};
-    serveStandIn(asReality(prepareFromRun(record, host), record.seed), host, std::cin, std::cout, mujoco);
+    serveStandIn(asReality(prepareFromRun(record, host), record.seed), host, std::cin, std::cout, rival::mujocoWorld());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stand_in_mujoco: %s\n", error.what());
     return 1;

@@ -355,7 +355,6 @@ TEST_F(Repairing, AfterHangingTheFloorMayBeAskedForThePlacesOfBodyAndBallAlone) 
   EXPECT_EQ(notCompared(RobotPose::onFloor), std::vector{joints[1]});  // as the experiment names LF_J3 alone
 }
 
-/// Recorded on the floor, of a walk that begins with a lead-in; what is compared of it, and what a fit may shift.
 TEST_F(Repairing, OnTheFloorAsManySecondsAreComparedAsAreWantedAndNoVelocityIsAsked) {
   text_["recordings"]["settings"]["robot"] = "on_floor";
   const std::vector<double> middle = test::middleOf(prepareFromFiles(spec(), host_).genotype);

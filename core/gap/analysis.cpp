@@ -11,6 +11,7 @@
 #include "core/gap/next_recording.h"
 #include "core/gap/remainder.h"
 #include "core/gap/residual.h"
+#include "core/gap/rival_intervals.h"
 #include "core/gap/search.h"
 #include "core/gap/unit_at.h"
 #include "core/gap/verdict.h"
@@ -114,12 +115,20 @@ std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertaint
     const FitParameter& p = model.parameters[i];
     if (p.effect != effect) continue;
     GapReport::Number number{p.name, p.unit, p.given, model.values[i], {}, false, true};
-    const double half = uncertainty.half95(i);
-    number.ci95 = {std::max(p.minimum, model.values[i] - half), std::min(p.maximum, model.values[i] + half)};
+    number.ci95 = interval95(model, uncertainty, i);
     number.atBound = isAtBound(model.values[i], p);
-    number.excited = isTold(p, half);
+    number.excited = isTold(p, uncertainty.half95(i));
     numbers.push_back(number);
   }
+  return numbers;
+}
+
+/// Of the final simulator, with what rivals would make of them.
+std::vector<GapReport::Number> finalNumbers(const SearchResult& found, int effect) {
+  const FitModel& model = found.final.fit.model;
+  std::vector<GapReport::Number> numbers = numbersOf(model, found.finalUncertainty, effect);
+  for (std::size_t i = 0, k = 0; i < model.parameters.size(); ++i)
+    if (model.parameters[i].effect == effect) numbers[k++].amongRivals = intervalAmongRivals(found, i);
   return numbers;
 }
 
@@ -179,7 +188,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
     effect.effect = each.effect.effect;
     effect.at = each.effect.at;
     effect.accepted = true;
-    effect.parameters = numbersOf(found.final.fit.model, found.finalUncertainty, static_cast<int>(i));
+    effect.parameters = finalNumbers(found, static_cast<int>(i));
     effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - each.comparison.gain));
     effect.pValue = each.comparison.pValue;
     effect.qValue = each.qValue;
@@ -304,7 +313,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.after = found.final.fit.model.simulator(problem);
   report.step_s = problem.scene.step_s;
   report.window_s = problem.window_s;
-  report.calibrated = numbersOf(found.final.fit.model, found.finalUncertainty, -1);
+  report.calibrated = finalNumbers(found, -1);
   for (GapReport::Number& number : numbersOf(found.calibrated.fit.model, found.calibratedUncertainty, -1))
     if (std::none_of(report.calibrated.begin(), report.calibrated.end(),
                      [&](const GapReport::Number& other) { return other.name == number.name; })) {

@@ -24,12 +24,16 @@ struct GapReport {
     }
     bool known() const { return !std::isnan(low) && !std::isnan(high); }
   };
-  /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it.
+  /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it. `ci95` takes
+  /// the accepted effects for granted.
   struct Number {
     std::string name, unit;
     double before = 0, value = 0;  ///< before: as given in the scene; an effect's neutral value
     Interval ci95;
     bool atBound = false, excited = true;
+    /// `ci95` and what it would be with each rival in the place of its effect, which need not overlap, from end to
+    /// end; none: no rival has this number.
+    Interval amongRivals = Interval::none();
   };
   struct Rival {
     std::string effect, at;

@@ -166,7 +166,7 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
                                     [](const Found& effect) { return !effect.rivals.empty(); });
   if (doubted == found.effects.end()) return next;
   const FitTrial& like = problem.trials[0];
-  const FitModel &first = found.final.fit.model, &rival = doubted->rivalModels[0];
+  const FitModel &first = found.final.fit.model, &rival = doubted->rivalFits[0].model;
   const Scene sceneA = problem.sceneOf(first.simulator(problem), 0),
               sceneB = problem.sceneOf(rival.simulator(problem), 0);
   const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA);

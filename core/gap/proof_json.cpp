@@ -33,6 +33,8 @@ json toJson(const ProofGroup& group) {
           {"numbers_changed_without_need", toJson(group.numbersChanged)},
           {"parameters_in_ci95", toJson(group.parametersCovered)},
           {"calibrated_in_ci95", toJson(group.calibratedCovered)},
+          {"parameters_among_rivals", toJson(group.parametersAmongRivals)},
+          {"calibrated_among_rivals", toJson(group.calibratedAmongRivals)},
           {"median_heldout_over_noise", orNull(middleOf(group.heldOut))},
           {"median_parameter_error", orNull(middleOf(group.parameterErrors))},
           {"median_calibrated_error", orNull(middleOf(group.calibratedErrors))},
@@ -47,15 +49,18 @@ json toJson(const std::vector<std::pair<std::string, ProofGroup>>& groups) {
 
 json toJson(const std::map<std::string, ProvedCase::Told>& told) {
   json object = json::object();
-  for (const auto& [name, number] : told)
+  for (const auto& [name, number] : told) {
     object[name] = {{"ci95", btr::toJson(number.ci95)}, {"excited", number.excited}};
+    if (number.amongRivals.known()) object[name]["ci95_among_rivals"] = btr::toJson(number.amongRivals);
+  }
   return object;
 }
 
 std::map<std::string, ProvedCase::Told> toldFrom(JsonReader& reader, const std::string& key) {
   std::map<std::string, ProvedCase::Told> told;
   reader.members(key, [&](const std::string& name, JsonReader number) {
-    told[name] = {intervalFrom(number, "ci95"), number.flag("excited", true)};
+    told[name] = {intervalFrom(number, "ci95"), number.flag("excited", true),
+                  intervalFrom(number, "ci95_among_rivals")};
     number.finish();
   });
   return told;

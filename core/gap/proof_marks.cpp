@@ -97,12 +97,14 @@ bool isRightVerdict(const ProvedCase& proved) {
 
 /// Counts an interval that the analysis stands by: numbers that it calls unexcited have none, nor have whole numbers,
 /// which are tried and not fitted.
-void markCovered(std::vector<bool>& covered, const std::map<std::string, ProvedCase::Told>& told,
-                 const std::string& number, double truth) {
+void markCovered(std::vector<bool>& covered, std::vector<bool>& amongRivals,
+                 const std::map<std::string, ProvedCase::Told>& told, const std::string& number, double truth) {
   const auto found = told.find(number);
   if (found == told.end() || !found->second.excited) return;
-  const GapReport::Interval& ci95 = found->second.ci95;
-  if (ci95.high > ci95.low) covered.push_back(truth >= ci95.low && truth <= ci95.high);
+  const GapReport::Interval &ci95 = found->second.ci95, &all = found->second.amongRivals;
+  if (!(ci95.high > ci95.low)) return;
+  covered.push_back(truth >= ci95.low && truth <= ci95.high);
+  amongRivals.push_back(all.known() ? truth >= all.low && truth <= all.high : covered.back());
 }
 
 void markParameters(const ProvedCase& proved, CaseMarks& marks) {
@@ -114,13 +116,13 @@ void markParameters(const ProvedCase& proved, CaseMarks& marks) {
         const double truth = hidden.placed.parameters.at(size);
         if (const auto found = named.placed.parameters.find(size); found != named.placed.parameters.end())
           marks.parameterErrors.push_back(relativeError(found->second, truth));
-        markCovered(marks.parametersCovered, named.told, size, truth);
+        markCovered(marks.parametersCovered, marks.parametersAmongRivals, named.told, size, truth);
       }
     }
   }
   if (isRightVerdict(proved))
     for (const auto& [path, truth] : proved.answer.truth)
-      markCovered(marks.calibratedCovered, proved.calibratedTold, path, truth);
+      markCovered(marks.calibratedCovered, marks.calibratedAmongRivals, proved.calibratedTold, path, truth);
   if (proved.answer.kind == "nothing" || proved.answer.kind == "outside") return;
   for (const auto& [path, value] : proved.calibrated)
     if (const auto truth = proved.answer.truth.find(path); truth != proved.answer.truth.end())
@@ -173,7 +175,7 @@ ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const 
     ProvedCase::Named named{{effect.effect, effect.at, {}}};
     for (const GapReport::Number& number : effect.parameters) {
       named.placed.parameters[number.name] = number.value;
-      named.told[number.name] = {number.ci95, number.excited};
+      named.told[number.name] = {number.ci95, number.excited, number.amongRivals};
     }
     for (const GapReport::Rival& rival : effect.rivals) named.rivals.push_back({rival.effect, rival.at, rival.with});
     proved.accepted.push_back(std::move(named));
@@ -183,7 +185,7 @@ ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const 
   proved.fresh = fresh;
   for (const GapReport::Number& number : report.calibrated) {
     proved.calibrated[number.name] = number.value;
-    proved.calibratedTold[number.name] = {number.ci95, number.excited};
+    proved.calibratedTold[number.name] = {number.ci95, number.excited, number.amongRivals};
   }
   proved.seconds = report.seconds;
   return proved;

@@ -100,6 +100,8 @@ void ProofGroup::add(const ProvedCase& proved, const CaseMarks& marks) {
   count(numbersChanged, marks.numbersChanged);
   for (const bool covered : marks.parametersCovered) parametersCovered.count(covered);
   for (const bool covered : marks.calibratedCovered) calibratedCovered.count(covered);
+  for (const bool covered : marks.parametersAmongRivals) parametersAmongRivals.count(covered);
+  for (const bool covered : marks.calibratedAmongRivals) calibratedAmongRivals.count(covered);
   if (marks.heldOut && proved.answer.kind != "outside") heldOut.push_back(*marks.heldOut);
   append(parameterErrors, marks.parameterErrors);
   append(calibratedErrors, marks.calibratedErrors);

@@ -17,6 +17,7 @@ struct ProvedCase {
   struct Told {
     GapReport::Interval ci95;
     bool excited = true;
+    GapReport::Interval amongRivals = GapReport::Interval::none();  ///< see GapReport::Number
   };
   struct Rival {
     std::string effect, at;
@@ -66,6 +67,8 @@ struct CaseMarks {
   std::vector<double> calibratedErrors;
   std::vector<bool> parametersCovered;  ///< the truth lies in the 95 % interval: of the same effects
   std::vector<bool> calibratedCovered;  ///< the same of calibrated numbers, where the verdict is right
+  /// Of either, in the same order: the truth lies in the interval among rivals, or in that above where there is none.
+  std::vector<bool> parametersAmongRivals, calibratedAmongRivals;
   std::vector<std::pair<std::string, std::string>> confused;  ///< true name, what was said
 };
 CaseMarks mark(const ProvedCase& proved);
@@ -74,7 +77,8 @@ CaseMarks mark(const ProvedCase& proved);
 struct ProofGroup {
   int cases = 0, failed = 0;
   Share falseAlarms, named, alone, bothNamed, location, heldOutNear, confidentlyWrong, unexplained, numbersChanged;
-  Share parametersCovered, calibratedCovered;  ///< of numbers, not of cases
+  Share parametersCovered, calibratedCovered;          ///< of numbers, not of cases
+  Share parametersAmongRivals, calibratedAmongRivals;  ///< the same
   std::vector<double> heldOut, parameterErrors, calibratedErrors, seconds;
   void add(const ProvedCase& proved, const CaseMarks& marks);
 };

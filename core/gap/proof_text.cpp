@@ -51,6 +51,8 @@ Table otherTable(const ProofGroup& all) {
            {"numbers changed without need (nothing was wrong)", withInterval(all.numbersChanged)},
            {"sizes of named effects within their 95 % interval", withInterval(all.parametersCovered)},
            {"calibrated numbers within theirs, verdict right", withInterval(all.calibratedCovered)},
+           {"sizes within their interval among rivals", withInterval(all.parametersAmongRivals)},
+           {"calibrated numbers within theirs", withInterval(all.calibratedAmongRivals)},
            {"error in fresh recordings over noise, median", formatted(middleOf(all.heldOut), "%.3f")},
            {"calibrated numbers, median error", formatted(100 * middleOf(all.calibratedErrors), "%.2f %%")},
            {"analyses that failed", std::to_string(all.failed) + " of " + std::to_string(all.cases)},
@@ -63,15 +65,17 @@ Table groupTable(const std::string& title, const std::vector<std::pair<std::stri
   Table table{
       title,
       "Hits of cases. Named, place, both: effects above three noise floors. Fresh: error in recordings that the "
-      "analysis was never given. Changed: numbers, where nothing was wrong. In interval: of numbers, not cases.",
+      "analysis was never given. Changed: numbers, where nothing was wrong. In interval, among rivals: of numbers, not "
+      "cases.",
       {"", "cases", "false alarms", "named", "alone", "both", "place", "fresh ok", "outside wrong", "changed",
-       "in interval", "error/noise", "parameters", "seconds"},
+       "in interval", "among rivals", "error/noise", "parameters", "seconds"},
       {}};
   for (const auto& [name, group] : groups)
     table.rows.push_back({name, std::to_string(group.cases), hitsText(group.falseAlarms), hitsText(group.named),
                           hitsText(group.alone), hitsText(group.bothNamed), hitsText(group.location),
                           hitsText(group.heldOutNear), hitsText(group.confidentlyWrong), hitsText(group.numbersChanged),
                           hitsText(together(group.parametersCovered, group.calibratedCovered)),
+                          hitsText(together(group.parametersAmongRivals, group.calibratedAmongRivals)),
                           formatted(middleOf(group.heldOut), "%.3f"),
                           formatted(100 * middleOf(group.parameterErrors), "%.1f %%"),
                           formatted(middleOf(group.seconds), "%.1f")});

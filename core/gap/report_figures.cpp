@@ -96,6 +96,11 @@ std::string percent(double share) {
 
 std::string wholePercent(double share) { return toText(std::round(100 * share)) + " %"; }
 
+bool isWiderAmongRivals(const GapReport::Number& number) {
+  const GapReport::Interval &all = number.amongRivals, &own = number.ci95;
+  return all.known() && own.known() && all.high - all.low > 2 * (own.high - own.low);
+}
+
 std::string brief(const GapReport::Interval& interval) {
   const auto side = [](double value) { return std::isfinite(value) ? brief(value) : std::string("…"); };
   return "[" + side(interval.low) + ", " + side(interval.high) + "]";

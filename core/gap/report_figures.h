@@ -40,6 +40,8 @@ std::string digits(double value, int count = 3);
 std::string percent(double share);
 /// "1 %", "83 %": for sentences.
 std::string wholePercent(double share);
+/// Whether rivals would put a number where its own interval does not hold it: more than twice as wide with them.
+bool isWiderAmongRivals(const GapReport::Number& number);
 /// "[0.047, 0.055]"; an open side is "…".
 std::string brief(const GapReport::Interval& interval);
 /// What the verdict means, a few words.

@@ -65,8 +65,9 @@ std::string parametersText(const GapReport::Effect& e) {
   std::string text;
   for (const GapReport::Number& n : e.parameters)
     text += (text.empty() ? "" : "; ") + n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " +
-            (n.ci95.known() ? brief(n.ci95) : "(no interval)") + (n.atBound ? ", at its bound" : "") +
-            (n.excited ? "" : ", not excited");
+            (n.ci95.known() ? brief(n.ci95) : "(no interval)") +
+            (n.amongRivals.known() ? ", among rivals " + brief(n.amongRivals) : "") +
+            (n.atBound ? ", at its bound" : "") + (n.excited ? "" : ", not excited");
   return text;
 }
 
@@ -97,15 +98,21 @@ std::string effectsTable(const GapReport& report) {
 
 std::string calibratedTable(const GapReport& report) {
   if (report.calibrated.empty()) return "<p>The scene names no number to calibrate.</p>\n";
-  std::string html =
-      "<div class=\"wide\"><table>" + headerRow({"number", "unit", "remark", "as given", "fitted", "95 % interval"}, 3);
+  std::string html = "<div class=\"wide\"><table>" +
+                     headerRow({"number", "unit", "remark", "as given", "fitted", "95 % interval", "among rivals"}, 3);
   for (const GapReport::Number& n : report.calibrated)
     html += "<tr>" + cell(n.name) + cell(n.unit) +
             cell(!n.excited  ? "the recordings do not tell it"
                  : n.atBound ? "at its bound"
                              : "") +
-            numberCell(n.before) + numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) + "</tr>\n";
+            numberCell(n.before) + numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) +
+            cell(n.amongRivals.known() ? brief(n.amongRivals) : "–", true) + "</tr>\n";
   html += "</table></div>\n";
+  if (std::ranges::any_of(report.calibrated, isWiderAmongRivals))
+    html +=
+        "<p class=\"faint\">95 % interval: with the accepted effects taken for granted. Among rivals: from end to end "
+        "of "
+        "that interval and of those with each rival in the place of its effect.</p>\n";
   if (!report.strongCorrelations.empty()) {
     html += "<p class=\"faint\">Hardly separated by these recordings: ";
     for (std::size_t i = 0; i < report.strongCorrelations.size(); ++i)

@@ -49,6 +49,7 @@ json toJson(const GapReport::Number& n, bool calibrated) {
     number["neutral"] = finite(n.before);
   }
   number["ci95"] = json(btr::toJson(n.ci95));
+  if (n.amongRivals.known()) number["ci95_among_rivals"] = json(btr::toJson(n.amongRivals));
   number["at_bound"] = n.atBound;
   number["excited"] = n.excited;
   number["unit"] = n.unit;

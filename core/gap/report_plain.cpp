@@ -15,7 +15,9 @@ std::string line(const char* format, Numbers... numbers) {
 }
 
 std::string intervalText(const GapReport::Number& number) {
-  return number.ci95.known() ? line(" [%.4g … %.4g]", number.ci95.low, number.ci95.high) : "";
+  const auto text = [](const GapReport::Interval& i) { return line(" [%.4g … %.4g]", i.low, i.high); };
+  return (number.ci95.known() ? text(number.ci95) : "") +
+         (number.amongRivals.known() ? ", among rivals" + text(number.amongRivals) : "");
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   n.before = numberOf(r, calibrated ? "before" : "neutral");
   n.value = numberOf(r, calibrated ? "after" : "value");
   n.ci95 = intervalFrom(r, "ci95");
+  n.amongRivals = intervalFrom(r, "ci95_among_rivals");
   n.atBound = r.flag("at_bound", false);
   n.excited = r.flag("excited", true);
   n.unit = r.text("unit", "");

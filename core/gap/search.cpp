@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/gap/search_run.h"
 #include "core/spec/random.h"
@@ -158,6 +159,7 @@ SearchResult SearchRun::run() {
   holdUntold(result);
 
   bool recalibrated = false;
+  std::optional<Choice> choice;  // of the last effect, where it was accepted alone
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
     if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
@@ -177,9 +179,12 @@ SearchResult SearchRun::run() {
     if (winner < tried.size()) tried[winner].attempt.accepted = true;
     for (const Tried& each : tried) remember(result.attempts, each.attempt);
     if (winner < tried.size()) {
+      choice = Choice{result.final, tried[winner].attempt.candidate.text(), tried};
+      choice->others.erase(choice->others.begin() + static_cast<std::ptrdiff_t>(winner));
       result.final = converged(tried[winner].scored, "confirming", to);
       if (stage == 0 && !recalibrated && calibrateFrom(result)) {
         recalibrated = true;
+        choice.reset();
         --stage;
         continue;
       }
@@ -187,19 +192,12 @@ SearchResult SearchRun::run() {
     } else if (Scored pair; static_cast<int>(result.final.fit.model.effects.size()) + 2 <= options_.maximumEffects &&
                             excessOf(result.final) > unexplainedExcess && promisesAPair(tried) &&
                             tryPair(result.final, tried, pair)) {
-      result.final = pair;
-      const auto& effects = pair.fit.model.effects;
-      std::string what = "+";
-      for (std::size_t i = effects.size() - 2; i < effects.size(); ++i) {
-        what += " " + effects[i].effect + " at " + effects[i].at + (i + 1 < effects.size() ? " and" : "");
-        for (Attempt& attempt : result.attempts)
-          if (attempt.candidate.effect == effects[i].effect && attempt.candidate.at == effects[i].at) {
-            attempt.accepted = true;
-            attempt.reason = "needed together with another";
-          }
-      }
-      result.ladder.push_back(step(what, result.final));
+      acceptPair(result, pair, "+ ");
+      choice.reset();
       ++stage;
+    } else if (choice && static_cast<int>(result.final.fit.model.effects.size()) < options_.maximumEffects &&
+               chooseTwoOthers(result, *choice)) {
+      choice.reset();
     } else {
       break;
     }
@@ -212,6 +210,7 @@ SearchResult SearchRun::run() {
   result.step_s = problem_.scene.step_s;
   measure(result);
   if (leaveUntold(result)) measure(result);
+  measureRivals(result);
   return result;
 }
 
@@ -220,6 +219,14 @@ void SearchRun::measure(SearchResult& result) const {
   result.finalLinear = linearise(problem_, result.final.fit);
   result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
   result.finalUncertainty.unsettled = unsettled(problem_, result.final.fit, result.finalLinear, result.stepChange);
+}
+
+void SearchRun::measureRivals(SearchResult& result) const {
+  for (Found& found : result.effects)
+    for (const Fit& rival : found.rivalFits) {
+      found.rivalUncertainties.push_back(uncertaintyOf(problem_, rival, linearise(problem_, rival)));
+      if (options_.progress && !tell("what rivals would make of the numbers", 0.95)) throw Cancelled{};
+    }
 }
 
 double excessOf(const Scored& scored) { return std::max(0.0, scored.mean() - 1); }

@@ -36,7 +36,8 @@ struct Found {
   PairedTest comparison;  ///< with the final simulator without it
   double qValue = 1;      ///< among all that its place was offered to
   std::vector<GapReport::Rival> rivals;
-  std::vector<FitModel> rivalModels;  ///< the whole simulator with each rival in its place
+  std::vector<Fit> rivalFits;  ///< the whole simulator with each rival in its place
+  std::vector<Uncertainty> rivalUncertainties;
 };
 
 struct SearchResult {

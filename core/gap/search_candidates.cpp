@@ -235,4 +235,43 @@ bool SearchRun::tryPair(const Scored& current, const std::vector<Tried>& singles
   return found;
 }
 
+void SearchRun::acceptPair(SearchResult& result, const Scored& pair, const std::string& what) {
+  const auto& effects = pair.fit.model.effects;
+  std::string both;
+  for (std::size_t i = effects.size() - 2; i < effects.size(); ++i) {
+    both += (both.empty() ? "" : " and ") + effects[i].effect + " at " + effects[i].at;
+    for (Attempt& attempt : result.attempts)
+      if (attempt.candidate.effect == effects[i].effect && attempt.candidate.at == effects[i].at) {
+        attempt.accepted = true;
+        attempt.reason = "needed together with another";
+      }
+  }
+  result.final = pair;
+  result.ladder.push_back(step(what + both, result.final));
+}
+
+// A flexible effect alone (a payload of any place beside a servo of any strength) takes up most of what two others do,
+// and bends the numbers so far that neither of them is found beside it any more.
+bool SearchRun::chooseTwoOthers(SearchResult& result, const Choice& choice) {
+  constexpr double muchForOne = 1;  // mean squared error above the noise at which one effect is doubtful
+  if (excessOf(result.final) < muchForOne || !promisesAPair(choice.others)) return false;
+  Scored pair;
+  const double step_s = problem_.scene.step_s;
+  if (!tryPair(choice.without, choice.others, pair)) return false;
+  bringToStep(result.final, "in pairs", 0.6);
+  const PairedTest gained = compare(result.final.blocks, pair.blocks);
+  if (gained.t < leastT || gained.gain < leastGain) {
+    problem_.scene.step_s = step_s;
+    bringToStep(result.final, "in pairs", 0.6);
+    return false;
+  }
+  for (Attempt& attempt : result.attempts)
+    if (attempt.candidate.text() == choice.accepted) {
+      attempt.accepted = false;
+      attempt.reason = "two others together do better";
+    }
+  acceptPair(result, pair, choice.accepted + " → ");
+  return true;
+}
+
 }  // namespace btr

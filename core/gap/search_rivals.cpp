@@ -193,7 +193,7 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
   const double ratio = std::sqrt(scored.mean() / std::max(1e-12, result.final.mean()));
   for (std::size_t k = 0; k < names.size(); ++k) {
     found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
-    found.rivalModels.push_back(fits[0].model);
+    found.rivalFits.push_back(fits[0]);
   }
 }
 
@@ -242,7 +242,7 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
     const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
     const FitModel& model = result.final.fit.model;
     const PlacedEffect own = model.effects[place];
-    Found found{own, compare(without.blocks, result.final.blocks), 1, {}, {}};
+    Found found{own, compare(without.blocks, result.final.blocks), 1, {}, {}, {}};
     found.qValue = rateAmong(others, found);
     for (const Tried& other : others) {
       const EffectCandidate& candidate = other.attempt.candidate;
@@ -250,7 +250,7 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
       if (isToldFrom(other.scored, result.final)) continue;
       found.rivals.push_back(
           {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
-      found.rivalModels.push_back(other.fit.model);
+      found.rivalFits.push_back(other.fit);
       for (Attempt& attempt : result.attempts)
         if (attempt.candidate.text() == candidate.text() && !attempt.scored)
           attempt.reason = "explains it as well, found from " + own.effect + " at " + own.at;

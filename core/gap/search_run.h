@@ -93,8 +93,8 @@ class SearchRun {
   void scatter(Fit& fit, const std::string& stage, double at) const;
   /// Candidates at joints, where none explains it yet: an effect's own numbers begun so in short windows, all others as
   /// one of the fits without it has them.
-  void fitFromScatter(std::vector<Tried>& tried, const std::vector<std::size_t>& which,
-                      const std::vector<Fit>& without, const std::string& stage, double at) const;
+  void fitFromScatter(std::vector<Tried>& tried, const std::vector<std::size_t>& which, const std::vector<Fit>& without,
+                      const std::string& stage, double at) const;
   /// A search over the same recordings in windows of that length, in which a motion begins anew and stays near.
   SearchRun inWindows(double length_s) const;
   /// Fits from windows of that length, gone on with in ever longer ones and at last over whole trials from `shifts`.
@@ -140,6 +140,17 @@ class SearchRun {
   /// Two effects that need each other still show a little alone.
   static bool promisesAPair(const std::vector<Tried>& tried);
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
+  /// Marks the last two effects of the final model as accepted, with a rung of the ladder: `what` is done.
+  void acceptPair(SearchResult& result, const Scored& pair, const std::string& what);
+  /// What else there was when an effect was accepted alone.
+  struct Choice {
+    Scored without;             ///< the model before
+    std::string accepted;       ///< the effect, as text
+    std::vector<Tried> others;  ///< candidates, best first
+  };
+  /// Where an effect left much and nothing more was found beside it: two others in its place, if they do better. True
+  /// if they do.
+  bool chooseTwoOthers(SearchResult& result, const Choice& choice);
   /// Calibrated numbers that the recordings do not feel stay as given from here on: each costs a replay a step.
   void holdUntold(SearchResult& result);
   /// Numbers that were held and are felt beside what was added: a servo that saturates with the rotor that was left out
@@ -150,6 +161,7 @@ class SearchRun {
   bool leaveUntold(SearchResult& result) const;
   /// Sensitivities and uncertainties of the final model.
   void measure(SearchResult& result) const;
+  void measureRivals(SearchResult& result) const;  ///< uncertainties of their fits
   /// Of the first effect: true if the calibrated numbers, begun where the effect left them, do as well without it. They
   /// are the calibrated simulator then, and the search begins anew.
   bool calibrateFrom(SearchResult& result);

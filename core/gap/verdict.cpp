@@ -43,13 +43,16 @@ double motionOf(const FitProblem& problem) {
   return most;
 }
 
+std::string textOf(const GapReport::Interval& interval) {
+  return "[" + digits(interval.low) + " … " + digits(interval.high) + "]";
+}
+
 std::string effectText(const GapReport::Effect& effect) {
   std::string text = inWords(effect.effect) + " at " + effect.at;
   std::string numbers;
   for (const GapReport::Number& p : effect.parameters)
     numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) +
-               (p.ci95.high > p.ci95.low ? " [" + digits(p.ci95.low) + " … " + digits(p.ci95.high) + "]" : "") +
-               (p.atBound ? " (at its bound)" : "");
+               (p.ci95.high > p.ci95.low ? " " + textOf(p.ci95) : "") + (p.atBound ? " (at its bound)" : "");
   return text + (numbers.empty() ? "" : " (" + numbers + ")");
 }
 
@@ -77,6 +80,22 @@ std::string rivalsText(const GapReport::Effect& effect) {
   std::string text;
   for (const GapReport::Rival& rival : effect.rivals) text += (text.empty() ? "" : ", ") + inWords(rival);
   return "These recordings cannot tell " + inWords(effect.effect) + " at " + effect.at + " from " + text + ". ";
+}
+
+/// Numbers that the choice among rivals moves by more than what the interval of one of them says.
+std::string movedByRivalsText(const GapReport& report) {
+  std::string text;
+  const auto tell = [&](const std::string& name, const GapReport::Number& number) {
+    if (isWiderAmongRivals(number))
+      text +=
+          (text.empty() ? "" : ", ") + name + " " + textOf(number.amongRivals) + " instead of " + textOf(number.ci95);
+  };
+  for (const GapReport::Number& number : report.calibrated) tell(number.name, number);
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted)
+      for (const GapReport::Number& number : effect.parameters)
+        tell(number.name + " of " + inWords(effect.effect) + " at " + effect.at, number);
+  return text.empty() ? "" : "Which of them it is decides of other numbers, too; over all of them: " + text + ". ";
 }
 
 const std::string noiseFloors = " noise floors";
@@ -226,8 +245,8 @@ void judgeNamed(GapReport& report, const Findings& e) {
     list += (list.empty() ? "" : "; ") + effectText(effect);
     rivals += rivalsText(effect);
   }
-  report.sentence =
-      caveatText(report, e) + whereText(report) + "What was left out: " + list + ". " + errorText(e) + rivals;
+  report.sentence = caveatText(report, e) + whereText(report) + "What was left out: " + list + ". " + errorText(e) +
+                    rivals + movedByRivalsText(report);
 }
 
 void judgeUnexplained(GapReport& report, const Findings& e) {

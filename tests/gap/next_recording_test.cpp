@@ -24,7 +24,8 @@ SearchResult rivals(const FitProblem& problem, const std::string& at, double cou
   Found effect;
   effect.effect = {"coulomb_friction", at, {}};
   effect.rivals.push_back({"viscous_friction", at});
-  effect.rivalModels.push_back(given.with(problem, {"viscous_friction", at, {{"coefficient_nm_s_rad", viscous}}}));
+  effect.rivalFits.push_back(
+      {given.with(problem, {"viscous_friction", at, {{"coefficient_nm_s_rad", viscous}}}), {}, 0});
   found.effects.push_back(effect);
   return found;
 }
@@ -92,7 +93,7 @@ TEST(NextRecording, PushesAJointThatGoesWhereItWillNoFartherThanItWasSeen) {
   recording.columns = {next.columns[0], next.columns[1], std::vector<double>(next.columns[0].size(), NAN)};
   double square = 0, count = 0;
   std::vector<std::vector<double>> paths;
-  for (const FitModel& model : {found.final.fit.model, found.effects[0].rivalModels[0]}) {
+  for (const FitModel& model : {found.final.fit.model, found.effects[0].rivalFits[0].model}) {
     const Scene scene = problem.sceneOf(model.simulator(problem), 0);
     const Binding binding = bind(scene, recording);
     paths.push_back(replayRecording(scene, recording, binding, startState(scene, recording, binding)).values[0]);

@@ -117,6 +117,26 @@ TEST(GapReport, ARejectedEffectHasNoInterval) {
   EXPECT_THAT(toHtml(held), Not(HasSubstr("[–")));
 }
 
+// A number on which rivals disagree is not as sure as its own interval: every reader is told.
+TEST(GapReport, SaysWhatRivalsWouldMakeOfANumber) {
+  const TemporaryFolder folder;
+  GapReport report = sampleReport();
+  GapReport::Number& gain = report.calibrated[0];
+  const std::string own = brief(gain.ci95);
+  gain.amongRivals = {gain.ci95.low - 1, gain.ci95.high + 2};
+  writeReport(report, folder.file("r"));
+  const GapReport read = loadReport(folder.file("r"));
+  EXPECT_EQ(read.calibrated[0].amongRivals.low, gain.amongRivals.low);
+  EXPECT_EQ(read.calibrated[0].amongRivals.high, gain.amongRivals.high);
+  EXPECT_FALSE(read.calibrated[1].amongRivals.known());
+  const auto document = nlohmann::json::parse(readFile(folder.file("r/report.json")));
+  EXPECT_FALSE(document["calibrated"][read.calibrated[1].name].contains("ci95_among_rivals"));
+  EXPECT_THAT(toPlainText(report), HasSubstr(", among rivals ["));
+  EXPECT_THAT(toPlainText(sampleReport()), Not(HasSubstr("among rivals")));
+  EXPECT_THAT(toHtml(report), HasSubstr(own));
+  EXPECT_THAT(toHtml(report), HasSubstr(brief(gain.amongRivals)));
+}
+
 TEST(GapReport, OfAnEarlierVersionIsRead) {
   EXPECT_EQ(afterChange([](auto& d) {
               for (auto& effect : d["tried"]) effect.erase("q_value");

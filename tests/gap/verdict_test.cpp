@@ -85,6 +85,18 @@ TEST(Verdict, AboveTwoNoiseFloorsATwentyFifthOfTheExcessIsTooMuch) {
   EXPECT_EQ(judged(600, 501, 16, true).verdict, Verdict::missingPhysics);
 }
 
+// A payload and an offset of the sensor that explain alike ask for other gains of the servo.
+TEST(Verdict, SaysWhichNumbersTheChoiceAmongRivalsDecides) {
+  GapReport report;
+  report.calibrated = {{"servo.p", "", 5, 7, {6.9, 7.1}, false, true, {6.9, 9.2}},
+                       {"servo.d", "", 5, 7, {6, 8}, false, true, {5.5, 8}}};
+  const auto said = [&] { return judged(400, 100, 1, true, false, recorded(), {}, report).sentence; };
+  EXPECT_THAT(said(), HasSubstr("decides of other numbers, too; over all of them: servo.p [6.9 … 9.2] instead of "
+                                "[6.9 … 7.1]. "));
+  report.calibrated[0].amongRivals = report.calibrated[0].ci95;
+  EXPECT_THAT(said(), Not(HasSubstr("instead of")));
+}
+
 /// Held-out recordings left by so many noise floors.
 GapReport unseen(double given, double calibrated, double withEffects) {
   GapReport report;

@@ -131,6 +131,10 @@ TEST(Marks, AnIntervalIsAskedForWhereTheVerdictIsRightAndTheNumberExcited) {
                            {"silent", {{4.1, 4.2}, false}}};
   // In the order of their names: edge, inside, outside.
   EXPECT_EQ((std::vector<bool>{true, true, false}), mark(proved).calibratedCovered);
+  EXPECT_EQ((std::vector<bool>{true, true, false}), mark(proved).calibratedAmongRivals);
+  proved.calibratedTold["outside"].amongRivals = {2.9, 3.2};
+  EXPECT_EQ((std::vector<bool>{true, true, false}), mark(proved).calibratedCovered);
+  EXPECT_EQ((std::vector<bool>{true, true, true}), mark(proved).calibratedAmongRivals);
   proved.verdict = "no_mismatch";
   EXPECT_TRUE(mark(proved).calibratedCovered.empty());
   proved.answer.kind = "nothing";
@@ -145,6 +149,10 @@ TEST(Marks, TheIntervalOfASizeIsAskedForWhereItsEffectIsNamedAtItsPlace) {
   auto& told = proved.accepted[0].told;
   told = {{"size", {{2.4, 2.6}, true}}, {"shape", {{0.0, 9.0}, true}}};
   EXPECT_EQ(std::vector<bool>{false}, mark(proved).parametersCovered);
+  EXPECT_EQ(std::vector<bool>{false}, mark(proved).parametersAmongRivals);
+  told["size"].amongRivals = {1.9, 2.6};
+  EXPECT_EQ(std::vector<bool>{false}, mark(proved).parametersCovered);
+  EXPECT_EQ(std::vector<bool>{true}, mark(proved).parametersAmongRivals);
   told["size"].ci95.low = 1.9;
   EXPECT_EQ(std::vector<bool>{true}, mark(proved).parametersCovered);
   told["size"].ci95 = {2, 2};  // a whole number, tried and not fitted
@@ -295,6 +303,7 @@ TEST(Scores, CountWhatWasCountedByHand) {
   EXPECT_NEAR(total.all.numbersChanged.low(), proof["all"]["numbers_changed_without_need"]["ci95"][0], 1e-15);
   EXPECT_EQ(1, proof["all"]["parameters_in_ci95"]["hits"]);
   EXPECT_EQ(0, proof["all"]["calibrated_in_ci95"]["hits"]);
+  EXPECT_EQ(1, proof["all"]["parameters_among_rivals"]["hits"]);
   for (const std::string& text : {proofText(total), proofHtml(total)}) {
     EXPECT_NE(std::string::npos, text.find("5/10 = 50.0 % (18.7 to 81.3)"));
     EXPECT_NE(std::string::npos, text.find("Kind of case"));
@@ -311,12 +320,13 @@ TEST(Scores, SurviveBeingWrittenAndRead) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   proved.calibratedTold = {{"robots.leg.servos.hip.max_torque_nm", {{-infinity, infinity}, false}},
                            {"robots.leg.servos.hip.p", {GapReport::Interval::none(), true}},
-                           {"robots.leg.servos.knee.p", {{3.5, 3.9}, false}}};
+                           {"robots.leg.servos.knee.p", {{3.5, 3.9}, false, {3.1, 3.9}}}};
   proved.seconds = 12.5;
   const ProvedCase read = provedFromJson(toJsonText(proved), "verdict");
   EXPECT_EQ(toJsonText(proved), toJsonText(read));
   EXPECT_EQ(infinity, read.calibratedTold.at("robots.leg.servos.hip.max_torque_nm").ci95.high);
   EXPECT_FALSE(read.calibratedTold.at("robots.leg.servos.hip.p").ci95.known());
+  EXPECT_EQ(3.1, read.calibratedTold.at("robots.leg.servos.knee.p").amongRivals.low);
 }
 
 /// Says of everything that nothing is missing.

@@ -24,7 +24,10 @@ QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& t
   return item;
 }
 
-std::string intervalOf(const GapReport::Number& n) { return n.ci95.known() ? brief(n.ci95) : "(no interval)"; }
+std::string intervalOf(const GapReport::Number& n) {
+  return (n.ci95.known() ? brief(n.ci95) : "(no interval)") +
+         (n.amongRivals.known() ? ", among rivals " + brief(n.amongRivals) : "");
+}
 
 QString numberText(const GapReport::Number& n) {
   return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + intervalOf(n)) +
@@ -95,7 +98,13 @@ void EffectsTable::setReport(const GapReport& report) {
 CalibratedTable::CalibratedTable(QWidget* parent) : QTableWidget(parent) {
   setAccessibleName(tr("Calibrated numbers"));
   setObjectName("calibrated");
-  prepare(*this, {tr("Number"), tr("As given"), tr("Fitted"), tr("95 % interval"), tr("Unit"), tr("Remark")});
+  prepare(*this, {tr("Number"), tr("As given"), tr("Fitted"), tr("95 % interval"), tr("Among rivals"), tr("Unit"),
+                  tr("Remark")});
+  horizontalHeaderItem(interval)->setToolTip(tr("With the accepted effects taken for granted"));
+  horizontalHeaderItem(amongRivals)
+      ->setToolTip(tr("From end to end of the 95 % interval and of those with each rival (“Cannot be told from”) in "
+                      "the place of its "
+                      "effect"));
   horizontalHeader()->setStretchLastSection(true);
 }
 
@@ -108,6 +117,7 @@ void CalibratedTable::setReport(const GapReport& report) {
     put(*this, row, before, word(brief(n.before)), true);
     put(*this, row, after, word(brief(n.value)), true);
     put(*this, row, interval, n.ci95.known() ? word(brief(n.ci95)) : tr("–"), true);
+    put(*this, row, amongRivals, n.amongRivals.known() ? word(brief(n.amongRivals)) : tr("–"), true);
     put(*this, row, unit, word(n.unit));
     put(*this, row, remark,
         !n.excited  ? tr("the recordings do not tell it")

@@ -14,11 +14,11 @@ class EffectsTable : public QTableWidget {
   void setReport(const GapReport& report);
 };
 
-/// The calibrated numbers: as given, fitted, interval, remark.
+/// The calibrated numbers: as given, fitted, intervals, remark.
 class CalibratedTable : public QTableWidget {
   Q_OBJECT
  public:
-  enum Column { name, before, after, interval, unit, remark, columns };
+  enum Column { name, before, after, interval, amongRivals, unit, remark, columns };
   explicit CalibratedTable(QWidget* parent = nullptr);
   void setReport(const GapReport& report);
 };

@@ -43,8 +43,12 @@ double motionOf(const FitProblem& problem) {
   return most;
 }
 
+/// With as many digits as it takes to tell the ends apart.
 std::string textOf(const GapReport::Interval& interval) {
-  return "[" + digits(interval.low) + " … " + digits(interval.high) + "]";
+  constexpr int usual = 3, most = 6;
+  int count = usual;
+  while (count < most && digits(interval.low, count) == digits(interval.high, count)) ++count;
+  return "[" + digits(interval.low, count) + " … " + digits(interval.high, count) + "]";
 }
 
 std::string effectText(const GapReport::Effect& effect) {

@@ -188,9 +188,15 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
       shapeName = name;
     }
   if (next.separation <= 0) return next;
-  next.why = "separates " + inWords(doubted->effect.effect) + " at " + doubted->effect.at + " from " +
-             inWords(doubted->rivals[0]) + " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +
-             toText(length_s) + " s)";
+  const std::string own = inWords(doubted->effect.effect) + " at " + doubted->effect.at,
+                    other = inWords(doubted->rivals[0]),
+                    by = " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " + toText(length_s) +
+                         " s)";
+  next.why = next.separation >= leastSeparation
+                 ? "separates " + own + " from " + other + by
+                 : "would hardly tell " + own + " from " + other + ": the best of those tried separates them" + by +
+                       "; what commands do not change may tell them, a known weight on the link or another posture of "
+                       "the base";
   return next;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/gap/next_recording.h"
 #include "core/gap/report_figures.h"
 #include "core/gap/residual.h"
 #include "core/gap/self_excited.h"
@@ -350,7 +351,10 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     if (effect.accepted && !tellsSize(effect))
       tellNot("how large " + inWords(effect.effect) + " at " + effect.at + " is");
   if (!untold.empty()) report.sentence += "These recordings do not tell " + untold + ". ";
-  if (!report.next.why.empty()) report.sentence += "The suggested next recording " + report.next.why + ". ";
+  if (!report.next.why.empty())
+    report.sentence +=
+        (report.next.separation >= leastSeparation ? "The suggested next recording " : "Another recording ") +
+        report.next.why + ". ";
   while (!report.sentence.empty() && report.sentence.back() == ' ') report.sentence.pop_back();
 }
 

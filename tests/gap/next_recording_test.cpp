@@ -107,6 +107,19 @@ TEST(NextRecording, PushesAJointThatGoesWhereItWillNoFartherThanItWasSeen) {
   EXPECT_NEAR(std::sqrt(square / count) / problem.trials[0].noiseFloor[0], next.separation, 0.01 * next.separation);
 }
 
+// The same law twice, but for a billionth: a user who recorded that would have wasted a day.
+TEST(NextRecording, SaysWhereNoneWouldTellRivalsApart) {
+  const GapProblem given = pushedCart();
+  const FitProblem problem = makeFitProblem(given, given.recordings, library());
+  SearchResult found = rivals(problem, "rig.rail", 0.5, 0);
+  found.effects[0].rivalFits[0].model =
+      givenModel(problem).with(problem, {"coulomb_friction", "rig.rail", {{"torque_nm", 0.5 * (1 + 1e-9)}}});
+  const GapReport::NextRecording next = designNext(problem, found, 1);
+  ASSERT_GT(next.separation, 0);
+  ASSERT_LT(next.separation, leastSeparation);
+  EXPECT_THAT(next.why, HasSubstr("would hardly tell coulomb friction at rig.rail from viscous friction at rig.rail"));
+}
+
 // Nobody knows where it would go.
 TEST(NextRecording, PushesNothingWhosePlaceWasNotRecorded) {
   GapProblem given = pushedCart();

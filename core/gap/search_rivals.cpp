@@ -9,7 +9,7 @@ namespace btr {
 namespace {
 
 constexpr std::size_t candidatesAsRivals = 6;  // half of them are fitted to the end and scored
-constexpr double mostOfEquals = 1.1;           // by squared error
+constexpr double mostOfEquals = 1.25;          // by squared error, where a paired test tells them not apart
 
 /// How many numbers an effect brings.
 std::size_t sizeOf(const FitModel& model, std::size_t effect) {

@@ -56,6 +56,7 @@ std::vector<Fit> SearchRun::inLongerWindows(std::vector<Fit> fits, double length
 void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std::size_t>& which,
                                const std::vector<Fit>& without, const std::string& stage, double at) const {
   constexpr double window_s = 0.4, inReach = 1.5;
+  constexpr double mostLeft = 4;  // mean squared error of what may be the cause
   constexpr int nearby = 8;
   if (problem_.walks || problem_.impacts) return;
   const SearchRun windows = inWindows(window_s);
@@ -89,6 +90,8 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
     if (!(each.error <= inReach * least)) continue;
     std::vector<Fit> fits = windows.tryFits({{each.model, {}}}, nearby, stage, at, at);
     if (std::isfinite(fits[0].cost)) fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
+    // Of a law that is not the cause a better fit says nothing: others were not begun as often.
+    if (2 * fits[0].cost > mostLeft * static_cast<double>(problem_.residuals())) continue;
     // What the candidate has so far was broken off after a few iterations; it is judged with as many.
     Fit& fit = tried[each.tried].fit;
     if (!costsLess(fits[0], fit)) continue;

@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/gap/analysis.h"
 #include "core/gap/initial_state.h"
 #include "core/gap/residual.h"
+#include "tests/gap/recorded_hinge.h"
 
 namespace btr {
 namespace {
@@ -139,6 +141,26 @@ TEST(Xl330, ErrorsAreThoseOfTheLiteraturesModels) {
   EXPECT_NEAR(plain, 0.1186, 0.02);
   RecordProperty("plain", std::to_string(plain));
   RecordProperty("friction", std::to_string(friction));
+}
+
+// Recordings with gains 100 and 200 leave it open whether the supply sags or the motor's torque is limited. The limit
+// has two numbers and fits a little better, and with a gain of 800 it is off by 0.14 rad: the simpler law goes into the
+// simulator. Published: 0.048 rad with load-dependent friction, at a gain between the fitted ones.
+TEST(Xl330, OfLawsThatAreNotToldApartTheSimplerHoldsAtAnotherGain) {
+  AnalysisRequest request;
+  for (const std::string& path : allRecordings())
+    (gainOf(path) == 800 ? request.heldOut : request.recordings).push_back(path);
+  if (request.heldOut.empty())
+    GTEST_SKIP() << "bam_xl330 recordings are absent (set UCHILSIM_RECORDINGS); nothing was analysed";
+  request.scene = xl330Scene;
+  request.options.jobs = 2;
+  request.options.effects = {"load_dependent_friction", "voltage_sag", "torque_speed_limit", "force_offset"};
+  request.options.learnRest = request.options.designNext = false;
+  const GapReport report = runAnalysis(request, library());
+  const auto position = std::ranges::find(report.channels, "xl330.shoulder.position_rad", &GapReport::Channel::name);
+  ASSERT_NE(position, report.channels.end());
+  EXPECT_LT(position->heldoutMaeWithEffects, 0.048) << toPlainText(report);
+  EXPECT_LT(position->heldoutMaeWithEffects, 0.5 * position->heldoutMaeCalibrated) << toPlainText(report);
 }
 
 }  // namespace

@@ -99,6 +99,7 @@ class TestReplayPanel : public QObject {
   void framesOfAFixedRobotStandWhereItIsBolted();
   void framesRefuseATraceWithoutTime();
   void badgeTellsTheThreeStates();
+  void aBadgeSaysThatARobotHasNoShapes();
   void badgeShowsEnoughDigitsToTellFitnessesApart();
   void panelStartsAtTheFirstFrameAndScrubs();
   void panelKeysPlayStepAndJump();
@@ -248,6 +249,20 @@ void TestReplayPanel::badgeTellsTheThreeStates() {
   data.fitnessUnit = "m";
   QCOMPARE(checkBadge(data).tone, Badge::Tone::bad);
   QCOMPARE(checkBadge(data).text, QString("differs from the stored run: stored 1.25 m, now 1.5 m"));
+}
+
+// An empty view looks broken.
+void TestReplayPanel::aBadgeSaysThatARobotHasNoShapes() {
+  ReplayData data = titled("x");
+  data.model = test::smallRobot();
+  QCOMPARE(badgesOf(data).size(), 1);
+  RobotModel bare = *test::smallRobot();
+  for (Link& link : bare.links) link.shapes.clear();
+  data.model = std::make_shared<RobotModel>(bare);
+  QCOMPARE(badgesOf(data).size(), 2);
+  QCOMPARE(badgesOf(data)[1].text, QString("the robot's model has no shapes to draw"));
+  data.model = nullptr;  // balls only
+  QCOMPARE(badgesOf(data).size(), 1);
 }
 
 void TestReplayPanel::badgeShowsEnoughDigitsToTellFitnessesApart() {

@@ -52,6 +52,15 @@ Badge checkBadge(const ReplayData& data) {
   return {};
 }
 
+QList<Badge> badgesOf(const ReplayData& data) {
+  QList<Badge> badges{checkBadge(data)};
+  if (data.standIn) badges << Badge{ReplayPanel::tr("stand-in reality, not a robot"), Badge::Tone::standIn};
+  const auto isDrawn = [](const Link& link) { return std::ranges::any_of(link.shapes, &Shape::drawn); };
+  if (data.model && std::ranges::none_of(data.model->links, isDrawn))
+    badges << Badge{ReplayPanel::tr("the robot's model has no shapes to draw"), Badge::Tone::warning};
+  return badges;
+}
+
 const std::vector<double>& ReplayPanel::speeds() {
   static const std::vector<double> values{0.1, 0.25, 0.5, 1, 2, 4};
   return values;
@@ -161,9 +170,7 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
   if (!replay.note.isEmpty()) result << replay.note;
   result_->setText(result.join("  ·  "));
   result_->setToolTip(result_->text());
-  QList<Badge> badges{checkBadge(replay)};
-  if (replay.standIn) badges << Badge{tr("stand-in reality, not a robot"), Badge::Tone::standIn};
-  view_->setBadges(badges);
+  view_->setBadges(badgesOf(replay));
   slider_->setRange(0, std::max(0, int(playback_.frames()) - 1));
   setPlaying(false);
   refresh();

@@ -19,6 +19,8 @@ class ReplayJob;
 
 /// What the badge says of a replay: green identical, red with both fitnesses, grey not checked.
 Badge checkBadge(const ReplayData& data);
+/// That, and what else a viewer must know: a stand-in's reality, a robot that nobody can see.
+QList<Badge> badgesOf(const ReplayData& data);
 
 /// A second replay shown through the first one, at the same time of its own trace.
 struct GhostReplay {

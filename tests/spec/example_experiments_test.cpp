@@ -73,7 +73,7 @@ TEST(ExampleExperiments, TheirScenesCanBeRead) {
 
 // Else a chart would show more than one cause.
 TEST(ExampleExperiments, WhatIsComparedDiffersInRecordingsAlone) {
-  for (const char* name : {"worn-knee.json", "other-engine.json", "other-engine-walk.json"}) {
+  for (const char* name : {"worn-knee.json", "worn-knee-kept.json", "other-engine.json", "other-engine-walk.json"}) {
     const ComparisonSpec comparison = loadComparison(std::string(SOURCE_DIR) + "/resources/comparisons/" + name);
     ASSERT_GE(comparison.arms.size(), 2u);
     nlohmann::json first;

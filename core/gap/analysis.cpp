@@ -109,26 +109,27 @@ std::vector<GapReport::Number> numbersOf(const FitProblem& problem, const Attemp
   return numbers;
 }
 
-std::vector<GapReport::Number> numbersOf(const FitModel& model, const Uncertainty& uncertainty, int effect) {
-  std::vector<GapReport::Number> numbers;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-    const FitParameter& p = model.parameters[i];
-    if (p.effect != effect) continue;
-    GapReport::Number number{p.name, p.unit, p.given, model.values[i], {}, false, true};
-    number.ci95 = interval95(model, uncertainty, i);
-    number.atBound = isAtBound(model.values[i], p);
-    number.excited = isTold(p, uncertainty.half95(i));
-    numbers.push_back(number);
-  }
-  return numbers;
+GapReport::Number numberOf(const FitModel& model, const Uncertainty& uncertainty, std::size_t parameter) {
+  const FitParameter& p = model.parameters[parameter];
+  const double value = model.values[parameter];
+  return {p.name,
+          p.unit,
+          p.given,
+          value,
+          interval95(model, uncertainty, parameter),
+          isAtBound(value, p),
+          isTold(p, uncertainty.half95(parameter))};
 }
 
-/// Of the final simulator, with what rivals would make of them.
+/// Of an effect of the final simulator, or of the scene (−1), with what rivals would make of them.
 std::vector<GapReport::Number> finalNumbers(const SearchResult& found, int effect) {
   const FitModel& model = found.final.fit.model;
-  std::vector<GapReport::Number> numbers = numbersOf(model, found.finalUncertainty, effect);
-  for (std::size_t i = 0, k = 0; i < model.parameters.size(); ++i)
-    if (model.parameters[i].effect == effect) numbers[k++].amongRivals = intervalAmongRivals(found, i);
+  std::vector<GapReport::Number> numbers;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    if (model.parameters[i].effect != effect) continue;
+    numbers.push_back(numberOf(model, found.finalUncertainty, i));
+    numbers.back().amongRivals = intervalAmongRivals(found, i);
+  }
   return numbers;
 }
 
@@ -314,8 +315,10 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.step_s = problem.scene.step_s;
   report.window_s = problem.window_s;
   report.calibrated = finalNumbers(found, -1);
-  for (GapReport::Number& number : numbersOf(found.calibrated.fit.model, found.calibratedUncertainty, -1))
-    if (std::none_of(report.calibrated.begin(), report.calibrated.end(),
+  // The calibrated simulator has no effects.
+  for (std::size_t i = 0; i < found.calibrated.fit.model.parameters.size(); ++i)
+    if (GapReport::Number number = numberOf(found.calibrated.fit.model, found.calibratedUncertainty, i);
+        std::none_of(report.calibrated.begin(), report.calibrated.end(),
                      [&](const GapReport::Number& other) { return other.name == number.name; })) {
       // It was held as given from there on: what the calibration said of it belongs to another value.
       number.value = number.before;

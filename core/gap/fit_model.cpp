@@ -25,7 +25,7 @@ SimulatorSpec FitModel::simulator(const FitProblem& problem, std::span<const dou
 
 std::string FitModel::text() const {
   std::string text;
-  for (const PlacedEffect& effect : effects) text += (text.empty() ? "" : " + ") + effect.effect + " at " + effect.at;
+  for (const PlacedEffect& effect : effects) text += (text.empty() ? "" : " + ") + effect.text();
   return text;
 }
 

@@ -107,6 +107,8 @@ void markCovered(std::vector<bool>& covered, std::vector<bool>& amongRivals,
   amongRivals.push_back(all.known() ? truth >= all.low && truth <= all.high : covered.back());
 }
 
+ProvedCase::Told toldOf(const GapReport::Number& number) { return {number.ci95, number.excited, number.amongRivals}; }
+
 void markParameters(const ProvedCase& proved, CaseMarks& marks) {
   for (const Hidden& hidden : proved.answer.hidden) {
     if (hidden.cost <= barCost) continue;
@@ -175,7 +177,7 @@ ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const 
     ProvedCase::Named named{{effect.effect, effect.at, {}}};
     for (const GapReport::Number& number : effect.parameters) {
       named.placed.parameters[number.name] = number.value;
-      named.told[number.name] = {number.ci95, number.excited, number.amongRivals};
+      named.told[number.name] = toldOf(number);
     }
     for (const GapReport::Rival& rival : effect.rivals) named.rivals.push_back({rival.effect, rival.at, rival.with});
     proved.accepted.push_back(std::move(named));
@@ -185,7 +187,7 @@ ProvedCase judged(const ConcealedAnswer& answer, const GapReport& report, const 
   proved.fresh = fresh;
   for (const GapReport::Number& number : report.calibrated) {
     proved.calibrated[number.name] = number.value;
-    proved.calibratedTold[number.name] = {number.ci95, number.excited, number.amongRivals};
+    proved.calibratedTold[number.name] = toldOf(number);
   }
   proved.seconds = report.seconds;
   return proved;

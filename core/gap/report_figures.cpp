@@ -106,6 +106,11 @@ std::string brief(const GapReport::Interval& interval) {
   return "[" + side(interval.low) + ", " + side(interval.high) + "]";
 }
 
+std::string intervalsOf(const GapReport::Number& number) {
+  return (number.ci95.known() ? brief(number.ci95) : "(no interval)") +
+         (number.amongRivals.known() ? ", among rivals " + brief(number.amongRivals) : "");
+}
+
 std::string headline(GapReport::Verdict verdict) {
   switch (verdict) {
     case GapReport::Verdict::noMismatch:

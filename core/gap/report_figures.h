@@ -44,6 +44,8 @@ std::string wholePercent(double share);
 bool isWiderAmongRivals(const GapReport::Number& number);
 /// "[0.047, 0.055]"; an open side is "…".
 std::string brief(const GapReport::Interval& interval);
+/// "[0.047, 0.055], among rivals [0.02, 0.055]", or "(no interval)".
+std::string intervalsOf(const GapReport::Number& number);
 /// What the verdict means, a few words.
 std::string headline(GapReport::Verdict verdict);
 

@@ -65,9 +65,7 @@ std::string parametersText(const GapReport::Effect& e) {
   std::string text;
   for (const GapReport::Number& n : e.parameters)
     text += (text.empty() ? "" : "; ") + n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " +
-            (n.ci95.known() ? brief(n.ci95) : "(no interval)") +
-            (n.amongRivals.known() ? ", among rivals " + brief(n.amongRivals) : "") +
-            (n.atBound ? ", at its bound" : "") + (n.excited ? "" : ", not excited");
+            intervalsOf(n) + (n.atBound ? ", at its bound" : "") + (n.excited ? "" : ", not excited");
   return text;
 }
 

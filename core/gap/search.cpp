@@ -16,6 +16,14 @@ constexpr double nothingLeft = 1.03;        // mean squared error at which there
 
 }  // namespace
 
+void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool accepted, const std::string& reason) {
+  for (Attempt& attempt : attempts)
+    if (attempt.candidate.text() == candidate) {
+      attempt.accepted = accepted;
+      attempt.reason = reason;
+    }
+}
+
 bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
   constexpr double least = 0.03;
   return std::any_of(tried.begin(), tried.end(), [](const Tried& each) { return each.attempt.share > least; });

@@ -30,6 +30,9 @@ struct Attempt {
   std::string reason;
 };
 
+/// What became of a candidate, by its text.
+void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool accepted, const std::string& reason);
+
 /// An effect of the final simulator.
 struct Found {
   PlacedEffect effect;

@@ -239,12 +239,8 @@ void SearchRun::acceptPair(SearchResult& result, const Scored& pair, const std::
   const auto& effects = pair.fit.model.effects;
   std::string both;
   for (std::size_t i = effects.size() - 2; i < effects.size(); ++i) {
-    both += (both.empty() ? "" : " and ") + effects[i].effect + " at " + effects[i].at;
-    for (Attempt& attempt : result.attempts)
-      if (attempt.candidate.effect == effects[i].effect && attempt.candidate.at == effects[i].at) {
-        attempt.accepted = true;
-        attempt.reason = "needed together with another";
-      }
+    both += (both.empty() ? "" : " and ") + effects[i].text();
+    conclude(result.attempts, effects[i].text(), true, "needed together with another");
   }
   result.final = pair;
   result.ladder.push_back(step(what + both, result.final));
@@ -258,18 +254,14 @@ bool SearchRun::chooseTwoOthers(SearchResult& result, const Choice& choice) {
   Scored pair;
   const double step_s = problem_.scene.step_s;
   if (!tryPair(choice.without, choice.others, pair)) return false;
-  bringToStep(result.final, "in pairs", 0.6);
-  const PairedTest gained = compare(result.final.blocks, pair.blocks);
+  Scored single = result.final;
+  bringToStep(single, "in pairs", 0.6);
+  const PairedTest gained = compare(single.blocks, pair.blocks);
   if (gained.t < leastT || gained.gain < leastGain) {
     problem_.scene.step_s = step_s;
-    bringToStep(result.final, "in pairs", 0.6);
     return false;
   }
-  for (Attempt& attempt : result.attempts)
-    if (attempt.candidate.text() == choice.accepted) {
-      attempt.accepted = false;
-      attempt.reason = "two others together do better";
-    }
+  conclude(result.attempts, choice.accepted, false, "two others together do better");
   acceptPair(result, pair, choice.accepted + " → ");
   return true;
 }

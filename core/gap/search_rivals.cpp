@@ -54,12 +54,8 @@ void SearchRun::prune(SearchResult& result) {
       bringToStep(scored[i], "dropping each in turn", 0.86);
       if (isMissed(scored[i], result.final)) continue;
       const PlacedEffect& dropped = result.final.fit.model.effects[i];
-      result.ladder.push_back(step("− " + dropped.effect + " at " + dropped.at, scored[i]));
-      for (Attempt& attempt : result.attempts)
-        if (attempt.candidate.effect == dropped.effect && attempt.candidate.at == dropped.at) {
-          attempt.accepted = false;
-          attempt.reason = "useless once the others were there";
-        }
+      result.ladder.push_back(step("− " + dropped.text(), scored[i]));
+      conclude(result.attempts, dropped.text(), false, "useless once the others were there");
       result.final = scored[i];
       changed = true;
     }
@@ -93,7 +89,7 @@ void SearchRun::takeApart(SearchResult& result) {
       ++i;
       continue;
     }
-    const std::string ownText = own.effect + " at " + own.at;
+    const std::string ownText = own.text();
     std::string what = ownText + " →";
     for (std::size_t k = 0; k < added.size(); ++k) {
       what += (k ? " and " : " ") + added[k].text();
@@ -106,11 +102,7 @@ void SearchRun::takeApart(SearchResult& result) {
       attempt.reason = "with the others simpler than " + ownText + " and not worse";
       remember(result.attempts, attempt);
     }
-    for (Attempt& attempt : result.attempts)
-      if (attempt.candidate.text() == ownText) {
-        attempt.accepted = false;
-        attempt.reason = "its simpler forms together do as well";
-      }
+    conclude(result.attempts, ownText, false, "its simpler forms together do as well");
     result.final = scored;
     result.ladder.push_back(step(what, result.final));
     i = 0;
@@ -138,7 +130,7 @@ std::vector<SearchRun::Tried> SearchRun::inPlaceOf(std::size_t i, const SearchRe
 bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const {
   const FitModel& model = result.final.fit.model;
   const PlacedEffect own = model.effects[i];
-  const std::string ownText = own.effect + " at " + own.at;
+  const std::string ownText = own.text();
   const auto numbersOf = [](const Tried& other) { return sizeOf(other.fit.model, other.fit.model.effects.size() - 1); };
   const Tried* chosen = nullptr;
   for (const Tried& other : others) {
@@ -158,16 +150,9 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
   if (!chosen) return false;
   const std::string text = chosen->attempt.candidate.text();
   const bool simpler = numbersOf(*chosen) < sizeOf(model, i);
-  for (Attempt& attempt : result.attempts) {
-    if (attempt.candidate.text() == ownText) {
-      attempt.accepted = false;
-      attempt.reason = text + (simpler ? " is simpler and does as well" : " does better");
-    }
-    if (attempt.candidate.text() == text) {
-      attempt.accepted = true;
-      attempt.reason = simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText;
-    }
-  }
+  conclude(result.attempts, ownText, false, text + (simpler ? " is simpler and does as well" : " does better"));
+  conclude(result.attempts, text, true,
+           simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText);
   result.final = chosen->scored;
   result.ladder.push_back(step(ownText + " → " + text, result.final));
   return true;
@@ -253,7 +238,7 @@ bool SearchRun::rivalsOfEach(SearchResult& result) {
       found.rivalFits.push_back(other.fit);
       for (Attempt& attempt : result.attempts)
         if (attempt.candidate.text() == candidate.text() && !attempt.scored)
-          attempt.reason = "explains it as well, found from " + own.effect + " at " + own.at;
+          attempt.reason = "explains it as well, found from " + own.text();
     }
     addTogether(place, result, others, found);
     result.effects.push_back(found);

@@ -15,6 +15,7 @@ struct PlacedEffect {
   std::string at;      ///< "ROBOT.JOINT", "ROBOT.LINK", a ball's name, "floor" or "world"
   Values parameters;
   bool operator==(const PlacedEffect&) const = default;
+  std::string text() const { return effect + " at " + at; }
 };
 
 /// What a fit produced and what a run uses: numbers that replace those of scene and model, and added effects.

@@ -9,10 +9,11 @@
 
 namespace btr::prove {
 
-/// The world and the true numbers of a case with this hidden in it, whatever the generator would hide there now.
-inline BlindCase caseHiding(const PlacedEffect& hidden, const CaseRequest& request, const Plugins& plugins) {
+/// The world and the true numbers of a case with these hidden in it, whatever the generator would hide there now.
+inline BlindCase caseHiding(const std::vector<PlacedEffect>& hidden, const CaseRequest& request,
+                            const Plugins& plugins) {
   BlindCase blind = drawCase(request, plugins.library);
-  blind.simulator.effects = {hidden};
+  blind.simulator.effects = hidden;
   return blind;
 }
 

@@ -29,7 +29,7 @@ double errorIn(const FitProblem& problem, const Segment& segment, const std::vec
 // recording tells, from the start as the recording shows it; later it tells of another walk.
 TEST(Walk, IsComparedOverItsFirstStepsWhichItsOwnSimulatorTells) {
   const Plugins plugins;
-  const BlindCase blind = caseHiding(sag, request, plugins);
+  const BlindCase blind = caseHiding({sag}, request, plugins);
   const GapProblem given = problemOf(blind, plugins);
   FitProblem problem = makeFitProblem(given, given.recordings, {plugins.library.make, plugins.library.names});
   const std::size_t compared = problem.trials[0].compared, all = given.recordings[0].rows();
@@ -52,7 +52,7 @@ TEST(Walk, IsComparedOverItsFirstStepsWhichItsOwnSimulatorTells) {
 // One of three trials alone. Compared over all of its four seconds the sag was one side minimum among many.
 TEST(Walk, ShowsThatItsVoltageSags) {
   const Plugins plugins;
-  GapProblem given = problemOf(caseHiding(sag, request, plugins), plugins);
+  GapProblem given = problemOf(caseHiding({sag}, request, plugins), plugins);
   given.recordings.resize(1);
   AnalysisOptions options;
   options.effects = {"voltage_sag", "gravity_tilt"};

@@ -24,13 +24,8 @@ QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& t
   return item;
 }
 
-std::string intervalOf(const GapReport::Number& n) {
-  return (n.ci95.known() ? brief(n.ci95) : "(no interval)") +
-         (n.amongRivals.known() ? ", among rivals " + brief(n.amongRivals) : "");
-}
-
 QString numberText(const GapReport::Number& n) {
-  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + intervalOf(n)) +
+  return word(n.name + " = " + brief(n.value) + (n.unit.empty() ? "" : " " + n.unit) + " " + intervalsOf(n)) +
          (n.atBound ? EffectsTable::tr(", at its bound") : QString()) +
          (n.excited ? QString() : EffectsTable::tr(", not excited"));
 }
@@ -103,8 +98,7 @@ CalibratedTable::CalibratedTable(QWidget* parent) : QTableWidget(parent) {
   horizontalHeaderItem(interval)->setToolTip(tr("With the accepted effects taken for granted"));
   horizontalHeaderItem(amongRivals)
       ->setToolTip(tr("From end to end of the 95 % interval and of those with each rival (“Cannot be told from”) in "
-                      "the place of its "
-                      "effect"));
+                      "the place of its effect"));
   horizontalHeader()->setStretchLastSection(true);
 }
 

@@ -192,12 +192,6 @@ double SearchRun::rateAmong(const std::vector<Tried>& others, const Found& found
   return falseDiscoveryRates(pValues)[0];
 }
 
-/// Rivals of each effect beside the others; where an effect was replaced, what stood beside it is asked again.
-void SearchRun::findRivals(SearchResult& result) {
-  constexpr int mostRounds = 3;
-  for (int round = 1; rivalsOfEach(result) && result.effects.size() > 1 && round < mostRounds;) ++round;
-}
-
 /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
 /// them needed.
 void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& others) {
@@ -211,49 +205,64 @@ void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& other
   }
 }
 
-bool SearchRun::rivalsOfEach(SearchResult& result) {
-  bool replaced = false;
-  result.effects.clear();
-  // What replaces an effect stands last in the model; the others move up.
-  for (std::size_t left = result.final.fit.model.effects.size(), i = 0; left > 0; --left) {
-    Scored without;
-    std::vector<Tried> others = inPlaceOf(i, result, without);
-    handOver(i, result, others);
-    compareAtOneStep(result, others);
-    // Whatever the winner's place was offered to was fitted beside the same others: rivals of the winner, too.
-    const bool changed = replace(i, others, result);
-    if (changed) settle(result, true, "rivals", 0.95);
-    replaced = replaced || changed;
-    const std::size_t place = changed ? result.final.fit.model.effects.size() - 1 : i++;
-    const FitModel& model = result.final.fit.model;
-    const PlacedEffect own = model.effects[place];
-    Found found{own, compare(without.blocks, result.final.blocks), 1, {}, {}, {}};
-    found.qValue = rateAmong(others, found);
-    for (const Tried& other : others) {
-      const EffectCandidate& candidate = other.attempt.candidate;
-      if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
-      if (isToldFrom(other.scored, result.final)) continue;
-      found.rivals.push_back(
-          {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
-      found.rivalFits.push_back(other.fit);
-      for (Attempt& attempt : result.attempts)
-        if (attempt.candidate.text() == candidate.text() && !attempt.scored)
-          attempt.reason = "explains it as well, found from " + own.text();
-    }
-    addTogether(place, result, others, found);
-    result.effects.push_back(found);
-  }
-  // In the order of the final model.
+/// What was offered the place of effect `i`, fitted beside the same others: looked for once, and offered again to
+/// whatever has taken the place since.
+SearchRun::Offered& SearchRun::offeredTo(std::size_t i, const SearchResult& result, std::vector<Offered>& known) {
+  std::vector<std::string> beside;
   const auto& effects = result.final.fit.model.effects;
-  const auto placeOf = [&](const Found& found) {
-    return std::find_if(
-               effects.begin(), effects.end(),
-               [&](const PlacedEffect& e) { return e.effect == found.effect.effect && e.at == found.effect.at; }) -
-           effects.begin();
-  };
-  std::stable_sort(result.effects.begin(), result.effects.end(),
-                   [&](const Found& a, const Found& b) { return placeOf(a) < placeOf(b); });
-  return replaced;
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    if (k != i) beside.push_back(effects[k].text());
+  std::ranges::sort(beside);
+  const auto same = std::ranges::find(known, beside, &Offered::beside);
+  if (same != known.end()) return *same;
+  Offered offered{beside, {}, {}};
+  offered.others = inPlaceOf(i, result, offered.without);
+  handOver(i, result, offered.others);
+  known.push_back(std::move(offered));
+  return known.back();
+}
+
+Found SearchRun::foundAt(std::size_t i, const Offered& offered, SearchResult& result) const {
+  const FitModel& model = result.final.fit.model;
+  const PlacedEffect own = model.effects[i];
+  Found found{own, compare(offered.without.blocks, result.final.blocks), 1, {}, {}, {}};
+  found.qValue = rateAmong(offered.others, found);
+  for (const Tried& other : offered.others) {
+    const EffectCandidate& candidate = other.attempt.candidate;
+    if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
+    if (isToldFrom(other.scored, result.final)) continue;
+    found.rivals.push_back(
+        {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
+    found.rivalFits.push_back(other.fit);
+    for (Attempt& attempt : result.attempts)
+      if (attempt.candidate.text() == candidate.text() && !attempt.scored)
+        attempt.reason = "explains it as well, found from " + own.text();
+  }
+  addTogether(i, result, offered.others, found);
+  return found;
+}
+
+/// Rivals of each effect beside the others, the last found first: it is the least sure. Where one is replaced, all are
+/// asked beside what stands there now.
+void SearchRun::findRivals(SearchResult& result) {
+  constexpr int mostReplaced = 3;
+  std::vector<Offered> known;
+  int replaced = 0;
+  result.effects.clear();
+  for (std::size_t left = result.final.fit.model.effects.size(); left > 0;) {
+    Offered& offered = offeredTo(left - 1, result, known);
+    compareAtOneStep(result, offered.others);
+    if (replaced < mostReplaced && replace(left - 1, offered.others, result)) {
+      settle(result, true, "rivals", 0.95);
+      ++replaced;
+      left = result.final.fit.model.effects.size();
+      result.effects.clear();
+    } else {
+      --left;
+      result.effects.push_back(foundAt(left, offered, result));
+    }
+  }
+  std::ranges::reverse(result.effects);
 }
 
 }  // namespace btr

@@ -172,6 +172,15 @@ class SearchRun {
   bool replace(std::size_t i, const std::vector<Tried>& others, SearchResult& result) const;
   /// Adds simpler effects that together say the same in the place of the final model's effect `i`.
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
+  /// Other effects in the place of one of the final model's.
+  struct Offered {
+    std::vector<std::string> beside;  ///< the other effects, as text, sorted
+    Scored without;                   ///< with the place empty
+    std::vector<Tried> others;
+  };
+  Offered& offeredTo(std::size_t i, const SearchResult& result, std::vector<Offered>& known);
+  /// The final model's effect `i` with its rivals.
+  Found foundAt(std::size_t i, const Offered& offered, SearchResult& result) const;
   void findRivals(SearchResult& result);
   /// Adds what the recordings may not tell from effect `i`, or tell for the better: its size is taken away in steps,
   /// and at each what is offered its place is fitted on. From afar, a fit would stop in a side minimum.
@@ -182,7 +191,6 @@ class SearchRun {
   void addRival(const EffectCandidate& candidate, const Scored& scored, const SearchResult& result,
                 std::vector<Tried>& others) const;
   void compareAtOneStep(SearchResult& result, std::vector<Tried>& others);
-  bool rivalsOfEach(SearchResult& result);  ///< true if an effect was replaced
   void remember(std::vector<Attempt>& attempts, const Attempt& attempt) const;
   GapReport::Step step(const std::string& what, const Scored& scored) const;
 

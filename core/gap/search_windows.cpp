@@ -57,6 +57,7 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
                                const std::vector<Fit>& without, const std::string& stage, double at) const {
   constexpr double window_s = 0.4, inReach = 1.5;
   constexpr double mostLeft = 4;  // mean squared error of what may be the cause
+  constexpr double hopeless = 4;  // times as much in short windows: whole trials leave more
   constexpr int nearby = 8;
   if (problem_.walks || problem_.impacts) return;
   const SearchRun windows = inWindows(window_s);
@@ -89,9 +90,13 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
   for (const Begun& each : begun) {
     if (!(each.error <= inReach * least)) continue;
     std::vector<Fit> fits = windows.tryFits({{each.model, {}}}, nearby, stage, at, at);
-    if (std::isfinite(fits[0].cost)) fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
     // Of a law that is not the cause a better fit says nothing: others were not begun as often.
-    if (2 * fits[0].cost > mostLeft * static_cast<double>(problem_.residuals())) continue;
+    const auto leaves = [&](const FitProblem& problem) {
+      return 2 * fits[0].cost / static_cast<double>(problem.residuals());
+    };
+    if (!(leaves(windows.problem_) <= hopeless * mostLeft)) continue;
+    fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
+    if (!(leaves(problem_) <= mostLeft)) continue;
     // What the candidate has so far was broken off after a few iterations; it is judged with as many.
     Fit& fit = tried[each.tried].fit;
     if (!costsLess(fits[0], fit)) continue;

@@ -177,6 +177,7 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
   const std::size_t before = request.cases - open.size();
   if (progress) progress(before, request.cases);
 
+  std::string failed;
   if (!open.empty()) {
     constexpr double longest_s = 4 * 3600;
     WorkerPool pool(
@@ -190,7 +191,7 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
       if (progress) progress(before + done, request.cases);
     });
     for (std::size_t i = 0; i < replies.size(); ++i)
-      if (!replies[i].ok) throw InputError("case " + open[i] + ": " + replies[i].failure);
+      if (!replies[i].ok) failed += (failed.empty() ? "case " : "; case ") + open[i] + ": " + replies[i].failure;
   }
 
   std::vector<ProvedCase> cases;
@@ -198,6 +199,10 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
     if (const std::string path = verdictOf(number); fs::exists(path))
       cases.push_back(provedFromJson(readFile(path), path));
   writeProof(request.out, score(cases), cases);
+  // A world that cannot be simulated, say: the others count all the same.
+  if (!failed.empty())
+    throw InputError(failed + "; the " + std::to_string(cases.size()) + " of " + std::to_string(request.cases) +
+                     " that are finished are counted in " + (fs::path(request.out) / "proof.txt").string());
   return cases;
 }
 

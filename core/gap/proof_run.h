@@ -27,7 +27,8 @@ using Analyse = std::function<GapReport(const AnalysisRequest& request, const Ef
 /// generator record further trials and measures the error of what was found in them, case by case; then proof.json,
 /// proof.txt and proof.html of all finished cases. Each finished case is in OUT/case_NNN/verdict.json and is not
 /// repeated. A raised `stop` ends it early with what is finished. `progress(done, all)` is called after each case.
-/// Throws InputError for a generator that is not there or fails, and for a folder of another trial.
+/// Throws InputError for a generator that is not there, for a folder of another trial and, after all others are
+/// counted, for cases that the generator failed to make.
 std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrary& library, const Analyse& analyse,
                                  const std::atomic<bool>& stop,
                                  const std::function<void(std::size_t, std::size_t)>& progress = {});

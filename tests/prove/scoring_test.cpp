@@ -378,5 +378,32 @@ TEST(Proof, ConcealsAnalysesOpensAndGoesOnWhereItStopped) {
   EXPECT_THROW(runProof(request, {}, broken, stop), InputError);
 }
 
+// A leg whose joint was drawn so stiff that the other engine could not simulate it took the count of all others with
+// it.
+TEST(Proof, ACaseThatCannotBeMadeIsNamedAndTheOthersCount) {
+  const TemporaryFolder folder;
+  const std::string generator = folder.file("conceal");
+  writeFile(generator, std::string("#!/bin/sh\ncase \"$*\" in *\"--case 1 \"*) exit 1;; esac\nexec \"") +
+                           CONCEAL_PROGRAM + "\" \"$@\"\n");
+  std::filesystem::permissions(generator, std::filesystem::perms::owner_all);
+  ProofRequest request;
+  request.generator = generator;
+  request.out = folder.file("proof");
+  request.seed = 3;
+  request.cases = 2;
+  request.scene = "flight";
+  request.kind = "nothing";
+  const std::atomic<bool> stop{false};
+  try {
+    runProof(request, {}, contentAnalyst, stop);
+    ADD_FAILURE() << "nothing was said of case 1";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("case 1: ")) << error.what();
+    EXPECT_EQ(std::string::npos, std::string(error.what()).find("case 2: ")) << error.what();
+  }
+  const auto proof = nlohmann::json::parse(readFile(folder.file("proof/proof.json")));
+  EXPECT_EQ(1, proof["all"]["false_alarms"]["cases"]);
+}
+
 }  // namespace
 }  // namespace btr::prove

@@ -235,5 +235,29 @@ TEST(Mended, NumbersThatRivalsDisagreeOnAreKnownAmongThem) {
   }
 }
 
+// A sensor that lags beside a constant torque: a weight is found first, and an offset, which is simpler, takes its
+// place. What stood beside the lag was then looked for a second time (an XL330's analysis, with three effects, did so
+// up to six times).
+TEST(Mended, RivalsBesideTheSameEffectsAreLookedForOnce) {
+  const Plugins plugins;
+  const BlindCase blind = drawCase({20261171, 18, "ode", "pendulum", "two"}, plugins.library);
+  AnalysisOptions options;
+  options.effects = {"payload", "position_offset", "sensor_lag"};
+  int asked = 0;
+  std::string last;
+  const auto count = [&](const std::string& stage, double) {
+    if (stage != last && stage == "fitting candidates, rivals") ++asked;
+    last = stage;
+    return true;
+  };
+  const GapReport report =
+      analyse(problemOf(blind, plugins), {plugins.library.make, plugins.library.names}, options, count);
+  const auto replaced = [](const GapReport::Step& step) { return step.what.find("→") != std::string::npos; };
+  ASSERT_EQ(std::ranges::count_if(report.ladder, replaced), 1) << toPlainText(report);
+  EXPECT_THAT(namedIn(report), testing::UnorderedElementsAre("position_offset", "or payload", "sensor_lag"));
+  // Beside the weight, beside the lag, beside the offset.
+  EXPECT_EQ(asked, 3);
+}
+
 }  // namespace
 }  // namespace btr::prove

@@ -207,19 +207,19 @@ void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& other
 
 /// What was offered the place of effect `i`, fitted beside the same others: looked for once, and offered again to
 /// whatever has taken the place since.
-SearchRun::Offered& SearchRun::offeredTo(std::size_t i, const SearchResult& result, std::vector<Offered>& known) {
-  std::vector<std::string> beside;
+SearchRun::Offered& SearchRun::offeredTo(std::size_t i, const SearchResult& result,
+                                         std::map<std::set<std::string>, Offered>& known) {
+  std::set<std::string> beside;
   const auto& effects = result.final.fit.model.effects;
   for (std::size_t k = 0; k < effects.size(); ++k)
-    if (k != i) beside.push_back(effects[k].text());
-  std::ranges::sort(beside);
-  const auto same = std::ranges::find(known, beside, &Offered::beside);
-  if (same != known.end()) return *same;
-  Offered offered{beside, {}, {}};
-  offered.others = inPlaceOf(i, result, offered.without);
-  handOver(i, result, offered.others);
-  known.push_back(std::move(offered));
-  return known.back();
+    if (k != i) beside.insert(effects[k].text());
+  const auto [place, isNew] = known.try_emplace(beside);
+  Offered& offered = place->second;
+  if (isNew) {
+    offered.others = inPlaceOf(i, result, offered.without);
+    handOver(i, result, offered.others);
+  }
+  return offered;
 }
 
 Found SearchRun::foundAt(std::size_t i, const Offered& offered, SearchResult& result) const {
@@ -246,7 +246,7 @@ Found SearchRun::foundAt(std::size_t i, const Offered& offered, SearchResult& re
 /// asked beside what stands there now.
 void SearchRun::findRivals(SearchResult& result) {
   constexpr int mostReplaced = 3;
-  std::vector<Offered> known;
+  std::map<std::set<std::string>, Offered> known;
   int replaced = 0;
   result.effects.clear();
   for (std::size_t left = result.final.fit.model.effects.size(); left > 0;) {

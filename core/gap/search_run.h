@@ -2,6 +2,8 @@
 #pragma once
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -174,11 +176,11 @@ class SearchRun {
   void addTogether(std::size_t i, const SearchResult& result, const std::vector<Tried>& others, Found& found) const;
   /// Other effects in the place of one of the final model's.
   struct Offered {
-    std::vector<std::string> beside;  ///< the other effects, as text, sorted
-    Scored without;                   ///< with the place empty
+    Scored without;  ///< with the place empty
     std::vector<Tried> others;
   };
-  Offered& offeredTo(std::size_t i, const SearchResult& result, std::vector<Offered>& known);
+  /// `known`: by what stands beside the place, as text.
+  Offered& offeredTo(std::size_t i, const SearchResult& result, std::map<std::set<std::string>, Offered>& known);
   /// The final model's effect `i` with its rivals.
   Found foundAt(std::size_t i, const Offered& offered, SearchResult& result) const;
   void findRivals(SearchResult& result);

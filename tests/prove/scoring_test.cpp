@@ -340,15 +340,21 @@ GapReport contentAnalyst(const AnalysisRequest& request, const EffectLibrary&) {
   return report;
 }
 
-TEST(Proof, ConcealsAnalysesOpensAndGoesOnWhereItStopped) {
-  const TemporaryFolder folder;
+/// Two balls in flight with nothing to be found, into the folder's `proof`.
+ProofRequest twoFlights(const std::string& generator, const TemporaryFolder& folder) {
   ProofRequest request;
-  request.generator = CONCEAL_PROGRAM;
+  request.generator = generator;
   request.out = folder.file("proof");
   request.seed = 3;
   request.cases = 2;
   request.scene = "flight";
   request.kind = "nothing";
+  return request;
+}
+
+TEST(Proof, ConcealsAnalysesOpensAndGoesOnWhereItStopped) {
+  const TemporaryFolder folder;
+  ProofRequest request = twoFlights(CONCEAL_PROGRAM, folder);
   request.jobs = 2;
   const std::atomic<bool> stop{false};
   EXPECT_EQ(2u, runProof(request, {}, contentAnalyst, stop).size());
@@ -386,13 +392,7 @@ TEST(Proof, ACaseThatCannotBeMadeIsNamedAndTheOthersCount) {
   writeFile(generator, std::string("#!/bin/sh\ncase \"$*\" in *\"--case 1 \"*) exit 1;; esac\nexec \"") +
                            CONCEAL_PROGRAM + "\" \"$@\"\n");
   std::filesystem::permissions(generator, std::filesystem::perms::owner_all);
-  ProofRequest request;
-  request.generator = generator;
-  request.out = folder.file("proof");
-  request.seed = 3;
-  request.cases = 2;
-  request.scene = "flight";
-  request.kind = "nothing";
+  const ProofRequest request = twoFlights(generator, folder);
   const std::atomic<bool> stop{false};
   try {
     runProof(request, {}, contentAnalyst, stop);

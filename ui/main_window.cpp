@@ -66,6 +66,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
     : host_(std::move(host)),
       theme_(theme),
       options_(options),
+      layout_(*this),
       settings_(options.settingsFile),
       launcher_(host_, options.program),
       // A process of ours counts from its start on: until it holds the run's lock nobody else can tell.
@@ -83,7 +84,6 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   connectCompare();
   connectGrid();
   connectMerge();
-  arrangeDocks();
   restoreWindow();
   restoreDraft();
   for (const std::string& problem : host_->problems())
@@ -122,8 +122,6 @@ bool MainWindow::openDatabase(const QString& path) {
 }
 
 void MainWindow::makeDocks() {
-  setDockNestingEnabled(true);
-  setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   const ExperimentOffers offers = offersOf(*host_);
   tree_ = new ExperimentTree(this);
   panel_ = new RunPanel(this);
@@ -142,20 +140,20 @@ void MainWindow::makeDocks() {
   draft_->setObjectName("draft");
   spec_->setObjectName("spec");
   spec_->setReadOnly(tr("A stored run never changes."));
-  treeDock_ = addDock("tree", tr("Experiments"), "view-list-tree", tree_);
-  panelDock_ = addDock("run", tr("Run"), "media-playback-start", panel_);
-  fitnessDock_ = addDock("fitness", tr("Fitness"), "office-chart-line", fitness_);
-  gapDock_ = addDock("gap", tr("Reality gap"), "office-chart-scatter", gap_);
-  versionsDock_ = addDock("simulators", tr("Simulators"), "cpu", versions_);
-  individualsDock_ = addDock("individuals", tr("Individuals"), "view-list-details", individuals_);
-  sheetDock_ = addDock("sheet", tr("Measurement sheet"), "document-edit", sheet_);
-  policiesDock_ = addDock("policies", tr("Learning in reality"), "view-statistics", policies_);
-  replayDock_ = addDock("replay", tr("Replay"), "media-playback-playing", replay_);
-  draftDock_ = addDock("draft", tr("New experiment"), "document-new", draft_);
+  layout_.add("tree", tr("Experiments"), "view-list-tree", tree_);
+  layout_.add("run", tr("Run"), "media-playback-start", panel_);
+  layout_.add("fitness", tr("Fitness"), "office-chart-line", fitness_);
+  layout_.add("gap", tr("Reality gap"), "office-chart-scatter", gap_);
+  layout_.add("simulators", tr("Simulators"), "cpu", versions_);
+  layout_.add("individuals", tr("Individuals"), "view-list-details", individuals_);
+  layout_.add("sheet", tr("Measurement sheet"), "document-edit", sheet_);
+  layout_.add("policies", tr("Learning in reality"), "view-statistics", policies_);
+  layout_.add("replay", tr("Replay"), "media-playback-playing", replay_);
+  layout_.add("draft", tr("New experiment"), "document-new", draft_);
   makeGapPage();
   makeComparePage();
   makeGridPage();
-  specDock_ = addDock("spec", tr("Settings of the run"), "document-properties", spec_);
+  layout_.add("spec", tr("Settings of the run"), "document-properties", spec_);
 
   // Messages stand above everything, in a tool bar of their own that is there only while there is one; the alarm has
   // its place beside the tools.
@@ -187,102 +185,60 @@ void MainWindow::makeDocks() {
   statusBar()->addPermanentWidget(databaseLabel_);
 }
 
-QDockWidget* MainWindow::addDock(const QString& name, const QString& title, const QString& icon, QWidget* widget) {
-  auto* dock = new QDockWidget(title, this);
-  dock->setObjectName("dock." + name);
-  dock->setWidget(widget);
-  dock->setWindowIcon(themeIcon(icon));
-  dock->toggleViewAction()->setIcon(themeIcon(icon));
-  return dock;
+/// The screen less what a window manager's frame and title take.
+QSize MainWindow::defaultSize() const {
+  const QSize frame = isVisible() && frameSize() != size() ? frameSize() - size() : QSize(16, 44);
+  return QSize(1600, 1000).boundedTo(screen()->availableSize() - frame);
 }
 
-// Left what there is, in the middle how it goes, right what is asked for.
-void MainWindow::arrangeDocks() {
-  runsLayout_.clear();
-  page_ = nullptr;
-  gapAction_->setChecked(false);
-  gridAction_->setChecked(false);
-  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
-    removeDockWidget(dock);
-    dock->setFloating(false);
-  }
-  addDockWidget(Qt::LeftDockWidgetArea, treeDock_);
-  splitDockWidget(treeDock_, panelDock_, Qt::Horizontal);
-  splitDockWidget(panelDock_, specDock_, Qt::Horizontal);
-  splitDockWidget(panelDock_, fitnessDock_, Qt::Vertical);
-  splitDockWidget(fitnessDock_, individualsDock_, Qt::Vertical);
-  splitDockWidget(fitnessDock_, gapDock_, Qt::Horizontal);
-  splitDockWidget(specDock_, replayDock_, Qt::Vertical);
-  // Tabs come last: a dock that is split from a tab becomes one of the tabs.
-  tabifyDockWidget(specDock_, draftDock_);
-  tabifyDockWidget(individualsDock_, sheetDock_);
-  tabifyDockWidget(sheetDock_, policiesDock_);
-  tabifyDockWidget(policiesDock_, versionsDock_);
-  tabifyDockWidget(specDock_, compareDock_);
-  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->show();
-  gapPageDock_->hide();
-  gridPageDock_->hide();
-  compareDock_->hide();
-  specDock_->raise();
-  individualsDock_->raise();
-  sized_ = false;
-  if (isVisible()) sizeDocks();
-}
-
-// Sizes hold only in a window that has its own size already.
-void MainWindow::sizeDocks() {
-  sized_ = true;
-  const int left = width() * 19 / 100, right = width() * 29 / 100, middle = width() - left - right;
-  resizeDocks({treeDock_, panelDock_, specDock_}, {left, middle, right}, Qt::Horizontal);
-  const int top = panel_->sizeHint().height() + 40, rest = height() - top - 90;
-  resizeDocks({panelDock_, fitnessDock_, individualsDock_}, {top, rest * 54 / 100, rest * 46 / 100}, Qt::Vertical);
-  resizeDocks({specDock_, replayDock_}, {(top + rest) * 50 / 100, (top + rest) * 50 / 100}, Qt::Vertical);
-  // Sizes as they shall be: what both ask for together is what the middle gets.
-  resizeDocks({fitnessDock_, gapDock_}, {middle * 54 / 100, middle * 46 / 100}, Qt::Horizontal);
+void MainWindow::resetLayout() {
+  if (!isMaximized() && !isFullScreen()) resize(defaultSize());
+  layout_.arrange();
 }
 
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
-  if (!sized_) QTimer::singleShot(0, this, &MainWindow::sizeDocks);
+  QTimer::singleShot(0, this, [this] {
+    keepOnScreen();
+    layout_.sizeOnce();
+  });
 }
 
-// A page needs the room: the runs' docks go and come back as they were. One page at a time.
-void MainWindow::givePage(QDockWidget* page, QAction* action, bool on) {
-  for (QAction* other : {gapAction_, gridAction_}) other->setChecked(on && other == action);
-  if (on && page_ == page) return;
-  const bool fromRuns = page_ == nullptr;
-  page_ = on ? page : nullptr;
-  if (!on) {
-    if (!fromRuns) restoreState(std::exchange(runsLayout_, {}), Settings::layoutVersion);
-    // The pages have no place in that layout.
-    for (QDockWidget* other : {gapPageDock_, gridPageDock_}) other->hide();
-    if (!fromRuns && sheetWanted_) raiseDock(sheetDock_);
-    return;
-  }
-  if (fromRuns) runsLayout_ = saveState(Settings::layoutVersion);
-  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) dock->hide();
-  for (QDockWidget* dock : {treeDock_, page, replayDock_}) {
-    removeDockWidget(dock);
-    dock->setFloating(false);
-    addDockWidget(Qt::LeftDockWidgetArea, dock, Qt::Horizontal);
-    dock->show();
-  }
-  const int left = width() * 15 / 100, right = width() * 27 / 100;
-  resizeDocks({treeDock_, page, replayDock_}, {left, width() - left - right, right}, Qt::Horizontal);
-}
-
-// Beside a page there is room for the tree and the replay alone: for another dock the page is left.
-void MainWindow::raiseDock(QDockWidget* dock) {
-  if (page_ && dock != page_ && dock != treeDock_ && dock != replayDock_) givePage(page_, nullptr, false);
-  dock->show();
-  dock->raise();
+// Only now is it known how large the frame is.
+void MainWindow::keepOnScreen() {
+  if (isMaximized() || isFullScreen()) return;
+  const QRect room = screen()->availableGeometry();
+  if (const QSize most = room.size() - (frameSize() - size()); width() > most.width() || height() > most.height())
+    resize(size().boundedTo(most));
+  if (!room.contains(frameGeometry().topLeft())) move(room.topLeft());
 }
 
 void MainWindow::restoreWindow() {
-  resize(QSize(1600, 1000).boundedTo(screen()->availableSize()));
+  resize(defaultSize());
   if (const QByteArray geometry = settings_.geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
-  if (const QByteArray layout = settings_.layout(); !layout.isEmpty())
-    sized_ = restoreState(layout, Settings::layoutVersion);
+  layout_.arrange();
+  if (const QByteArray layout = settings_.layout(); !layout.isEmpty()) layout_.restore(layout);
+}
+
+// Widgets behind a tab count as visible to Qt, which would give them the focus: the keys would go where nobody looks.
+bool MainWindow::focusNextPrevChild(bool next) {
+  const auto takesTab = [this](const QWidget* widget) {
+    if (!(widget->focusPolicy() & Qt::TabFocus) || widget->focusProxy() || !widget->isEnabled()) return false;
+    if (!widget->isVisible() || widget->window() != this) return false;
+    for (const QWidget* above = widget; above; above = above->parentWidget())
+      if (const auto* dock = qobject_cast<const QDockWidget*>(above)) return DockLayout::isInFront(dock);
+    return true;
+  };
+  QWidget* from = focusWidget() ? focusWidget() : this;
+  const auto step = [next](QWidget* widget) {
+    return next ? widget->nextInFocusChain() : widget->previousInFocusChain();
+  };
+  for (QWidget* widget = step(from); widget != from; widget = step(widget))
+    if (takesTab(widget)) {
+      widget->setFocus(next ? Qt::TabFocusReason : Qt::BacktabFocusReason);
+      return true;
+    }
+  return false;
 }
 
 void MainWindow::report(const QString& error) { banner_->showMessage(MessageBanner::Kind::error, error); }
@@ -308,7 +264,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
       for (const Id run : active) stopRun(run);
   }
   keepDraft();
-  settings_.setWindow(saveGeometry(), runsLayout_.isEmpty() ? saveState(Settings::layoutVersion) : runsLayout_);
+  settings_.setWindow(saveGeometry(), layout_.state());
   event->accept();
 }
 

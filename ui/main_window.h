@@ -13,6 +13,7 @@
 #include "ui/common/database_watcher.h"
 #include "ui/common/settings.h"
 #include "ui/experiment/run_launcher.h"
+#include "ui/window/dock_layout.h"
 
 class QDockWidget;
 class QLabel;
@@ -93,16 +94,15 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  bool focusNextPrevChild(bool next) override;
 
  private:
   // main_window.cpp
   void makeDocks();
-  QDockWidget* addDock(const QString& name, const QString& title, const QString& icon, QWidget* widget);
-  void arrangeDocks();
-  void sizeDocks();
-  void raiseDock(QDockWidget* dock);
-  void givePage(QDockWidget* page, QAction* action, bool on);
   void restoreWindow();
+  void resetLayout();
+  void keepOnScreen();
+  QSize defaultSize() const;
   void report(const QString& error);
   void inform(const QString& text);
   /// Runs an action that may throw; false, with a message, if it did.
@@ -207,6 +207,7 @@ class MainWindow : public QMainWindow {
   std::shared_ptr<const PluginHost> host_;
   Theme& theme_;
   WindowOptions options_;
+  DockLayout layout_;
   Settings settings_;
   RunLauncher launcher_;
   DatabaseWatcher watcher_;
@@ -216,7 +217,6 @@ class MainWindow : public QMainWindow {
   std::set<Id> measuredMeanwhile_;
   QTimer processes_;           ///< runs while one of them may end
   bool gridLaunched_ = false;  ///< a process of ours that learns grids, whose end was not seen yet
-  bool sized_ = false;         ///< the docks have got their sizes
   RunRecord run_;              ///< the followed run as last seen
   QString unit_;
   std::vector<Parameter> genotype_;        ///< of its controller
@@ -242,8 +242,6 @@ class MainWindow : public QMainWindow {
   QString mergedFrom_;
   ComparePage* comparePage_ = nullptr;
   QAction *gapAction_ = nullptr, *gridAction_ = nullptr;
-  QByteArray runsLayout_;                                            ///< of the docks while a page has the window
-  QDockWidget* page_ = nullptr;                                      ///< that has it
   std::pair<std::shared_ptr<const GapReport>, std::size_t> ghosts_;  ///< report and trial that the 3D view shows
   bool runActive_ = false;
   SimulatorsPage* versions_ = nullptr;
@@ -256,10 +254,6 @@ class MainWindow : public QMainWindow {
   bool sheetWanted_ = false;  ///< the selected run waits for values
   ReplayPanel* replay_ = nullptr;
   ReplayJob* replayJob_ = nullptr;
-  QDockWidget *treeDock_ = nullptr, *draftDock_ = nullptr, *specDock_ = nullptr, *panelDock_ = nullptr,
-              *fitnessDock_ = nullptr, *gapDock_ = nullptr, *versionsDock_ = nullptr, *replayDock_ = nullptr,
-              *individualsDock_ = nullptr, *sheetDock_ = nullptr, *policiesDock_ = nullptr, *gapPageDock_ = nullptr,
-              *gridPageDock_ = nullptr, *compareDock_ = nullptr;
   QMenu *recentMenu_ = nullptr, *runMenu_ = nullptr, *viewMenu_ = nullptr;
   QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
 };

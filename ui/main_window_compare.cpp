@@ -11,7 +11,7 @@ namespace btr::ui {
 
 void MainWindow::makeComparePage() {
   comparePage_ = new ComparePage(this);
-  compareDock_ = addDock("compare", tr("Compare runs"), "office-chart-line", comparePage_);
+  layout_.add("compare", tr("Compare runs"), "office-chart-line", comparePage_);
 }
 
 void MainWindow::connectCompare() {
@@ -39,9 +39,9 @@ void MainWindow::compareRuns(const std::vector<Id>& runs) {
   comparePage_->setChosen(all);
   comparePage_->showStages(true);
   // A wide page: it stands in a window of its own size until the user docks it.
-  compareDock_->setFloating(true);
-  compareDock_->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
-  raiseDock(compareDock_);
+  layout_.dock("compare")->setFloating(true);
+  layout_.dock("compare")->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
+  layout_.raise("compare");
 }
 
 }  // namespace btr::ui

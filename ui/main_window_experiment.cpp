@@ -26,14 +26,14 @@ void MainWindow::newExperiment() {
     spec.learner.name = spec.adaptation.name = best(host_->learners(), "ga");
     if (QFileInfo::exists(resourceDirectory() + "/scenes/kick.json")) spec.scene = "../scenes/kick.json";
     draft_->setSpec(spec);
-    raiseDock(draftDock_);
+    layout_.raise("draft");
   });
 }
 
 bool MainWindow::openExperiment(const QString& file) {
   return guard([&] {
     draft_->setSpec(loadExperiment(QFileInfo(file).absoluteFilePath().toStdString()));
-    raiseDock(draftDock_);
+    layout_.raise("draft");
     inform(tr("Opened %1").arg(file));
   });
 }
@@ -71,7 +71,7 @@ void MainWindow::copyToDraft() {
     ExperimentSpec spec = spec_->spec();
     if (spec.directory.empty()) spec.directory = (resourceDirectory() + "/experiments").toStdString();
     draft_->setSpec(spec);
-    raiseDock(draftDock_);
+    layout_.raise("draft");
   });
 }
 

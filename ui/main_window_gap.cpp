@@ -13,7 +13,7 @@ namespace btr::ui {
 
 void MainWindow::makeGapPage() {
   gapPage_ = new GapPage(launcher_.program(), this);
-  gapPageDock_ = addDock("analysis", tr("Gap analysis"), "office-chart-area", gapPage_);
+  layout_.addPage("analysis", tr("Gap analysis"), "office-chart-area", gapPage_, {"tree", "replay"});
 }
 
 void MainWindow::connectGap() {
@@ -48,7 +48,7 @@ void MainWindow::connectGap() {
 }
 
 void MainWindow::showGapPage(bool on) {
-  givePage(gapPageDock_, gapAction_, on);
+  layout_.showPage(on ? QStringLiteral("analysis") : QString());
   if (on) gapPage_->setFocus();
 }
 

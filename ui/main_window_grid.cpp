@@ -30,7 +30,7 @@ QString changedGridFile() {
 
 void MainWindow::makeGridPage() {
   gridPage_ = new GridPage(launcher_.program(), this);
-  gridPageDock_ = addDock("grid", tr("The whole kick"), "view-grid", gridPage_);
+  layout_.addPage("grid", tr("The whole kick"), "view-grid", gridPage_, {"tree", "replay"});
 }
 
 void MainWindow::connectGrid() {
@@ -152,7 +152,7 @@ void MainWindow::checkGridProcess() {
 
 void MainWindow::showGridPage(bool on) {
   if (on) readGrids();
-  givePage(gridPageDock_, gridAction_, on);
+  layout_.showPage(on ? QStringLiteral("grid") : QString());
 }
 
 void MainWindow::showGrid(Id grid) {
@@ -163,7 +163,7 @@ void MainWindow::showGrid(Id grid) {
 // Interpolated and simulated in a thread of its own, from a connection of its own.
 void MainWindow::playKick(Id grid, double distance_m, double bearing_rad, double direction_rad) {
   if (!watcher_.isOpen()) return;
-  raiseDock(replayDock_);
+  layout_.raise("replay");
   ghosts_ = {};
   const std::array<double, 3> point{distance_m, bearing_rad, direction_rad};
   replayJob_->start([path = databasePath().toStdString(), grid, point, host = host_] {

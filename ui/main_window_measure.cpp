@@ -37,7 +37,7 @@ void MainWindow::connectMeasure() {
   connect(alarm_, &Alarm::sheetRequested, this, [this] {
     selectRun(waitingRun_);
     sheet_->showNewest();
-    raiseDock(sheetDock_);
+    layout_.raise("sheet");
   });
 }
 
@@ -89,7 +89,7 @@ void MainWindow::showWaiting() {
   const bool waits = run_.state == RunState::waiting && (!runActive_ || count.settled < count.wanted);
   const bool wanted = waits && !isStandIn(run_) && count.settled < count.wanted;
   // Who is on a page stays there; the alarm rings, and the sheet is in front when the page is left.
-  if (wanted && !sheetWanted_ && !page_) raiseDock(sheetDock_);
+  if (wanted && !sheetWanted_ && layout_.page().isEmpty()) layout_.raise("sheet");
   sheetWanted_ = wanted;
   sheet_->setWaiting(waits);
   const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;

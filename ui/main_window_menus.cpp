@@ -18,6 +18,21 @@
 #include "ui/main_window.h"
 
 namespace btr::ui {
+namespace {
+
+// A narrow window keeps room for the alarm: its tools are icons.
+class ToolBar final : public QToolBar {
+ public:
+  using QToolBar::QToolBar;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QToolBar::resizeEvent(event);
+    setToolButtonStyle(width() < 1150 ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  }
+};
+
+}  // namespace
 
 void MainWindow::makeMenus() {
   // Icons are asked for again when the look changes: dark icons vanish on a dark window.
@@ -76,7 +91,7 @@ void MainWindow::makeMenus() {
 
   viewMenu_ = menuBar()->addMenu(tr("&View"));
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
-    viewMenu_->addAction(dock->toggleViewAction());
+    if (!layout_.isPage(dock)) viewMenu_->addAction(dock->toggleViewAction());
   viewMenu_->addSeparator();
   QMenu* looks = viewMenu_->addMenu(themeIcon("color-management"), tr("&Look"));
   auto* group = new QActionGroup(this);
@@ -102,7 +117,12 @@ void MainWindow::makeMenus() {
   gridAction_->setObjectName("showGridPage");
   gridAction_->setCheckable(true);
   gridAction_->setToolTip(tr("Grids of experiments: cells, and the kicks between them (F9)"));
-  add(viewMenu_, "view-restore", tr("&Reset layout"), {}, [this] { arrangeDocks(); });
+  connect(&layout_, &DockLayout::pageChanged, this, [this](const QString& page) {
+    gapAction_->setChecked(page == "analysis");
+    gridAction_->setChecked(page == "grid");
+    if (page.isEmpty() && sheetWanted_) layout_.raise("sheet");
+  });
+  add(viewMenu_, "view-restore", tr("&Reset layout"), {}, [this] { resetLayout(); })->setObjectName("resetLayout");
   QAction* full = add(viewMenu_, "view-fullscreen", tr("&Full screen"), QKeySequence::FullScreen,
                       [this] { setWindowState(windowState() ^ Qt::WindowFullScreen); });
   full->setShortcuts({QKeySequence(Qt::Key_F11)});
@@ -110,10 +130,10 @@ void MainWindow::makeMenus() {
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); });
 
-  auto* bar = new QToolBar(tr("Tools"), this);
+  for (QAction* action : {save, database}) action->setPriority(QAction::LowPriority);
+  auto* bar = new ToolBar(tr("Tools"), this);
   bar->setObjectName("toolbar.main");
   bar->setMovable(false);
-  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->setIconSize({18, 18});
   bar->addActions({fresh, open, save});
   bar->addSeparator();

@@ -76,7 +76,7 @@ void MainWindow::selectRig(Id rig, Id simulator) {
     versions_->setSimulators(versionsOf(rig));
   }
   if (simulator != 0) versions_->select(simulator);
-  raiseDock(versionsDock_);
+  layout_.raise("simulators");
 }
 
 // A run takes another simulator while no process works on it and it is not finished; a rig at any time.

@@ -60,7 +60,7 @@ void MainWindow::startDraft() {
   if (!watcher_.isOpen())
     return report(tr("Open or make a database first: a run is stored from its first generation on."));
   if (!draft_->isValid()) {
-    raiseDock(draftDock_);
+    layout_.raise("draft");
     return report(draft_->problems().first());
   }
   const ExperimentSpec spec = draft_->spec();

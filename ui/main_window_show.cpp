@@ -24,11 +24,11 @@ void MainWindow::connectShow() {
   connect(tree_, &ExperimentTree::runSelected, this, &MainWindow::selectRun);
   connect(tree_, &ExperimentTree::specRequested, this, [this](Id run) {
     selectRun(run);
-    raiseDock(specDock_);
+    layout_.raise("spec");
   });
   connect(tree_, &ExperimentTree::simulatorSelected, this, [this](Id, Id simulator) {
     versions_->select(simulator);
-    raiseDock(versionsDock_);
+    layout_.raise("simulators");
   });
 
   connect(&watcher_, &DatabaseWatcher::failed, this, &MainWindow::report);
@@ -155,7 +155,7 @@ void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool
 // Made again in a thread of its own, from a connection of its own.
 void MainWindow::replayIndividual(Id individual) {
   if (!watcher_.isOpen() || run_.id == 0) return;
-  raiseDock(replayDock_);
+  layout_.raise("replay");
   ghosts_ = {};
   individuals_->select(individual);
   replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_] {

@@ -23,6 +23,7 @@
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
 #include "ui/gap/mapping_form.h"
+#include "ui/window/scroll_page.h"
 
 namespace btr::ui {
 namespace {
@@ -91,7 +92,8 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   bar->addWidget(start_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(splitter, 1);
+  // The bar stays in sight, however low the window is.
+  layout->addWidget(new ScrollPage(splitter, this), 1);
   layout->addLayout(bar);
   connect(mapping_, &MappingForm::failed, this, &AnalysisSetup::failed);
   connect(mapping_, &MappingForm::saved, this, [this] { refresh(); });

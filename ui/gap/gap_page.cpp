@@ -16,6 +16,7 @@
 #include "ui/gap/analysis_setup.h"
 #include "ui/gap/clues_view.h"
 #include "ui/gap/report_view.h"
+#include "ui/window/scroll_page.h"
 
 namespace btr::ui {
 namespace {
@@ -40,8 +41,8 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   tabs_ = new QTabWidget(this);
   tabs_->setObjectName("gapTabs");
   tabs_->addTab(setup_, tr("Anal&ysis"));
-  tabs_->addTab(view_, tr("Repor&t"));
-  tabs_->addTab(clues_, tr("Fitness alo&ne"));
+  tabs_->addTab(new ScrollPage(view_, this), tr("Repor&t"));
+  tabs_->addTab(new ScrollPage(clues_, this), tr("Fitness alo&ne"));
   tabs_->setTabToolTip(2, tr("What the measured fitness of a run says without any recording"));
   makeActions();
 

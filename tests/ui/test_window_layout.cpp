@@ -1,0 +1,186 @@
+// The window on the screen: it never grows by itself, fits small screens, and its keys reach what can be seen only.
+#include <QAction>
+#include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QScreen>
+#include <QTest>
+
+#include "tests/ui/stored_run.h"
+#include "ui/gap/gap_page.h"
+#include "ui/main_window.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+struct Desk {
+  Desk() : theme(*qApp) {
+    options.settingsFile = folder.filePath("settings.ini");
+    options.program = "/bin/true";
+    options.isActive = [](const std::string&, Id) { return false; };
+    stored.addWaitingRun(stored.addExperiment());
+  }
+  std::unique_ptr<MainWindow> open() {
+    auto window = std::make_unique<MainWindow>(host, theme, options);
+    window->show();
+    window->openDatabase(stored.qpath());
+    settle();
+    return window;
+  }
+  static void settle() {
+    for (int round = 0; round < 5; ++round) QCoreApplication::processEvents();
+  }
+  StoredRun stored;
+  QTemporaryDir folder;
+  std::shared_ptr<const PluginHost> host = std::make_shared<const PluginHost>(PLUGIN_DIR);
+  Theme theme;
+  WindowOptions options;
+};
+
+QAction* action(MainWindow& window, const char* name) {
+  auto* found = window.findChild<QAction*>(name);
+  if (!found) qFatal("no action %s", name);
+  return found;
+}
+
+QDockWidget* dockOf(const QWidget* widget) {
+  for (QWidget* above = widget->parentWidget(); above; above = above->parentWidget())
+    if (auto* dock = qobject_cast<QDockWidget*>(above)) return dock;
+  return nullptr;
+}
+
+}  // namespace
+
+class TestWindowLayout : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { qputenv("UCHILSIM_RESOURCES", SOURCE_DIR "/resources"); }
+
+  void visitsToPagesLeaveTheSizeAndTheDocksAsTheyWere_data() {
+    QTest::addColumn<QSize>("size");
+    QTest::newRow("1280x720 with a frame") << QSize(1264, 676);
+    QTest::newRow("1366x768 with a frame") << QSize(1350, 724);
+    QTest::newRow("large") << QSize(1600, 1000);
+  }
+  void visitsToPagesLeaveTheSizeAndTheDocksAsTheyWere() {
+    QFETCH(QSize, size);
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(size);
+    action(*window, "resetLayout")->trigger();
+    window->resize(size);
+    action(*window, "resetLayout")->trigger();
+    window->resize(size);
+    Desk::settle();
+    QCOMPARE(window->size(), size);
+    QMap<QString, QRect> before;
+    for (const auto* dock : window->findChildren<QDockWidget*>())
+      if (DockLayout::isInFront(dock)) before[dock->objectName()] = dock->geometry();
+    for (int visit = 0; visit < 3; ++visit)
+      for (const char* page : {"showGapPage", "showGridPage"}) {
+        action(*window, page)->trigger();
+        Desk::settle();
+        QCOMPARE(window->size(), size);
+        action(*window, page)->trigger();
+        Desk::settle();
+        QCOMPARE(window->size(), size);
+      }
+    for (const auto& [name, place] : before.asKeyValueRange()) {
+      const QRect now = window->findChild<QDockWidget*>(name)->geometry();
+      QVERIFY2(qAbs(now.width() - place.width()) <= 8 && qAbs(now.height() - place.height()) <= 8,
+               qPrintable(QString("%1 %2x%3, before %4x%5")
+                              .arg(name)
+                              .arg(now.width())
+                              .arg(now.height())
+                              .arg(place.width())
+                              .arg(place.height())));
+    }
+  }
+
+  void aGrownWindowIsPutBackByResetLayout() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(3000, 2500);
+    action(*window, "resetLayout")->trigger();
+    Desk::settle();
+    const QRect room = window->screen()->availableGeometry();
+    QVERIFY(window->width() <= room.width() && window->height() <= room.height());
+  }
+
+  void theSizeOfAWindowLargerThanTheScreenIsNotRemembered() {
+    Desk desk;
+    {
+      const auto window = desk.open();
+      window->resize(3000, 2500);
+      QVERIFY(window->close());
+    }
+    const auto window = desk.open();
+    const QRect room = window->screen()->availableGeometry();
+    QVERIFY(window->width() <= room.width() && window->height() <= room.height());
+  }
+
+  // On 1280×720 everything that is in front has room to be read, and the button that starts an analysis is in sight.
+  void aSmallScreenShowsRowsPlotsAndButtons() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    Desk::settle();
+    for (const char* name : {"fitness", "sheet", "individuals", "gap", "draft", "replay"}) {
+      auto* dock = window->findChild<QDockWidget*>(QString("dock.") + name);
+      dock->raise();
+      Desk::settle();
+      QVERIFY2(DockLayout::isInFront(dock) && dock->height() >= 300, name);
+      QVERIFY2(window->rect().contains(dock->geometry()), name);
+    }
+    action(*window, "showGapPage")->trigger();
+    Desk::settle();
+    const auto* start = window->gapPage().findChild<QPushButton*>("startAnalysis");
+    QCOMPARE(start->visibleRegion().boundingRect(), start->rect());
+  }
+
+  // Tab goes through all that can be seen and comes back to where it began; what is behind a tab never gets the focus.
+  void tabGoesRoundThroughWhatIsInFrontOnly() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    window->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(window.get()));
+    QWidget* tree = window->findChild<QWidget*>("experimentTree");
+    for (const Qt::Key key : {Qt::Key_Tab, Qt::Key_Backtab}) {
+      tree->setFocus();
+      QSet<QDockWidget*> docks;
+      int steps = 0;
+      do {
+        QTest::keyClick(window->focusWidget(), key);
+        QWidget* focus = window->focusWidget();
+        if (QDockWidget* dock = dockOf(focus)) {
+          docks << dock;
+          QVERIFY2(DockLayout::isInFront(dock), qPrintable(dock->objectName() + ' ' + focus->objectName()));
+        }
+      } while (window->focusWidget() != tree && ++steps < 600);
+      QVERIFY2(steps < 600, qPrintable(window->focusWidget()->objectName()));
+      QVERIFY(docks.size() >= 3);
+    }
+  }
+
+  void noEntryStandsTwiceInAMenu() {
+    Desk desk;
+    const auto window = desk.open();
+    for (const QAction* top : window->menuBar()->actions()) {
+      QStringList texts;
+      for (const QAction* entry : top->menu()->actions())
+        if (!entry->isSeparator()) texts << entry->text().remove('&');
+      QVERIFY2(texts.removeDuplicates() == 0, qPrintable(top->text()));
+    }
+  }
+};
+
+QTEST_MAIN(TestWindowLayout)
+#include "test_window_layout.moc"

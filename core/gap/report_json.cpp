@@ -1,4 +1,4 @@
-// The report as report.json: the contract's keys, and ours beside them (resources/formats.md).
+// The report as report.json: the contract's keys, and ours beside them (resources/manual/formats/gap-report.md).
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -145,7 +145,7 @@ struct GapReport {
 bool leavesSomethingToAdopt(GapReport::Verdict verdict);
 const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters_suffice", …
 
-/// The contract's report.json (this program's additions: resources/manual/formats/gap-report.md). Without the series, which are in
+/// The report as report.json (resources/manual/formats/gap-report.md). Without the series, which are in
 /// overlay/*.csv.
 std::string toJsonText(const GapReport& report);
 /// What a terminal shows: the sentence, the ladder, effects tried, calibrated numbers, errors by channel.

@@ -28,7 +28,7 @@ struct SimulatorSpec {
 };
 
 /// The 12 adaptable parameters of UCHILSIM with units, search ranges and starting values
-/// (sources and certainty: resources/manual/formats/simulator.md): head_mass_kg, neck_mass_kg, body_mass_kg, leg_mass_kg (one leg),
+/// (sources: manual/formats/simulator.md): head_mass_kg, neck_mass_kg, body_mass_kg, leg_mass_kg (one leg),
 /// friction, gravity_m_s2, slip1_m_s_n, slip2_m_s_n, servo_p_nm_rad, servo_i_nm_rad_s, servo_d_nm_s_rad,
 /// servo_max_torque_nm. The servo numbers are those of a leg's J1; the other joints keep their ratio to it that the
 /// robot's file gives.

@@ -7,11 +7,20 @@
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
-#include "core/gap/analysis.h"
-#include "core/gap/inverse.h"
-#include "core/gap/predict.h"
-#include "core/gap/residual.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/inverse.h"
+#include "core/gap/replay/inverse_text.h"
+#include "core/gap/replay/predict.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/replay/residual_text.h"
+#include "core/gap/report/report_json.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/report/run_analysis.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "core/sim/worker_pool.h"
+#include "core/spec/cancelled.h"
 
 namespace btr::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/run/fitness_clues.h"
 #include "core/run/rig.h"
 #include "core/run/stored_recordings.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"

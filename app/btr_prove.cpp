@@ -6,8 +6,13 @@
 #include <iostream>
 
 #include "app/btr_commands.h"
-#include "core/gap/proof_run.h"
-#include "core/gap/proof_tally.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/proof/proof_json.h"
+#include "core/gap/proof/proof_run.h"
+#include "core/gap/proof/proof_tally.h"
+#include "core/gap/proof/proof_text.h"
+#include "core/gap/proof/proved_case.h"
+#include "core/gap/report/run_analysis.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

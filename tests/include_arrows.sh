@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → run → gap, store, plugin → learn, sim → model → spec.
+# Arrows point one way: ui, app → run → gap, store, plugin → learn, sim → model → spec; inside gap: proof → report → search →
+# fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 2
@@ -9,7 +10,12 @@ declare -A may=(
   [core/sim]="core/spec core/model core/sim"
   [core/learn]="core/spec core/learn"
   [core/plugin]="core/spec core/model core/sim core/learn core/plugin"
-  [core/gap]="core/spec core/model core/sim core/learn core/plugin core/gap"
+  [core/gap/recordings]="core/spec core/model core/sim core/learn core/plugin core/gap/recordings"
+  [core/gap/replay]="core/spec core/model core/sim core/learn core/plugin core/gap/recordings core/gap/replay"
+  [core/gap/fit]="core/spec core/model core/sim core/learn core/plugin core/gap/recordings core/gap/replay core/gap/fit"
+  [core/gap/search]="core/spec core/model core/sim core/learn core/plugin core/gap/recordings core/gap/replay core/gap/fit core/gap/search"
+  [core/gap/report]="core/spec core/model core/sim core/learn core/plugin core/gap/recordings core/gap/replay core/gap/fit core/gap/search core/gap/report"
+  [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
   [plugins]="core/plugin"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "core/gap/search/gap_report.h"
 #include "core/plugin/plugin_host.h"
 #include "core/run/rig.h"
 #include "core/spec/experiment_spec.h"

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/report/report_files.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/run_lock.h"
 #include "core/run/told_numbers.h"

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <span>
 
-#include "core/gap/report_figures.h"
-#include "core/gap/residual.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/report/report_figures.h"
 #include "core/run/evaluator.h"
 #include "core/run/reality_gap.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/figures.h"
 #include "core/spec/random.h"
 
 namespace btr {

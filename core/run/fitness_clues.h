@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/candidates.h"
+#include "core/gap/search/candidates.h"
 #include "core/run/prepared_experiment.h"
 #include "core/store/database.h"
 
@@ -13,8 +13,8 @@ namespace btr {
 /// One effect at one place, and how much of the differences between real and simulated fitness it would take away.
 struct FitnessClue {
   PlacedEffect effect;  ///< at the size that takes most away
-  double share = 0;     ///< of the sum of squared differences (each over its variance, where all were repeated), 0 … 1
-  double pValue = 1;    ///< that the best of all effects takes as much from the same differences dealt out at random
+  double share = 0;   ///< of the sum of squared differences (each over its variance, where all were repeated), 0 … 1
+  double pValue = 1;  ///< that the best of all effects takes as much from the same differences dealt out at random
   std::vector<double> simulated;  ///< fitness with it, by individual
 };
 
@@ -37,9 +37,9 @@ struct FitnessClues {
 };
 
 struct FitnessCluesOptions {
-  int workers = 0;                 ///< 0: as many as processors
-  std::vector<std::string> names;  ///< effects to consider; empty: all
-  std::uint64_t seed = 1;          ///< of the dealing out
+  int workers = 0;                                                       ///< 0: as many as processors
+  std::vector<std::string> names;                                        ///< effects to consider; empty: all
+  std::uint64_t seed = 1;                                                ///< of the dealing out
   std::function<bool(const std::string& stage, double share)> progress;  ///< false cancels
 };
 

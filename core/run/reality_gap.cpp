@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/spec/figures.h"
 
 namespace btr {
 

@@ -5,6 +5,9 @@
 #include <functional>
 #include <memory>
 
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/json_reader.h"
 
 namespace btr {

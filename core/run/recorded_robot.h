@@ -2,7 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/analysis.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/search/analysis.h"
 #include "core/run/prepared_experiment.h"
 #include "core/spec/random.h"
 

@@ -4,12 +4,17 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
 #include "core/run/reality_gap.h"
 #include "core/run/recorded_robot.h"
 #include "core/run/run_context.h"
 #include "core/run/stand_in.h"
 #include "core/run/stored_recordings.h"
 #include "core/run/told_numbers.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "core/gap/recording.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

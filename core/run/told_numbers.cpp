@@ -1,4 +1,6 @@
 #include "core/run/told_numbers.h"
+#include "core/gap/fit/uncertainty.h"
+#include "core/gap/search/gap_report.h"
 
 #include <algorithm>
 #include <cmath>

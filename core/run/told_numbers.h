@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/parameter.h"
 #include "core/store/records.h"
 

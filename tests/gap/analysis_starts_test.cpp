@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

@@ -1,6 +1,6 @@
 // Gap analysis on recordings that are made here, so that what is missing is known; and its statistics against
 // arithmetic.
-#include "core/gap/analysis.h"
+#include "core/gap/search/analysis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/candidates.h"
-#include "core/gap/score.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/score.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/report/report_json.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/report/run_analysis.h"
+#include "core/gap/search/candidates.h"
+#include "core/gap/search/gap_report.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
 #include "tests/refusal.h"

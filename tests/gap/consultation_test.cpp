@@ -1,5 +1,9 @@
 // The doctor comes before physics is blamed.
-#include "core/gap/consultation.h"
+#include "core/gap/search/consultation.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/report/report_html.h"
+#include "core/gap/search/gap_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,8 +9,13 @@
 #include <filesystem>
 #include <functional>
 
-#include "core/gap/doctor.h"
-#include "core/gap/residual.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/doctor.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/replay/start_state.h"
 #include "core/spec/random.h"
 #include "tests/gap/temporary_folder.h"
 

@@ -1,12 +1,18 @@
 // Fits in worker processes against the same fits without, and what they tell while they run.
-#include "core/gap/fit.h"
+#include "core/gap/fit/fit.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "core/gap/analysis.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/linearise.h"
+#include "core/gap/fit/parallel.h"
+#include "core/gap/search/analysis.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "tests/gap/recorded_hinge.h"
 

@@ -1,4 +1,4 @@
-#include "core/gap/initial_state.h"
+#include "core/gap/replay/initial_state.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,17 @@
 // Inverse scoring: the torque that a recorded motion takes.
-#include "core/gap/inverse.h"
+#include "core/gap/replay/inverse.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/replay.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/inverse_text.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+#include "core/gap/report/report_json.h"
 #include "core/sim/world.h"
 #include "core/spec/error.h"
 #include "tests/gap/scene_of.h"

@@ -1,10 +1,12 @@
 // Where an error lies is told by the names of what was looked at.
-#include "core/gap/locate.h"
+#include "core/gap/search/locate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/gap/fit_model.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

@@ -1,5 +1,5 @@
 // What to record next so that rivals part, for a joint that follows positions and for one that is pushed.
-#include "core/gap/next_recording.h"
+#include "core/gap/search/next_recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/extent.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/extent.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

@@ -1,4 +1,4 @@
-#include "core/gap/noise_floor.h"
+#include "core/gap/recordings/noise_floor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,15 @@
 // What a channel that stands still is known to.
-#include "core/gap/noise_sharing.h"
+#include "core/gap/fit/noise_sharing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/gap/noise_floor.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/noise_floor.h"
 #include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
 #include "tests/refusal.h"

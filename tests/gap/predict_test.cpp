@@ -1,4 +1,4 @@
-#include "core/gap/predict.h"
+#include "core/gap/replay/predict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
 #include "tests/gap/scene_of.h"
 
@@ -47,7 +48,8 @@ TEST(Predict, CommandsStandBesideWhatTheyCause) {
   recording.columns.emplace_back(recording.rows(), 0.3);
   const Recording predicted = predict(scene, recording);
   ASSERT_GE(predicted.column("rig.hinge.command_rad"), 0);
-  EXPECT_EQ(recording.columns[1], predicted.columns[static_cast<std::size_t>(predicted.column("rig.hinge.command_rad"))]);
+  EXPECT_EQ(recording.columns[1],
+            predicted.columns[static_cast<std::size_t>(predicted.column("rig.hinge.command_rad"))]);
   // At rest the servo's spring carries the weight: 20·(0.3 − q) = m·g·l·sin q.
   const double q = predicted.columns[static_cast<std::size_t>(predicted.column("rig.hinge.position_rad"))].back();
   EXPECT_NEAR(20 * (0.3 - q), 0.5 * 9.81 * 0.2 * std::sin(q), 1e-4);
@@ -60,7 +62,8 @@ TEST(Predict, WritesARecordingThatCanBeReadAgain) {
     "model": "rig.urdf", "base": "fixed", "collision": "none",
     "servos": {"hinge": {"p": 20}, "rail": {"p": 20}}}]})");
   folder.write("trial.csv", "time_s,rig.hinge.command_rad,rig.hinge.position_rad\n0,0.1,\n0.01,0.1,\n0.02,0.2,\n");
-  const auto written = runPredict({folder.file("scene.json"), folder.file("trial.csv"), "", "", folder.file("out.csv")}, {});
+  const auto written =
+      runPredict({folder.file("scene.json"), folder.file("trial.csv"), "", "", folder.file("out.csv")}, {});
   ASSERT_EQ(1u, written.size());
   const Recording again = loadRecording(folder.file("out.csv"));
   EXPECT_EQ(written[0].channels, again.channels);

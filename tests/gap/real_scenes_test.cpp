@@ -7,8 +7,13 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/gap/inverse.h"
-#include "core/gap/replay.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/inverse.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/replay/start_state.h"
 
 namespace btr {
 namespace {

@@ -4,8 +4,12 @@
 
 #include <cmath>
 
-#include "core/gap/analysis.h"
-#include "core/gap/replay.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+#include "core/gap/search/analysis.h"
 #include "core/spec/random.h"
 #include "tests/gap/scene_of.h"
 #include "tests/plugin/built_plugins.h"

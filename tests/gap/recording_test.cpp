@@ -1,10 +1,12 @@
-#include "core/gap/recording.h"
+#include "core/gap/recordings/recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/mapping.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/temporary_folder.h"

@@ -3,6 +3,11 @@
 
 #include <cmath>
 
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

@@ -1,4 +1,4 @@
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/report_figures.h"
-#include "core/gap/report_text.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/report/report_files.h"
+#include "core/gap/report/report_html.h"
+#include "core/gap/report/report_json.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/report/report_text.h"
+#include "core/gap/search/report_words.h"
 #include "core/spec/error.h"
+#include "core/spec/figures.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
 #include "tests/gap/temporary_folder.h"

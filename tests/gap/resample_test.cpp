@@ -1,10 +1,12 @@
-#include "core/gap/resample.h"
+#include "core/gap/recordings/resample.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/gap/lowpass.h"
+#include "core/gap/recordings/lowpass.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
 #include "tests/gap/temporary_folder.h"
 

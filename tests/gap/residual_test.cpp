@@ -1,4 +1,4 @@
-#include "core/gap/residual.h"
+#include "core/gap/replay/residual.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,10 @@
 #include <functional>
 #include <limits>
 
-#include "core/gap/replay.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
 #include "core/sim/world.h"
 #include "tests/gap/scene_of.h"
 #include "tests/refusal.h"

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/residual.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/replay/overlay.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/replay/residual_text.h"
 
 namespace btr {
 namespace {

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/gap/report/report_files.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/sample_report.h"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 
 namespace btr {
 

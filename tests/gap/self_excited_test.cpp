@@ -1,5 +1,5 @@
 // A servo that hunts, told from one that is shaken by its command, rings as the simulator does, or is only noisy.
-#include "core/gap/self_excited.h"
+#include "core/gap/search/self_excited.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,9 @@
 #include <functional>
 #include <numbers>
 
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/random.h"
 
 namespace btr {

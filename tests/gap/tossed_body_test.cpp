@@ -2,7 +2,14 @@
 // them, and what the floor does is found.
 #include <algorithm>
 
-#include "core/gap/fit_problem.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/segments.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

@@ -1,11 +1,13 @@
 // Units of an effect's numbers: forces and ways on a slide joint, torques and angles on a turning one.
-#include "core/gap/unit_at.h"
+#include "core/gap/fit/unit_at.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/gap/fit_model.h"
-#include "core/gap/learned_force.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/search/learned_force.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

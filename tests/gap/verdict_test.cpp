@@ -1,12 +1,16 @@
 // What a verdict says of errors before and after, against its rules: at most a fifth of the excess may stay, above two
 // noise floors at most a twenty-fifth, and never five noise floors.
-#include "core/gap/verdict.h"
+#include "core/gap/search/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/proof/proof_marks.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/random.h"
 
 namespace btr {

@@ -7,9 +7,14 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/gap/analysis.h"
-#include "core/gap/initial_state.h"
-#include "core/gap/residual.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/initial_state.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/report/run_analysis.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

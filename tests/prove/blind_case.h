@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/proof_answer.h"
+#include "core/gap/proof/proof_answer.h"
 #include "tests/prove/blind_world.h"
 
 namespace btr::prove {

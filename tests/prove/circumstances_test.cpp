@@ -5,7 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/proof_fresh.h"
+#include "core/gap/proof/proof_fresh.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"
 #include "tests/prove/prove_fixture.h"

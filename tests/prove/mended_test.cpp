@@ -5,8 +5,14 @@
 #include <algorithm>
 #include <map>
 
-#include "core/gap/analysis.h"
-#include "core/gap/fit.h"
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/starts_anew.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/prove/open_case.h"
 
 namespace btr::prove {

@@ -3,7 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/analysis.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/gap/temporary_folder.h"
 #include "tests/prove/prove_fixture.h"
 

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/gap/replay.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
 #include "tests/gap/temporary_folder.h"
 #include "tests/prove/outside_effects.h"
 #include "tests/prove/prove_fixture.h"

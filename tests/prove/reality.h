@@ -2,7 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/replay.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
 #include "tests/prove/blind_world.h"
 
 namespace btr::prove {

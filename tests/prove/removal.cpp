@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/linearise.h"
 #include "core/sim/effect.h"
 #include "tests/prove/reality.h"
 

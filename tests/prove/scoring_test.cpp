@@ -5,8 +5,15 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/proof_run.h"
-#include "core/gap/proof_tally.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/proof/proof_json.h"
+#include "core/gap/proof/proof_marks.h"
+#include "core/gap/proof/proof_run.h"
+#include "core/gap/proof/proof_tally.h"
+#include "core/gap/proof/proof_text.h"
+#include "core/gap/proof/proved_case.h"
+#include "core/gap/report/run_analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"

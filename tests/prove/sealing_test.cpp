@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <set>
 
-#include "core/gap/recording.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/temporary_folder.h"

@@ -4,6 +4,11 @@
 
 #include <cmath>
 
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/segments.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/gap_report.h"
 #include "tests/prove/open_case.h"
 
 namespace btr::prove {

@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/analysis.h"
-#include "core/gap/gap_report.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/recorded_robot.h"
 #include "core/run/stand_in.h"

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/gap/report/report_files.h"
+#include "core/gap/search/gap_report.h"
 #include "core/run/run_lock.h"
 #include "core/run/told_numbers.h"
 #include "core/spec/error.h"

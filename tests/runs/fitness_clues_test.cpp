@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/run/evaluator.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "tests/runs/small_kick_run.h"
 

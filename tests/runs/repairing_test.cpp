@@ -5,8 +5,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/fit_problem.h"
-#include "core/gap/replay.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/recorded_robot.h"
 #include "core/run/stand_in.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/gap/recording.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/temporary_folder.h"

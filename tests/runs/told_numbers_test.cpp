@@ -1,5 +1,6 @@
 // What recordings told of a simulator's numbers, and bounds narrowed to it.
 #include "core/run/told_numbers.h"
+#include "core/gap/search/gap_report.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,11 @@
 #include <QTemporaryDir>
 #include <QTest>
 
-#include "core/gap/recording.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/report/report_files.h"
+#include "core/gap/report/report_html.h"
+#include "core/gap/search/gap_report.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"

@@ -10,6 +10,7 @@
 #include <QTableWidget>
 #include <QTest>
 
+#include "core/gap/report/report_plain.h"
 #include "core/spec/error.h"
 #include "ui/database/individual_details.h"
 #include "ui/database/individuals_table.h"

@@ -18,6 +18,7 @@
 #include <QTreeView>
 #include <algorithm>
 
+#include "core/gap/search/screen.h"
 #include "core/run/prepared_experiment.h"
 #include "tests/gap/rig_report.h"
 #include "tests/plugin/built_plugins.h"

@@ -15,8 +15,9 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "core/gap/objection.h"
-#include "core/gap/recording.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/objection.h"
+#include "core/gap/recordings/recording.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"
 #include "ui/common/progress.h"

@@ -8,7 +8,8 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/spec/figures.h"
 #include "ui/common/format.h"
 #include "ui/common/progress.h"
 #include "ui/common/reading_table.h"

@@ -2,7 +2,10 @@
 
 #include <QHeaderView>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
+#include "core/spec/figures.h"
 #include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <QTableWidget>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 
 namespace btr::ui {
 

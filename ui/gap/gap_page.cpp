@@ -9,7 +9,13 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
-#include "core/gap/report_text.h"
+#include "core/gap/replay/number_table.h"
+#include "core/gap/report/report_files.h"
+#include "core/gap/report/report_html.h"
+#include "core/gap/report/report_json.h"
+#include "core/gap/report/report_text.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/theme.h"

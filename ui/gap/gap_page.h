@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 #include "core/store/records.h"
 #include "ui/gap/analysis_process.h"
 

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/report_figures.h"
-#include "core/gap/residual.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/search/gap_report.h"
+#include "core/spec/figures.h"
 #include "ui/common/format.h"
 
 namespace btr::ui {

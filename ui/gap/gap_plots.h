@@ -1,5 +1,5 @@
 #pragma once
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 #include "ui/charts/plot_data.h"
 
 namespace btr::ui {

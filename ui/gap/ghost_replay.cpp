@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/search/gap_report.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "ui/common/format.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 #include "core/sim/scene.h"
 #include "ui/scene3d/replay_panel.h"
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/search/gap_report.h"
 #include "ui/common/format.h"
 #include "ui/gap/gap_plots.h"
 

@@ -3,7 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/search/gap_report.h"
 
 namespace btr::ui {
 

@@ -9,7 +9,9 @@
 #include <numbers>
 #include <set>
 
-#include "core/gap/recording.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
 

@@ -13,8 +13,10 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "core/gap/recording.h"
-#include "core/gap/residual.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/residual.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/format.h"

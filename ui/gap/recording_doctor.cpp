@@ -2,7 +2,9 @@
 
 #include <QFileInfo>
 
-#include "core/gap/trial_scenes.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/recording_health.h"
+#include "core/gap/replay/trial_scenes.h"
 #include "ui/common/file_state.h"
 
 namespace btr::ui {

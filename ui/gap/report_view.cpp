@@ -10,7 +10,10 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
+#include "core/spec/figures.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"

@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <memory>
 
-#include "core/gap/gap_report.h"
+#include "core/gap/search/gap_report.h"
 
 class QComboBox;
 class QLabel;

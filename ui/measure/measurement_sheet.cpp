@@ -14,6 +14,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "core/gap/proof/proof_marks.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/message_banner.h"
 #include "ui/common/theme.h"

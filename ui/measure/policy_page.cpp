@@ -12,7 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/report_figures.h"
+#include "core/gap/report/report_figures.h"
+#include "core/spec/figures.h"
 #include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"

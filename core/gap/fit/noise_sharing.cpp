@@ -1,0 +1,124 @@
+#include "core/gap/fit/noise_sharing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/extent.h"
+#include "core/gap/recordings/noise_floor.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/residual.h"
+
+namespace btr {
+namespace {
+
+using Measured = Binding::Measured;
+
+/// A rate is compared only where the position is not recorded: it is the same motion seen through a filter.
+bool isCompared(const Binding& binding, const Measured& measured) {
+  if (measured.what != Measured::What::rate) return true;
+  return std::none_of(binding.measured.begin(), binding.measured.end(), [&](const Measured& other) {
+    return other.what == Measured::What::position && other.object == measured.object && other.part == measured.part;
+  });
+}
+
+/// What one kind of sensor tells: "position_rad" of all joints, the three axes of a base or ball, its orientation.
+std::string sensorOf(const std::string& channel) {
+  const auto name = parseChannel(channel);
+  if (!name) return channel;
+  if (!name->part.empty() && name->part != "base") return name->quantity;
+  return name->quantity[0] == 'q' ? "orientation" : "place";
+}
+
+Extent extentOf(const std::vector<double>& values) {
+  Extent extent;
+  extent.add(values);
+  return extent;
+}
+
+/// What is known of a channel in all trials.
+struct Known {
+  std::vector<double> levels;  ///< of the trials that show its noise
+  double least = 1e-9;         ///< a millionth of what it moves
+  double lastDigit = 0;
+};
+
+class NoiseFloors {
+ public:
+  explicit NoiseFloors(const std::vector<FitTrial>& trials) {
+    for (const FitTrial& trial : trials)
+      for (const Measured& measured : trial.binding.measured)
+        if (isCompared(trial.binding, measured)) add(trial.recording, measured.column);
+  }
+
+  /// 0 for a channel without a number.
+  double of(const std::string& channel, std::vector<std::string>& notes) const {
+    const auto found = known_.find(channel);
+    if (found == known_.end()) return 0;
+    const Known& own = found->second;
+    if (!own.levels.empty()) return median(own.levels);
+    const auto [level, from] = borrowed(channel, own);
+    const double floor = std::max(level, own.least);
+    const std::string text = channel + ": stands still, so that it does not show its noise; its noise floor, " +
+                             toText(floor) + " " + unitOfChannel(channel) + ", is " + from;
+    if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
+    return floor;
+  }
+
+ private:
+  void add(const Recording& recording, std::size_t column) {
+    const std::vector<double>& values = recording.columns[column];
+    const Extent extent = extentOf(values);
+    if (extent.empty()) return;
+    Known& known = known_[recording.channels[column]];
+    const double least = std::max(1e-6 * (extent.high - extent.low), 1e-9);
+    known.least = std::max(known.least, least);
+    // A constant's differences show the rounding of the arithmetic.
+    const double rounding = 1e-12 * std::max(std::abs(extent.low), std::abs(extent.high));
+    if (const double level = resolution(values); level > rounding) known.levels.push_back(std::max(level, least));
+    if (column < recording.places.lastDigit.size())
+      known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);
+  }
+
+  /// The level of a channel that shows none, and where it is from, in words.
+  std::pair<double, std::string> borrowed(const std::string& channel, const Known& own) const {
+    constexpr double withoutAnything = 1e-6;
+    const double ofRounding = 1 / std::sqrt(12.0);
+    std::vector<double> others;
+    double digit = own.lastDigit;
+    std::string names;
+    for (const auto& [name, known] : known_) {
+      if (name == channel || sensorOf(name) != sensorOf(channel)) continue;
+      if (own.lastDigit == 0) digit = std::max(digit, known.lastDigit);
+      if (known.levels.empty()) continue;
+      others.push_back(median(known.levels));
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    if (!others.empty()) return {median(others), "that of " + names};
+    if (digit > 0) return {digit * ofRounding, "the rounding of the file's decimals"};
+    return {withoutAnything, "a guess: nothing in these recordings tells it"};
+  }
+
+  std::map<std::string, Known> known_;
+};
+
+}  // namespace
+
+void shareNoiseFloors(std::vector<FitTrial>& trials, std::vector<std::string>& notes) {
+  const NoiseFloors floors(trials);
+  for (FitTrial& trial : trials) {
+    trial.noiseFloor.clear();
+    for (const Measured& measured : trial.binding.measured) {
+      const bool holdsNumbers = !extentOf(trial.recording.columns[measured.column]).empty();
+      trial.noiseFloor.push_back(holdsNumbers && isCompared(trial.binding, measured)
+                                     ? floors.of(trial.recording.channels[measured.column], notes)
+                                     : 0);
+    }
+  }
+}
+
+}  // namespace btr

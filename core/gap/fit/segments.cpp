@@ -1,0 +1,302 @@
+// Trials cut into segments, blocks and folds; states estimated where a segment begins.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/segments.h"
+#include "core/gap/recordings/binding.h"
+#include "core/gap/replay/initial_state.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/start_state.h"
+
+namespace btr {
+namespace {
+
+using Measured = Binding::Measured;
+
+struct Local {
+  double value = 0, slope = 0, valueError = 0, slopeError = 0;
+  double spread = 0;  ///< of the samples about the parabola, at least the noise
+  bool known = false;
+};
+
+/// Least-squares parabola through the samples within ±`reach` rows of `row`: value and slope there, with standard
+/// errors for the given noise.
+Local localParabola(std::span<const double> time, std::span<const double> values, std::size_t row, double reach_s,
+                    double noise) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = row; i-- > 0 && time[row] - time[i] <= reach_s;)
+    if (std::isfinite(values[i])) rows.push_back(i);
+  for (std::size_t i = row; i < time.size() && (time[i] - time[row] <= reach_s || rows.size() < 4); ++i)
+    if (std::isfinite(values[i])) rows.push_back(i);
+  if (rows.size() < 4) return {};
+  Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), 3);
+  Eigen::VectorXd b(a.rows());
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    const double t = time[rows[static_cast<std::size_t>(i)]] - time[row];
+    a.row(i) << 1, t, t * t;
+    b[i] = values[rows[static_cast<std::size_t>(i)]];
+  }
+  const Eigen::Matrix3d normal = a.transpose() * a;
+  const Eigen::Matrix3d inverse = normal.inverse();
+  if (!inverse.allFinite()) return {};
+  const Eigen::Vector3d fit = inverse * (a.transpose() * b);
+  const double spread = std::max(noise, std::sqrt((a * fit - b).squaredNorm() / static_cast<double>(a.rows() - 3 + 1)));
+  return {fit[0], fit[1], spread * std::sqrt(inverse(0, 0)), spread * std::sqrt(inverse(1, 1)), spread, true};
+}
+
+constexpr double reach_s = 0.02;
+
+/// How far a free body's samples around a row are from smooth motion, in noise floors: large across an impact.
+double roughness(const FitTrial& trial, std::size_t row) {
+  double sum = 0;
+  for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
+    const Measured& measured = trial.binding.measured[i];
+    if (trial.noiseFloor[i] <= 0 ||
+        (measured.what != Measured::What::basePosition && measured.what != Measured::What::baseOrientation))
+      continue;
+    const Local local = localParabola(trial.recording.columns[0], trial.recording.columns[measured.column], row,
+                                      reach_s, trial.noiseFloor[i]);
+    if (local.known) sum += local.spread / trial.noiseFloor[i];
+  }
+  return sum;
+}
+
+/// The smoothest row within a third of a window of `row`.
+std::size_t smoothestNear(const FitTrial& trial, std::size_t row, double window_s) {
+  const std::vector<double>& time = trial.recording.columns[0];
+  std::size_t best = row;
+  double least = roughness(trial, row);
+  for (const int way : {-1, 1})
+    for (std::size_t k = row; k > 0 && k + 1 < time.size() && std::abs(time[k] - time[row]) < window_s / 3;) {
+      k = way < 0 ? k - 1 : k + 1;
+      if (const double here = roughness(trial, k); here < least) {
+        best = k;
+        least = here;
+      }
+    }
+  return best;
+}
+
+/// One value only: what moves less than its counts, or not at all.
+bool isConstant(const std::vector<double>& values) {
+  const auto first = std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
+  return first != values.end() &&
+         std::all_of(first, values.end(), [&](double value) { return !std::isfinite(value) || value == *first; });
+}
+
+/// All rows of a constant column are off by the same part of a count: that is one error, not one a row.
+void addRoundings(const FitTrial& trial, std::vector<Nuisance>& nuisances) {
+  for (std::size_t i = 0; i < trial.binding.measured.size(); ++i)
+    if (trial.noiseFloor[i] > 0 && isConstant(trial.recording.columns[trial.binding.measured[i].column]))
+      nuisances.push_back({Nuisance::What::rounding, i, 0, trial.noiseFloor[i]});
+}
+
+bool isVelocity(Nuisance::What what) {
+  using enum Nuisance::What;
+  return what == jointRate || what == baseVelocity || what == baseSpin || what == ballVelocity;
+}
+
+}  // namespace
+
+StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row, std::vector<Nuisance>& nuisances) {
+  const FitTrial& trial = problem.trials[index];
+  const Scene scene = problem.sceneOf(problem.given, index);
+  StartState state = startState(scene, trial.recording, trial.binding, row);
+  const bool rests = trial.recording.beginsAtRest && row == 0;  // which is known, and no question to a fit
+  const std::span<const double> time(trial.recording.columns[0]);
+  nuisances.clear();
+
+  for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
+    const Measured& measured = trial.binding.measured[i];
+    const std::span<const double> values(trial.recording.columns[measured.column]);
+    const double noise = trial.noiseFloor[i];
+    const auto add = [&](Nuisance::What what, std::size_t part, double unit) {
+      if (!rests || !isVelocity(what)) nuisances.push_back({what, measured.object, part, unit});
+    };
+    if (measured.what == Measured::What::position) {
+      const Drive& drive = scene.robots[measured.object].drives[measured.part];
+      Local local = localParabola(time, values, row, reach_s, noise);
+      double& position = state.robots[measured.object].positions[measured.part];
+      double& rate = state.robots[measured.object].rates[measured.part];
+      if (row > 0 && local.known) {
+        position = local.value;
+        rate = local.slope;
+      }
+      // A servo of a walking robot forgets; where few joints move, each beginning is worth a fit.
+      if (scene.robots[measured.object].freeBase && drive.kind == Drive::Kind::servo) continue;
+      add(Nuisance::What::jointPosition, measured.part, std::max(noise, local.known ? local.valueError : noise));
+      // A line through the first samples says "at rest" of all that is slower than its noise: a servo with a heavy
+      // rotor may still swing then.
+      if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
+        add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
+    } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
+      const Local local = localParabola(time, values, row, reach_s, noise);
+      if (!local.known) continue;
+      const auto axis = static_cast<Eigen::Index>(measured.part);
+      if (row > 0) {
+        state.robots[measured.object].base.translation()[axis] = local.value;
+        state.robots[measured.object].velocity_m_s[axis] = local.slope;
+      }
+      add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError));
+      add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+    } else if (measured.what == Measured::What::baseOrientation && measured.part > 0 &&
+               scene.robots[measured.object].freeBase) {
+      // A quaternion's noise is half an angle's.
+      add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise);
+      add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
+    } else if (measured.what == Measured::What::ballPosition) {
+      const Local local = localParabola(time, values, row, reach_s, noise);
+      if (!local.known) continue;
+      const auto axis = static_cast<Eigen::Index>(measured.part);
+      BallState& ball = state.balls[measured.object];
+      if (row > 0) {
+        ball.position_m[axis] = local.value;
+        ball.velocity_m_s[axis] = local.slope;
+      }
+      if (ball.onFloor && axis == 2) continue;
+      add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError));
+      add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+    }
+  }
+  for (std::size_t r = 0; r < state.robots.size() && row > 0; ++r) {
+    // Spin over the samples on both sides of the row.
+    std::array<std::span<const double>, 4> attitude;
+    std::size_t from = row;
+    while (from > 0 && time[row] - time[from - 1] <= reach_s) --from;
+    for (const Measured& measured : trial.binding.measured)
+      if (measured.what == Measured::What::baseOrientation && measured.object == r)
+        attitude[measured.part] = std::span(trial.recording.columns[measured.column]).subspan(from);
+    if (!scene.robots[r].freeBase || attitude[0].empty() || attitude[1].empty() || attitude[2].empty() ||
+        attitude[3].empty())
+      continue;
+    const StartAttitude around = estimateAttitude(time.subspan(from), attitude, 2 * reach_s);
+    const double ahead = time[row] - time[from], angle = around.spin_rad_s.norm() * ahead;
+    state.robots[r].base.linear() =
+        ((angle > 0 ? Eigen::AngleAxisd(angle, around.spin_rad_s.normalized()) : Eigen::AngleAxisd::Identity()) *
+         around.orientation)
+            .toRotationMatrix();
+    state.robots[r].spin_rad_s = around.spin_rad_s;
+  }
+  for (BallState& ball : state.balls)
+    if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+  addRoundings(trial, nuisances);
+  return state;
+}
+
+void cutSegments(FitProblem& problem, double window_s) {
+  problem.window_s = window_s;
+  problem.segments.clear();
+  double total = 0, shortest = INFINITY;
+  for (const FitTrial& trial : problem.trials) {
+    const auto& time = trial.recording.columns[0];
+    const double length_s = time[trial.rows() - 1] - time.front();
+    total += length_s;
+    shortest = std::min(shortest, length_s);
+  }
+  // Half-second blocks where there are enough of them for a test.
+  problem.block_s = std::clamp(total / 60, std::min(0.05, shortest / 2), 0.5);
+  problem.blocks = 0;
+
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const FitTrial& trial = problem.trials[t];
+    const auto& time = trial.recording.columns[0];
+    const std::size_t rows = trial.rows();
+    const auto blockOf = [&](std::size_t row) { return static_cast<int>((time[row] - time[0]) / problem.block_s); };
+    for (std::size_t first = 0; first + 4 < rows;) {
+      std::size_t last = rows;
+      if (window_s > 0) {
+        last = first;
+        while (last < rows && time[last] < time[first] + window_s) ++last;
+        if (last < rows && time[rows - 1] - time[last] < window_s / 2) last = rows;
+        if (last < rows && problem.impacts) last = smoothestNear(trial, last, window_s);
+      }
+      if (last - first < 5) break;
+      Segment segment;
+      segment.trial = t;
+      segment.first = segment.scored = first;
+      segment.last = last;
+      segment.start = stateAt(problem, t, first, segment.nuisances);
+      for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
+        if (trial.noiseFloor[c] <= 0) continue;
+        const auto& values = trial.recording.columns[trial.binding.measured[c].column];
+        const bool constant = isConstant(values);
+        for (std::size_t row = segment.scored; row < last; ++row) {
+          // What never changes says no more in a hundred rows than in one; a look into each block sees who leaves it.
+          if (constant && row + 1 < last && blockOf(row + 1) == blockOf(row)) continue;
+          if (!std::isfinite(values[row])) continue;
+          segment.channel.push_back(c);
+          segment.row.push_back(row);
+          segment.block.push_back(problem.blocks + blockOf(row));
+          // Two blocks to a fold, trials shifted against each other; a window stays whole.
+          const double at = window_s > 0 ? time[first] - time[0] + 1e-9 : time[row] - time[0];
+          const double stretch = window_s > 0 ? window_s : 2 * problem.block_s;
+          segment.fold.push_back(static_cast<char>((static_cast<std::size_t>(at / stretch) + t) % 2));
+        }
+      }
+      if (!segment.row.empty()) problem.segments.push_back(std::move(segment));
+      first = last;
+    }
+    problem.blocks += blockOf(rows - 1) + 1;
+  }
+}
+
+std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                const std::vector<double>& shift) {
+  const FitTrial& trial = problem.trials[segment.trial];
+  StartState start = segment.start;
+  std::vector<double> rounding(trial.noiseFloor.size(), 0);
+  for (std::size_t i = 0; i < shift.size(); ++i) {
+    const Nuisance& nuisance = segment.nuisances[i];
+    const double by = shift[i] * nuisance.unit;
+    const auto axis = static_cast<Eigen::Index>(nuisance.part);
+    switch (nuisance.what) {
+      case Nuisance::What::jointPosition:
+        start.robots[nuisance.object].positions[nuisance.part] += by;
+        break;
+      case Nuisance::What::jointRate:
+        start.robots[nuisance.object].rates[nuisance.part] += by;
+        break;
+      case Nuisance::What::basePosition:
+        start.robots[nuisance.object].base.translation()[axis] += by;
+        break;
+      case Nuisance::What::baseVelocity:
+        start.robots[nuisance.object].velocity_m_s[axis] += by;
+        break;
+      case Nuisance::What::baseTurn:
+        start.robots[nuisance.object].base.linear() =
+            Eigen::AngleAxisd(by, Eigen::Vector3d::Unit(axis)).toRotationMatrix() *
+            start.robots[nuisance.object].base.linear();
+        break;
+      case Nuisance::What::baseSpin:
+        start.robots[nuisance.object].spin_rad_s[axis] += by;
+        break;
+      case Nuisance::What::ballPosition:
+        start.balls[nuisance.object].position_m[axis] += by;
+        break;
+      case Nuisance::What::ballVelocity:
+        start.balls[nuisance.object].velocity_m_s[axis] += by;
+        break;
+      case Nuisance::What::rounding:
+        rounding[nuisance.object] = by;
+        break;
+    }
+  }
+  for (BallState& ball : start.balls)
+    if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+
+  const ReplayedRecording replayed =
+      replayRecording(scene, trial.recording, trial.binding, start, segment.first, segment.last);
+  constexpr double afterFault = 100;
+  std::vector<double> residuals(segment.row.size(), afterFault);
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    const std::size_t c = segment.channel[k], row = segment.row[k];
+    const double recorded = trial.recording.columns[trial.binding.measured[c].column][row];
+    const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.noiseFloor[c];
+    if (std::isfinite(value)) residuals[k] = value;
+  }
+  return residuals;
+}
+
+}  // namespace btr

@@ -1,0 +1,17 @@
+#pragma once
+#include <optional>
+#include <string>
+
+namespace btr {
+
+/// The parts of a channel's name: "leg.knee.position_rad", "leg.base.x_m", "ball.x_m" (part is empty).
+struct ChannelName {
+  std::string owner, part, quantity;
+};
+/// The parts of a name that the contract knows, or nothing.
+std::optional<ChannelName> parseChannel(const std::string& name);
+
+/// For people: "position_rad" is in "rad", "torque_nm" in "N·m", "" for none.
+std::string unitOfChannel(const std::string& channel);
+
+}  // namespace btr

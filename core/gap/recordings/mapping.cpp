@@ -1,0 +1,90 @@
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/gap/recordings/mapping.h"
+
+#include "core/gap/recordings/channel_name.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+
+Mapping mappingFromJson(const std::string& text, const std::string& place) {
+  JsonReader reader = JsonReader::parse(text, place);
+  Mapping mapping;
+  mapping.source = place;
+  if (!reader.node().is_object())
+    throw InputError(place, "not an object", "{\"CHANNEL\": {\"column\": \"NAME\"}, ...}");
+
+  // What is said of the whole file stands beside the channels; no channel is called like that.
+  reader.array("settings", [&](JsonReader entry) {
+    TrialSetting setting{entry.text("file_contains"), entry.anyValues("values")};
+    if (setting.fileContains.empty()) entry.refuse("file_contains", "a part of the file's name");
+    entry.finish();
+    mapping.settings.push_back(std::move(setting));
+  });
+
+  if (auto segments = reader.objectIfAny("segments")) {
+    mapping.segmentColumn = segments->text("column");
+    segments->finish();
+  }
+
+  if (auto resample = reader.objectIfAny("resample")) {
+    mapping.period_s = resample->number("period_s", 1e-6, 1e6, 0);
+    mapping.lowpass_hz = resample->number("lowpass_hz", 1e-6, 1e6, 0);
+    resample->finish();
+  }
+
+  bool hasTime = false;
+  for (const auto& [channel, value] : reader.node().items()) {
+    if (channel == "settings" || channel == "segments" || channel == "resample") continue;
+    if (channel != "time_s" && !parseChannel(channel))
+      throw InputError(place, "channel \"" + channel + "\"",
+                       "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "
+                       "leg.knee.position_rad");
+    JsonReader entry = reader.object(channel);
+    MappedColumn column;
+    column.channel = channel;
+    column.column = entry.text("column");
+    column.scale = entry.number("scale", -1e12, 1e12, 1);
+    column.offset = entry.number("offset", -1e12, 1e12, 0);
+    column.optional = entry.flag("optional", false);
+    column.compare = entry.flag("compare", true);
+    entry.array("add", [&](JsonReader term) {
+      MappedColumn::Added added{term.text("column"), term.number("scale", -1e12, 1e12, 1),
+                                term.flag("optional", false)};
+      term.finish();
+      column.added.push_back(std::move(added));
+    });
+    if (column.scale == 0) entry.refuse("scale", "a number other than 0");
+    if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
+    entry.finish();
+    hasTime = hasTime || channel == "time_s";
+    mapping.columns.push_back(std::move(column));
+  }
+  reader.finish();
+  if (!hasTime) throw InputError(place + ": \"time_s\" is missing; it names the column of time");
+  return mapping;
+}
+
+Mapping loadMapping(const std::string& path) { return mappingFromJson(readFile(path), path); }
+
+std::optional<std::string> findMapping(const std::string& recordingPath, const std::string& scene) {
+  namespace fs = std::filesystem;
+  const fs::path recording(recordingPath);
+  const fs::path folder = recording.parent_path();
+  const std::string ending = ".mapping.json";
+  std::vector<fs::path> candidates{folder / (recording.stem().string() + ending),
+                                   folder / (recording.filename().string() + ending), folder / "mapping.json"};
+  if (const fs::path path(scene); !scene.empty())
+    candidates.push_back(path.parent_path() / (path.stem().string() + ending));
+  for (const fs::path& candidate : candidates) {
+    std::error_code ignored;
+    if (fs::exists(candidate, ignored)) return candidate.string();
+  }
+  return std::nullopt;
+}
+
+}  // namespace btr

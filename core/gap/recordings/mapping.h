@@ -1,0 +1,49 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spec/parameter.h"
+
+namespace btr {
+
+/// How columns of a foreign file become a channel: value = scale·x + offset + Σ scaleᵢ·xᵢ; a negative scale turns the
+/// sign.
+struct MappedColumn {
+  struct Added {
+    std::string column;
+    double scale = 1;
+    bool optional = false;
+  };
+  std::string channel;
+  std::string column;
+  double scale = 1;
+  double offset = 0;
+  bool optional = false;     ///< a file without this column is accepted
+  bool compare = true;       ///< false: a measurement that gives the start and the motion but is not compared
+  std::vector<Added> added;  ///< the other terms, e.g. a relative angle from two absolute ones
+};
+/// Numbers of the scene that were set differently from trial to trial and stand in the file's name alone.
+struct TrialSetting {
+  std::string fileContains;
+  Values values;  ///< by path into the scene, e.g. "robots.leg.servos.knee.p"
+};
+struct Mapping {
+  std::string source;
+  std::vector<MappedColumn> columns;
+  std::vector<TrialSetting> settings;
+  double period_s = 0, lowpass_hz = 0;  ///< see Resampling; both 0: the samples as they are
+  std::string segmentColumn;            ///< whenever its number changes a new trial begins; "": the file is one trial
+};
+
+/// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
+/// "segments": {"column": "piece"}, "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws InputError for what is
+/// not a channel, a channel or a key that nobody knows.
+Mapping mappingFromJson(const std::string& text, const std::string& place);
+Mapping loadMapping(const std::string& path);
+/// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is
+/// there; else "SCENE.mapping.json" beside the scene ("" for none), which is for all recordings without one of their
+/// own.
+std::optional<std::string> findMapping(const std::string& recordingPath, const std::string& scene = "");
+
+}  // namespace btr

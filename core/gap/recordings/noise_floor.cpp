@@ -1,0 +1,104 @@
+#include "core/gap/recordings/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/gap/recordings/even_grid.h"
+
+namespace btr {
+namespace {
+
+/// Of finite neighbours.
+std::vector<double> differencesOf(std::span<const double> values) {
+  std::vector<double> differences;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (const double difference = values[i] - values[i - 1]; std::isfinite(difference))
+      differences.push_back(difference);
+  return differences;
+}
+
+double rootMeanSquare(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// What these differences are whole multiples of, the smallest of them; 0 for nothing. Up to `negligible` they are
+/// zero; where the smallest of the others is below `rounding` nothing is told.
+double commonMeasure(const std::vector<double>& differences, double negligible, double rounding) {
+  std::vector<double> steps;
+  for (const double difference : differences)
+    if (std::abs(difference) > negligible) steps.push_back(std::abs(difference));
+  // Few different steps prove nothing.
+  if (steps.size() < 10) return 0;
+  const double smallest = *std::min_element(steps.begin(), steps.end());
+  if (smallest < rounding) return 0;
+  // The smallest difference carries the rounding of the file's digits; the mean over all of them does not.
+  double counts = 0, travel = 0;
+  for (const double step : steps) {
+    if (step > 50 * smallest) continue;
+    counts += std::round(step / smallest);
+    travel += step;
+  }
+  const double quantum = travel / counts;
+  std::size_t whole = 0, multiples = 0, ones = 0;
+  for (const double step : steps) {
+    const double ratio = step / quantum;
+    if (ratio > 10) continue;
+    ++multiples;
+    if (std::abs(ratio - std::round(ratio)) < 0.02 * std::max(1.0, ratio)) ++whole;
+    if (std::round(ratio) == 1) ++ones;
+  }
+  // An even motion without any noise has one difference, and no count.
+  const bool areCounts = ones < differences.size();
+  return areCounts && multiples >= 10 && static_cast<double>(whole) >= 0.98 * static_cast<double>(multiples) ? quantum
+                                                                                                             : 0;
+}
+
+}  // namespace
+
+double noiseFloor(std::span<const double> values) {
+  constexpr std::size_t block = 50;
+  const double gain = std::sqrt(70.0);  // 1² + 4² + 6² + 4² + 1²
+  std::vector<double> levels;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 4; i < values.size(); ++i) {
+    const double difference = values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4];
+    if (std::isfinite(difference)) {
+      sum += difference * difference;
+      ++count;
+    }
+    // A block is full; a last, shorter one counts only when it stands alone.
+    if (count == block || (i + 1 == values.size() && levels.empty() && count > 0)) {
+      levels.push_back(std::sqrt(sum / static_cast<double>(count)) / gain);
+      sum = 0;
+      count = 0;
+    }
+  }
+  return median(std::move(levels));
+}
+
+double quantisationStep(std::span<const double> values) {
+  double scale = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  const double rounding = 1e-9 * scale;  // of the arithmetic itself
+  const std::vector<double> first = differencesOf(values);
+  if (const double quantum = commonMeasure(first, 0, rounding); quantum > 0) return quantum;
+  // A motion that passes five or six counts from sample to sample shows one count in how that changes.
+  // Rounding goes up and down; what falls without noise changes by one difference to one side.
+  const std::vector<double> second = differencesOf(first);
+  const double negligible = std::max(rounding, 0.01 * rootMeanSquare(second));
+  const auto up = std::ranges::count_if(second, [&](double change) { return change > negligible; });
+  const auto down = std::ranges::count_if(second, [&](double change) { return change < -negligible; });
+  return 2 * std::min(up, down) > std::max(up, down) ? commonMeasure(second, negligible, rounding) : 0;
+}
+
+double resolution(std::span<const double> values) {
+  return std::max(noiseFloor(values), quantisationStep(values) / std::sqrt(12.0));
+}
+
+}  // namespace btr

@@ -1,0 +1,22 @@
+#pragma once
+#include "core/gap/recordings/recording.h"
+
+namespace btr {
+
+/// How a recording is thinned out before it is used.
+struct Resampling {
+  double period_s = 0;    ///< time between samples, 0: the median one of the recording
+  double lowpass_hz = 0;  ///< zero-phase Butterworth of fourth order, 0: 0.8 times what the period can carry, where it
+                          ///< is longer than the recording's own
+};
+
+/// The recording at equal times from its first to its last. Channels are interpolated on a straight line, filtered
+/// forward and backward on the recording's own rhythm (no delay) and then taken at the new times; `enabled` and columns
+/// that are no channels keep the last value before. An empty cell is passed over. Throws InputError for a filter or
+/// period that the recording cannot carry.
+Recording resampled(const Recording& recording, const Resampling& how);
+
+/// The median time between rows, 0 where there are fewer than two.
+double rhythm(const Recording& recording);
+
+}  // namespace btr

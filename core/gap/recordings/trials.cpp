@@ -1,0 +1,104 @@
+// A file's trials: which mapping, and where one trial ends and the next begins.
+#include "core/gap/recordings/trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/resample.h"
+#include "core/spec/error.h"
+#include "core/spec/figures.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The trials in a file whose mapping is known.
+std::vector<Recording> divide(Recording whole, const Mapping* mapping) {
+  std::vector<Recording> trials;
+  if (!mapping || mapping->segmentColumn.empty()) {
+    trials.push_back(std::move(whole));
+    return trials;
+  }
+  const int column = whole.column(mapping->segmentColumn);
+  if (column < 0)
+    throw InputError(whole.source + ": column \"" + mapping->segmentColumn + "\" is missing, which " + mapping->source +
+                     " divides the file by");
+  const std::vector<double>& segment = whole.columns[static_cast<std::size_t>(column)];
+  const fs::path path(whole.source);
+  const auto empty = std::find_if(segment.begin(), segment.end(), [](double number) { return std::isnan(number); });
+  if (empty != segment.end())
+    throw InputError(whole.at(static_cast<std::size_t>(column), static_cast<std::size_t>(empty - segment.begin())),
+                     "an empty cell",
+                     "the number of its trial in every row, as " + mapping->source + " divides the file");
+  std::size_t first = 0;
+  for (std::size_t row = 1; row <= segment.size(); ++row) {
+    if (row < segment.size() && segment[row] == segment[row - 1]) continue;
+    Recording trial = rowsOf(whole, first, row);
+    trial.source = (path.parent_path() /
+                    (path.stem().string() + "-" + std::to_string(trials.size() + 1) + path.extension().string()))
+                       .string();
+    trials.push_back(std::move(trial));
+    first = row;
+  }
+  return trials;
+}
+
+/// A pause that dwarfs all that was recorded is a clock that jumped: a replay would simulate all of it.
+void refuseJumps(const Recording& trial) {
+  constexpr double mostSamples = 1000, mostLengths = 10;
+  const std::vector<double>& time = trial.columns[0];
+  if (time.size() < 3) return;
+  const double period = rhythm(trial);
+  const double most = period * std::max(mostSamples, mostLengths * static_cast<double>(time.size()));
+  for (std::size_t row = 1; row < time.size(); ++row)
+    if (time[row] - time[row - 1] > most)
+      throw InputError(trial.at(0, row), toText(time[row]) + " after " + toText(time[row - 1]),
+                       "a pause of at most " + digits(most) + " s where a sample comes every " + digits(period) +
+                           " s: the clock jumped; mend it, or divide the file there (\"segments\" in its mapping)");
+}
+
+}  // namespace
+
+Recording rowsOf(const Recording& recording, std::size_t first, std::size_t last) {
+  Recording part = recording;
+  for (std::vector<double>& column : part.columns)
+    column = {column.begin() + static_cast<std::ptrdiff_t>(first), column.begin() + static_cast<std::ptrdiff_t>(last)};
+  if (auto& lines = part.places.line; !lines.empty())
+    lines = {lines.begin() + static_cast<std::ptrdiff_t>(first), lines.begin() + static_cast<std::ptrdiff_t>(last)};
+  return part;
+}
+
+std::vector<Recording> loadTrials(const std::string& path, const Mapping* mapping, std::size_t limit) {
+  Mapping beside;
+  if (!mapping && fs::is_regular_file(path)) {
+    if (const auto found = findMapping(path)) {
+      beside = loadMapping(*found);
+      mapping = &beside;
+    }
+  }
+  std::vector<Recording> trials = divide(readRecording(path, mapping, limit), mapping);
+  for (const Recording& trial : trials) refuseJumps(trial);
+  if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))
+    for (Recording& trial : trials) trial = resampled(trial, {mapping->period_s, mapping->lowpass_hz});
+  return trials;
+}
+
+Recording loadRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
+  std::vector<Recording> trials = loadTrials(path, mapping, limit);
+  if (trials.size() > 1)
+    throw InputError(path, std::to_string(trials.size()) + " trials", "a file that is one trial, here");
+  return std::move(trials.front());
+}
+
+std::vector<Recording> loadTrialsFor(const std::string& path, const std::string& mapping, const std::string& scene) {
+  const std::string file = mapping.empty() ? findMapping(path, scene).value_or("") : mapping;
+  if (file.empty()) return loadTrials(path);
+  const Mapping found = loadMapping(file);
+  return loadTrials(path, &found);
+}
+
+}  // namespace btr

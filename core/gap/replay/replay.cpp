@@ -1,0 +1,285 @@
+#include "core/gap/replay/replay.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/start_state.h"
+#include "core/sim/world.h"
+#include "core/spec/cancelled.h"
+#include "core/spec/parameter.h"
+
+namespace btr {
+namespace {
+
+using Input = Binding::Input;
+using Measured = Binding::Measured;
+
+/// What the recording says of the inputs in one row.
+void setInputs(const Recording& recording, const Binding& binding, std::size_t row,
+               std::vector<std::vector<JointInput>>& inputs) {
+  for (const Input& input : binding.inputs) {
+    const double value = recording.columns[input.column][row];
+    if (!std::isfinite(value)) continue;  // holds the last one
+    JointInput& joint = inputs[input.robot][input.joint];
+    switch (input.what) {
+      case Input::What::command:
+      case Input::What::motion:
+        joint.command = value;
+        break;
+      case Input::What::enabled:
+        joint.enabled = value > 0.5;
+        break;
+      case Input::What::supply:
+        joint.supply_v = std::max(0.0, value);
+        break;
+      case Input::What::duty:
+        joint.duty = value;
+        break;
+      case Input::What::volts:
+        joint.duty = value < 0 ? -1 : 1;
+        joint.supply_v = std::abs(value);
+        break;
+    }
+  }
+}
+
+/// Simulated counterparts of the measured columns. Quaternions take the sign that is nearer to the recorded one.
+/// `robots` is scratch.
+void readMeasured(const World& world, const Scene& scene, const Recording& recording, const Binding& binding,
+                  std::size_t row, std::vector<RobotReadings>& robots, std::vector<std::vector<double>>& values) {
+  robots.resize(scene.robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) world.read(i, robots[i]);
+  const auto orientation = [&](const Measured& measured) {
+    const Eigen::Quaterniond q(robots[measured.object].base.linear());
+    return std::array{q.w(), q.x(), q.y(), q.z()}[measured.part];
+  };
+  const auto agreement = [&](std::size_t robot) {
+    double sum = 0;
+    for (const Measured& measured : binding.measured)
+      if (measured.what == Measured::What::baseOrientation && measured.object == robot &&
+          std::isfinite(recording.columns[measured.column][row]))
+        sum += orientation(measured) * recording.columns[measured.column][row];
+    return sum;
+  };
+
+  for (std::size_t i = 0; i < binding.measured.size(); ++i) {
+    const Measured& measured = binding.measured[i];
+    double value = 0;
+    switch (measured.what) {
+      case Measured::What::position:
+        value = robots[measured.object].position[measured.part];
+        break;
+      case Measured::What::rate:
+        value = robots[measured.object].rate[measured.part];
+        break;
+      case Measured::What::torque:
+        value = robots[measured.object].torque[measured.part];
+        break;
+      case Measured::What::basePosition:
+        value = robots[measured.object].base.translation()[static_cast<int>(measured.part)];
+        break;
+      case Measured::What::baseOrientation:
+        value = agreement(measured.object) < 0 ? -orientation(measured) : orientation(measured);
+        break;
+      case Measured::What::ballPosition:
+        value = world.ball(measured.object).position_m[static_cast<int>(measured.part)];
+        break;
+    }
+    values[i][row] = value;
+  }
+}
+
+/// Every input before the recording says anything: a servo holds where it starts.
+std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const StartState& start) {
+  std::vector<std::vector<JointInput>> inputs;
+  for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
+    inputs.emplace_back(scene.robots[robot].model.joints.size());
+    for (std::size_t joint = 0; joint < inputs[robot].size(); ++joint) {
+      const Drive::Kind kind = scene.robots[robot].drives[joint].kind;
+      if (kind == Drive::Kind::servo || kind == Drive::Kind::motion)
+        inputs[robot][joint].command = start.robots[robot].positions[joint];
+      if (kind == Drive::Kind::dcMotor) inputs[robot][joint].duty = 0;
+    }
+  }
+  return inputs;
+}
+
+/// Joints whose motion is prescribed, in a replay of rows `first` … `last` − 1.
+class Prescribed {
+ public:
+  Prescribed(const Recording& recording, const Binding& binding, std::size_t first, std::size_t last)
+      : recording_(recording), first_(first), last_(last) {
+    for (const Input& input : binding.inputs)
+      if (input.what == Input::What::motion) inputs_.push_back(input);
+    for (std::size_t i = 0; i < binding.measured.size(); ++i)
+      for (const Input& input : inputs_)
+        if (binding.measured[i].what == Measured::What::torque && binding.measured[i].object == input.robot &&
+            binding.measured[i].part == input.joint)
+          torques_.push_back(i);
+  }
+  bool any() const { return !inputs_.empty(); }
+
+  /// A step that covers every interval of the recording.
+  double step() const {
+    const auto& time = recording_.columns[0];
+    double longest = 0;
+    for (std::size_t row = first_; row + 1 < last_; ++row) longest = std::max(longest, time[row + 1] - time[row]);
+    return longest;
+  }
+
+  void start(StartState& state) const {
+    const auto& time = recording_.columns[0];
+    for (const Input& input : inputs_) {
+      const auto& path = recording_.columns[input.column];
+      const auto slope = [&](std::size_t a, std::size_t b) { return (path[b] - path[a]) / (time[b] - time[a]); };
+      state.robots[input.robot].positions[input.joint] = path[first_];
+      double rate = 0;
+      if (first_ > 0 && first_ + 1 < path.size())
+        rate = slope(first_ - 1, first_ + 1);
+      else if (first_ + 2 < path.size())
+        rate = 2 * slope(first_, first_ + 1) - slope(first_, first_ + 2);
+      state.robots[input.robot].rates[input.joint] = rate;
+    }
+  }
+
+  /// A prescribed joint is told where it must be by the next row.
+  void aim(std::size_t nextRow, std::vector<std::vector<JointInput>>& inputs) const {
+    for (const Input& input : inputs_) {
+      const double value = recording_.columns[input.column][nextRow];
+      if (std::isfinite(value)) inputs[input.robot][input.joint].command = value;
+    }
+  }
+
+  /// A torque that was read at the end of a step acted at its beginning.
+  void align(std::vector<std::vector<double>>& values) const {
+    for (const std::size_t i : torques_)
+      for (std::size_t row = first_; row + 1 < last_; ++row) {
+        values[i][row] = values[i][row + 1];
+      }
+  }
+
+ private:
+  const Recording& recording_;
+  std::size_t first_, last_;
+  std::vector<Input> inputs_;
+  std::vector<std::size_t> torques_;
+};
+
+/// Puts all robots where a start says and makes them forget. A start is what the sensors said: where an effect puts a
+/// sensor off, the joint itself stands elsewhere, unless its motion is prescribed.
+void stand(World& world, const Binding& binding, const StartState& start, bool prescribed) {
+  for (std::size_t i = 0; i < start.robots.size(); ++i) {
+    const StartState::Robot& robot = start.robots[i];
+    world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+    if (prescribed) continue;
+    const std::vector<double> said = world.robot(i).position;
+    std::vector<double> positions = robot.positions;
+    for (const auto* list : {&binding.measured, &binding.startOnly})
+      for (const Measured& measured : *list)
+        if (measured.what == Measured::What::position && measured.object == i)
+          positions[measured.part] = 2 * robot.positions[measured.part] - said[measured.part];
+    if (positions != robot.positions)
+      world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, positions, robot.rates);
+  }
+}
+
+/// Whether anything remembers: its next steps follow from more than where everything is and how it moves.
+bool remembers(const Scene& scene) {
+  const auto isWound = [](const Drive& drive) { return drive.i != 0 || drive.gearCompliance > 0; };
+  return std::ranges::any_of(scene.effects, [](const SceneEffect& e) { return e.effect->stateSize() > 0; }) ||
+         std::ranges::any_of(scene.robots, [&](const SceneRobot& r) { return std::ranges::any_of(r.drives, isWound); });
+}
+
+/// Where a window that begins in the middle is run in from: what a delay, play or an elastic gear remembers there no
+/// recording says.
+struct Earlier {
+  std::size_t row;
+  StartState state;
+};
+
+std::optional<Earlier> beforeWindow(const Scene& scene, const Recording& recording, const Binding& binding,
+                                    std::size_t first) {
+  constexpr double runIn_s = 0.3;
+  if (first == 0 || !remembers(scene)) return std::nullopt;
+  const std::vector<double>& time = recording.columns[0];
+  std::size_t row = first;
+  while (row > 0 && time[first] - time[row] < runIn_s) --row;
+  return Earlier{row, startState(scene, recording, binding, row)};
+}
+
+}  // namespace
+
+ReplayedRecording replayRecording(const Scene& given, const Recording& recording, const Binding& binding,
+                                  const StartState& from, std::size_t first, std::size_t last,
+                                  const std::function<bool()>& goesOn) {
+  constexpr std::uint64_t seed = 1;  // nothing in a replay is drawn by chance
+  constexpr std::size_t rowsBetweenQuestions = 256;
+  const std::size_t rows = recording.rows();
+  last = std::min(last, rows);
+  assert(first < last);
+  ReplayedRecording replayed;
+  replayed.values.assign(binding.measured.size(), std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
+
+  const Prescribed prescribed(recording, binding, first, last);
+  Scene scene = given;
+  StartState start = from;
+  if (prescribed.any()) {
+    scene.step_s = prescribed.step();
+    prescribed.start(start);
+  }
+
+  const std::optional<Earlier> earlier =
+      prescribed.any() ? std::nullopt : beforeWindow(scene, recording, binding, first);
+  World world(scene, seed);
+  auto inputs = restingInputs(scene, start);
+  for (const Input& input : binding.inputs)
+    if (input.what == Input::What::command)
+      inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double>& time = recording.columns[0];
+
+  const auto begin = [&](const StartState& state) {
+    stand(world, binding, state, prescribed.any());
+    for (std::size_t i = 0; i < scene.robots.size(); ++i)
+      if (state.robots[i].rests) world.rest(i);
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, state.balls[i]);
+  };
+  begin(earlier ? earlier->state : start);
+  // Inputs of a window that begins in the middle: the last ones that were given.
+  const std::size_t begins = earlier ? earlier->row : first;
+  for (std::size_t row = 0; row < begins; ++row) setInputs(recording, binding, row, inputs);
+  if (earlier) {
+    for (std::size_t row = begins; row < first; ++row) {
+      setInputs(recording, binding, row, inputs);
+      world.advance(inputs, time[row + 1] - time[row]);
+    }
+    for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+      const StartState::Robot& robot = start.robots[i];
+      world.moveRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+    }
+    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
+  }
+
+  std::vector<RobotReadings> robots;
+  for (std::size_t row = first; row < last; ++row) {
+    if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};
+    readMeasured(world, scene, recording, binding, row, robots, replayed.values);
+    setInputs(recording, binding, row, inputs);
+    if (row + 1 == last) break;
+    prescribed.aim(row + 1, inputs);
+    world.advance(inputs, time[row + 1] - time[row]);
+    replayed.fault = world.fault();
+    if (!replayed.fault.empty()) {
+      replayed.fault += ", at " + toText(time[row + 1]) + " s";
+      break;
+    }
+  }
+  prescribed.align(replayed.values);
+  return replayed;
+}
+
+}  // namespace btr

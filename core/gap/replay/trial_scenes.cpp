@@ -1,0 +1,42 @@
+#include "core/gap/replay/trial_scenes.h"
+
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/replay.h"
+#include "core/gap/replay/residual.h"
+#include "core/spec/cancelled.h"
+
+namespace btr {
+
+SimulatorSpec withSettings(SimulatorSpec simulator, const Recording& trial) {
+  for (const auto& [path, value] : trial.settings) simulator.values[path] = value;
+  return simulator;
+}
+
+Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) const {
+  return makeScene(spec, models, withSettings(simulator, trial), effects);
+}
+
+TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator) {
+  TrialScenes loaded;
+  loaded.spec = loadScene(scene);
+  loaded.models = loadModels(loaded.spec);
+  if (!simulator.empty()) loaded.simulator = loadSimulator(simulator);
+  return loaded;
+}
+
+bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
+                  const std::function<bool(std::size_t, std::size_t)>& progress,
+                  const std::function<void(const Scene&, const Recording&, const std::function<bool()>&)>& use) try {
+  const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
+  for (std::size_t i = 0; i < request.recordings.size(); ++i) {
+    const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
+    if (!goesOn()) return false;
+    for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene))
+      use(scenes.of(trial, effects), trial, goesOn);
+  }
+  return true;
+} catch (const Cancelled&) {
+  return false;
+}
+
+}  // namespace btr

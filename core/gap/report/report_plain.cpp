@@ -1,0 +1,64 @@
+// A gap report for a terminal.
+#include <cstdio>
+#include <string>
+
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
+
+namespace btr {
+namespace {
+
+template <class... Numbers>
+std::string line(const char* format, Numbers... numbers) {
+  char text[400];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+std::string intervalText(const GapReport::Number& number) {
+  const auto text = [](const GapReport::Interval& i) { return line(" [%.4g … %.4g]", i.low, i.high); };
+  return (number.ci95.known() ? text(number.ci95) : "") +
+         (number.amongRivals.known() ? ", among rivals" + text(number.amongRivals) : "");
+}
+
+}  // namespace
+
+std::string toPlainText(const GapReport& report) {
+  std::string text = std::string(toText(report.verdict)) + ": " + report.sentence + "\n\n";
+  text += "error in noise floors, cross-validated\n";
+  for (const auto& step : report.ladder)
+    text += line("  %8.3f ± %.3f  %s\n", step.error, step.standardError, step.what.c_str());
+  text += "\nRMSE by channel        noise floor    as given  calibrated  with effects   (held-out recordings)\n";
+  for (const auto& channel : report.channels)
+    text += line("  %-28s %9.3g %9.3g %9.3g %9.3g   %9.3g %9.3g %9.3g %s\n", channel.name.c_str(), channel.noiseFloor,
+                 channel.asGiven, channel.calibrated, channel.withEffects, channel.heldoutAsGiven,
+                 channel.heldoutCalibrated, channel.heldoutWithEffects, channel.unit.c_str());
+  text += "\neffects tried\n";
+  for (const auto& effect : report.tried) {
+    text +=
+        line("  %s %-28s at %-20s screened %2d. (%.1f %%)  %s\n", effect.accepted ? "+" : " ", effect.effect.c_str(),
+             effect.at.c_str(), effect.screenRank, 100 * effect.screenShare, effect.reason.c_str());
+    if (effect.accepted)
+      for (const auto& number : effect.parameters)
+        text += line("        %-28s %.4g %s%s\n", number.name.c_str(), number.value, number.unit.c_str(),
+                     intervalText(number).c_str());
+    for (const auto& rival : effect.rivals)
+      text += line("        not told from %s at %s%s%s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
+                   rival.with.empty() ? "" : " together with ", rival.with.c_str(), rival.heldoutErrorRatio);
+  }
+  text += "\ncalibrated\n";
+  for (const auto& number : report.calibrated)
+    text += line("  %-52s %.5g → %.5g%s%s\n", number.name.c_str(), number.before, number.value,
+                 intervalText(number).c_str(),
+                 !number.excited  ? " (not told by these recordings)"
+                 : number.atBound ? " (at its bound)"
+                                  : "");
+  for (const std::string& pair : report.strongCorrelations) text += "  hardly separated: " + pair + "\n";
+  if (!report.notes.empty()) text += "\n";
+  for (const std::string& note : report.notes) text += "note: " + note + "\n";
+  text += line("\n%.1f s\n", report.seconds);
+  return text;
+}
+
+}  // namespace btr

@@ -1,0 +1,245 @@
+#include "core/gap/report/report_plots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/replay/svg.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/report/report_text.h"
+#include "core/gap/search/gap_report.h"
+#include "core/spec/figures.h"
+
+namespace btr::plots {
+namespace {
+
+using namespace svg;
+
+constexpr double width = 860;
+
+std::string whole(double value) { return number(value, "%.0f"); }
+
+std::string picture(double height, const std::string& label, const std::string& content) {
+  return "<svg viewBox=\"0 0 " + whole(width) + " " + whole(height) + "\" role=\"img\" aria-label=\"" + escaped(label) +
+         "\">\n" + content + "</svg>\n";
+}
+
+std::string bar(double x, double y, double w, double h, const char* kind) {
+  return "<rect class=\"" + std::string(kind) + "\" x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" +
+         number(std::max(0.0, w)) + "\" height=\"" + number(h) + "\"/>\n";
+}
+
+std::string path(const std::string& kind, const std::string& d) {
+  return d.empty() ? "" : "<path class=\"" + kind + "\" d=\"" + d + "\"/>\n";
+}
+
+std::string quantityOf(const std::string& channel, const std::string& unit) {
+  const std::string quantity = channel.substr(channel.rfind('.') + 1);
+  return (unit.empty() ? quantity : quantity.substr(0, quantity.find('_'))) + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+}  // namespace
+
+// Bars on a logarithmic axis, so that the last rung beside the noise floor is as visible as the first.
+std::string ladder(const GapReport& report) {
+  if (report.ladder.empty()) return "";
+  constexpr double left = 300, right = 70, top = 26, row = 30;
+  double lowest = 1, highest = 1;
+  for (const GapReport::Step& step : report.ladder) {
+    if (step.error > 0 && std::isfinite(step.error)) lowest = std::min(lowest, step.error);
+    if (std::isfinite(step.error)) highest = std::max(highest, step.error + step.standardError);
+  }
+  const double bottom = top + row * static_cast<double>(report.ladder.size());
+  const Axis x{std::log10(0.8 * lowest), std::log10(1.25 * highest), left, width - right};
+  const auto at = [&](double error) {
+    return std::isfinite(error) ? x(std::log10(std::max(error, 0.8 * lowest))) : x.to;
+  };
+  std::string svg;
+  for (double decade = std::floor(x.low); decade <= x.high; ++decade)
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double value = digit * std::pow(10, decade), place = std::log10(value);
+      if (place < x.low || place > x.high) continue;
+      svg += line(x(place), top, x(place), bottom, "grid");
+      svg += text(x(place), bottom + 16, number(value, "%.6g"), "text-anchor=\"middle\"");
+    }
+  double y = top;
+  for (const GapReport::Step& step : report.ladder) {
+    svg += text(left - 10, y + 19, step.what, "text-anchor=\"end\"");
+    svg += bar(left, y + 6, at(step.error) - left, row - 12, step.error <= 1.5 ? "good" : "bar");
+    const double low = at(step.error - step.standardError), high = at(step.error + step.standardError);
+    if (step.standardError > 0) svg += line(low, y + row / 2, high, y + row / 2, "whisker");
+    svg += text(std::max(high, at(step.error)) + 6, y + 19, brief(step.error));
+    y += row;
+  }
+  svg += line(at(1), top - 6, at(1), bottom, "floor");
+  svg += text(at(1), top - 10, "noise floor", "text-anchor=\"middle\"");
+  svg += text((left + width - right) / 2, bottom + 36, "held-out error [noise floors, RMS]", "text-anchor=\"middle\"");
+  return picture(bottom + 44, "Held-out error, step by step", svg);
+}
+
+std::string heatMap(const GapReport& report, const std::vector<std::size_t>& trials) {
+  constexpr double left = 210, right = 16, rowHeight = 18;
+  constexpr std::size_t bins = 80;
+  constexpr Simulated kinds[] = {Simulated::asGiven, Simulated::withEffects};
+  constexpr const char* names[] = {"as given", "final"};
+  const double cell = (width - left - right) / static_cast<double>(bins);
+  std::string svg;
+  double y = 4;
+  for (const std::size_t trial : trials) {
+    const GapReport::Trial& t = report.trials[trial];
+    svg += text(0, y + 13, t.name + (t.heldOut ? " (held out)" : ""), "class=\"strong\"");
+    y += 20;
+    for (std::size_t s = 0; s < t.series.size(); ++s)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const HeatRow heat = heatRow(report, trial, s, kinds[k], bins);
+        svg += text(left - 8, y + 13, (k == 0 ? t.series[s].channel + ", " : std::string()) + names[k],
+                    "text-anchor=\"end\"");
+        for (std::size_t i = 0; i < bins; ++i) {
+          if (!std::isfinite(heat.error[i])) continue;
+          const HeatColour colour = heatColour(heat.error[i]);
+          svg += "<rect x=\"" + number(left + cell * static_cast<double>(i)) + "\" y=\"" + number(y) + "\" width=\"" +
+                 number(cell + 0.3) + "\" height=\"" + whole(rowHeight - 2) + "\" fill=\"rgb(" +
+                 std::to_string(colour.red) + "," + std::to_string(colour.green) + "," + std::to_string(colour.blue) +
+                 ")\" fill-opacity=\"" + number(colour.opacity) + "\"/>\n";
+        }
+        svg += bar(left, y, width - left - right, rowHeight - 2, "frame");
+        y += rowHeight;
+      }
+    if (!t.time_s.empty()) {
+      const Axis x{t.time_s.front(), std::max(t.time_s.back(), t.time_s.front() + 1e-9), left, width - right};
+      for (const double tick : ticksOf(x, 8))
+        svg += text(x(tick), y + 13, number(tick, "%.6g") + " s", "text-anchor=\"middle\"");
+    }
+    y += 26;
+  }
+  // The scale.
+  double x = left;
+  svg += text(left - 8, y + 13, "error [noise floors]", "text-anchor=\"end\"");
+  for (const double error : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    const HeatColour colour = heatColour(error);
+    svg += "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"26\" height=\"16\" fill=\"rgb(" +
+           std::to_string(colour.red) + "," + std::to_string(colour.green) + "," + std::to_string(colour.blue) +
+           ")\" fill-opacity=\"" + number(colour.opacity) + "\"/>\n";
+    svg += bar(x, y, 26, 16, "frame");
+    svg += text(x + 32, y + 13, (error == 1 ? "≤ " : error == 50 ? "≥ " : "") + number(error, "%.0f"));
+    x += 74;
+  }
+  return trials.empty() ? "" : picture(y + 22, "Standardised error by channel and time", svg);
+}
+
+std::string overlay(const GapReport& report, std::size_t trial, std::size_t series) {
+  constexpr double left = 84, right = 16, top = 44, middle = 250, errorTop = 268, bottom = 350;
+  const GapReport::Trial& t = report.trials[trial];
+  const GapReport::Series& s = t.series[series];
+  Range times, values, errors;
+  for (const double time : t.time_s) times.add(time);
+  for (const CurveName& curve : curveNames)
+    for (const double value : s.*curve.values) values.add(value);
+  const auto difference = [&](const std::vector<double>& simulated) {
+    std::vector<double> error(std::min(simulated.size(), s.recorded.size()));
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = simulated[i] - s.recorded[i];
+    for (const double e : error) errors.add(e);
+    return error;
+  };
+  const std::vector<double> before = difference(s.asGiven), between = difference(s.calibrated),
+                            after = difference(s.withEffects);
+  errors.add(0);
+  if (times.low > times.high) return "";
+  const Axis x = times.axis(left, width - right, 0);
+  const Axis y = values.axis(middle, top, 0.06), z = errors.axis(bottom, errorTop, 0.08);
+
+  std::string svg = text(left, 16, s.channel + " · " + t.name + (t.heldOut ? " (held out)" : ""), "class=\"strong\"");
+  double legend = left;
+  for (const auto& [kind, name] : {std::pair{"recorded", "recorded"}, std::pair{"asgiven", "as given"},
+                                   std::pair{"calibrated", "calibrated"}, std::pair{"repaired", "with effects"}}) {
+    svg += path(kind, "M" + whole(legend) + " 31H" + whole(legend + 26)) + text(legend + 32, 35, name);
+    legend += 130;
+  }
+  svg += panel(x, y, 5, false);
+  svg += path("recorded", pathOf(t.time_s, s.recorded, x, y, 1));
+  svg += path("asgiven", pathOf(t.time_s, s.asGiven, x, y, 1));
+  svg += path("calibrated", pathOf(t.time_s, s.calibrated, x, y, 1));
+  svg += path("repaired", pathOf(t.time_s, s.withEffects, x, y, 1));
+  svg += upright((top + middle) / 2, quantityOf(s.channel, s.unit), 14);
+  svg += panel(x, z, 3, true);
+  if (s.noiseFloor > 0) {
+    const double high = z(std::min(s.noiseFloor, z.high)), low = z(std::max(-s.noiseFloor, z.low));
+    svg += bar(left, high, width - left - right, std::max(0.5, low - high), "noise");
+  }
+  svg += path("asgiven", pathOf(t.time_s, before, x, z, 1));
+  svg += path("calibrated", pathOf(t.time_s, between, x, z, 1));
+  svg += path("repaired", pathOf(t.time_s, after, x, z, 1));
+  svg += upright((errorTop + bottom) / 2, "difference", 14);
+  svg += text((left + width - right) / 2, bottom + 36, "time [s]", "text-anchor=\"middle\"");
+  return picture(bottom + 42, "Recorded and simulated " + s.channel, svg);
+}
+
+std::string regimes(const GapReport::Located& located) {
+  if (located.regimes.empty()) return "";
+  constexpr double left = 200, right = 130, row = 28;
+  const Axis x{0, 1, left, width - right};
+  std::string svg =
+      text(left, 14, "share of the excess error", "class=\"strong\"") + text(left + 190, 14, "share of the time");
+  double y = 22;
+  for (const GapReport::Regime& r : located.regimes) {
+    svg += text(left - 10, y + 15, inWords(r.name), "text-anchor=\"end\"");
+    svg += bar(left, y + 1, x(std::clamp(r.shareOfExcess, 0.0, 1.0)) - left, 13, "bar");
+    svg += bar(left, y + 15, x(std::clamp(r.shareOfTime, 0.0, 1.0)) - left, 6, "time");
+    const double end = x(std::clamp(std::max(r.shareOfExcess, r.shareOfTime), 0.0, 1.0));
+    svg += text(end + 8, y + 14, percent(r.shareOfExcess) + ", p = " + number(r.pValue, "%.2g"));
+    y += row;
+  }
+  return picture(y + 4, "Where the error of " + located.channel + " lies", svg);
+}
+
+std::string remainder(const GapReport::Remainder& r) {
+  if (r.on.empty() || r.x.empty()) return "";
+  constexpr double left = 84, right = 16, top = 14, bottom = 230;
+  Range xs, ys;
+  for (const double value : r.x) xs.add(value);
+  std::vector<double> low(r.y), high(r.y);
+  for (std::size_t i = 0; i < r.y.size(); ++i) {
+    const double margin = i < r.standardError.size() ? 1.96 * r.standardError[i] : 0;
+    low[i] -= margin;
+    high[i] += margin;
+    ys.add(low[i]);
+    ys.add(high[i]);
+  }
+  ys.add(0);
+  const Axis x = xs.axis(left, width - right, 0), y = ys.axis(bottom, top, 0.06);
+  std::string band;
+  for (std::size_t i = 0; i < r.x.size(); ++i) band += (i ? "L" : "M") + number(x(r.x[i])) + " " + number(y(high[i]));
+  for (std::size_t i = r.x.size(); i-- > 0;) band += "L" + number(x(r.x[i])) + " " + number(y(low[i]));
+  const auto withUnit = [](const std::string& name, const std::string& unit) {
+    return name + (unit.empty() ? "" : " [" + unit + "]");
+  };
+  std::string svg = panel(x, y, 5, true) + path("band", band + "Z") + path("repaired", pathOf(r.x, r.y, x, y, 1));
+  svg += upright((top + bottom) / 2, withUnit("force", r.unitY), 14);
+  svg +=
+      text((left + width - right) / 2, bottom + 36, withUnit(r.on + " at " + r.at, r.unitX), "text-anchor=\"middle\"");
+  return picture(bottom + 44, "What has no name: a force over " + r.on, svg);
+}
+
+std::string nextRecording(const GapReport::NextRecording& next) {
+  if (next.columns.size() < 2 || next.columns[0].size() < 2) return "";
+  constexpr double left = 84, right = 16, top = 34, bottom = 220;
+  constexpr const char* kinds[] = {"asgiven", "calibrated", "repaired", "recorded"};
+  Range times, values;
+  for (const double time : next.columns[0]) times.add(time);
+  for (std::size_t i = 1; i < next.columns.size(); ++i)
+    for (const double value : next.columns[i]) values.add(value);
+  const Axis x = times.axis(left, width - right, 0), y = values.axis(bottom, top, 0.06);
+  std::string svg = panel(x, y, 5, true);
+  for (std::size_t i = 1; i < next.columns.size() && i < next.channels.size(); ++i) {
+    const double place = left + 260 * static_cast<double>((i - 1) % 3);
+    if (i <= 3) svg += path(kinds[i - 1], "M" + whole(place) + " 15h26") + text(place + 32, 19, next.channels[i]);
+    svg += path(kinds[(i - 1) % 4], pathOf(next.columns[0], next.columns[i], x, y, 1));
+  }
+  const std::string unit = unitOfChannel(next.channels[1]);
+  svg += upright((top + bottom) / 2, "command" + (unit.empty() ? "" : " [" + unit + "]"), 14);
+  svg += text((left + width - right) / 2, bottom + 36, "time [s]", "text-anchor=\"middle\"");
+  return picture(bottom + 44, "The suggested next recording", svg);
+}
+
+}  // namespace btr::plots

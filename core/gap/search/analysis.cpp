@@ -1,0 +1,368 @@
+// Gap analysis from recordings to a report.
+#include "core/gap/search/analysis.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/uncertainty.h"
+#include "core/gap/fit/unit_at.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/replay/residual.h"
+#include "core/gap/search/consultation.h"
+#include "core/gap/search/gap_report.h"
+#include "core/gap/search/locate.h"
+#include "core/gap/search/next_recording.h"
+#include "core/gap/search/remainder.h"
+#include "core/gap/search/report_words.h"
+#include "core/gap/search/rival_intervals.h"
+#include "core/gap/search/search.h"
+#include "core/gap/search/verdict.h"
+#include "core/spec/cancelled.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/sha256.h"
+
+namespace btr {
+namespace {
+
+std::string nameOf(const Recording& recording) { return std::filesystem::path(recording.source).filename().string(); }
+
+std::vector<std::vector<std::vector<double>>> simulateAll(const FitProblem& problem, const FitModel& model,
+                                                          const std::vector<std::vector<double>>& shifts) {
+  std::vector<std::vector<std::vector<double>>> values;
+  for (const FitTrial& trial : problem.trials)
+    values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
+  const Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
+  Eigen::Index at = 0;
+  for (const Segment& segment : problem.segments)
+    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
+      const FitTrial& trial = problem.trials[segment.trial];
+      const std::size_t c = segment.channel[k];
+      values[segment.trial][c][segment.row[k]] =
+          trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] +
+          residuals[at] * trial.noiseFloor[c];
+    }
+  return values;
+}
+
+/// The model with its numbers fixed, for other recordings.
+Fit carriedOver(const FitProblem& problem, const FitModel& model) { return scoreAsIs(problem, {model, {}, 0}).fit; }
+
+struct Errors {
+  double square = 0, absolute = 0, count = 0;
+  void add(double error) {
+    if (!std::isfinite(error)) return;
+    square += error * error;
+    absolute += std::abs(error);
+    ++count;
+  }
+  double rms() const { return count > 0 ? std::sqrt(square / count) : 0; }
+  double mean() const { return count > 0 ? absolute / count : 0; }
+};
+
+GapReport::Channel& channelOf(GapReport& report, const std::string& name, double noiseFloor) {
+  for (GapReport::Channel& channel : report.channels)
+    if (channel.name == name) return channel;
+  GapReport::Channel channel;
+  channel.name = name;
+  channel.unit = unitOfChannel(name);
+  channel.noiseFloor = noiseFloor;
+  report.channels.push_back(channel);
+  return report.channels.back();
+}
+
+/// Held-out errors of the cross-validation, by channel.
+void addErrors(GapReport& report, const FitProblem& problem, const Eigen::VectorXd& residuals,
+               double GapReport::Channel::*rms, double GapReport::Channel::*mae) {
+  std::map<std::string, std::pair<Errors, double>> byName;
+  Eigen::Index at = 0;
+  for (const Segment& segment : problem.segments)
+    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
+      const FitTrial& trial = problem.trials[segment.trial];
+      const std::size_t c = segment.channel[k];
+      auto& entry = byName[trial.recording.channels[trial.binding.measured[c].column]];
+      entry.second = trial.noiseFloor[c];
+      entry.first.add(residuals[at] * trial.noiseFloor[c]);
+    }
+  for (const auto& [name, entry] : byName) {
+    GapReport::Channel& channel = channelOf(report, name, entry.second);
+    channel.*rms = entry.first.rms();
+    channel.*mae = entry.first.mean();
+  }
+}
+
+/// An effect that is absent at its lower bound is not "at its bound" there.
+bool isAtBound(double value, const FitParameter& p) {
+  const double close = 1e-3 * (p.maximum - p.minimum);
+  const bool endsInNothing = p.effect >= 0 && p.hasNeutral && p.given <= p.minimum;
+  return p.maximum - value < close || (!endsInNothing && value - p.minimum < close);
+}
+
+/// Of an effect that was fitted and rejected: no interval was asked for.
+std::vector<GapReport::Number> numbersOf(const FitProblem& problem, const Attempt& attempt) {
+  const std::vector<FitParameter> fitted = fitParameters(*problem.library.make(attempt.candidate.effect), 0);
+  std::vector<GapReport::Number> numbers;
+  for (const Parameter& p : attempt.candidate.declared) {
+    const double value = attempt.values.at(p.name);
+    const auto known = std::find_if(fitted.begin(), fitted.end(), [&](const auto& f) { return f.name == p.name; });
+    numbers.push_back({p.name, unitAt(problem.scene, problem.models, attempt.candidate.at, p),
+                       p.neutral.value_or(p.byDefault), value, GapReport::Interval::none(),
+                       known != fitted.end() && isAtBound(value, *known), attempt.excited});
+  }
+  return numbers;
+}
+
+GapReport::Number numberOf(const FitModel& model, const Uncertainty& uncertainty, std::size_t parameter) {
+  const FitParameter& p = model.parameters[parameter];
+  const double value = model.values[parameter];
+  return {p.name,
+          p.unit,
+          p.given,
+          value,
+          interval95(model, uncertainty, parameter),
+          isAtBound(value, p),
+          isTold(p, uncertainty.half95(parameter))};
+}
+
+/// Of an effect of the final simulator, or of the scene (−1), with what rivals would make of them.
+std::vector<GapReport::Number> finalNumbers(const SearchResult& found, int effect) {
+  const FitModel& model = found.final.fit.model;
+  std::vector<GapReport::Number> numbers;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    if (model.parameters[i].effect != effect) continue;
+    numbers.push_back(numberOf(model, found.finalUncertainty, i));
+    numbers.back().amongRivals = intervalAmongRivals(found, i);
+  }
+  return numbers;
+}
+
+void addSeries(GapReport& report, const FitProblem& problem, const SearchResult& found, bool heldOut) {
+  const auto fits = [&](const Scored& scored) { return heldOut ? carriedOver(problem, scored.fit.model) : scored.fit; };
+  const Fit given = fits(found.given), calibrated = fits(found.calibrated), final = fits(found.final);
+  const auto asGiven = simulateAll(problem, given.model, given.shifts),
+             asCalibrated = simulateAll(problem, calibrated.model, calibrated.shifts),
+             withEffects = simulateAll(problem, final.model, final.shifts);
+  std::map<std::string, std::array<Errors, 3>> errors;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    const FitTrial& trial = problem.trials[t];
+    GapReport::Trial out;
+    out.name = nameOf(trial.recording);
+    out.sha256 = trial.recording.sha256;
+    out.heldOut = heldOut;
+    out.time_s = trial.recording.columns[0];
+    for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
+      if (trial.noiseFloor[c] <= 0) continue;
+      const std::size_t column = trial.binding.measured[c].column;
+      GapReport::Series series;
+      series.channel = trial.recording.channels[column];
+      series.unit = unitOfChannel(series.channel);
+      series.noiseFloor = trial.noiseFloor[c];
+      series.recorded = trial.recording.columns[column];
+      series.asGiven = asGiven[t][c];
+      series.calibrated = asCalibrated[t][c];
+      series.withEffects = withEffects[t][c];
+      auto& sums = errors[series.channel];
+      for (std::size_t row = 0; row < series.recorded.size(); ++row) {
+        sums[0].add(series.asGiven[row] - series.recorded[row]);
+        sums[1].add(series.calibrated[row] - series.recorded[row]);
+        sums[2].add(series.withEffects[row] - series.recorded[row]);
+      }
+      if (heldOut) channelOf(report, series.channel, series.noiseFloor);
+      out.series.push_back(std::move(series));
+    }
+    report.trials.push_back(std::move(out));
+  }
+  if (!heldOut) return;
+  for (const auto& [name, sums] : errors) {
+    GapReport::Channel& channel = channelOf(report, name, 0);
+    channel.heldoutAsGiven = sums[0].rms();
+    channel.heldoutCalibrated = sums[1].rms();
+    channel.heldoutWithEffects = sums[2].rms();
+    channel.heldoutMaeAsGiven = sums[0].mean();
+    channel.heldoutMaeCalibrated = sums[1].mean();
+    channel.heldoutMaeWithEffects = sums[2].mean();
+  }
+}
+
+/// Effects of the final simulator first, then what else was looked at.
+void addEffects(GapReport& report, const FitProblem& problem, const SearchResult& found) {
+  for (std::size_t i = 0; i < found.effects.size(); ++i) {
+    const Found& each = found.effects[i];
+    GapReport::Effect effect;
+    effect.effect = each.effect.effect;
+    effect.at = each.effect.at;
+    effect.accepted = true;
+    effect.parameters = finalNumbers(found, static_cast<int>(i));
+    effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - each.comparison.gain));
+    effect.pValue = each.comparison.pValue;
+    effect.qValue = each.qValue;
+    effect.rivals = each.rivals;
+    for (const Attempt& attempt : found.attempts)
+      if (attempt.candidate.effect == effect.effect && attempt.candidate.at == effect.at) {
+        effect.screenRank = attempt.rank;
+        effect.screenShare = attempt.share;
+        effect.reason = attempt.reason;
+        // Whole numbers are not fitted, but they belong to what was found.
+        for (const Parameter& p : attempt.candidate.declared)
+          if (p.integer) {
+            const double value = each.effect.parameters.at(p.name);
+            effect.parameters.push_back({p.name, p.unit, p.byDefault, value, {value, value}, false, true});
+          }
+      }
+    report.tried.push_back(effect);
+  }
+  std::vector<const Attempt*> others;
+  for (const Attempt& attempt : found.attempts) {
+    const bool isFinal = std::any_of(found.effects.begin(), found.effects.end(), [&](const Found& each) {
+      return each.effect.effect == attempt.candidate.effect && each.effect.at == attempt.candidate.at;
+    });
+    if (!isFinal) others.push_back(&attempt);
+  }
+  std::stable_sort(others.begin(), others.end(), [](const Attempt* a, const Attempt* b) {
+    if (a->scored != b->scored) return a->scored;
+    return a->scored ? a->comparison.gain > b->comparison.gain : a->share > b->share;
+  });
+  for (const Attempt* attempt : others) {
+    GapReport::Effect effect;
+    effect.effect = attempt->candidate.effect;
+    effect.at = attempt->candidate.at;
+    effect.screenRank = attempt->rank;
+    effect.screenShare = attempt->share;
+    effect.reason = attempt->reason;
+    if (attempt->scored) {
+      effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - attempt->comparison.gain));
+      effect.pValue = attempt->comparison.pValue;
+    }
+    effect.qValue = attempt->qValue;
+    if (attempt->fitted) effect.parameters = numbersOf(problem, *attempt);
+    report.tried.push_back(effect);
+  }
+}
+
+void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty& uncertainty) {
+  const auto nameOfParameter = [&](std::size_t i) {
+    const FitParameter& p = model.parameters[i];
+    return p.effect < 0 ? p.name : model.effects[static_cast<std::size_t>(p.effect)].effect + "." + p.name;
+  };
+  for (std::size_t i = 0; i < model.parameters.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double r = uncertainty.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (std::abs(r) > 0.98)
+        report.strongCorrelations.push_back(nameOfParameter(j) + " ~ " + nameOfParameter(i) + ": " +
+                                            toText(std::round(1000 * r) / 1000));
+    }
+}
+
+/// The integration's own error in the final simulator: against half the step.
+void addStepErrors(GapReport& report, const FitProblem& problem, const SearchResult& found) {
+  const Eigen::VectorXd difference = 4.0 / 3.0 * found.stepChange;
+  addErrors(report, problem, difference, &GapReport::Channel::stepError, &GapReport::Channel::stepError);
+  for (const GapReport::Channel& channel : report.channels)
+    if (channel.stepError > channel.noiseFloor)
+      report.notes.push_back(channel.name + ": the integration's own error, about " + toText(channel.stepError) + " " +
+                             channel.unit + " at a step of " + toText(problem.scene.step_s) +
+                             " s, is not below the noise floor; a smaller step_s would make the analysis sharper");
+}
+
+}  // namespace
+
+void refuseUnknownEffects(const AnalysisOptions& options, const EffectLibrary& library) {
+  std::string known;
+  for (const std::string& name : library.names) known += (known.empty() ? "" : ", ") + name;
+  for (const std::string& name : options.effects)
+    if (std::find(library.names.begin(), library.names.end(), name) == library.names.end())
+      throw InputError("effects to consider", "\"" + name + "\"", "one of " + known);
+}
+
+GapReport analyse(const GapProblem& given, const EffectLibrary& library, const AnalysisOptions& options,
+                  const AnalysisProgress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
+  refuseUnknownEffects(options, library);
+  const Consultation consultation = consult(given, library, options.asRecorded);
+  const auto prepare = [&](const std::vector<Recording>& recordings, double window_s) {
+    FitProblem ready = makeFitProblem(given, recordings, library, window_s);
+    ready.jobs = options.jobs;
+    return ready;
+  };
+  FitProblem problem = prepare(given.recordings, -1);
+  SearchOptions search;
+  search.jobs = options.jobs;
+  search.maximumEffects = options.maximumEffects;
+  search.names = options.effects;
+  search.seed = options.seed;
+  search.progress = progress;
+  SearchResult found = searchEffects(problem, search);
+  if (found.unstable) {
+    // A loop near its limit of stability: a hair of a parameter decides where a free run ends.
+    problem = prepare(given.recordings, 1);
+    problem.notes.push_back("free runs hang on the last digits of the parameters: windows of 1 s instead");
+    found = searchEffects(problem, search);
+  }
+
+  if (found.step_s < problem.scene.step_s) {
+    problem.scene.step_s = found.step_s;
+    if (found.step_s < given.scene.step_s)
+      problem.notes.push_back("what was found needs a step of " + toText(found.step_s) +
+                              " s: set step_s so where this simulator is used");
+  }
+
+  GapReport report;
+  report.seed = options.seed;
+  report.version = UCHILSIM_VERSION;
+  report.notes = consultation.notes;
+  report.notes.insert(report.notes.end(), problem.notes.begin(), problem.notes.end());
+  report.ladder = found.ladder;
+  report.before = given.simulator;
+  report.after = found.final.fit.model.simulator(problem);
+  report.step_s = problem.scene.step_s;
+  report.window_s = problem.window_s;
+  report.calibrated = finalNumbers(found, -1);
+  // The calibrated simulator has no effects.
+  for (std::size_t i = 0; i < found.calibrated.fit.model.parameters.size(); ++i)
+    if (GapReport::Number number = numberOf(found.calibrated.fit.model, found.calibratedUncertainty, i);
+        std::none_of(report.calibrated.begin(), report.calibrated.end(),
+                     [&](const GapReport::Number& other) { return other.name == number.name; })) {
+      // It was held as given from there on: what the calibration said of it belongs to another value.
+      number.value = number.before;
+      number.ci95 = GapReport::Interval::none();
+      number.atBound = number.excited = false;
+      report.calibrated.push_back(number);
+    }
+  addErrors(report, problem, found.given.heldOut, &GapReport::Channel::asGiven, &GapReport::Channel::maeAsGiven);
+  addErrors(report, problem, found.calibrated.heldOut, &GapReport::Channel::calibrated,
+            &GapReport::Channel::maeCalibrated);
+  addErrors(report, problem, found.final.heldOut, &GapReport::Channel::withEffects,
+            &GapReport::Channel::maeWithEffects);
+  addEffects(report, problem, found);
+  addCorrelations(report, found.final.fit.model, found.finalUncertainty);
+  addStepErrors(report, problem, found);
+  addSeries(report, problem, found, false);
+  if (!given.heldOut.empty()) {
+    if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
+    FitProblem heldOut = prepare(given.heldOut, problem.window_s);
+    heldOut.scene.step_s = problem.scene.step_s;
+    addSeries(report, heldOut, found, true);
+  }
+  if (progress && !progress("locating", 0.96)) throw Cancelled{};
+  report.located = locate(found.calibrated.fit.model, problem);
+  if (progress && !progress("looking at what remains", 0.97)) throw Cancelled{};
+  if (options.learnRest) report.remainder = findRemainder(problem, found, options.jobs);
+  const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs);
+  if (options.designNext) report.next = designNext(problem, found, options.seed);
+  judge(report, problem, found, curveIsBetter);
+  if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
+  report.sentence = consultation.caveat + report.sentence;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (progress) progress("done", 1);
+  return report;
+}
+
+}  // namespace btr

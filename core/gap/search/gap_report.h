@@ -1,0 +1,144 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spec/simulator_spec.h"
+
+namespace btr {
+
+/// What a gap analysis says ("format": "uchilsim-gap-report-1"). A value; errors are in the unit of their channel
+/// unless a comment says otherwise. "Error in noise floors" is a root mean square of (simulated − recorded)/noise
+/// floor.
+struct GapReport {
+  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, unexplained, notExcited };
+
+  struct Interval {
+    double low = 0, high = 0;
+    /// Where none was found: rejected effects, numbers that were held.
+    static Interval none() {
+      return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+    }
+    bool known() const { return !std::isnan(low) && !std::isnan(high); }
+  };
+  /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it. `ci95` takes
+  /// the accepted effects for granted.
+  struct Number {
+    std::string name, unit;
+    double before = 0, value = 0;  ///< before: as given in the scene; an effect's neutral value
+    Interval ci95;
+    bool atBound = false, excited = true;
+    /// `ci95` and what it would be with each rival in the place of its effect, which need not overlap, from end to
+    /// end; none: no rival has this number.
+    Interval amongRivals = Interval::none();
+  };
+  struct Rival {
+    std::string effect, at;
+    double heldoutErrorRatio = 1;  ///< its held-out error over that of the effect it competes with
+    std::string with = {};         ///< not empty: only together with this effect at the same place
+  };
+  /// A candidate that was looked at, accepted or not. Accepted ones are "effects" of the report, all are "tried".
+  struct Effect {
+    std::string effect, at;
+    std::vector<Number> parameters;
+    bool accepted = false;
+    double heldoutErrorReduction = 0;  ///< 1 − error with it / error without, cross-validated (see Channel)
+    double pValue = 1;                 ///< paired test on that error by blocks
+    int screenRank = 0;                ///< 1 the best of the screening; 0 was not ranked
+    double screenShare = 0;            ///< of the excess error that its sensitivity explains beyond the calibration
+    std::string reason;                ///< why it was accepted or rejected, one clause for people
+    std::vector<Rival> rivals;         ///< "indistinguishable_from"
+    /// The p-value adjusted for all effects at all places that its round looked at (false discovery rate, see
+    /// search_discoveries.h); NaN: not known.
+    double qValue = std::numeric_limits<double>::quiet_NaN();
+  };
+  /// Where the error lies that calibration leaves.
+  struct Regime {
+    std::string name;  ///< "velocity_reversal", "low_speed", "high_load", …
+    double shareOfExcess = 0, shareOfTime = 0;
+    double pValue = 1;  ///< of the share being larger than the time's
+  };
+  struct Window {
+    std::size_t recording = 0;  ///< index into trials
+    Interval time_s;
+  };
+  struct Located {
+    std::string channel;
+    double shareOfExcess = 0;
+    std::string when;  ///< the regime that stands out most, "" if none does
+    std::vector<Regime> regimes;
+    std::vector<Window> windows;  ///< where most of it lies, largest first
+    std::vector<std::string>
+        dependsOn;  ///< channels, or what was made of them, on which the error depends; strongest first
+  };
+  /// "Cross-validated": alternate blocks of the trials predict each other, with the numbers as either half would have
+  /// them, one linear step from the fit to everything (score.h). Initial states, and which effects there are, were
+  /// found on everything. As given, nothing but initial states is fitted.
+  struct Channel {
+    std::string name, unit;
+    double noiseFloor = 0;
+    double asGiven = 0, calibrated = 0, withEffects = 0;                       ///< RMSE, cross-validated
+    double maeAsGiven = 0, maeCalibrated = 0, maeWithEffects = 0;              ///< mean absolute error, the same
+    double heldoutAsGiven = 0, heldoutCalibrated = 0, heldoutWithEffects = 0;  ///< RMSE, --held-out recordings
+    double heldoutMaeAsGiven = 0, heldoutMaeCalibrated = 0, heldoutMaeWithEffects = 0;  ///< MAE, the same
+    double stepError = 0;  ///< RMS error of the integration itself in the final simulator
+  };
+  /// A rung of the ladder down to the noise floor.
+  struct Step {
+    std::string what;          ///< "as given", "calibrated", "+ backlash at leg.knee", "− coulomb_friction at …"
+    double error = 0;          ///< in noise floors, cross-validated (see Channel)
+    double standardError = 0;  ///< of it, over blocks
+  };
+  struct Series {
+    std::string channel, unit;
+    double noiseFloor = 0;
+    std::vector<double> recorded, asGiven, calibrated, withEffects;  ///< by the trial's time; NaN where unknown
+  };
+  struct Trial {
+    std::string name, sha256;
+    bool heldOut = false;  ///< never used in any fit
+    std::vector<double> time_s;
+    std::vector<Series> series;
+  };
+  /// A force that nobody has named: generalised force at `at` over a variable.
+  struct Remainder {
+    double explainedShare = 0;  ///< of the excess of the calibrated simulator, by the accepted effects
+    std::string at, on;  ///< joint, and "position", "velocity", "load", "time"; empty: nothing significant is left
+    std::string unitX, unitY;
+    std::vector<double> x, y, standardError;
+    double shareOfRest = 0;  ///< of the remaining held-out excess that the curve takes away
+    double pValue = 1;
+  };
+  struct NextRecording {
+    std::string why;                    ///< "separates backlash from gear_elasticity at leg.knee"
+    double separation = 0;              ///< expected difference of the rivals [noise floors, RMS]; 0: none was designed
+    std::vector<std::string> channels;  ///< time_s and the commands
+    std::vector<std::vector<double>> columns;  ///< by channel
+  };
+
+  Verdict verdict = Verdict::notExcited;
+  std::string sentence;                         ///< the whole finding in a few sentences
+  std::vector<Located> located;                 ///< largest share first
+  std::vector<Effect> tried;                    ///< accepted first, then by held-out gain
+  std::vector<Number> calibrated;               ///< names are the scene's paths
+  std::vector<std::string> strongCorrelations;  ///< "P ~ Q: 0.99", pairs that the recordings hardly separate
+  std::vector<Channel> channels;
+  std::vector<Step> ladder;
+  std::vector<Trial> trials;
+  Remainder remainder;
+  NextRecording next;
+  std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
+  /// As given; calibrated with the accepted effects. The same where the verdict leaves nothing to adopt.
+  SimulatorSpec before, after;
+  std::string scene, sceneSha256;  ///< file that was analysed (absolute), and its bytes; "" where there was none
+  std::uint64_t seed = 1;
+  double seconds = 0;  ///< wall time; not part of what must be reproducible
+  std::string version;
+  double step_s = 0;    ///< of the replays that scored `after`; 0: the scene's. Not kept in the folder
+  double window_s = 0;  ///< of the same: length of their segments, 0: whole trials. Not kept in the folder
+};
+
+}  // namespace btr

@@ -1,0 +1,66 @@
+#include "core/gap/search/report_words.h"
+
+#include <cmath>
+
+#include "core/gap/search/gap_report.h"
+#include "core/spec/figures.h"
+
+namespace btr {
+
+std::string inWords(const GapReport::Rival& rival) {
+  return inWords(rival.effect) + " at " + rival.at +
+         (rival.with.empty() ? "" : " together with " + inWords(rival.with));
+}
+
+bool isWiderAmongRivals(const GapReport::Number& number) {
+  const GapReport::Interval &all = number.amongRivals, &own = number.ci95;
+  return all.known() && own.known() && all.high - all.low > 2 * (own.high - own.low);
+}
+
+std::string brief(const GapReport::Interval& interval) {
+  const auto side = [](double value) { return std::isfinite(value) ? brief(value) : std::string("…"); };
+  return "[" + side(interval.low) + ", " + side(interval.high) + "]";
+}
+
+std::string intervalsOf(const GapReport::Number& number) {
+  return (number.ci95.known() ? brief(number.ci95) : "(no interval)") +
+         (number.amongRivals.known() ? ", among rivals " + brief(number.amongRivals) : "");
+}
+
+std::string headline(GapReport::Verdict verdict) {
+  switch (verdict) {
+    case GapReport::Verdict::noMismatch:
+      return "Nothing is missing";
+    case GapReport::Verdict::parametersSuffice:
+      return "Other parameter values suffice";
+    case GapReport::Verdict::missingPhysics:
+      return "Physics was left out";
+    case GapReport::Verdict::unexplained:
+      return "Something is missing that has no name here";
+    case GapReport::Verdict::notExcited:
+      break;
+  }
+  return "The recordings cannot tell";
+}
+
+bool leavesSomethingToAdopt(GapReport::Verdict verdict) {
+  return verdict != GapReport::Verdict::noMismatch && verdict != GapReport::Verdict::notExcited;
+}
+
+const char* toText(GapReport::Verdict verdict) {
+  switch (verdict) {
+    case GapReport::Verdict::noMismatch:
+      return "no_mismatch";
+    case GapReport::Verdict::parametersSuffice:
+      return "parameters_suffice";
+    case GapReport::Verdict::missingPhysics:
+      return "missing_physics";
+    case GapReport::Verdict::unexplained:
+      return "unexplained";
+    case GapReport::Verdict::notExcited:
+      break;
+  }
+  return "not_excited";
+}
+
+}  // namespace btr

@@ -1,0 +1,183 @@
+// Fits and scores of many models at once.
+#include <algorithm>
+#include <cmath>
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/parallel.h"
+#include "core/gap/search/search_run.h"
+#include "core/sim/worker_pool.h"
+
+namespace btr {
+namespace {
+
+std::vector<double> packed(const Fit& fit) {
+  std::vector<double> numbers{fit.cost};
+  numbers.insert(numbers.end(), fit.model.values.begin(), fit.model.values.end());
+  for (const auto& shift : fit.shifts) numbers.insert(numbers.end(), shift.begin(), shift.end());
+  return numbers;
+}
+
+/// Back from numbers; nothing changes if the job failed.
+void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& fit) {
+  if (numbers.empty()) return;
+  std::size_t at = 0;
+  fit.cost = numbers[at++];
+  for (double& value : fit.model.values) value = numbers[at++];
+  fit.shifts.clear();
+  for (const Segment& segment : problem.segments) {
+    fit.shifts.emplace_back(numbers.begin() + static_cast<std::ptrdiff_t>(at),
+                            numbers.begin() + static_cast<std::ptrdiff_t>(at + segment.nuisances.size()));
+    at += segment.nuisances.size();
+  }
+}
+
+}  // namespace
+
+int SearchRun::workersFor(std::size_t count) const {
+  const bool inside = 2 * static_cast<int>(count) <= options_.jobs && problem_.segments.size() > count;
+  return inside ? 1 : options_.jobs;
+}
+
+std::vector<Fit> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                    double from, double to) const {
+  const auto fitOne = [&](std::size_t i) {
+    FitOptions options{.iterations = iterations, .inherited = jobs[i].inherited, .tolerance = jobs[i].tolerance};
+    if (options_.progress && !WorkerPool::inWorker())
+      options.goOn = [&, i](double share) {
+        const double done = (static_cast<double>(i) + share) / static_cast<double>(jobs.size());
+        return tell(stage, from + (to - from) * done);
+      };
+    return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, options));
+  };
+  const auto numbers = parallel(workersFor(jobs.size()), jobs.size(), fitOne, reporter(stage, jobs.size(), from, to));
+  std::vector<Fit> fits;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Fit fit{jobs[i].model, jobs[i].shifts, INFINITY};
+    unpack(numbers[i], problem_, fit);
+    fits.push_back(std::move(fit));
+  }
+  return fits;
+}
+
+std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                   double from, double to) const {
+  std::vector<Fit> fits = tryFits(jobs, iterations, stage, from, to);
+  const bool any = std::ranges::any_of(fits, [](const Fit& fit) { return std::isfinite(fit.cost); });
+  if (!jobs.empty() && !any) fitModel(problem_, jobs[0].model, jobs[0].shifts, {.iterations = 1});
+  return fits;
+}
+
+std::vector<Fit> SearchRun::fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                                  double to) const {
+  std::vector<FitJob> jobs;
+  for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
+  return fitAll(jobs, iterations, stage, from, to);
+}
+
+void SearchRun::bringToStep(Scored& scored, const std::string& stage, double at) const {
+  if (scored.step_s == problem_.scene.step_s) return;
+  scored = scoreAll(fitOn({scored.fit}, againIterations, stage, at, at), stage, at, at)[0];
+}
+
+std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
+                                        double to) const {
+  const auto numbers = parallel(
+      workersFor(fits.size()), fits.size(),
+      [&](std::size_t i) {
+        const Scored scored = crossValidate(problem_, fits[i]);
+        std::vector<double> list = scored.blocks;
+        list.insert(list.end(), scored.heldOut.begin(), scored.heldOut.end());
+        list.insert(list.end(), scored.sizes.begin(), scored.sizes.end());
+        return list;
+      },
+      reporter(stage, fits.size(), from, to));
+  std::vector<Scored> result;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    Scored scored{fits[i], std::vector<double>(static_cast<std::size_t>(problem_.blocks), 1e6),
+                  Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem_.residuals()), 1e3),
+                  std::vector<double>(fits[i].model.effects.size(), 0), problem_.scene.step_s};
+    if (!numbers[i].empty()) {
+      const auto blocks = static_cast<std::ptrdiff_t>(scored.blocks.size()), sizes = std::ssize(scored.sizes);
+      scored.blocks.assign(numbers[i].begin(), numbers[i].begin() + blocks);
+      std::copy(numbers[i].begin() + blocks, numbers[i].end() - sizes, scored.heldOut.begin());
+      scored.sizes.assign(numbers[i].end() - sizes, numbers[i].end());
+    }
+    result.push_back(std::move(scored));
+  }
+  return result;
+}
+
+std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
+                                           double from, double to) {
+  constexpr int iterations = 12;
+  const double judged_s = problem_.scene.step_s;
+  problem_.scene.step_s = stepToSearchWith(full);
+  const std::vector<Fit> fits = fitAll(jobs, iterations, stage, from, (from + to) / 2);
+  std::vector<Scored> scored = scoreAll(fits, stage, (from + to) / 2, to);
+  const double cost = residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2;
+  problem_.scene.step_s = judged_s;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].cost <= farWorse * cost) bringToStep(scored[i], stage, to);
+  return scored;
+}
+
+Eigen::VectorXd SearchRun::stepChange(const Fit& fit) const {
+  FitProblem finer = problem_;
+  finer.scene.step_s /= 2;
+  return residualsOf(problem_, fit.model, fit.shifts) - residualsOf(finer, fit.model, fit.shifts);
+}
+
+double stepErrorOf(const Eigen::VectorXd& stepChange) {
+  return stepChange.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, stepChange.size()));
+}
+
+double SearchRun::stepToSearchWith(const Fit& fit) const {
+  constexpr double harmless = 0.3, ofError = 0.1;  // noise floors; of the error that there is to explain
+  constexpr double much = 5, ofMuch = 0.3;         // noise floors that stay unexplained; of those
+  const double judged_s = problem_.scene.step_s;
+  if (search_s_ <= judged_s) return judged_s;
+  const Eigen::VectorXd fine = residualsOf(problem_, fit.model, fit.shifts);
+  const auto count = static_cast<double>(std::max<Eigen::Index>(1, fine.size()));
+  const double error = fine.norm() / std::sqrt(count);
+  const double most = std::max(harmless, (error > much ? ofMuch : ofError) * error);
+  FitProblem coarse = problem_;
+  for (coarse.scene.step_s = search_s_; coarse.scene.step_s > 1.01 * judged_s; coarse.scene.step_s /= 2)
+    if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return coarse.scene.step_s;
+  return judged_s;
+}
+
+void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
+  constexpr double leastSettled = 0.7;  // of the change, at the finest step
+  /// What half the step changes, of what may hide in the noise.
+  const auto coarsenessOf = [&](const Fit& fit) {
+    constexpr double hidden = 0.12, much = 5, most = 10;  // noise floors
+    constexpr double ofError = 0.05, ofMuch = 0.15;       // of the error: a four hundredth, a fiftieth of its square
+    // Where much is unexplained anyway, the step is not what matters.
+    const double error = std::sqrt(2 * fit.cost / static_cast<double>(std::max<std::size_t>(1, problem_.residuals())));
+    if (error > most && problem_.scene.step_s <= problem_.givenStep_s) return 0.0;
+    return std::sqrt(stepErrorOf(stepChange(fit))) / std::max(hidden, (error > much ? ofMuch : ofError) * error);
+  };
+  judged = std::min(judged, fits.size());
+  const auto coarseness = [&] {
+    double worst = 0;
+    for (std::size_t i = 0; i < judged; ++i) worst = std::max(worst, coarsenessOf(fits[i]));
+    return worst;
+  };
+  // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
+  const double finest_s = problem_.finestStep * problem_.givenStep_s;
+  while (problem_.scene.step_s > finest_s) {
+    const double before_s = problem_.scene.step_s, before = coarseness();
+    double now = before;
+    while (now > 1 && problem_.scene.step_s > finest_s) {
+      problem_.scene.step_s /= 2;
+      now = coarseness();
+    }
+    // Feet that land another way with each step do so at any.
+    if (now > std::max(1.0, leastSettled * before)) problem_.scene.step_s = before_s;
+    if (problem_.scene.step_s == before_s) return;
+    fits = fitOn(fits, againIterations, stage, at, at);
+  }
+}
+
+}  // namespace btr

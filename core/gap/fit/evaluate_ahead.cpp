@@ -38,9 +38,12 @@ void EvaluateAhead::PrepareForEvaluation(bool jacobians, bool /*newPoint*/) {
   for (std::size_t k = 0; k < pieces.size();) {
     const Asked& of = *pieces[k].of;
     std::vector<double> all;
-    const bool failed = numbers[k].empty();  // Evaluate simulates it, and says why
-    for (; k < pieces.size() && pieces[k].of == &of; ++k) all.insert(all.end(), numbers[k].begin(), numbers[k].end());
-    if (!failed) of.cost->take(of.blocks.data(), all);
+    bool refused = false;  // then Evaluate simulates it, and throws
+    for (; k < pieces.size() && pieces[k].of == &of; ++k) {
+      refused = refused || !numbers[k].ok();
+      all.insert(all.end(), numbers[k].numbers.begin(), numbers[k].numbers.end());
+    }
+    if (!refused) of.cost->take(of.blocks.data(), all);
   }
 }
 

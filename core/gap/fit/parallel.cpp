@@ -1,34 +1,79 @@
+#include "core/gap/fit/parallel.h"
+
+#include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <new>
+#include <string>
 
 #include "core/gap/fit/fit_problem.h"
-#include "core/gap/fit/parallel.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/cancelled.h"
+#include "core/spec/error.h"
 
 namespace btr {
+namespace {
 
-std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
-                                          const std::function<std::vector<double>(std::size_t)>& f,
-                                          const std::function<bool(std::size_t)>& goOn) {
-  std::vector<std::vector<double>> results(count);
+using Job = std::function<std::vector<double>(std::size_t)>;
+
+/// One job in this process.
+JobResult resultOf(const Job& f, std::size_t i) {
+  try {
+    return {f(i), ""};
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  } catch (const JobFault&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw JobFault("the analysis ran out of memory; free some, or analyse shorter recordings or with fewer jobs");
+  } catch (const std::exception& error) {
+    throw JobFault(std::string("a fault of the program ended the analysis: ") + error.what());
+  }
+}
+
+/// The first byte of a reply says what the rest is.
+constexpr char ofNumbers = 'N', ofRefusal = 'R', ofFault = 'F';
+
+std::string packed(const Job& f, std::size_t i) {
+  try {
+    const JobResult result = resultOf(f, i);
+    if (!result.ok()) return ofRefusal + result.refused;
+    std::string bytes(1 + result.numbers.size() * sizeof(double), ofNumbers);
+    if (!result.numbers.empty()) std::memcpy(bytes.data() + 1, result.numbers.data(), bytes.size() - 1);
+    return bytes;
+  } catch (const JobFault& fault) {
+    return ofFault + std::string(fault.what());
+  }
+}
+
+JobResult unpacked(const WorkerPool::Reply& reply) {
+  if (!reply.ok || reply.bytes.empty())
+    throw JobFault("a worker process of the analysis was lost: " + reply.failure +
+                   (reply.killed ? ", as by a machine without memory" : ""));
+  const std::string rest = reply.bytes.substr(1);
+  if (reply.bytes[0] == ofFault) throw JobFault(rest);
+  if (reply.bytes[0] == ofRefusal) return {{}, rest};
+  JobResult result{std::vector<double>(rest.size() / sizeof(double)), ""};
+  if (!rest.empty()) std::memcpy(result.numbers.data(), rest.data(), rest.size());
+  return result;
+}
+
+}  // namespace
+
+std::vector<JobResult> parallel(int jobs, std::size_t count, const Job& f,
+                                const std::function<bool(std::size_t)>& goOn) {
+  std::vector<JobResult> results;
   if (jobs <= 1 || count <= 1 || WorkerPool::inWorker()) {
     for (std::size_t i = 0; i < count; ++i) {
       if (goOn && !goOn(i)) throw Cancelled{};
-      try {
-        results[i] = f(i);
-      } catch (const std::exception&) {  // as in a worker: the others do not suffer
-      }
+      results.push_back(resultOf(f, i));
     }
     return results;
   }
   constexpr double secondsPerJob = 3600;
-  const auto work = [&](const std::string& job) {
-    const std::vector<double> values = f(std::stoul(job));
-    std::string bytes(values.size() * sizeof(double), '\0');
-    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-    return bytes;
-  };
-  WorkerPool pool(std::min(jobs, static_cast<int>(count)), work, secondsPerJob);
+  WorkerPool pool(
+      std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
+      secondsPerJob);
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < count; ++i) texts.push_back(std::to_string(i));
   std::atomic<bool> stop{false};
@@ -36,28 +81,23 @@ std::vector<std::vector<double>> parallel(int jobs, std::size_t count,
     if (goOn && !goOn(done)) stop = true;
   });
   if (stop) throw Cancelled{};
-  for (std::size_t i = 0; i < count && i < replies.size(); ++i) {
-    if (!replies[i].ok) continue;
-    results[i].resize(replies[i].bytes.size() / sizeof(double));
-    if (!results[i].empty()) std::memcpy(results[i].data(), replies[i].bytes.data(), replies[i].bytes.size());
-  }
+  for (const WorkerPool::Reply& reply : replies) results.push_back(unpacked(reply));
   return results;
 }
 
-std::vector<std::vector<double>> inWorkers(const FitProblem& problem, std::size_t count, int replays,
-                                           const std::function<std::vector<double>(std::size_t)>& f) {
+std::vector<JobResult> inWorkers(const FitProblem& problem, std::size_t count, int replays, const Job& f) {
   constexpr double worthAFork = 5000;  // steps of at least 3 µs; a fork takes about a millisecond
   const bool worth = problem.jobs > 1 && replays * problem.steps() > worthAFork;
   return parallel(worth ? problem.jobs : 1, count, f);
 }
 
-std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays,
-                                           const std::function<std::vector<double>(std::size_t)>& f) {
-  auto results = inWorkers(problem, problem.segments.size(), replays, f);
-  // What failed in a worker fails here again, and says why.
-  for (std::size_t s = 0; s < results.size(); ++s)
-    if (results[s].empty()) results[s] = f(s);
-  return results;
+std::vector<std::vector<double>> bySegment(const FitProblem& problem, int replays, const Job& f) {
+  std::vector<std::vector<double>> numbers;
+  for (JobResult& result : inWorkers(problem, problem.segments.size(), replays, f)) {
+    if (!result.ok()) throw InputError(result.refused);
+    numbers.push_back(std::move(result.numbers));
+  }
+  return numbers;
 }
 
 }  // namespace btr

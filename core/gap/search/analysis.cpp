@@ -319,6 +319,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.version = UCHILSIM_VERSION;
   report.notes = consultation.notes;
   report.notes.insert(report.notes.end(), problem.notes.begin(), problem.notes.end());
+  report.notes.insert(report.notes.end(), found.refused.begin(), found.refused.end());
   report.ladder = found.ladder;
   report.before = given.simulator;
   report.after = found.final.fit.model.simulator(problem);

@@ -105,8 +105,8 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
   double most = 0;
   std::size_t chosen = options.size();
   for (std::size_t i = 0; i < options.size(); ++i)
-    if (!shares[i].empty() && shares[i][0] > most) {
-      most = shares[i][0];
+    if (shares[i].ok() && shares[i].numbers[0] > most) {
+      most = shares[i].numbers[0];
       chosen = i;
     }
   if (chosen == options.size()) return std::nullopt;

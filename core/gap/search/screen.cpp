@@ -74,16 +74,18 @@ VectorXd nonNegative(const std::vector<const Try*>& tries, const VectorXd& targe
   return steps;
 }
 
-/// One number list per candidate: norm, best promised share, number of starts, then for each share, effect values,
-/// parameters.
+/// One number list per candidate: norm, best promised share, sizes that the scene refuses, number of starts, then for
+/// each share, effect values, parameters.
 std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                               const Projector& projector, const VectorXd& rest, const EffectCandidate& candidate) {
+  int refused = 0;
   /// Nothing where the scene cannot be: a mass below zero, say.
   const auto changeBy = [&](const Values& values) -> std::optional<VectorXd> {
     try {
       const VectorXd with = residualsOf(problem, fit.model.with(problem, candidate.placed(values)), fit.shifts);
       return linear.profile(problem, with - linear.residuals);
     } catch (const InputError&) {
+      ++refused;
       return std::nullopt;
     }
   };
@@ -174,7 +176,8 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     found.insert(found.begin(), seen.begin(), seen.begin() + std::min<std::ptrdiff_t>(1, std::ssize(seen)));
   }
 
-  std::vector<double> numbers{felt, total > 0 ? promised / total : 0, static_cast<double>(found.size())};
+  std::vector<double> numbers{felt, total > 0 ? promised / total : 0, static_cast<double>(refused),
+                              static_cast<double>(found.size())};
   for (const Found& each : found) {
     numbers.push_back(total > 0 ? each.gain / total : 0);
     for (const Parameter& p : candidate.declared) numbers.push_back(each.effect.at(p.name));
@@ -243,8 +246,8 @@ std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Lin
       goOn);
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    result[c].share = numbers[c].empty() ? 0 : numbers[c][1];
-    result[c].excited = !numbers[c].empty() && numbers[c][0] > leastFelt(part.linear);
+    result[c].share = numbers[c].ok() ? numbers[c].numbers[1] : 0;
+    result[c].excited = numbers[c].ok() && numbers[c].numbers[0] > leastFelt(part.linear);
     order.push_back(c);
   }
   std::stable_sort(order.begin(), order.end(),
@@ -279,12 +282,13 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
     Screened& screened = result[c];
     screened.excited = false;
     screened.share = 0;
-    const auto& list = numbers[k];
-    if (!list.empty()) {
+    const auto& list = numbers[k].numbers;
+    if (numbers[k].ok()) {
       screened.excited = list[0] > leastFelt(linear);
       screened.share = list[1];
-      const auto starts = static_cast<std::size_t>(list[2]);
-      std::size_t at = 3;
+      screened.refused = static_cast<int>(list[2]);
+      const auto starts = static_cast<std::size_t>(list[3]);
+      std::size_t at = 4;
       for (std::size_t s = 0; s < starts; ++s) {
         Screened::Start start;
         start.share = list[at++];

@@ -15,6 +15,7 @@ namespace btr {
 struct Screened {
   std::size_t candidate = 0;
   bool excited = false;  ///< the recordings feel it at a typical size
+  int refused = 0;       ///< sizes at which there is no such scene
   double share = 0;      ///< of the sum of squared residuals that it would take away
   struct Start {
     Values effect;

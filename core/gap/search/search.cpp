@@ -56,7 +56,7 @@ Scored SearchRun::calibrate() {
   std::vector<Fit> fits = fitAll({{given, {}}}, 15, "calibrating", 0.02, 0.05);
   // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
   if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
-    const std::vector<Fit> others = fitAll({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08);
+    const std::vector<Fit> others = thoseOf(tryFits({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08));
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
@@ -228,6 +228,7 @@ SearchResult SearchRun::run() {
   measure(result);
   if (leaveUntold(result)) measure(result);
   measureRivals(result);
+  result.refused = refused_->notes();
   return result;
 }
 

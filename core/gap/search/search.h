@@ -56,9 +56,10 @@ struct SearchResult {
   std::vector<GapReport::Step> ladder;
   Linearised calibratedLinear, finalLinear;
   Uncertainty calibratedUncertainty, finalUncertainty;
-  double step_s = 0;           ///< of the final fits [s]
-  Eigen::VectorXd stepChange;  ///< of the final simulator's residuals with half that step
-  bool unstable = false;       ///< free runs predict blocks far worse than they fit them: windows are needed
+  double step_s = 0;                 ///< of the final fits [s]
+  Eigen::VectorXd stepChange;        ///< of the final simulator's residuals with half that step
+  std::vector<std::string> refused;  ///< what was left out, counted (refused_jobs.h)
+  bool unstable = false;             ///< free runs predict blocks far worse than they fit them: windows are needed
 };
 
 /// Steps 4 and 6 to 8: calibrate, screen, confirm one effect at a time, drop what became useless, list rivals.

@@ -35,7 +35,7 @@ struct Base {
 
 /// What a candidate promises from all bases together.
 struct Promise {
-  bool excited = false;
+  bool excited = false, refused = false;
   double share = 0;  ///< of the first base's squared error
   std::vector<FitStart> starts;
 };
@@ -49,6 +49,7 @@ std::vector<Promise> promisesOf(const std::vector<EffectCandidate>& candidates,
     for (std::size_t b = 0; b < screened.size(); ++b) {
       const Screened& of = screened[b][c];
       promise.excited = promise.excited || of.excited;
+      promise.refused = promise.refused || of.refused > 0;
       if (totals[0] > 0) promise.share = std::max(promise.share, 1 - totals[b] * (1 - of.share) / totals[0]);
       for (const Screened::Start& start : of.starts)
         (&start == of.starts.data() ? promise.starts : later).push_back({&start, b, totals[b] * (1 - start.share)});
@@ -106,10 +107,10 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
     each.attempt.share = promises[i].share;
     each.attempt.excited = promises[i].excited;
     each.attempt.rank = static_cast<int>(tried.size()) + 1;
-    each.fit.cost = INFINITY;
     if (!promises[i].starts.empty()) each.attempt.values = promises[i].starts[0].from->effect;
     if (!each.attempt.excited)
-      each.attempt.reason = "the recordings do not feel it at a typical size";
+      each.attempt.reason = promises[i].refused ? "the scene refuses it at the sizes that were tried"
+                                                : "the recordings do not feel it at a typical size";
     else
       each.attempt.reason =
           "screening: would take away " + percent(each.attempt.share) + " of the squared error, others more";
@@ -130,14 +131,23 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       jobs.push_back({model, base.fit.shifts, &base.linear});
       owner.push_back(k);
     }
-    const std::vector<Fit> fits = tryFits(jobs, firstIterations, "fitting candidates" + stage, begin, end);
-    for (std::size_t i = 0; i < fits.size(); ++i)
-      if (fits[i].cost < tried[owner[i]].fit.cost) {
-        tried[owner[i]].fit = fits[i];
-        tried[owner[i]].attempt.fitted = true;
+    const auto fits = tryFits(jobs, firstIterations, "fitting candidates" + stage, begin, end);
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      Tried& each = tried[owner[i]];
+      if (!fits[i]) {
+        if (!each.attempt.fitted) each.attempt.reason = "the scene refuses the numbers of its fit";
+      } else if (!each.attempt.fitted || fits[i]->cost < each.fit.cost) {
+        each.fit = *fits[i];
+        each.attempt.fitted = true;
       }
+    }
   };
-  const auto fitsBetter = [&](std::size_t a, std::size_t b) { return costsLess(tried[a].fit, tried[b].fit); };
+  // What has no fit comes last.
+  const auto isBetter = [](const Tried& a, const Tried& b) {
+    if (a.attempt.fitted != b.attempt.fitted) return a.attempt.fitted;
+    return a.attempt.fitted && costsLess(a.fit, b.fit);
+  };
+  const auto fitsBetter = [&](std::size_t a, std::size_t b) { return isBetter(tried[a], tried[b]); };
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
     if (!promises[tried[k].promise].starts.empty() &&
@@ -156,6 +166,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (std::size_t k = again.size(); k < promising.size(); ++k)
     if (isContained(promising[k], again)) again.push_back(promising[k]);
   fitStarts(again, 1, from + 1.6 * part, from + 2 * part);
+  std::erase_if(promising, [&](std::size_t k) { return !tried[k].attempt.fitted; });
   const auto leastCost = [&] {
     double least = INFINITY;
     for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
@@ -167,7 +178,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       fitFromWindows(tried[k].fit, bases[0].fit.model, "fitting candidates" + stage, from + 2 * part);
   if (2 * leastCost() > leastToScatter * static_cast<double>(problem_.residuals()))
     fitFromScatter(tried, promising, models, "fitting candidates" + stage, from + 2 * part);
-  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return costsLess(a.fit, b.fit); });
+  std::stable_sort(tried.begin(), tried.end(), isBetter);
 
   for (Tried& each : tried)
     if (each.attempt.fitted && each.fit.cost > tried[0].fit.cost)

@@ -61,7 +61,7 @@ bool SearchRun::isAtLeast(const Fit& fit) const {
 void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
   constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
   constexpr double better = 0.995;
-  const auto errors = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
+  const auto replays = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
     std::vector<double> list;
     for (const double size : sizes)
       list.push_back(residualsOf(problem_, resized(fits[i].model, size), fits[i].shifts).squaredNorm());
@@ -70,15 +70,17 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
   std::vector<FitJob> jobs;
   std::vector<std::size_t> owner;
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    const auto least = std::min_element(errors[i].begin(), errors[i].end());
-    if (errors[i].empty() || !(*least < better * errors[i][0])) continue;
-    const double size = sizes[static_cast<std::size_t>(least - errors[i].begin())];
+    if (!replays[i].ok()) continue;
+    const std::vector<double>& errors = replays[i].numbers;
+    const auto least = std::ranges::min_element(errors);
+    if (!(*least < better * errors[0])) continue;
+    const double size = sizes[static_cast<std::size_t>(least - errors.begin())];
     jobs.push_back({resized(fits[i].model, size), fits[i].shifts});
     owner.push_back(i);
   }
-  const std::vector<Fit> again = fitAll(jobs, lastIterations, stage, at, at);
+  const auto again = tryFits(jobs, lastIterations, stage, at, at);
   for (std::size_t k = 0; k < again.size(); ++k)
-    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
+    if (again[k] && again[k]->cost < fits[owner[k]].cost) fits[owner[k]] = *again[k];
 }
 
 /// Where an effect and a calibrated number do nearly the same (wind and rolling resistance on a ball that rolls until
@@ -98,14 +100,13 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
       moved.push_back(model);
       jobs.push_back({others, fit.shifts});
     }
-    const std::vector<Fit> along = tryFits(jobs, iterations, stage, at, at);
-    std::vector<Fit> free;
-    for (std::size_t k = 0; k < along.size(); ++k) {
-      if (!(along[k].cost < inReach * fit.cost)) continue;
-      free.push_back({following(moved[k], along[k]), along[k].shifts, along[k].cost});
-    }
-    if (free.empty()) return;
-    const std::vector<Fit> again = fitOn(free, lastIterations, stage, at, at);
+    const auto along = tryFits(jobs, iterations, stage, at, at);
+    std::vector<FitJob> free;
+    for (std::size_t k = 0; k < along.size(); ++k)
+      if (along[k] && along[k]->cost < inReach * fit.cost)
+        free.push_back({following(moved[k], *along[k]), along[k]->shifts});
+    const std::vector<Fit> again = thoseOf(tryFits(free, lastIterations, stage, at, at));
+    if (again.empty()) return;
     const Fit& best = *std::ranges::min_element(again, costsLess);
     if (!(best.cost < better * fit.cost)) return;
     fit = best;
@@ -132,29 +133,39 @@ void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
     jobs.push_back({held(problem_, model), fit.shifts});
   }
   // Where nothing follows, nothing need be held.
-  std::vector<Fit> along;
+  std::vector<std::optional<Fit>> along;
   if (!jobs[0].model.parameters.empty()) along = tryFits(jobs, iterations, stage, at, at);
   std::vector<FitJob> free;
   for (std::size_t k = 0; k < moved.size(); ++k) {
     if (along.empty())
       free.push_back({moved[k], fit.shifts});
-    else if (std::isfinite(along[k].cost))
-      free.push_back({following(moved[k], along[k]), along[k].shifts});
+    else if (along[k])
+      free.push_back({following(moved[k], *along[k]), along[k]->shifts});
   }
-  const std::vector<Fit> again = tryFits(free, lastIterations, stage, at, at);
+  const std::vector<Fit> again = thoseOf(tryFits(free, lastIterations, stage, at, at));
   if (again.empty()) return;
   const Fit& best = *std::ranges::min_element(again, costsLess);
   if (best.cost < better * fit.cost) fit = best;
 }
 
-bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& which, Scored& without,
+bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& candidates, Scored& without,
                         double judged_s, const std::string& stage, double from, double to) {
-  if (which.empty()) return false;
   const std::string what = "confirming" + stage;
   const double half = (from + to) / 2, fitted_s = problem_.scene.step_s;
+  std::vector<FitJob> jobs;
+  for (const std::size_t k : candidates) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
+  const auto fittedOn = tryFits(jobs, lastIterations, what, from, half);
+  std::vector<std::size_t> which;
   std::vector<Fit> fits;
-  for (const std::size_t k : which) fits.push_back(tried[k].fit);
-  fits = fitOn(fits, lastIterations, what, from, half);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (fittedOn[i]) {
+      which.push_back(candidates[i]);
+      fits.push_back(*fittedOn[i]);
+    } else {
+      tried[candidates[i]].attempt.reason = "the scene refuses the numbers of its fit";
+    }
+  }
+  if (which.empty()) return false;
   shake(fits, what, half);
   giveBack(fits, what, half);
 
@@ -177,7 +188,7 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
     // What leaves no more than the noise may still stop behind a better one.
     if ((left > leastToScan || fit.cost > leastToScan * least) && left < mostToScan) scan(fit, what, half);
   }
-  std::vector<Scored> scored = scoreAll(farFits, what, half, half);
+  auto scored = tryScores(farFits, what, half, half);
   if (judged_s < fitted_s) {
     problem_.scene.step_s = judged_s;
     closeFits = fitOn(closeFits, againIterations, what, half, half);
@@ -185,14 +196,18 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   refineStep(closeFits, 2, what, half);
   const Scored before = without;
   if (problem_.scene.step_s < judged_s) without = scoreAll({without.fit}, what, half, half)[0];
-  const std::vector<Scored> ofClose = scoreAll(closeFits, what, half, to);
+  const auto ofClose = tryScores(closeFits, what, half, to);
 
   scored.insert(scored.end(), ofClose.begin(), ofClose.end());
   far.insert(far.end(), close.begin(), close.end());
   for (std::size_t i = 0; i < far.size(); ++i) {
     Tried& each = tried[far[i]];
-    each.fit = scored[i].fit;
-    each.scored = scored[i];
+    if (!scored[i]) {
+      each.attempt.reason = "the scene refuses the numbers that half of the recordings would give it";
+      continue;
+    }
+    each.fit = scored[i]->fit;
+    each.scored = *scored[i];
     each.attempt.scored = true;
     each.passes =
         passes(without, each.scored, each.fit.model.effects.size() - 1, each.attempt.comparison, each.attempt.reason);

@@ -90,7 +90,9 @@ FitModel SearchRun::simplerFormOf(const Fit& full, const FitModel& rest, const E
       return std::vector<double>{residualsOf(problem_, model, full.shifts).squaredNorm()};
     });
     // What cannot be simulated has no cost.
-    const auto costsLess = [](const auto& a, const auto& b) { return !a.empty() && (b.empty() || a[0] < b[0]); };
+    const auto costsLess = [](const JobResult& a, const JobResult& b) {
+      return a.ok() && (!b.ok() || a.numbers[0] < b.numbers[0]);
+    };
     return of[static_cast<std::size_t>(std::ranges::min_element(costs, costsLess) - costs.begin())];
   };
   const Values found = best(sizes);
@@ -127,10 +129,15 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
       if (k > 0) way.before = here;
       jobs.push_back({next, way.fit.shifts, nullptr, toleranceOnTheWay});
     }
-    const std::vector<Fit> fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
-    for (std::size_t w = 0; w < ways.size(); ++w) ways[w].fit = fits[w];
+    const auto fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
     const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
-    std::erase_if(ways, [&](const Way& way) { return way.fit.cost > most; });
+    std::vector<Way> goOn;
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      if (!fits[w] || fits[w]->cost > most) continue;
+      ways[w].fit = *fits[w];
+      goOn.push_back(std::move(ways[w]));
+    }
+    ways = std::move(goOn);
   }
   std::vector<EffectCandidate> offered;
   std::vector<FitJob> jobs;
@@ -143,9 +150,17 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
     offered.push_back(candidate);
     jobs.push_back({simplerFormOf(whole, rest, candidate), whole.shifts});
   }
-  const std::vector<Fit> arrived = tryFits(jobs, toTheEnd, "handing over", 0.95, 0.95);
-  const std::vector<Scored> scored = scoreAll(arrived, "handing over", 0.95, 0.95);
-  for (std::size_t w = 0; w < offered.size(); ++w) addRival(offered[w], scored[w], result, others);
+  std::vector<Fit> arrived;
+  std::vector<const EffectCandidate*> ofArrived;
+  const auto fits = tryFits(jobs, toTheEnd, "handing over", 0.95, 0.95);
+  for (std::size_t w = 0; w < offered.size(); ++w) {
+    if (!fits[w]) continue;
+    arrived.push_back(*fits[w]);
+    ofArrived.push_back(&offered[w]);
+  }
+  const auto scored = tryScores(arrived, "handing over", 0.95, 0.95);
+  for (std::size_t w = 0; w < scored.size(); ++w)
+    if (scored[w]) addRival(*ofArrived[w], *scored[w], result, others);
   problem_.scene.step_s = judged_s;
 }
 

@@ -7,6 +7,7 @@
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/search_run.h"
 #include "core/sim/worker_pool.h"
+#include "core/spec/error.h"
 
 namespace btr {
 namespace {
@@ -18,9 +19,8 @@ std::vector<double> packed(const Fit& fit) {
   return numbers;
 }
 
-/// Back from numbers; nothing changes if the job failed.
+/// Back from numbers.
 void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& fit) {
-  if (numbers.empty()) return;
   std::size_t at = 0;
   fit.cost = numbers[at++];
   for (double& value : fit.model.values) value = numbers[at++];
@@ -39,8 +39,8 @@ int SearchRun::workersFor(std::size_t count) const {
   return inside ? 1 : options_.jobs;
 }
 
-std::vector<Fit> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
-                                    double from, double to) const {
+std::vector<std::optional<Fit>> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations,
+                                                   const std::string& stage, double from, double to) const {
   const auto fitOne = [&](std::size_t i) {
     FitOptions options{.iterations = iterations, .inherited = jobs[i].inherited, .tolerance = jobs[i].tolerance};
     if (options_.progress && !WorkerPool::inWorker())
@@ -50,21 +50,30 @@ std::vector<Fit> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterati
       };
     return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, options));
   };
-  const auto numbers = parallel(workersFor(jobs.size()), jobs.size(), fitOne, reporter(stage, jobs.size(), from, to));
-  std::vector<Fit> fits;
+  const auto results = parallel(workersFor(jobs.size()), jobs.size(), fitOne, reporter(stage, jobs.size(), from, to));
+  std::vector<std::optional<Fit>> fits(jobs.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    Fit fit{jobs[i].model, jobs[i].shifts, INFINITY};
-    unpack(numbers[i], problem_, fit);
-    fits.push_back(std::move(fit));
+    if (!results[i].ok()) {
+      refused_->add("fit", results[i].refused);
+      continue;
+    }
+    fits[i] = Fit{jobs[i].model, jobs[i].shifts, 0};
+    unpack(results[i].numbers, problem_, *fits[i]);
   }
+  return fits;
+}
+
+std::vector<Fit> SearchRun::thoseOf(std::vector<std::optional<Fit>> tried) {
+  std::vector<Fit> fits;
+  for (std::optional<Fit>& fit : tried)
+    if (fit) fits.push_back(std::move(*fit));
   return fits;
 }
 
 std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
                                    double from, double to) const {
-  std::vector<Fit> fits = tryFits(jobs, iterations, stage, from, to);
-  const bool any = std::ranges::any_of(fits, [](const Fit& fit) { return std::isfinite(fit.cost); });
-  if (!jobs.empty() && !any) fitModel(problem_, jobs[0].model, jobs[0].shifts, {.iterations = 1});
+  std::vector<Fit> fits = thoseOf(tryFits(jobs, iterations, stage, from, to));
+  if (fits.size() < jobs.size()) throw InputError(stage + ": " + refused_->last());
   return fits;
 }
 
@@ -80,9 +89,9 @@ void SearchRun::bringToStep(Scored& scored, const std::string& stage, double at)
   scored = scoreAll(fitOn({scored.fit}, againIterations, stage, at, at), stage, at, at)[0];
 }
 
-std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
-                                        double to) const {
-  const auto numbers = parallel(
+std::vector<std::optional<Scored>> SearchRun::tryScores(const std::vector<Fit>& fits, const std::string& stage,
+                                                        double from, double to) const {
+  const auto results = parallel(
       workersFor(fits.size()), fits.size(),
       [&](std::size_t i) {
         const Scored scored = crossValidate(problem_, fits[i]);
@@ -92,20 +101,32 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
         return list;
       },
       reporter(stage, fits.size(), from, to));
-  std::vector<Scored> result;
+  std::vector<std::optional<Scored>> scored(fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    Scored scored{fits[i], std::vector<double>(static_cast<std::size_t>(problem_.blocks), 1e6),
-                  Eigen::VectorXd::Constant(static_cast<Eigen::Index>(problem_.residuals()), 1e3),
-                  std::vector<double>(fits[i].model.effects.size(), 0), problem_.scene.step_s};
-    if (!numbers[i].empty()) {
-      const auto blocks = static_cast<std::ptrdiff_t>(scored.blocks.size()), sizes = std::ssize(scored.sizes);
-      scored.blocks.assign(numbers[i].begin(), numbers[i].begin() + blocks);
-      std::copy(numbers[i].begin() + blocks, numbers[i].end() - sizes, scored.heldOut.begin());
-      scored.sizes.assign(numbers[i].end() - sizes, numbers[i].end());
+    if (!results[i].ok()) {
+      refused_->add("score", results[i].refused);
+      continue;
     }
-    result.push_back(std::move(scored));
+    const std::vector<double>& numbers = results[i].numbers;
+    const auto blocks = static_cast<std::ptrdiff_t>(problem_.blocks), sizes = std::ssize(fits[i].model.effects);
+    scored[i] = Scored{fits[i],
+                       {numbers.begin(), numbers.begin() + blocks},
+                       Eigen::VectorXd(static_cast<Eigen::Index>(problem_.residuals())),
+                       {numbers.end() - sizes, numbers.end()},
+                       problem_.scene.step_s};
+    std::copy(numbers.begin() + blocks, numbers.end() - sizes, scored[i]->heldOut.begin());
   }
-  return result;
+  return scored;
+}
+
+std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
+                                        double to) const {
+  std::vector<Scored> all;
+  for (std::optional<Scored>& scored : tryScores(fits, stage, from, to)) {
+    if (!scored) throw InputError(stage + ": " + refused_->last());
+    all.push_back(std::move(*scored));
+  }
+  return all;
 }
 
 std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,

@@ -85,12 +85,13 @@ void SearchRun::takeApart(SearchResult& result) {
       ++i;
       continue;
     }
-    const std::vector<Fit> fits = fitAll({{parts, result.final.fit.shifts}}, 25, "taking apart", 0.86, 0.86);
-    const Scored scored = scoreAll(fits, "taking apart", 0.86, 0.86)[0];
-    if (isWorse(compare(scored.blocks, result.final.blocks))) {
+    const std::vector<Fit> fits = thoseOf(tryFits({{parts, result.final.fit.shifts}}, 25, "taking apart", 0.86, 0.86));
+    const auto apart = tryScores(fits, "taking apart", 0.86, 0.86);
+    if (apart.empty() || !apart[0] || isWorse(compare(apart[0]->blocks, result.final.blocks))) {
       ++i;
       continue;
     }
+    const Scored& scored = *apart[0];
     const std::string ownText = own.text();
     std::string what = ownText + " →";
     for (std::size_t k = 0; k < added.size(); ++k) {
@@ -174,10 +175,10 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
     model = model.with(problem_, candidate.placed(from));
   }
   if (model.effects.size() + 1 != result.final.fit.model.effects.size() + names.size()) return;
-  const std::vector<Fit> fits = fitAll({{model, result.final.fit.shifts}}, 15, "rivals", 0.95, 0.95);
-  const Scored scored = scoreAll(fits, "rivals", 0.95, 0.95)[0];
-  if (isWorse(compare(scored.blocks, result.final.blocks))) return;
-  const double ratio = std::sqrt(scored.mean() / std::max(1e-12, result.final.mean()));
+  const std::vector<Fit> fits = thoseOf(tryFits({{model, result.final.fit.shifts}}, 15, "rivals", 0.95, 0.95));
+  const auto scored = tryScores(fits, "rivals", 0.95, 0.95);
+  if (scored.empty() || !scored[0] || isWorse(compare(scored[0]->blocks, result.final.blocks))) return;
+  const double ratio = std::sqrt(scored[0]->mean() / std::max(1e-12, result.final.mean()));
   for (std::size_t k = 0; k < names.size(); ++k) {
     found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
     found.rivalFits.push_back(fits[0]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/refused_jobs.h"
 #include "core/gap/search/search.h"
 
 namespace btr {
@@ -78,10 +81,11 @@ class SearchRun {
   }
   /// Few jobs run one after another, the segments of each in all workers, where there are enough of them.
   int workersFor(std::size_t count) const;
-  /// A fit that fails costs infinitely much.
-  std::vector<Fit> tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
-                           double to) const;
-  /// The same; where all fail, the first one's error is thrown.
+  /// Nothing for a fit whose numbers the scene refuses; those are counted in refused_.
+  std::vector<std::optional<Fit>> tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                          double from, double to) const;
+  static std::vector<Fit> thoseOf(std::vector<std::optional<Fit>> tried);  ///< that came to an end
+  /// The same for fits that must not fail: throws InputError if the scene refuses one.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
   std::vector<Fit> fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
@@ -92,6 +96,10 @@ class SearchRun {
   /// fitted on at the present step.
   std::vector<Scored> fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
                                   double from, double to);
+  /// Nothing for a fit whose numbers, as half of the blocks would have them, the scene refuses.
+  std::vector<std::optional<Scored>> tryScores(const std::vector<Fit>& fits, const std::string& stage, double from,
+                                               double to) const;
+  /// The same for fits that must not fail: throws InputError.
   std::vector<Scored> scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from, double to) const;
   Scored calibrate();
   /// A candidate with a whole number that leaves much: other numbers, begun in short windows.
@@ -212,6 +220,7 @@ class SearchRun {
   double search_s_ = 0;             ///< the step that the calibrated simulator needs
   std::vector<FitParameter> held_;  ///< numbers that the calibrated simulator does not feel, as given
   mutable double told_ = 0;
+  std::shared_ptr<RefusedJobs> refused_ = std::make_shared<RefusedJobs>();  ///< one for the searches in windows, too
   std::vector<Tried> firstStage_;
 };
 

@@ -43,12 +43,12 @@ FitModel SearchRun::drawnAround(const FitModel& start, const std::vector<std::ve
         const double to = round == 0 ? p.maximum : std::min(p.maximum, best.values[i] + half);
         model.values[i] = drawn(p, from, to, random);
       }
-    const auto errors = parallel(
+    const auto replays = parallel(
         options_.jobs, draws, [&](std::size_t i) { return std::vector<double>{errorOf(models[i])}; },
         reporter(stage, draws, at, at));
     for (std::size_t i = 0; i < draws; ++i)
-      if (!errors[i].empty() && errors[i][0] < least) {
-        least = errors[i][0];
+      if (replays[i].ok() && replays[i].numbers[0] < least) {
+        least = replays[i].numbers[0];
         best = models[i];
       }
   }
@@ -64,8 +64,8 @@ void SearchRun::scatter(Fit& fit, const std::string& stage, double at) const {
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FitModel best = drawnAround(fit.model, fit.shifts, all, "calibration scatter", stage, at);
   if (best.values == fit.model.values) return;
-  const Fit fitted = fitAll({{best, fit.shifts}}, iterations, stage, at, at)[0];
-  if (costsLess(fitted, fit)) fit = fitted;
+  const std::optional<Fit> fitted = tryFits({{best, fit.shifts}}, iterations, stage, at, at)[0];
+  if (fitted && costsLess(*fitted, fit)) fit = *fitted;
 }
 
 }  // namespace btr

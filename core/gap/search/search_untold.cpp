@@ -112,9 +112,9 @@ void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, doubl
     jobs.push_back({model, fits[i].shifts});
     owner.push_back(i);
   }
-  const std::vector<Fit> again = fitAll(jobs, toTheEnd, stage, at, at);
+  const auto again = tryFits(jobs, toTheEnd, stage, at, at);
   for (std::size_t k = 0; k < again.size(); ++k)
-    if (again[k].cost < fits[owner[k]].cost) fits[owner[k]] = again[k];
+    if (again[k] && again[k]->cost < fits[owner[k]].cost) fits[owner[k]] = *again[k];
 }
 
 bool SearchRun::leaveUntold(SearchResult& result) const {
@@ -127,12 +127,12 @@ bool SearchRun::leaveUntold(SearchResult& result) const {
   for (const std::size_t number : strayed(whole, result.finalUncertainty)) {
     const FitModel model =
         asGiven(least.fit.model, placeIn(least.fit.model, whole.parameters[number]), whole, result.finalLinear);
-    const std::vector<Fit> fits = tryFits({{model, least.fit.shifts}}, toTheEnd, stage, at, at);
+    const std::vector<Fit> fits = thoseOf(tryFits({{model, least.fit.shifts}}, toTheEnd, stage, at, at));
     const double more = chiSquared95 / 2 * std::max(1.0, result.final.mean());
-    if (!(fits[0].cost <= allowed + more)) continue;
-    const Scored scored = scoreAll(fits, stage, at, at)[0];
-    if (isMissed(scored, result.final)) continue;
-    least = scored;
+    if (fits.empty() || !(fits[0].cost <= allowed + more)) continue;
+    const std::optional<Scored> scored = tryScores(fits, stage, at, at)[0];
+    if (!scored || isMissed(*scored, result.final)) continue;
+    least = *scored;
     allowed += more;
   }
   const FitModel fitted = least.fit.model;

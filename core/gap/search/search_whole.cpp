@@ -59,28 +59,27 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   std::ranges::copy(wavesLike(fresh, *whole), std::back_inserter(waves));
 
   SearchRun windows = inWindows(shortest_s);
-  const auto errors = parallel(
+  const auto replays = parallel(
       options_.jobs, waves.size(),
       [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem_, waves[i], {}).squaredNorm()}; },
       reporter(stage, waves.size(), at, at));
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < waves.size(); ++i)
-    if (!errors[i].empty()) order.push_back(i);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return errors[i][0]; });
+    if (replays[i].ok()) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return replays[i].numbers[0]; });
   std::vector<FitJob> starts;
   for (const std::size_t i : order)
     if (starts.size() < mostStarts &&
         std::ranges::none_of(starts, [&](const FitJob& start) { return numberOf(start.model) == numberOf(waves[i]); }))
       starts.push_back({waves[i], {}});
 
-  std::vector<Fit> fits = windows.tryFits(starts, nearby, stage, at, at);
+  std::vector<Fit> fits = thoseOf(windows.tryFits(starts, nearby, stage, at, at));
   if (fits.empty()) return;
   std::ranges::sort(fits, costsLess);
-  if (!std::isfinite(fits[0].cost)) return;
   windows.climbWholeNumbers(fits[0], stage, at);
   fits = inLongerWindows(std::move(fits), shortest_s, fit.shifts, stage, at);
   const auto least = std::ranges::min_element(fits, costsLess);
-  if (least->cost < better * fit.cost) fit = *least;
+  if (least != fits.end() && least->cost < better * fit.cost) fit = *least;
 }
 
 /// Neighbours are tried as long as one fits better.
@@ -100,7 +99,7 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
         model.effects.back().parameters[p.name] = here + by;
         jobs.push_back({model, fit.shifts});
       }
-      std::vector<Fit> fits = fitAll(jobs, look, stage, at, at);
+      std::vector<Fit> fits = thoseOf(tryFits(jobs, look, stage, at, at));
       std::ranges::sort(fits, costsLess);
       if (fits.size() > 2) fits.resize(2);
       fits = fitOn(fits, iterations, stage, at, at);

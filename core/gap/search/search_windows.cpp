@@ -37,6 +37,7 @@ FitProblem cutShort(const FitProblem& problem, double length_s) {
 SearchRun SearchRun::inWindows(double length_s) const {
   SearchRun windows(cutShort(problem_, length_s), options_);
   windows.told_ = told_;
+  windows.refused_ = refused_;
   return windows;
 }
 
@@ -48,7 +49,7 @@ std::vector<Fit> SearchRun::inLongerWindows(std::vector<Fit> fits, double length
   const auto goOn = [&](const SearchRun& run, const std::vector<std::vector<double>>& from) {
     std::vector<FitJob> jobs;
     for (const Fit& each : fits) jobs.push_back({each.model, from});
-    fits = run.tryFits(jobs, wholeIterations, stage, at, at);
+    fits = thoseOf(run.tryFits(jobs, wholeIterations, stage, at, at));
   };
   while ((length_s *= longer) < longest_s) goOn(inWindows(length_s), {});
   goOn(*this, shifts);
@@ -93,19 +94,20 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
   }
   for (const Begun& each : begun) {
     if (!(each.error <= inReach * least)) continue;
-    std::vector<Fit> fits = windows.tryFits({{each.model, {}}}, nearby, stage, at, at);
+    std::vector<Fit> fits = thoseOf(windows.tryFits({{each.model, {}}}, nearby, stage, at, at));
+    if (fits.empty()) continue;
     // Of a law that is not the cause a better fit says nothing: others were not begun as often.
     const auto leaves = [&](const FitProblem& problem) {
       return 2 * fits[0].cost / static_cast<double>(problem.residuals());
     };
     if (!(leaves(windows.problem_) <= hopeless * mostLeft)) continue;
     fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
-    if (!(leaves(problem_) <= mostLeft)) continue;
+    if (fits.empty() || !(leaves(problem_) <= mostLeft)) continue;
     // What the candidate has so far was broken off after a few iterations; it is judged with as many.
     Fit& fit = tried[each.tried].fit;
     if (!costsLess(fits[0], fit)) continue;
-    const Fit goneOn = tryFits({{fit.model, fit.shifts}}, wholeIterations, stage, at, at)[0];
-    if (costsLess(fits[0], goneOn)) fit = fits[0];
+    const std::optional<Fit> goneOn = tryFits({{fit.model, fit.shifts}}, wholeIterations, stage, at, at)[0];
+    if (!goneOn || costsLess(fits[0], *goneOn)) fit = fits[0];
   }
 }
 

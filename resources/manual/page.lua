@@ -5,6 +5,7 @@ local function html(target)
   if target:match("^%a+:") then return target end
   -- The results lie beside the manual's folder in the sources, and in it among the pages.
   target = target:gsub("^%.%./(.*results%.md)", "%1")
+  target = target:gsub("^manual/", "")
   return (target:gsub("%.md$", ".html"):gsub("%.md#", ".html#"))
 end
 
@@ -16,6 +17,7 @@ function Pandoc(document)
       break
     end
   end
+  document.meta.lang = "en"
   document = document:walk({
     Link = function(link)
       link.target = html(link.target)

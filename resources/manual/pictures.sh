@@ -19,11 +19,12 @@ wants() { [ "$wanted" = "  " ] || [[ $wanted == *" $1 "* ]]; }
 # What the pictures show: the shipped runs, a run that waits for a person, a small grid, a report.
 cp experiments.db "$folder/shipped.db"
 if wants sheet; then
+  cp -r resources/scenes resources/robots "$folder"
   python3 - "$folder/person.json" "$root" <<'P'
 import json, sys
 out, root = sys.argv[1:]
 spec = json.load(open(root + "/resources/experiments/kick-short.json"))
-spec.update(scene=root + "/resources/scenes/kick.json", reality="person", name="Kicks that a person measures")
+spec.update(scene="scenes/kick.json", reality="person", name="Kicks that a person measures")
 spec["stages"].update(first_generations=12, total_generations=20, measured_individuals=5, repeats=3)
 json.dump(spec, open(out, "w"))
 P
@@ -42,9 +43,10 @@ json.dump(grid, open(out, "w"))
 P
   "$bin/btr" grid "$folder/grid.json" --db "$folder/grid.db" --quiet > /dev/null
 fi
-if wants report || wants gap-setup; then
-  "$bin/btr" gap analyse resources/scenes/xl330.json --recording tests/data/bam_xl330/sin_sin_kp800_2026-01-15_10h29m47.csv \
-    --held-out tests/data/bam_xl330/lift_and_drop_kp200_2026-01-15_10h28m49.csv --out "$folder/report" > /dev/null
+if wants report; then
+  made=resources/recordings/xl330-made
+  "$bin/btr" gap analyse resources/scenes/xl330.json --recording $made/made_kp200_sines.csv \
+    --recording $made/made_kp400_slow.csv --held-out $made/made_kp200_chirp.csv --out "$folder/report" > /dev/null
 fi
 
 # picture NAME "KEYS" ARGUMENT…: the window as it looks after these keys
@@ -58,10 +60,10 @@ window=$(timeout 60 xdotool search --sync --onlyvisible --name UCHILSIM | tail -
 xdotool windowmove "$window" 0 0 windowsize --sync "$window" "$(xdotool getdisplaygeometry | tr ' ' '\n' | head -n 1)" \
   "$(xdotool getdisplaygeometry | tr ' ' '\n' | tail -n 1)" || true
 xdotool windowfocus --sync "$window"
-# The picture is taken when two in a row are the same: everything is loaded and drawn.
+# The picture is taken when two in a row are the same: everything is loaded and drawn. An alarm that pulses never is.
 settled() {
   local before="" now
-  for _ in $(seq 60); do
+  for _ in $(seq 20); do
     import -window root "$folder/$name.png"
     now=$(convert "$folder/$name.png" -crop 100%x97%+0+0 rgb:- | sha256sum)
     [ "$now" = "$before" ] && return 0
@@ -92,12 +94,11 @@ short_kick=$("$bin/btr" --json status --db "$folder/shipped.db" | python3 -c '
 import json, sys
 print(next(run["run"] for run in json.load(sys.stdin) if "kick, short" in run["experiment"]))')
 picture window "F7" 1600x1000 "$folder/shipped.db" --select-run "$short_kick"
-picture charts "" 1600x1000 "$folder/shipped.db" --select-run "$short_kick"
-picture form "ctrl+n" 1280x800 "$folder/shipped.db"
-picture sheet "" 1280x800 "$folder/person.db" --select-run 1
-picture grid "" 1280x800 "$folder/grid.db" --grid 1
-picture gap-setup "F8" 1280x800 "$folder/shipped.db" --select-run "$short_kick"
-picture report "" 1280x800 "$folder/shipped.db" --report "$folder/report"
+picture form "ctrl+n" 1440x900 "$folder/shipped.db"
+picture sheet "" 1440x900 "$folder/person.db" --select-run 1
+picture grid "" 1440x900 "$folder/grid.db" --grid 1
+picture gap-setup "F8" 1440x900 "$folder/shipped.db" --select-run "$short_kick"
+picture report "" 1440x900 "$folder/shipped.db" --report "$folder/report"
 
 # 256 colours: a tenth of the size, no difference to be seen.
 for file in "$folder"/pictures/*.png; do

@@ -38,7 +38,7 @@ import json, sys
 out, root = sys.argv[1:]
 grid = json.load(open(root + "/resources/grids/kick-grid-short.json"))
 grid.update(experiment=root + "/resources/experiments/kick-short.json", methods=["contamination"], seeds=[1])
-grid["settings"].update(generations=15, points=20)
+grid["settings"].update(generations=8, points=20)
 json.dump(grid, open(out, "w"))
 P
   "$bin/btr" grid "$folder/grid.json" --db "$folder/grid.db" --quiet > /dev/null
@@ -55,7 +55,12 @@ name=$1 keys=$2 folder=$3
 shift 3
 "$@" > "$folder/$name.log" 2>&1 &
 program=$!
-window=$(timeout 60 xdotool search --sync --onlyvisible --name UCHILSIM | tail -n 1)
+# A window without a picture yet is not the one that stays.
+for _ in $(seq 60); do
+  window=$(xdotool search --onlyvisible --name UCHILSIM | tail -n 1)
+  [ -n "$window" ] && import -window root "$folder/$name.png" && [ "$(identify -format %k "$folder/$name.png")" -gt 50 ] && break
+  xdotool sleep 0.5
+done
 [ -n "$window" ] || { cat "$folder/$name.log"; kill $program; exit 1; }
 xdotool windowmove "$window" 0 0 windowsize --sync "$window" "$(xdotool getdisplaygeometry | tr ' ' '\n' | head -n 1)" \
   "$(xdotool getdisplaygeometry | tr ' ' '\n' | tail -n 1)" || true
@@ -98,7 +103,7 @@ picture form "ctrl+n" 1440x900 "$folder/shipped.db"
 picture sheet "" 1440x900 "$folder/person.db" --select-run 1
 picture grid "" 1440x900 "$folder/grid.db" --grid 1
 picture gap-setup "F8" 1440x900 "$folder/shipped.db" --select-run "$short_kick"
-picture report "" 1440x900 "$folder/shipped.db" --report "$folder/report"
+picture report "alt+t" 1440x900 "$folder/shipped.db" --report "$folder/report"
 
 # 256 colours: a tenth of the size, no difference to be seen.
 for file in "$folder"/pictures/*.png; do

@@ -123,4 +123,6 @@ for problem in problems:
     print("FAILED:", problem)
 sys.exit(1 if problems else 0)
 P
+words=$(wc -w < "$root/README.md")
+[ "$words" -le 900 ] || fail "README.md has $words words, at most 900 are read"
 finish

@@ -17,6 +17,7 @@ QString Manual::standardFolder() {
 
 QString Manual::pageFor(const QWidget* widget) {
   static const QHash<QString, QString> pages{{"dock.tree", "first-run.html"},
+                                             {"dock.start", "first-run.html"},
                                              {"dock.run", "first-run.html"},
                                              {"dock.draft", "experiments.html"},
                                              {"dock.spec", "experiments.html"},

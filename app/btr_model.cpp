@@ -48,7 +48,31 @@ nlohmann::json describe(const std::vector<Parameter>& parameters) {
   return all;
 }
 
+/// All plugins with who made them and where they lie, and what could not be loaded.
+void listModules(Shell& shell) {
+  const PluginHost& host = shell.plugins();
+  if (shell.json) {
+    nlohmann::json plugins = nlohmann::json::array(), failures = nlohmann::json::array();
+    for (const PluginInfo& p : host.plugins())
+      plugins.push_back({{"kind", p.kind},
+                         {"name", p.name},
+                         {"version", p.version},
+                         {"author", p.author},
+                         {"licence", p.licence},
+                         {"path", p.path}});
+    for (const PluginFailure& f : host.failures()) failures.push_back({{"path", f.path}, {"why", f.why}});
+    printJson({{"plugins", plugins}, {"failures", failures}});
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const PluginInfo& p : host.plugins()) rows.push_back({p.kind, p.name, p.version, p.author, p.licence, p.path});
+  std::cout << table({"kind", "name", "version", "author", "licence", "path"}, rows);
+  for (const PluginFailure& f : host.failures())
+    std::cout << "not loaded: " << printable(f.path) << ": " << printable(f.why) << '\n';
+}
+
 void listPlugins(const std::string& kind, Shell& shell) {
+  if (kind == "plugins") return listModules(shell);
   const PluginHost& host = shell.plugins();
   std::vector<std::pair<std::string, std::vector<Parameter>>> found;
   if (kind == "effects")
@@ -97,9 +121,10 @@ void addModelCommands(CLI::App& app, Shell& shell) {
 
   auto kind = std::make_shared<std::string>();
   CLI::App* list = app.add_subcommand("list", "what plugins are there, with their parameters, units and bounds");
-  list->add_option("KIND", *kind, "effects, learners, controllers or fitness")
+  list->add_option("KIND", *kind,
+                   "effects, learners, controllers, fitness, or plugins: all, with version, author, licence and path")
       ->required()
-      ->check(CLI::IsMember({"effects", "learners", "controllers", "fitness"}));
+      ->check(CLI::IsMember({"effects", "learners", "controllers", "fitness", "plugins"}));
   list->callback([kind, &shell] { listPlugins(*kind, shell); });
 }
 

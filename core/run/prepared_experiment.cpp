@@ -35,6 +35,8 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
                            const PluginHost& host) {
   PreparedExperiment prepared;
   prepared.spec = spec;
+  prepared.spec.plugins = pluginFolders(spec);  // what is stored does not know the experiment's folder
+  host.load(prepared.spec.plugins, "experiment /plugins");
   prepared.sceneSpec = std::move(sceneSpec);
   prepared.files = std::move(files);
   prepared.controller = host.controller(spec.controller.name);

@@ -197,6 +197,7 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   spec.directory = directory;
   spec.name = reader.text("name");
   if (spec.name.empty()) reader.refuse("name", "at least one letter");
+  spec.plugins = reader.texts("plugins");
   spec.scene = reader.text("scene");
   if (spec.scene.empty()) reader.refuse("scene", "the path of a scene file");
   spec.controller = pluginChoice(reader.object("controller"));
@@ -246,6 +247,14 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   return spec;
 }
 
+std::vector<std::string> pluginFolders(const ExperimentSpec& experiment) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> folders;
+  for (const std::string& folder : experiment.plugins)
+    folders.push_back(fs::absolute(fs::path(experiment.directory) / folder).lexically_normal().string());
+  return folders;
+}
+
 ExperimentSpec loadExperiment(const std::string& path) {
   return experimentFromJson(readFile(path), path, std::filesystem::path(path).parent_path().string());
 }
@@ -274,6 +283,7 @@ std::string toJsonText(const ExperimentSpec& experiment) {
   if (!experiment.realityLearner.name.empty())
     document["reality_learning"] = {{"learner", toJson(experiment.realityLearner)},
                                     {"settings", btr::toJson(experiment.realitySettings, realityLearningParameters())}};
+  if (!experiment.plugins.empty()) document["plugins"] = experiment.plugins;
   if (experiment.concealed != ConcealedSpec{}) document["concealed"] = btr::toJson(experiment.concealed);
   if (experiment.recordings != RecordingsSpec{}) document["recordings"] = btr::toJson(experiment.recordings);
   return document.dump(2) + "\n";

@@ -33,6 +33,7 @@ struct SearchStart {
 /// The same spec and seed give the same bits.
 struct ExperimentSpec {
   std::string name;
+  std::vector<std::string> plugins;  ///< folders of further plugins, relative to the experiment's file
   std::string scene;                 ///< path of the scene file, relative to the experiment's file
   PluginChoice controller;           ///< e.g. "kick": settings = the task (d, β, α)
   PluginChoice fitness;              ///< e.g. "kick_distance"
@@ -72,6 +73,9 @@ const std::vector<Parameter>& adaptationParameters();
 const std::vector<Parameter>& realityLearningParameters();
 /// seed, noise_m, parameter_error, hidden_effects, …
 const std::vector<Parameter>& standInParameters();
+
+/// The folders of `plugins` as full paths.
+std::vector<std::string> pluginFolders(const ExperimentSpec& experiment);
 
 /// Structure, names and bounds of everything that needs no plugin are checked here; the plugins' settings are checked
 /// by run::validate, which knows the plugins. Throws InputError.

@@ -14,6 +14,7 @@
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/manual.h"
+#include "ui/common/plugins_dialog.h"
 #include "ui/common/resources.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
@@ -135,6 +136,8 @@ void MainWindow::makeMenus() {
       report(problem);
   })->setObjectName("help.manual");
   add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); })->setObjectName("help.about");
+  add(help, "preferences-plugin", tr("&Plugins…"), {}, [this] { PluginsDialog(*host_, this).exec(); });
+  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); });
 
   for (QAction* action : {save, database}) action->setPriority(QAction::LowPriority);
   auto* bar = new ToolBar(tr("Tools"), this);

@@ -135,9 +135,8 @@ void MainWindow::makeMenus() {
     if (const QString problem = Manual().open(Manual::pageFor(QApplication::focusWidget())); !problem.isEmpty())
       report(problem);
   })->setObjectName("help.manual");
-  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); })->setObjectName("help.about");
   add(help, "preferences-plugin", tr("&Plugins…"), {}, [this] { PluginsDialog(*host_, this).exec(); });
-  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); });
+  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); })->setObjectName("help.about");
 
   for (QAction* action : {save, database}) action->setPriority(QAction::LowPriority);
   auto* bar = new ToolBar(tr("Tools"), this);

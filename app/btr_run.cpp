@@ -93,7 +93,7 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
     rows.push_back({std::to_string(r["run"].get<long>()), r["experiment"].get<std::string>(),
                     std::to_string(r["seed"].get<std::uint64_t>()), state, std::to_string(r["generation"].get<int>()),
                     std::to_string(r["stages_done"].get<int>()), std::to_string(r["simulators"].get<int>() - 1), gap,
-                    heldOut, standIn ? "stand-in" : "person", r["message"].get<std::string>()});
+                    heldOut, standIn ? "stand-in" : r["reality"].get<std::string>(), r["message"].get<std::string>()});
   }
   writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "held-out gap",
                       "reality", "message"},

@@ -1,10 +1,10 @@
 # uchilsim_add_plugin(KIND FILE.cpp [VERSION v] [AUTHOR name] [LICENCE spdx])
 #   makes the module plugins/KIND/FILE.so in the build folder (or below UCHILSIM_PLUGIN_OUTPUT), where KIND is
-#   controllers, learners, fitness or effects; the folder plugins/ is what UCHILSIM_PLUGINS takes. The target is
+#   controllers, learners, fitness, effects or reality; the folder plugins/ is what UCHILSIM_PLUGINS takes. The target is
 #   called plugin_KIND_FILE.
 function(uchilsim_add_plugin kind source)
   cmake_parse_arguments(ABOUT "" "VERSION;AUTHOR;LICENCE" "" ${ARGN})
-  set(kinds controllers learners fitness effects)
+  set(kinds controllers learners fitness effects reality)
   if(NOT kind IN_LIST kinds)
     message(FATAL_ERROR "uchilsim_add_plugin: \"${kind}\" is not a kind of plugin; ${kinds}")
   endif()

@@ -10,10 +10,13 @@
 #include "core/learn/variation.h"
 #include "core/model/kinematics.h"
 #include "core/plugin/plugin_build.h"
+#include "core/plugin/reality.h"
+#include "core/plugin/robot_program.h"
 #include "core/sim/controller.h"
 #include "core/sim/effect.h"
 #include "core/sim/fitness.h"
 #include "core/sim/gait.h"
+#include "core/spec/csv.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -25,6 +28,7 @@ struct PluginRegistry {
   virtual void add(const char* name, std::function<std::unique_ptr<Learner>()> make) = 0;
   virtual void add(const char* name, std::function<std::unique_ptr<Fitness>()> make) = 0;
   virtual void add(const char* name, std::function<std::unique_ptr<Effect>()> make) = 0;
+  virtual void add(const char* name, std::function<std::unique_ptr<Reality>()> make) = 0;
 };
 
 // What an author who says nothing gets; `uchilsim_add_plugin` may define them, and so may the file itself.
@@ -54,13 +58,14 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 5;
+inline constexpr int pluginApiVersion = 6;
 
 /// Changes when a type that passes between plugin and program changes its size.
 inline constexpr std::size_t pluginLayout = sizeof(Parameter) + 3 * sizeof(JointState) + 5 * sizeof(BallState) +
                                             7 * sizeof(RobotReadings) + 11 * sizeof(JointInput) + 13 * sizeof(Scene) +
                                             17 * sizeof(SceneRobot) + 19 * sizeof(RobotModel) +
-                                            23 * sizeof(TrialResult) + 29 * sizeof(Candidate) + 31 * sizeof(Random);
+                                            23 * sizeof(TrialResult) + 29 * sizeof(Candidate) + 31 * sizeof(Random) +
+                                            37 * sizeof(RealTask) + 41 * sizeof(RealityContext);
 
 }  // namespace btr
 
@@ -79,3 +84,4 @@ inline constexpr std::size_t pluginLayout = sizeof(Parameter) + 3 * sizeof(Joint
 #define BTR_CONTROLLER(Class, ...) BTR_PLUGIN_(Controller, Class, __VA_ARGS__)
 #define BTR_LEARNER(Class, ...) BTR_PLUGIN_(Learner, Class, __VA_ARGS__)
 #define BTR_FITNESS(Class, ...) BTR_PLUGIN_(Fitness, Class, __VA_ARGS__)
+#define BTR_REALITY(Class, ...) BTR_PLUGIN_(Reality, Class, __VA_ARGS__)

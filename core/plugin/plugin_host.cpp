@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 template <class Kind>
 using Makers = std::map<std::string, std::function<std::unique_ptr<Kind>()>>;
 
-constexpr const char* kindFolders[] = {"controllers", "learners", "fitness", "effects"};
+constexpr const char* kindFolders[] = {"controllers", "learners", "fitness", "effects", "reality"};
 
 /// All regular files named *.so below the folders of the kinds, sorted, so that every machine loads them in the same
 /// order.
@@ -40,6 +40,7 @@ struct PluginHost::Impl final : PluginRegistry {
   Makers<Learner> learners;
   Makers<Fitness> fitnesses;
   Makers<Effect> effects;
+  Makers<Reality> realities;
   std::vector<PluginInfo> plugins;
   std::vector<PluginFailure> failures;
   std::vector<std::string> seen;  ///< files that were tried, once each whatever folder names them
@@ -63,6 +64,9 @@ struct PluginHost::Impl final : PluginRegistry {
   }
   void add(const char* name, std::function<std::unique_ptr<Effect>()> maker) override {
     keep(effects, "effect", name, std::move(maker));
+  }
+  void add(const char* name, std::function<std::unique_ptr<Reality>()> maker) override {
+    keep(realities, "reality", name, std::move(maker));
   }
 
   /// Returns what is wrong with the module, or "".
@@ -118,7 +122,7 @@ PluginHost::PluginHost(const std::vector<std::string>& directories) : impl_(std:
     if (fs::is_directory(directory))
       impl_->loadAllBelow(directory);
     else if (&directory == &directories.front())
-      throw InputError("plugin directory", directory, "a folder with controllers, learners, fitness, effects");
+      throw InputError("plugin directory", directory, "a folder with controllers, learners, fitness, effects, reality");
     else
       impl_->failures.push_back({directory, "there is no such folder of plugins"});
   }
@@ -153,7 +157,7 @@ void PluginHost::load(const std::vector<std::string>& directories, const std::st
   const std::lock_guard lock(impl_->guard);
   for (const std::string& directory : directories) {
     if (!fs::is_directory(directory))
-      throw InputError(place, directory, "a folder with controllers, learners, fitness, effects");
+      throw InputError(place, directory, "a folder with controllers, learners, fitness, effects, reality");
     impl_->loadAllBelow(directory);
     for (const PluginFailure& failure : impl_->failures)
       if (fs::path(failure.path).parent_path().parent_path() == fs::path(directory))
@@ -173,11 +177,15 @@ std::unique_ptr<Fitness> PluginHost::fitness(const std::string& name) const {
 std::shared_ptr<const Effect> PluginHost::effect(const std::string& name) const {
   return impl_->make(impl_->effects, "effect", name);
 }
+std::shared_ptr<const Reality> PluginHost::reality(const std::string& name) const {
+  return impl_->make(impl_->realities, "reality", name);
+}
 
 std::vector<std::string> PluginHost::controllers() const { return impl_->names(impl_->controllers); }
 std::vector<std::string> PluginHost::learners() const { return impl_->names(impl_->learners); }
 std::vector<std::string> PluginHost::fitnesses() const { return impl_->names(impl_->fitnesses); }
 std::vector<std::string> PluginHost::effects() const { return impl_->names(impl_->effects); }
+std::vector<std::string> PluginHost::realities() const { return impl_->names(impl_->realities); }
 
 std::vector<PluginInfo> PluginHost::plugins() const {
   const std::lock_guard lock(impl_->guard);

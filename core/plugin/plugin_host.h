@@ -10,7 +10,7 @@ namespace btr {
 
 /// A plugin that was loaded. What its author does not say is "".
 struct PluginInfo {
-  std::string kind;  ///< "controller", "learner", "fitness", "effect"
+  std::string kind;  ///< "controller", "learner", "fitness", "effect", "reality"
   std::string name, version, author, licence;
   std::string path;  ///< of the module's file
 };
@@ -22,8 +22,8 @@ struct PluginFailure {
 };
 
 /// Loads plugin modules (never unloads them) and makes what they offer. A folder of plugins has a folder for each kind:
-/// controllers, learners, fitness, effects; each *.so in them is a module. Of two plugins with the same kind and name
-/// the first is kept and the second refused.
+/// controllers, learners, fitness, effects, reality; each *.so in them is a module. Of two plugins with the same kind
+/// and name the first is kept and the second refused.
 class PluginHost {
  public:
   /// Loads the modules of one folder. A module that cannot be loaded is left out and stands in failures(). Throws
@@ -50,11 +50,13 @@ class PluginHost {
   std::unique_ptr<Learner> learner(const std::string& name) const;
   std::unique_ptr<Fitness> fitness(const std::string& name) const;
   std::shared_ptr<const Effect> effect(const std::string& name) const;
+  std::shared_ptr<const Reality> reality(const std::string& name) const;
 
   std::vector<std::string> controllers() const;  ///< names, sorted
   std::vector<std::string> learners() const;
   std::vector<std::string> fitnesses() const;
   std::vector<std::string> effects() const;
+  std::vector<std::string> realities() const;
 
   std::vector<PluginInfo> plugins() const;  ///< in the order in which they were loaded
   std::vector<PluginFailure> failures() const;

@@ -18,6 +18,25 @@ json toJson(const PluginChoice& choice) {
   return {{"name", choice.name}, {"settings", settings}};
 }
 
+/// "reality": a name, or {"name": …, "settings": {…}}.
+void readReality(JsonReader& reader, ExperimentSpec& spec) {
+  const json* given = reader.any("reality");
+  if (!given) return;
+  if (given->is_string()) {
+    spec.reality = given->get<std::string>();
+  } else {
+    PluginChoice choice = pluginChoice(reader.object("reality"));
+    spec.reality = choice.name;
+    spec.realityOptions = {std::move(choice.settings), std::move(choice.words)};
+  }
+  if (spec.reality.empty()) reader.refuse("reality", "the name of a reality plugin, as person or stand_in");
+}
+
+json realityOf(const ExperimentSpec& spec) {
+  if (spec.realityOptions.empty()) return spec.reality;
+  return toJson(PluginChoice{spec.reality, spec.realityOptions.settings, spec.realityOptions.words});
+}
+
 constexpr double largestSeed = 9007199254740991;  // 2^53 − 1: every whole number up to it is a double
 
 }  // namespace
@@ -228,7 +247,7 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
     spec.simulator = simulatorFromReader(*simulator);
     simulator->finish();
   }
-  spec.reality = reader.word("reality", {"person", "stand_in"}, spec.reality);
+  readReality(reader, spec);
   spec.standIn = reader.values("stand_in", standInParameters());
   spec.concealed = concealedFrom(reader, "concealed");
   spec.recordings = recordingsFrom(reader, "recordings");
@@ -272,7 +291,7 @@ std::string toJsonText(const ExperimentSpec& experiment) {
                   {"settings", btr::toJson(experiment.adaptationSettings, adaptationParameters())},
                   {"parameters", experiment.adapted}}},
                 {"simulator", simulatorToJson(experiment.simulator)},
-                {"reality", experiment.reality},
+                {"reality", realityOf(experiment)},
                 {"stand_in", btr::toJson(experiment.standIn, standInParameters())},
                 {"seed", experiment.seed}};
   if (experiment.start)

@@ -29,6 +29,14 @@ struct SearchStart {
   bool operator==(const SearchStart&) const = default;
 };
 
+/// Settings of a reality plugin; words are choices and texts, such as paths relative to the experiment's file.
+struct RealityOptions {
+  Values settings;
+  std::map<std::string, std::string> words;
+  bool empty() const { return settings.empty() && words.empty(); }
+  bool operator==(const RealityOptions&) const = default;
+};
+
 /// What the user asked for: everything that a Back-to-Reality run depends on ("format": "uchilsim-experiment-1").
 /// The same spec and seed give the same bits.
 struct ExperimentSpec {
@@ -46,7 +54,8 @@ struct ExperimentSpec {
   PluginChoice realityLearner;       ///< L2's learner, e.g. "pgrl"; without a name the run has no L2
   Values realitySettings;            ///< when and how long L2 learns: realityLearningParameters()
   SimulatorSpec simulator;  ///< the simulator the run starts with; what is absent has the scene's and robot's numbers
-  std::string reality = "person";  ///< who answers the measurements: "person" or "stand_in"
+  std::string reality = "person";  ///< plugin that answers the measurements: "person", "stand_in", "program", …
+  RealityOptions realityOptions;   ///< what that plugin lets the user set
   Values standIn;                  ///< standInParameters(), used when reality is "stand_in"
   ConcealedSpec concealed;         ///< what its hidden effects are drawn from
   RecordingsSpec recordings;       ///< whether measured individuals are recorded and the recordings analysed

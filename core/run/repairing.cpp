@@ -89,6 +89,8 @@ std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<Recorded
 bool recordRobot(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
   const ScratchFolder scratch;
   const auto robot = openRobot(context);
+  if (!robot)
+    throw InputError("reality " + context.record.reality + ": the plugin says that it records, and opens no robot");
   for (const Id individual : who) {
     if (context.stopped()) return false;
     RecordingRecord record;

@@ -29,7 +29,7 @@ class RealRobots : public ::testing::Test {
     return path;
   }
   SmallKickRun measuredBy(const nlohmann::json& reality) {
-    return SmallKickRun(2, 2, [&](nlohmann::json& text) { text["reality"] = reality; });
+    return SmallKickRun(6, 2, [&](nlohmann::json& text) { text["reality"] = reality; });
   }
   static nlohmann::json byProgram(const std::string& path, double timeout_s = 60) {
     return {{"name", "program"}, {"settings", {{"program", path}, {"timeout_s", timeout_s}}}};

@@ -27,13 +27,15 @@ expect 0 "build" "$cmake" --build "$examples/build"
 export UCHILSIM_PLUGINS=$examples/build/plugins
 expect 0 "list effects" "$btr" list effects
 says out quadratic_drag
+expect 0 "list realities" "$btr" list realities
+for name in constant csv_folder person program stand_in; do says out "$name: "; done
 expect 0 "list plugins" "$btr" --json list plugins
 python3 - "$folder/out" "$examples" <<'PYTHON' || fail "list plugins --json"
 import json, sys
 document = json.load(open(sys.argv[1]))
 assert document["failures"] == [], document["failures"]
 found = {(p["kind"], p["name"]): p for p in document["plugins"]}
-for kind, name in [("controller", "swing"), ("learner", "random_search"), ("fitness", "ball_way"), ("effect", "quadratic_drag")]:
+for kind, name in [("controller", "swing"), ("learner", "random_search"), ("fitness", "ball_way"), ("effect", "quadratic_drag"), ("reality", "constant")]:
     plugin = found[kind, name]
     assert (plugin["version"], plugin["author"], plugin["licence"]) == ("1.0", "UCHILSIM", "GPL-3.0-or-later"), plugin
     assert plugin["path"].startswith(sys.argv[2] + "/build/plugins/"), plugin

@@ -120,7 +120,6 @@ RobotProgram::~RobotProgram() = default;
 std::optional<RealAnswer> RobotProgram::measure(const RealTask& task) {
   const std::string request = nlohmann::json{{"parameters", task.parameters},
                                              {"repeat", task.repeat},
-                                             {"individual", task.individual},
                                              {"record", task.recordTo},
                                              {"robot", task.pose}}
                                   .dump() +

@@ -9,7 +9,7 @@
 namespace btr {
 
 /// A program that plays or drives the robot. It gets one JSON request a line on standard input,
-///   {"parameters": […], "repeat": 0, "individual": 17, "record": "FILE", "robot": "hung_up"}
+///   {"parameters": […], "repeat": 0, "record": "FILE", "robot": "hung_up"}
 /// and gives one answer a line on standard output, {"fitness": 0.5, "void": false, "note": ""} or {"error": "why"},
 /// until its input ends.
 class RobotProgram final : public RealRobot {

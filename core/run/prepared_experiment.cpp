@@ -205,6 +205,8 @@ RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::
   for (const StoredFile& file : prepared.files) all += file.name + file.sha256;
   record.specSha256 = sha256(all);
   record.reality = prepared.spec.reality;
+  for (const Parameter& p : prepared.genotype)
+    record.genes.push_back({p.minimum, p.maximum, p.integer || !p.choices.empty()});
   return record;
 }
 

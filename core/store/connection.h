@@ -7,12 +7,16 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/spec/error.h"
+
 namespace SQLite {
 class Database;
 class Statement;
 }  // namespace SQLite
 
 namespace btr {
+
+struct Cell;
 
 /// One open database file, for core/store alone. What SQLite reports comes out as one InputError that names the file.
 class Connection {
@@ -34,6 +38,15 @@ class Connection {
   template <class Work>
   auto write(const Work& work) const {
     return run(work, true);
+  }
+  /// What `work` returns; an InputError of it gets the path in front.
+  template <class Work>
+  auto unpacked(const Work& work) const {
+    try {
+      return work();
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
   }
   /// Throws InputError "PATH: MESSAGE".
   [[noreturn]] void refuse(const std::string& message) const;
@@ -122,6 +135,7 @@ class Query {
   void bind(int index, const char* value);
   void bind(int index, const Blob& value);
   void bind(int index, const Reference& value);
+  void bind(int index, const Cell& value);
   void bind(int index, const std::vector<double>& value);  ///< bytes of little-endian doubles
   void read(int column, int& field) const;
   void read(int column, bool& field) const;
@@ -130,6 +144,7 @@ class Query {
   void read(int column, double& field) const;
   void read(int column, std::optional<double>& field) const;
   void read(int column, std::string& field) const;
+  void read(int column, Cell& field) const;
   void read(int column, std::vector<double>& field) const;
 
   const Connection& connection_;

@@ -187,6 +187,14 @@ void createFile(const std::string& path, int patience_ms) {
   }
 }
 
+// A step may have left half of the file empty. Where there is no room to write it anew, or others use it, the empty
+// pages stay and are used again: nothing is lost.
+void giveBackRoom(SQLite::Database& database) {
+  const int pages = database.execAndGet("PRAGMA page_count").getInt();
+  const int unused = database.execAndGet("PRAGMA freelist_count").getInt();
+  if (unused > pages / 4) database.tryExec("VACUUM");
+}
+
 void checkSound(const std::string& path, SQLite::Database& database) {
   SQLite::Statement check(database, "PRAGMA quick_check(1)");
   const std::string finding = check.executeStep() ? check.getColumn(0).getString() : "no answer";
@@ -226,7 +234,10 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
     const bool older = version < static_cast<int>(migrations().size());
     if (older && !writes)
       throw InputError(path + ": was written by an older UCHILSIM; open it for writing once to update it");
-    if (older) migrate(*database, migrations());
+    if (older) {
+      migrate(*database, migrations());
+      giveBackRoom(*database);
+    }
     if (writes) {
       const std::string journal = database->execAndGet("PRAGMA journal_mode = WAL").getString();
       if (journal != "wal")

@@ -21,11 +21,12 @@ struct Cell;
 /// One open database file, for core/store alone. What SQLite reports comes out as one InputError that names the file.
 class Connection {
  public:
-  Connection(std::string path, std::unique_ptr<SQLite::Database> database);
+  Connection(std::string path, std::unique_ptr<SQLite::Database> database, int patience_ms);
   ~Connection();
 
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
+  int patience_ms() const { return patience_ms_; }  ///< how long a call waits for another process's lock
   /// Number that changes with every commit, our own included.
   std::int64_t dataVersion() const;
 
@@ -67,6 +68,7 @@ class Connection {
 
   std::string path_;
   std::unique_ptr<SQLite::Database> database_;
+  int patience_ms_;
 };
 
 /// What SQLite's latest error on this file means to a person, beginning with the path.

@@ -130,6 +130,10 @@ void RunLauncher::exportCsv(const QString& database, Id run, const QString& what
            [this, file] { emit exported(file); });
 }
 
+void RunLauncher::backUp(const QString& database, const QString& file) {
+  runToEnd({"backup", "--db", database, file, "--force"}, [this, file] { emit backedUp(file); });
+}
+
 void RunLauncher::importFitness(const QString& database, Id run, const QString& file) {
   runToEnd({"fitness", "import", "--db", database, "--run", QString::number(run), file},
            [this, file] { emit imported(file); });

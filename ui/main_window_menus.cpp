@@ -71,6 +71,9 @@ void MainWindow::makeMenus() {
   recentMenu_ = file->addMenu(themeIcon("document-open-recent"), tr("&Recent databases"));
   fillRecent();
   add(file, "document-import", tr("Add runs of another data&base…"), {}, [this] { mergeWithDialog(); });
+  add(file, "document-save", tr("Back &up the database…"), {}, [this] {
+    backUpWithDialog();
+  })->setObjectName("backUpDatabase");
   file->addSeparator();
   QMenu* exports = file->addMenu(themeIcon("document-export"), tr("&Export"));
   for (const auto& [what, label] :

@@ -57,6 +57,16 @@ class TestRunLauncher : public QObject {
     QVERIFY(bench.database.simulators(copy.id).front().simulator == bench.database.simulators(run).front().simulator);
   }
 
+  void aBackupHoldsWhatTheDatabaseHolds() {
+    Bench bench;
+    const Id run = bench.stored(3);
+    QSignalSpy spy(&bench.launcher, &RunLauncher::backedUp);
+    const QString file = bench.folder.filePath("copy.db");
+    bench.launcher.backUp(bench.path, file);
+    QVERIFY(spy.wait(longest_ms));
+    QCOMPARE(Database::open(file.toStdString(), Database::Mode::readOnly).run(run).seed, std::uint64_t(3));
+  }
+
   void aSceneThatIsNotThereIsAMessageAndStoresNothing() {
     Bench bench;
     ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");

@@ -9,6 +9,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/run/reality_gap.h"
 #include "core/run/stand_in.h"
+#include "core/run/waiting.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/store/database.h"
@@ -69,7 +70,7 @@ nlohmann::json describe(const Database& db, const RunRecord& run) {
           {"simulators", db.simulators(run.id).size()},
           {"waiting_for_fitness", waiting},
           {"active", isRunActive(db.path(), run.id)},
-          {"message", run.message},
+          {"message", messageNow(db, run)},
           {"gaps", gaps}};
 }
 
@@ -117,8 +118,12 @@ void run(const RunArguments& arguments, Shell& shell) {
   Database db =
       Database::open(arguments.database, spec ? Database::Mode::create : Database::Mode::readWrite, workingPatience_ms);
   Id id = arguments.run;
-  if (spec)
-    id = startRun(db, shell.plugins(), *spec, arguments.seedGiven ? arguments.seed : spec->seed, arguments.again);
+  if (spec) {
+    std::string edited;
+    id = startRun(db, shell.plugins(), *spec, arguments.seedGiven ? arguments.seed : spec->seed, arguments.again,
+                  &edited);
+    if (!edited.empty()) std::fprintf(stderr, "btr: %s: %s\n", arguments.spec.c_str(), edited.c_str());
+  }
   shell.goesOn = true;
   RunOptions options;
   options.jobs = arguments.jobs;

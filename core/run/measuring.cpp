@@ -8,6 +8,7 @@
 #include "core/run/reality_gap.h"
 #include "core/run/robot.h"
 #include "core/run/run_context.h"
+#include "core/run/waiting.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -198,17 +199,7 @@ bool completeMeasuring(RunContext& context, int stage, int iteration) {
   }
   const int missing = context.progress.stageTotal - static_cast<int>(settled());
   const bool anyReal = !realFitness(tasks, done, stage).empty();
-  const std::string who = iteration > 0 ? " policies" : " individuals";
-  const std::string where = iteration > 0
-                                ? "L2 in stage " + std::to_string(stage) + ", iteration " + std::to_string(iteration)
-                                : "measurement stage " + std::to_string(stage);
-  if (missing > 0)
-    context.progress.message =
-        where + ": " + std::to_string(missing) + " of " + std::to_string(tasks.size()) + who + " wait for real fitness";
-  else if (!anyReal)
-    context.progress.message = where + ": all values are void; enter at least one that is not";
-  else
-    context.progress.message.clear();
+  context.progress.message = waitingText(stage, iteration, missing, static_cast<int>(tasks.size()), anyReal);
   context.publish(true);
   return missing == 0 && anyReal;
 }

@@ -33,9 +33,13 @@ RunLauncher::~RunLauncher() {
 }
 
 void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {
-  inThread([path = database.toStdString(), spec, seed, again, host = host_] {
+  inThread([this, path = database.toStdString(), spec, seed, again, host = host_] {
     Database db = Database::open(path, Database::Mode::readWrite);
-    return startRun(db, *host, spec, seed, again);
+    std::string differs;
+    const Id run = startRun(db, *host, spec, seed, again, &differs);
+    if (!differs.empty())
+      QMetaObject::invokeMethod(this, [this, text = QString::fromStdString(differs)] { emit edited(text); });
+    return run;
   });
 }
 

@@ -56,6 +56,8 @@ class RunLauncher : public QObject {
 
  signals:
   void stored(btr::Id run);
+  /// The run that is being stored is one that was edited: in what it differs from which.
+  void edited(const QString& differences);
   void exported(const QString& file);
   void backedUp(const QString& file);
   void imported(const QString& file);

@@ -44,11 +44,13 @@ int main(int argc, char** argv) {
   btr::cli::addCompareCommand(app, shell);
   btr::cli::addFitnessCommands(app, shell);
   btr::cli::addDataCommands(app, shell);
+  btr::cli::addKeepCommands(app, shell);
   btr::cli::addModelCommands(app, shell);
   btr::cli::addGapCommands(app, shell);
   btr::cli::addBenchCommand(app, shell);
   btr::cli::addGaitCommands(app, shell);
   btr::cli::addGridCommands(app, shell);
+  btr::cli::warnOfNetworkFiles(app);
 
   try {
     app.parse(argc, argv);

@@ -15,10 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scenes that come with the program: resources/scenes in a folder above the executable.
+/// The scenes that come with the program: resources/scenes, or share/uchilsim/scenes of an installed program, in a
+/// folder above the executable.
 fs::path ownScenes() {
   for (fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();; folder = folder.parent_path()) {
-    if (fs::exists(folder / "resources/scenes/kick.json")) return folder / "resources/scenes";
+    for (const char* scenes : {"share/uchilsim/scenes", "resources/scenes"})
+      if (fs::exists(folder / scenes / "kick.json")) return folder / scenes;
     if (folder == folder.parent_path())
       throw InputError(
           "btr bench: resources/scenes/kick.json was not found above the program; name its folder with --scenes");

@@ -50,6 +50,9 @@ void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, s
 void addCompareCommand(CLI::App& app, Shell& shell);   ///< compare
 void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import|void, end-l2
 void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export, merge
+/// A database on a network file system is said to be there, on stderr, before any of these commands opens it.
+void warnOfNetworkFiles(CLI::App& app);
+void addKeepCommands(CLI::App& app, Shell& shell);      ///< backup, check
 void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
 void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
 void addGapAdoptCommands(CLI::App& gap, Shell& shell);  ///< gap adopt|revert|versions, below "gap"

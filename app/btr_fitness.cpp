@@ -1,6 +1,7 @@
 // btr fitness list, enter, import, void, and end-l2: real fitness, measured by a person.
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,15 @@ struct FitnessArguments {
 std::string operatorName() {
   const char* name = std::getenv("USER");
   return name ? name : "";
+}
+
+// A typed value is in the file itself when the command is over, not in the log beside it: people copy the file alone.
+void keepInFile(const Database& db) {
+  if (!db.moveLogIntoFile())
+    std::fprintf(stderr,
+                 "btr: %s: stored, but another process reads an older state, so that the value still stands in the log "
+                 "beside the file; copy with btr backup\n",
+                 db.path().c_str());
 }
 
 void list(const FitnessArguments& a, Shell& shell) {
@@ -100,6 +110,7 @@ void enter(const FitnessArguments& a, Shell& shell) {
     all.push_back(m);
   }
   const std::vector<Id> stored = db.addMeasurements(all);
+  keepInFile(db);
   if (shell.json) return printJson({{"individual", a.individual}, {"measurements", stored}});
   std::cout << "individual " << a.individual << ": " << all.size() << (all.size() == 1 ? " value" : " values")
             << " stored\n";
@@ -113,6 +124,7 @@ void setVoid(const FitnessArguments& a, Shell& shell) {
     throw InputError(db.path() + " run " + std::to_string(a.run), "measurement " + std::to_string(a.measurement),
                      "those of this run; it is of run " + std::to_string(m.run));
   db.setMeasurementVoid(m.id, a.isVoid, a.hasNote ? a.note : m.note);
+  keepInFile(db);
   m = db.measurement(m.id);
   if (shell.json)
     return printJson({{"measurement", m.id},
@@ -141,6 +153,7 @@ void import(const FitnessArguments& a, Shell& shell) {
     m.enteredAt = utcNow();
   }
   const std::vector<Id> stored = db.addMeasurements(all);
+  keepInFile(db);
   if (shell.json) return printJson({{"file", a.file}, {"measurements", stored}});
   std::cout << a.file << ": " << all.size() << (all.size() == 1 ? " value" : " values") << " stored\n";
 }

@@ -48,7 +48,55 @@ nlohmann::json describe(const std::vector<Parameter>& parameters) {
   return all;
 }
 
+/// All plugins with who made them and where they lie, and what could not be loaded.
+void listModules(Shell& shell) {
+  const PluginHost& host = shell.plugins();
+  if (shell.json) {
+    nlohmann::json plugins = nlohmann::json::array(), failures = nlohmann::json::array();
+    for (const PluginInfo& p : host.plugins())
+      plugins.push_back({{"kind", p.kind},
+                         {"name", p.name},
+                         {"version", p.version},
+                         {"author", p.author},
+                         {"licence", p.licence},
+                         {"path", p.path}});
+    for (const PluginFailure& f : host.failures()) failures.push_back({{"path", f.path}, {"why", f.why}});
+    printJson({{"plugins", plugins}, {"failures", failures}});
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const PluginInfo& p : host.plugins()) rows.push_back({p.kind, p.name, p.version, p.author, p.licence, p.path});
+  std::cout << table({"kind", "name", "version", "author", "licence", "path"}, rows);
+  for (const PluginFailure& f : host.failures())
+    std::cout << "not loaded: " << printable(f.path) << ": " << printable(f.why) << '\n';
+}
+
+/// Where real fitness can come from, with settings that are numbers and those that are texts.
+void listRealities(Shell& shell) {
+  const PluginHost& host = shell.plugins();
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& name : host.realities()) {
+    const auto reality = host.reality(name);
+    nlohmann::json texts = nlohmann::json::array();
+    for (const TextSetting& t : reality->texts())
+      texts.push_back({{"name", t.name}, {"meaning", t.meaning}, {"required", t.required}});
+    all.push_back({{"name", name},
+                   {"meaning", reality->meaning()},
+                   {"parameters", describe(reality->settings())},
+                   {"texts", texts}});
+  }
+  if (shell.json) return printJson(all);
+  for (const auto& one : all) {
+    std::cout << one["name"].get<std::string>() << ": " << one["meaning"].get<std::string>() << '\n';
+    for (const auto& t : one["texts"])
+      std::cout << "  " << t["name"].get<std::string>() << ": " << t["meaning"].get<std::string>() << '\n';
+    for (const auto& p : one["parameters"])
+      std::cout << "  " << p["name"].get<std::string>() << ": " << p["meaning"].get<std::string>() << '\n';
+  }
+}
+
 void listPlugins(const std::string& kind, Shell& shell) {
+  if (kind == "plugins") return listModules(shell);
   const PluginHost& host = shell.plugins();
   std::vector<std::pair<std::string, std::vector<Parameter>>> found;
   if (kind == "effects")
@@ -63,6 +111,7 @@ void listPlugins(const std::string& kind, Shell& shell) {
     }
   if (kind == "fitness")
     for (const std::string& n : host.fitnesses()) found.emplace_back(n, host.fitness(n)->settings());
+  if (kind == "realities") return listRealities(shell);
   if (shell.json) {
     nlohmann::json all = nlohmann::json::array();
     for (const auto& [name, parameters] : found) all.push_back({{"name", name}, {"parameters", describe(parameters)}});
@@ -97,9 +146,11 @@ void addModelCommands(CLI::App& app, Shell& shell) {
 
   auto kind = std::make_shared<std::string>();
   CLI::App* list = app.add_subcommand("list", "what plugins are there, with their parameters, units and bounds");
-  list->add_option("KIND", *kind, "effects, learners, controllers or fitness")
+  list->add_option(
+          "KIND", *kind,
+          "effects, learners, controllers, fitness, realities, or plugins: all, with version, author, licence and path")
       ->required()
-      ->check(CLI::IsMember({"effects", "learners", "controllers", "fitness"}));
+      ->check(CLI::IsMember({"effects", "learners", "controllers", "fitness", "realities", "plugins"}));
   list->callback([kind, &shell] { listPlugins(*kind, shell); });
 }
 

@@ -9,6 +9,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/run/reality_gap.h"
 #include "core/run/stand_in.h"
+#include "core/run/waiting.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/store/database.h"
@@ -69,7 +70,7 @@ nlohmann::json describe(const Database& db, const RunRecord& run) {
           {"simulators", db.simulators(run.id).size()},
           {"waiting_for_fitness", waiting},
           {"active", isRunActive(db.path(), run.id)},
-          {"message", run.message},
+          {"message", messageNow(db, run)},
           {"gaps", gaps}};
 }
 
@@ -93,7 +94,7 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
     rows.push_back({std::to_string(r["run"].get<long>()), r["experiment"].get<std::string>(),
                     std::to_string(r["seed"].get<std::uint64_t>()), state, std::to_string(r["generation"].get<int>()),
                     std::to_string(r["stages_done"].get<int>()), std::to_string(r["simulators"].get<int>() - 1), gap,
-                    heldOut, standIn ? "stand-in" : "person", r["message"].get<std::string>()});
+                    heldOut, standIn ? "stand-in" : r["reality"].get<std::string>(), r["message"].get<std::string>()});
   }
   writeOut("", table({"run", "experiment", "seed", "state", "generation", "stages", "simulator", "gap", "held-out gap",
                       "reality", "message"},
@@ -117,8 +118,12 @@ void run(const RunArguments& arguments, Shell& shell) {
   Database db =
       Database::open(arguments.database, spec ? Database::Mode::create : Database::Mode::readWrite, workingPatience_ms);
   Id id = arguments.run;
-  if (spec)
-    id = startRun(db, shell.plugins(), *spec, arguments.seedGiven ? arguments.seed : spec->seed, arguments.again);
+  if (spec) {
+    std::string edited;
+    id = startRun(db, shell.plugins(), *spec, arguments.seedGiven ? arguments.seed : spec->seed, arguments.again,
+                  &edited);
+    if (!edited.empty()) std::fprintf(stderr, "btr: %s: %s\n", arguments.spec.c_str(), edited.c_str());
+  }
   shell.goesOn = true;
   RunOptions options;
   options.jobs = arguments.jobs;

@@ -13,7 +13,7 @@ namespace btr::cli {
 
 const PluginHost& Shell::plugins() {
   if (!plugins_) {
-    plugins_ = std::make_unique<PluginHost>(PluginHost::standardDirectory());
+    plugins_ = std::make_unique<PluginHost>(PluginHost::searchPath());
     for (const std::string& problem : plugins_->problems()) std::fprintf(stderr, "btr: %s\n", problem.c_str());
   }
   return *plugins_;

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   QApplication::setDesktopFileName("uchilsim");
   try {
     btr::ui::Theme theme(application);
-    const auto host = std::make_shared<const btr::PluginHost>(btr::PluginHost::standardDirectory());
+    const auto host = std::make_shared<const btr::PluginHost>(btr::PluginHost::searchPath());
     btr::ui::MainWindow window(host, theme);
     if (!arguments.look.empty()) theme.apply(btr::ui::lookFromText(QString::fromStdString(arguments.look)));
     if (!arguments.screenshot.empty()) window.resize(arguments.width, arguments.height);

@@ -179,6 +179,8 @@ class MainWindow : public QMainWindow {
   // main_window_merge.cpp
   void connectMerge();
   void mergeWithDialog();
+  void backUpWithDialog();
+  QString whereItStands();
 
   // main_window_gap.cpp
   void makeGapPage();

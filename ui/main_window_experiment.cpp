@@ -58,6 +58,9 @@ void MainWindow::saveExperiment() {
     const QDir folder = QFileInfo(file).absoluteDir();
     if (!spec.directory.empty() && QDir::isRelativePath(QString::fromStdString(spec.scene)))
       spec.scene = folder.relativeFilePath(old.absoluteFilePath(QString::fromStdString(spec.scene))).toStdString();
+    for (std::string& plugins : spec.plugins)
+      if (!spec.directory.empty() && QDir::isRelativePath(QString::fromStdString(plugins)))
+        plugins = folder.relativeFilePath(old.absoluteFilePath(QString::fromStdString(plugins))).toStdString();
     spec.directory = folder.absolutePath().toStdString();
     writeFile(file.toStdString(), btr::toJsonText(spec));
     draft_->setSpec(spec);

@@ -154,6 +154,15 @@ void MainWindow::endRealityLearning() {
   });
 }
 
+// People copy the file alone: what was typed is in it, or it is said that it is not.
+QString MainWindow::whereItStands() {
+  bool inFile = false;
+  guard([&] { inFile = writer().moveLogIntoFile(0); });
+  return inFile ? QString()
+                : tr("; another process reads an older state, so it still stands in the log beside the file: copy with "
+                     "File, Back up");
+}
+
 void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {
   try {
     writer().addMeasurements(measurements);
@@ -161,7 +170,8 @@ void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {
     return sheet_->submissionFailed(QString::fromUtf8(error.what()));
   }
   watcher_.poll();
-  inform(measurements.size() == 1 ? tr("1 value stored") : tr("%1 values stored").arg(measurements.size()));
+  inform((measurements.size() == 1 ? tr("1 value stored") : tr("%1 values stored").arg(measurements.size())) +
+         whereItStands());
   const MeasuringCount count = countMeasured(run_, tasks_, measurements_);
   const bool complete = run_.state == RunState::waiting && count.wanted > 0 && count.settled >= count.wanted;
   if (!complete || !settings_.flag("continueWhenMeasured", true)) return;
@@ -172,6 +182,7 @@ void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {
 void MainWindow::voidMeasurement(Id measurement, bool isVoid, const QString& note) {
   guard([&] {
     writer().setMeasurementVoid(measurement, isVoid, note.toStdString());
+    if (const QString where = whereItStands(); !where.isEmpty()) inform(tr("Stored") + where);
     watcher_.poll();
   });
 }

@@ -9,9 +9,12 @@
 #include <QToolBar>
 #include <QUndoStack>
 
+#include "core/store/database.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/common/manual.h"
+#include "ui/common/plugins_dialog.h"
 #include "ui/common/resources.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
@@ -68,6 +71,9 @@ void MainWindow::makeMenus() {
   recentMenu_ = file->addMenu(themeIcon("document-open-recent"), tr("&Recent databases"));
   fillRecent();
   add(file, "document-import", tr("Add runs of another data&base…"), {}, [this] { mergeWithDialog(); });
+  add(file, "document-save", tr("Back &up the database…"), {}, [this] {
+    backUpWithDialog();
+  })->setObjectName("backUpDatabase");
   file->addSeparator();
   QMenu* exports = file->addMenu(themeIcon("document-export"), tr("&Export"));
   for (const auto& [what, label] :
@@ -128,7 +134,12 @@ void MainWindow::makeMenus() {
   full->setShortcuts({QKeySequence(Qt::Key_F11)});
 
   QMenu* help = menuBar()->addMenu(tr("&Help"));
-  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); });
+  add(help, "help-contents", tr("&Manual"), Qt::Key_F1, [this] {
+    if (const QString problem = Manual().open(Manual::pageFor(QApplication::focusWidget())); !problem.isEmpty())
+      report(problem);
+  })->setObjectName("help.manual");
+  add(help, "preferences-plugin", tr("&Plugins…"), {}, [this] { PluginsDialog(*host_, this).exec(); });
+  add(help, "help-about", tr("&About UCHILSIM"), {}, [this] { about(); })->setObjectName("help.about");
 
   for (QAction* action : {save, database}) action->setPriority(QAction::LowPriority);
   auto* bar = new ToolBar(tr("Tools"), this);
@@ -195,7 +206,7 @@ void MainWindow::about() {
   box.setText(
       tr("<h3>UCHILSIM %1</h3><p>A workbench for Back to Reality: learn in simulation, measure in reality, adapt the "
          "simulator, and learn on.</p>")
-          .arg(QApplication::applicationVersion()));
+          .arg(QString::fromStdString(programVersion())));
   box.setInformativeText(
       tr("<p>Free software under the GNU General Public License, version 3 or later; it comes without any "
          "warranty.</p><p>Qt %1 (Widgets, Charts), OpenSceneGraph, Open Dynamics Engine, SQLite.</p>")

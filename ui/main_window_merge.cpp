@@ -28,6 +28,12 @@ void MainWindow::mergeWithDialog() {
   if (!path.isEmpty()) mergeDatabase(path);
 }
 
+void MainWindow::backUpWithDialog() {
+  const QString path = QFileDialog::getSaveFileName(this, tr("Back up the database"), databasePath() + ".backup.db",
+                                                    tr("Experiment databases (*.db)"));
+  if (!path.isEmpty()) launcher_.backUp(databasePath(), QFileInfo(path).suffix().isEmpty() ? path + ".db" : path);
+}
+
 void MainWindow::mergeDatabase(const QString& from) {
   if (!watcher_.isOpen()) return report(tr("No database is open that could take the runs: open or make one first"));
   if (merging_->isRunning()) return report(tr("Runs of %1 are still being copied").arg(mergedFrom_));

@@ -44,6 +44,12 @@ void MainWindow::connectRuns() {
   });
   connect(&launcher_, &RunLauncher::exported, this,
           [this](const QString& file) { inform(tr("Written: %1").arg(file)); });
+  // Shown until the next message: in what the started run differs from the one whose experiment was edited.
+  connect(
+      &launcher_, &RunLauncher::edited, this, [this](const QString& differences) { inform(differences); },
+      Qt::QueuedConnection);
+  connect(&launcher_, &RunLauncher::backedUp, this,
+          [this](const QString& file) { inform(tr("A checked copy of the database is in %1").arg(file)); });
   connect(&launcher_, &RunLauncher::imported, this, [this](const QString& file) {
     watcher_.poll();
     inform(tr("Imported: %1").arg(file));

@@ -4,6 +4,7 @@
 
 #include "core/run/run_context.h"
 #include "core/run/run_lock.h"
+#include "core/run/spec_changes.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
@@ -44,12 +45,26 @@ RunProgress progressFromJson(const std::string& text) {
   return p;
 }
 
-Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& spec, std::uint64_t seed, bool again) {
+namespace {
+
+std::string saidOf(const RunRecord& old, const RunRecord& fresh, Id begins) {
+  const std::string number = std::to_string(old.id);
+  return "run " + number + " of the same name differs in " + inWords(specChanges(old, fresh)) + "; run " +
+         std::to_string(begins) + " begins" +
+         (old.state == RunState::finished ? " (run " + number + " is finished)"
+                                          : "; to go on with run " + number + ": --run " + number);
+}
+
+}  // namespace
+
+Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& spec, std::uint64_t seed, bool again,
+            std::string* edited) {
   const PreparedExperiment prepared = prepareFromFiles(spec, host);
   RunRecord record = makeRunRecord(prepared, 0, seed);
   if (!again)
     if (const auto run = database.findRun(record.specSha256, seed)) return *run;
 
+  const std::optional<RunRecord> old = edited ? editedRun(database, spec.name, record) : std::nullopt;
   // Runs of the same spec with other seeds belong to one experiment.
   for (const ExperimentRecord& e : database.experiments())
     if (e.name == spec.name && e.specJson == record.specJson) record.experiment = e.id;
@@ -60,7 +75,9 @@ Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& sp
     experiment.createdAt = utcNow();
     record.experiment = database.addExperiment(experiment);
   }
-  return database.addRun(record, firstSimulator(spec));
+  const Id begins = database.addRun(record, firstSimulator(spec));
+  if (old) *edited = saidOf(*old, record, begins);
+  return begins;
 }
 
 Id startRun(Database& database, const PluginHost& host, const std::string& path, std::uint64_t seed, bool again) {

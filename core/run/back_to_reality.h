@@ -38,13 +38,14 @@ struct RunOptions {
 /// spec and seed is already stored, returns that run unless `again`.
 Id startRun(Database& database, const PluginHost& host, const std::string& experimentPath, std::uint64_t seed,
             bool again = false);
-/// The same from a spec in memory (the form).
+/// The same from a spec in memory (the form). With `edited`: if the new run probably is another that was edited, in
+/// what they differ and how to go on with that one; else empty.
 Id startRun(Database& database, const PluginHost& host, const struct ExperimentSpec& spec, std::uint64_t seed,
-            bool again = false);
+            bool again = false, std::string* edited = nullptr);
 
 /// Goes on with a run until it is finished, waits for a person, or `stop` is raised (or requested in the database): the
-/// stage machine L1 → measure → (L2) → L3 → L1 …. All state is in the database: after kill -9 at any moment the next call goes
-/// on with the same bits as if nothing had happened. Throws InputError if another process works on this run.
+/// stage machine L1 → measure → (L2) → L3 → L1 …. All state is in the database: after kill -9 at any moment the next
+/// call goes on with the same bits as if nothing had happened. Throws InputError if another process works on this run.
 RunEnd continueRun(Database& database, const PluginHost& host, Id run, const StopFlag& stop, const RunOptions& options);
 
 /// True while some process works on this run.

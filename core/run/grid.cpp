@@ -20,6 +20,7 @@ ExperimentSpec experimentOf(const GridSpec& grid, GridSpec::Method method) {
   for (const char* name : {"first_generations", "next_generations", "total_generations"})
     experiment.stages[name] = generations;
   experiment.reality = "person";
+  experiment.realityOptions = {};
   experiment.realityLearner = {};
   experiment.realitySettings.clear();
   experiment.recordings = {};

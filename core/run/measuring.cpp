@@ -1,4 +1,4 @@
-// Between L1 and L3: who is measured in reality, in which order, and the stand-in's answers.
+// Between L1 and L3: who is measured in reality, in which order, and what the robot answers.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -6,8 +6,9 @@
 
 #include "core/run/disagreement.h"
 #include "core/run/reality_gap.h"
+#include "core/run/robot.h"
 #include "core/run/run_context.h"
-#include "core/run/stand_in.h"
+#include "core/run/waiting.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -104,6 +105,41 @@ std::map<Id, int> repeatsBefore(const Database& db, const std::vector<Measuremen
   return before;
 }
 
+/// Asks for all trials that are still missing and stores each answer at once; who has no answer yet is passed over.
+/// False if stopped.
+bool askRobot(RunContext& context, RealRobot& robot, const std::vector<MeasurementTask>& tasks,
+              std::vector<MeasurementRecord>& done) {
+  Database& db = context.database;
+  const std::map<Id, int> before = repeatsBefore(db, tasks);
+  for (const MeasurementTask& task : tasks) {
+    const IndividualRecord individual = db.individual(task.individual);
+    auto have = static_cast<int>(std::count_if(
+        done.begin(), done.end(), [&](const MeasurementRecord& m) { return m.individual == task.individual; }));
+    for (; have < task.wantedRepeats; ++have) {
+      if (context.stopped()) return false;
+      const auto answer = robot.measure(
+          {context.record.id, task.individual, have, before.at(task.individual) + have, individual.parameters});
+      if (context.stopped() && !answer) return false;
+      if (!answer) break;
+      MeasurementRecord measurement;
+      measurement.run = context.record.id;
+      measurement.individual = task.individual;
+      measurement.value = answer->fitness;
+      measurement.isVoid = answer->isVoid;
+      measurement.note = answer->note;
+      measurement.who = context.prepared.reality->who();
+      measurement.source = context.record.reality;
+      measurement.enteredAt = utcNow();
+      db.addMeasurement(measurement);
+      done.push_back(measurement);
+    }
+    context.progress.stageDone = static_cast<int>(
+        std::count_if(tasks.begin(), tasks.end(), [&](const MeasurementTask& t) { return isSettled(t, done); }));
+    context.publish(false);
+  }
+  return true;
+}
+
 }  // namespace
 
 bool beginMeasuring(RunContext& context, int stage) {
@@ -157,45 +193,13 @@ bool completeMeasuring(RunContext& context, int stage, int iteration) {
   context.progress.stageTotal = static_cast<int>(tasks.size());
   context.progress.stageDone = static_cast<int>(settled());
 
-  if (context.record.reality == "stand_in" && context.progress.stageDone < context.progress.stageTotal) {
-    StandIn robot(StandIn::programFor(context.prepared.spec), db.path(), run);
-    const std::map<Id, int> before = repeatsBefore(db, tasks);
-    for (const MeasurementTask& task : tasks) {
-      const IndividualRecord individual = db.individual(task.individual);
-      auto have = static_cast<int>(std::count_if(
-          done.begin(), done.end(), [&](const MeasurementRecord& m) { return m.individual == task.individual; }));
-      for (; have < task.wantedRepeats; ++have) {
-        if (context.stopped()) return false;
-        const RealAnswer answer = robot.measure(individual.parameters, before.at(task.individual) + have);
-        MeasurementRecord measurement;
-        measurement.run = run;
-        measurement.individual = task.individual;
-        measurement.value = answer.fitness;
-        measurement.isVoid = answer.isVoid;
-        measurement.note = answer.note;
-        measurement.who = "stand-in reality";
-        measurement.source = "stand_in";
-        measurement.enteredAt = utcNow();
-        db.addMeasurement(measurement);
-        done.push_back(measurement);
-      }
-      context.progress.stageDone = static_cast<int>(settled());
-      context.publish(false);
-    }
+  if (context.progress.stageDone < context.progress.stageTotal) {
+    if (const auto robot = openRobot(context); robot && !askRobot(context, *robot, tasks, done)) return false;
+    context.progress.stageDone = static_cast<int>(settled());
   }
   const int missing = context.progress.stageTotal - static_cast<int>(settled());
   const bool anyReal = !realFitness(tasks, done, stage).empty();
-  const std::string who = iteration > 0 ? " policies" : " individuals";
-  const std::string where = iteration > 0
-                                ? "L2 in stage " + std::to_string(stage) + ", iteration " + std::to_string(iteration)
-                                : "measurement stage " + std::to_string(stage);
-  if (missing > 0)
-    context.progress.message =
-        where + ": " + std::to_string(missing) + " of " + std::to_string(tasks.size()) + who + " wait for real fitness";
-  else if (!anyReal)
-    context.progress.message = where + ": all values are void; enter at least one that is not";
-  else
-    context.progress.message.clear();
+  context.progress.message = waitingText(stage, iteration, missing, static_cast<int>(tasks.size()), anyReal);
   context.publish(true);
   return missing == 0 && anyReal;
 }

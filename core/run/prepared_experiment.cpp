@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/model/load_model.h"
+#include "core/run/robot.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
@@ -32,9 +33,11 @@ RobotModel parseModel(const StoredFile& file) {
 
 /// Everything but reading files: plugins, settings, models and a first scene.
 PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std::vector<StoredFile> files,
-                           const PluginHost& host) {
+                           const PluginHost& host, bool fromFiles) {
   PreparedExperiment prepared;
   prepared.spec = spec;
+  prepared.spec.plugins = pluginFolders(spec);  // what is stored does not know the experiment's folder
+  host.load(prepared.spec.plugins, "experiment /plugins");
   prepared.sceneSpec = std::move(sceneSpec);
   prepared.files = std::move(files);
   prepared.controller = host.controller(spec.controller.name);
@@ -58,6 +61,7 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
     settle(prepared.spec.*choice, declared);
     prepared.specInWords.*choice = choiceOf((prepared.spec.*choice).name, (prepared.spec.*choice).settings, declared);
   };
+  settleReality(prepared, host, fromFiles);
   settleBoth(&ExperimentSpec::controller, prepared.controller->settings());
   settleBoth(&ExperimentSpec::fitness, prepared.fitness->settings());
   settleBoth(&ExperimentSpec::learner, learner->settingsFor(prepared.genotype));
@@ -168,7 +172,7 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
     std::string hash = sha256(content);
     files.push_back({robot.model, std::move(hash), std::move(content)});
   }
-  PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host);
+  PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host, true);
   const Scene arranged = prepared.scene(spec.simulator);
   requireTimeForTheMotion(prepared, arranged);
   prepared.fitness->check(arranged);
@@ -177,7 +181,8 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
 
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) {
   const std::string place = "run " + std::to_string(run.id);
-  return prepare(experimentFromJson(run.specJson, place, ""), sceneFromJson(run.sceneJson, place, ""), run.files, host);
+  return prepare(experimentFromJson(run.specJson, place, ""), sceneFromJson(run.sceneJson, place, ""), run.files, host,
+                 false);
 }
 
 SimulatorRecord firstSimulator(const ExperimentSpec& spec) {
@@ -200,6 +205,8 @@ RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::
   for (const StoredFile& file : prepared.files) all += file.name + file.sha256;
   record.specSha256 = sha256(all);
   record.reality = prepared.spec.reality;
+  for (const Parameter& p : prepared.genotype)
+    record.genes.push_back({p.minimum, p.maximum, p.integer || !p.choices.empty()});
   return record;
 }
 

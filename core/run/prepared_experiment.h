@@ -23,6 +23,7 @@ struct PreparedExperiment {
   std::vector<StoredFile> files;  ///< the models' texts
   std::shared_ptr<const Controller> controller;
   std::shared_ptr<const Fitness> fitness;
+  std::shared_ptr<const Reality> reality;
   EffectFactory effects;
   std::vector<Parameter> genotype;  ///< of the controller
   std::vector<Parameter> adapted;   ///< simulator parameters that L3 may change

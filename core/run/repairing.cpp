@@ -10,8 +10,8 @@
 #include "core/gap/search/report_words.h"
 #include "core/run/reality_gap.h"
 #include "core/run/recorded_robot.h"
+#include "core/run/robot.h"
 #include "core/run/run_context.h"
-#include "core/run/stand_in.h"
 #include "core/run/stored_recordings.h"
 #include "core/run/told_numbers.h"
 #include "core/spec/cancelled.h"
@@ -90,10 +90,12 @@ std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<Recorded
   return who;
 }
 
-/// The stand-in robot is recorded. False if stopped.
-bool recordStandIn(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
+/// The robot records itself. False if stopped.
+bool recordRobot(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
   const ScratchFolder scratch;
-  StandIn robot(StandIn::programFor(context.prepared.spec), context.database.path(), context.record.id);
+  const auto robot = openRobot(context);
+  if (!robot)
+    throw InputError("reality " + context.record.reality + ": the plugin says that it records, and opens no robot");
   for (const Id individual : who) {
     if (context.stopped()) return false;
     RecordingRecord record;
@@ -101,10 +103,13 @@ bool recordStandIn(RunContext& context, const std::vector<Id>& who, RobotPose po
     record.individual = individual;
     record.name = "run-" + std::to_string(context.record.id) + "-individual-" + std::to_string(individual) +
                   (pose == RobotPose::onFloor ? "-on-floor.csv" : ".csv");
-    robot.measure(context.database.individual(individual).parameters, 0, {scratch.file(record.name), pose});
+    const auto answer =
+        robot->measure({context.record.id, individual, 0, 0, context.database.individual(individual).parameters,
+                        scratch.file(record.name), toText(pose)});
+    if (!answer) return false;
     record.csv = readFile(scratch.file(record.name));
     record.sha256 = sha256(record.csv);
-    record.source = "stand-in reality";
+    record.source = context.prepared.reality->who();
     context.database.addRecording(record);
   }
   return true;
@@ -197,8 +202,9 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   if (who.empty()) return StageEnd::done;
   std::vector<Recorded> recordings = recordingsOf(context, who, pose);
   std::vector<Id> missing = withoutRecording(who, recordings);
-  if (context.record.reality == "stand_in" && !missing.empty()) {
-    if (!recordStandIn(context, missing, pose)) return StageEnd::stopped;
+  const PreparedExperiment& prepared = context.prepared;
+  if (prepared.reality->records(prepared.spec.realityOptions.settings) && !missing.empty()) {
+    if (!recordRobot(context, missing, pose)) return StageEnd::stopped;
     recordings = recordingsOf(context, who, pose);
     missing = withoutRecording(who, recordings);
   }

@@ -64,7 +64,7 @@ inline std::string keptTrace(const std::string& packed) {
 /// Chooses who is measured after the stage's last generation and stores tasks and traces; a stage in which everybody
 /// was measured before is passed over. False if stopped. Throws InputError if no trial came to its end.
 bool beginMeasuring(RunContext& context, int stage);
-/// Lets the stand-in answer what is not settled yet; with a person it only looks. True when all tasks of the stage are
+/// Lets the robot answer what is not settled yet; with a person it only looks. True when all tasks of the stage are
 /// settled; with an iteration those of L2's.
 bool completeMeasuring(RunContext& context, int stage, int iteration = 0);
 /// How a stage ended that may also wait for a person.

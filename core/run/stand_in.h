@@ -34,13 +34,6 @@ PreparedExperiment asReality(PreparedExperiment prepared, std::uint64_t runSeed)
 /// the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host);
 
-/// One answer of the robot.
-struct RealAnswer {
-  double fitness = 0;
-  bool isVoid = false;  ///< the trial failed: the robot fell apart, so to speak
-  std::string note;
-};
-
 /// Where a recording goes, "" for none.
 struct RecordTo {
   std::string file = {};
@@ -66,26 +59,5 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
 /// {"fitness": 0.5, "void": false, "note": ""} on `out`, until `in` ends.
 void serveStandIn(const PreparedExperiment& prepared, const PluginHost& host, std::istream& in, std::ostream& out,
                   const RealWorld& world = {});
-
-/// Talks to such a process.
-class StandIn {
- public:
-  /// Starts "PROGRAM stand-in --db DATABASE --run RUN". Throws InputError if it cannot.
-  StandIn(const std::string& program, const std::string& database, Id run);
-  ~StandIn();
-  StandIn(const StandIn&) = delete;
-  StandIn& operator=(const StandIn&) = delete;
-
-  /// Throws InputError if the process died or answered nonsense.
-  RealAnswer measure(const std::vector<double>& parameters, int repeat, const RecordTo& record = {});
-
-  /// Who plays the robot of an experiment: $UCHILSIM_BTR, else "btr" beside the running program; with "played_by":
-  /// "program" the one that $UCHILSIM_STAND_IN names. Throws InputError if that is not set.
-  static std::string programFor(const ExperimentSpec& spec);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 }  // namespace btr

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/readings.h"
 #include "core/sim/scene.h"
-#include "core/sim/world.h"
 
 namespace btr {
 

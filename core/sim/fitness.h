@@ -2,7 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "core/sim/trial.h"
+#include "core/sim/scene.h"
+#include "core/sim/trial_result.h"
 
 namespace btr {
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/sim/world.h"
 #include "core/spec/error.h"
 
 namespace btr {

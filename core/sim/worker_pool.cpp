@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 
+#include "core/spec/crash_report.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -58,8 +59,15 @@ bool receiveMessage(int fd, std::string& bytes) {
 
 bool thisIsAWorker = false;
 
-/// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply says whether it is
-/// one.
+/// A crash inside a plugin is a last message of its own kind. Only what a signal handler may do.
+void tellParentOfCrash(const char* text, std::size_t size) {
+  const std::uint64_t all = size + 1;
+  const char kind = 'C';
+  if (writeAll(3, reinterpret_cast<const char*>(&all), sizeof all) && writeAll(3, &kind, 1)) writeAll(3, text, size);
+}
+
+/// The life of a worker: job in, reply out, until the parent hangs up. The first byte of a reply: R a reply, F why
+/// there is none, C the plugin in which the worker is about to die.
 [[noreturn]] void serve(int socket, const WorkerPool::Work& work) {
   // Ctrl-C reaches the whole group: the parent decides. No file of the parent stays open here (its locks among them).
   thisIsAWorker = true;
@@ -67,6 +75,7 @@ bool thisIsAWorker = false;
   signal(SIGTERM, SIG_DFL);
   dup2(socket, 3);
   close_range(4, ~0U, 0);
+  tellCrashes(tellParentOfCrash, false);
   std::string job;
   while (receiveMessage(3, job)) {
     std::string reply;
@@ -214,6 +223,10 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
         std::string bytes;
         if (!receiveMessage(worker.socket, bytes) || bytes.empty()) {
           replace(worker, false, "");
+          continue;
+        }
+        if (bytes[0] == 'C') {
+          replace(worker, false, bytes.substr(1));
           continue;
         }
         Reply& reply = replies[static_cast<std::size_t>(worker.job)];

@@ -18,6 +18,25 @@ json toJson(const PluginChoice& choice) {
   return {{"name", choice.name}, {"settings", settings}};
 }
 
+/// "reality": a name, or {"name": …, "settings": {…}}.
+void readReality(JsonReader& reader, ExperimentSpec& spec) {
+  const json* given = reader.any("reality");
+  if (!given) return;
+  if (given->is_string()) {
+    spec.reality = given->get<std::string>();
+  } else {
+    PluginChoice choice = pluginChoice(reader.object("reality"));
+    spec.reality = choice.name;
+    spec.realityOptions = {std::move(choice.settings), std::move(choice.words)};
+  }
+  if (spec.reality.empty()) reader.refuse("reality", "the name of a reality plugin, as person or stand_in");
+}
+
+json realityOf(const ExperimentSpec& spec) {
+  if (spec.realityOptions.empty()) return spec.reality;
+  return toJson(PluginChoice{spec.reality, spec.realityOptions.settings, spec.realityOptions.words});
+}
+
 constexpr double largestSeed = 9007199254740991;  // 2^53 − 1: every whole number up to it is a double
 
 }  // namespace
@@ -197,6 +216,7 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
   spec.directory = directory;
   spec.name = reader.text("name");
   if (spec.name.empty()) reader.refuse("name", "at least one letter");
+  spec.plugins = reader.texts("plugins");
   spec.scene = reader.text("scene");
   if (spec.scene.empty()) reader.refuse("scene", "the path of a scene file");
   spec.controller = pluginChoice(reader.object("controller"));
@@ -227,7 +247,7 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
     spec.simulator = simulatorFromReader(*simulator);
     simulator->finish();
   }
-  spec.reality = reader.word("reality", {"person", "stand_in"}, spec.reality);
+  readReality(reader, spec);
   spec.standIn = reader.values("stand_in", standInParameters());
   spec.concealed = concealedFrom(reader, "concealed");
   spec.recordings = recordingsFrom(reader, "recordings");
@@ -244,6 +264,14 @@ ExperimentSpec experimentFromJson(const std::string& text, const std::string& pl
     throw InputError(place + " /stages/disagreeing_individuals", toText(disagreeing),
                      "at most measured_individuals = " + toText(measured));
   return spec;
+}
+
+std::vector<std::string> pluginFolders(const ExperimentSpec& experiment) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> folders;
+  for (const std::string& folder : experiment.plugins)
+    folders.push_back(fs::absolute(fs::path(experiment.directory) / folder).lexically_normal().string());
+  return folders;
 }
 
 ExperimentSpec loadExperiment(const std::string& path) {
@@ -263,7 +291,7 @@ std::string toJsonText(const ExperimentSpec& experiment) {
                   {"settings", btr::toJson(experiment.adaptationSettings, adaptationParameters())},
                   {"parameters", experiment.adapted}}},
                 {"simulator", simulatorToJson(experiment.simulator)},
-                {"reality", experiment.reality},
+                {"reality", realityOf(experiment)},
                 {"stand_in", btr::toJson(experiment.standIn, standInParameters())},
                 {"seed", experiment.seed}};
   if (experiment.start)
@@ -274,6 +302,7 @@ std::string toJsonText(const ExperimentSpec& experiment) {
   if (!experiment.realityLearner.name.empty())
     document["reality_learning"] = {{"learner", toJson(experiment.realityLearner)},
                                     {"settings", btr::toJson(experiment.realitySettings, realityLearningParameters())}};
+  if (!experiment.plugins.empty()) document["plugins"] = experiment.plugins;
   if (experiment.concealed != ConcealedSpec{}) document["concealed"] = btr::toJson(experiment.concealed);
   if (experiment.recordings != RecordingsSpec{}) document["recordings"] = btr::toJson(experiment.recordings);
   return document.dump(2) + "\n";

@@ -29,10 +29,19 @@ struct SearchStart {
   bool operator==(const SearchStart&) const = default;
 };
 
+/// Settings of a reality plugin; words are choices and texts, such as paths relative to the experiment's file.
+struct RealityOptions {
+  Values settings;
+  std::map<std::string, std::string> words;
+  bool empty() const { return settings.empty() && words.empty(); }
+  bool operator==(const RealityOptions&) const = default;
+};
+
 /// What the user asked for: everything that a Back-to-Reality run depends on ("format": "uchilsim-experiment-1").
 /// The same spec and seed give the same bits.
 struct ExperimentSpec {
   std::string name;
+  std::vector<std::string> plugins;  ///< folders of further plugins, relative to the experiment's file
   std::string scene;                 ///< path of the scene file, relative to the experiment's file
   PluginChoice controller;           ///< e.g. "kick": settings = the task (d, β, α)
   PluginChoice fitness;              ///< e.g. "kick_distance"
@@ -45,7 +54,8 @@ struct ExperimentSpec {
   PluginChoice realityLearner;       ///< L2's learner, e.g. "pgrl"; without a name the run has no L2
   Values realitySettings;            ///< when and how long L2 learns: realityLearningParameters()
   SimulatorSpec simulator;  ///< the simulator the run starts with; what is absent has the scene's and robot's numbers
-  std::string reality = "person";  ///< who answers the measurements: "person" or "stand_in"
+  std::string reality = "person";  ///< plugin that answers the measurements: "person", "stand_in", "program", …
+  RealityOptions realityOptions;   ///< what that plugin lets the user set
   Values standIn;                  ///< standInParameters(), used when reality is "stand_in"
   ConcealedSpec concealed;         ///< what its hidden effects are drawn from
   RecordingsSpec recordings;       ///< whether measured individuals are recorded and the recordings analysed
@@ -72,6 +82,9 @@ const std::vector<Parameter>& adaptationParameters();
 const std::vector<Parameter>& realityLearningParameters();
 /// seed, noise_m, parameter_error, hidden_effects, …
 const std::vector<Parameter>& standInParameters();
+
+/// The folders of `plugins` as full paths.
+std::vector<std::string> pluginFolders(const ExperimentSpec& experiment);
 
 /// Structure, names and bounds of everything that needs no plugin are checked here; the plugins' settings are checked
 /// by run::validate, which knows the plugins. Throws InputError.

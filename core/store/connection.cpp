@@ -45,8 +45,8 @@ bool isPassing(SQLite::Database* database, int extendedCode) {
 
 }  // namespace
 
-Connection::Connection(std::string path, std::unique_ptr<SQLite::Database> database)
-    : path_(std::move(path)), database_(std::move(database)) {}
+Connection::Connection(std::string path, std::unique_ptr<SQLite::Database> database, int patience_ms)
+    : path_(std::move(path)), database_(std::move(database)), patience_ms_(patience_ms) {}
 
 Connection::~Connection() = default;
 

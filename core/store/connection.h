@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/spec/error.h"
+
 namespace SQLite {
 class Database;
 class Statement;
@@ -14,14 +16,17 @@ class Statement;
 
 namespace btr {
 
+struct Cell;
+
 /// One open database file, for core/store alone. What SQLite reports comes out as one InputError that names the file.
 class Connection {
  public:
-  Connection(std::string path, std::unique_ptr<SQLite::Database> database);
+  Connection(std::string path, std::unique_ptr<SQLite::Database> database, int patience_ms);
   ~Connection();
 
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
+  int patience_ms() const { return patience_ms_; }  ///< how long a call waits for another process's lock
   /// Number that changes with every commit, our own included.
   std::int64_t dataVersion() const;
 
@@ -34,6 +39,15 @@ class Connection {
   template <class Work>
   auto write(const Work& work) const {
     return run(work, true);
+  }
+  /// What `work` returns; an InputError of it gets the path in front.
+  template <class Work>
+  auto unpacked(const Work& work) const {
+    try {
+      return work();
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
   }
   /// Throws InputError "PATH: MESSAGE".
   [[noreturn]] void refuse(const std::string& message) const;
@@ -54,6 +68,7 @@ class Connection {
 
   std::string path_;
   std::unique_ptr<SQLite::Database> database_;
+  int patience_ms_;
 };
 
 /// What SQLite's latest error on this file means to a person, beginning with the path.
@@ -122,6 +137,7 @@ class Query {
   void bind(int index, const char* value);
   void bind(int index, const Blob& value);
   void bind(int index, const Reference& value);
+  void bind(int index, const Cell& value);
   void bind(int index, const std::vector<double>& value);  ///< bytes of little-endian doubles
   void read(int column, int& field) const;
   void read(int column, bool& field) const;
@@ -130,6 +146,7 @@ class Query {
   void read(int column, double& field) const;
   void read(int column, std::optional<double>& field) const;
   void read(int column, std::string& field) const;
+  void read(int column, Cell& field) const;
   void read(int column, std::vector<double>& field) const;
 
   const Connection& connection_;

@@ -41,6 +41,16 @@ class Database {
   /// Number that changes when any connection has committed (cheap; for polling).
   std::int64_t dataVersion() const;
 
+  // ---- the file as a whole
+  /// A consistent, checked copy while others work with the database: complete under another name first, on the disk,
+  /// then named. Returns its bytes. Refuses a file that is there unless it is to be replaced.
+  std::int64_t backUp(const std::string& to, bool replace) const;
+  /// What is wrong with pages, indexes and references; empty: the file is sound.
+  std::vector<std::string> findings() const;
+  /// Moves what was committed from the write-ahead log into the database file, so that a copy of that file has it.
+  /// False if another process reads an older state for longer than `patience_ms`: then some of it stays in the log.
+  bool moveLogIntoFile(int patience_ms = 500) const;
+
   // ---- experiments and runs
   Id addExperiment(const ExperimentRecord& experiment);
   std::vector<ExperimentRecord> experiments() const;

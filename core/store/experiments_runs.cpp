@@ -1,4 +1,5 @@
 #include "core/spec/error.h"
+#include "core/spec/utf8.h"
 #include "core/store/connection.h"
 #include "core/store/database.h"
 #include "core/store/insert.h"
@@ -84,8 +85,9 @@ void Database::setExperimentNote(Id id, const std::string& note) {
 
 Id insertRun(const Connection& connection, const RunRecord& r, const SimulatorRecord& first) {
   requireRow(connection, "experiment", r.experiment);
-  if (r.reality != "person" && r.reality != "stand_in")
-    throw InputError(connection.path() + " run's reality", "\"" + r.reality + "\"", "person or stand_in");
+  requireUtf8(r.reality, connection.path() + " run's reality");
+  if (r.reality.empty())
+    throw InputError(connection.path() + " run's reality", "no name", "that of who enters fitness");
   const std::string startedAt = orNow(r.startedAt);
   const Id run = insert(connection,
                         "INSERT INTO run (experiment_id, seed, spec_json, spec_sha256, scene_json, reality, "
@@ -97,15 +99,25 @@ Id insertRun(const Connection& connection, const RunRecord& r, const SimulatorRe
          "note) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
          run, toText(r.state), r.stage, r.generation, r.stopRequested, r.updatedAt.empty() ? startedAt : r.updatedAt,
          r.message, r.progressJson, r.note);
+  if (!r.genes.empty()) {
+    std::vector<double> minimum, maximum, whole;
+    for (const GeneBounds& gene : r.genes) {
+      minimum.push_back(gene.minimum);
+      maximum.push_back(gene.maximum);
+      whole.push_back(gene.whole ? 1 : 0);
+    }
+    Query(connection, "INSERT INTO run_genes (run_id, minimum, maximum, whole) VALUES (?, ?, ?, ?)")
+        .run(run, minimum, maximum, whole);
+  }
   // A file's content is stored once, however many runs use it.
-  Query content(connection, "INSERT OR IGNORE INTO stored_file (sha256, content) VALUES (?, ?)");
+  Query content(connection, "INSERT OR IGNORE INTO stored_file (sha256, size_bytes, content) VALUES (?, ?, ?)");
   Query file(connection, "INSERT INTO run_file (run_id, position, name, sha256) VALUES (?, ?, ?, ?)");
   int position = 0;
   for (const StoredFile& f : r.files) {
     const std::string hash = sha256(f.content);
     if (!f.sha256.empty() && f.sha256 != hash)
       throw InputError(connection.path() + " file " + f.name, "the hash " + f.sha256, "that of its content, " + hash);
-    content.run(hash, Blob{f.content});
+    content.run(hash, static_cast<std::int64_t>(f.content.size()), Blob{deflated(f.content)});
     file.run(run, position++, f.name, hash);
   }
   SimulatorRecord start = first;
@@ -135,13 +147,17 @@ RunRecord Database::run(Id id) const {
     Query row(*connection_, sql(runColumns, "WHERE id = ?").c_str(), id);
     if (!row.next()) refuseUnknown(*connection_, "run", id);
     RunRecord r = runOf(row);
-    Query file(
-        *connection_,
-        "SELECT name, sha256, content FROM run_file JOIN stored_file USING (sha256) WHERE run_id = ? ORDER BY position",
-        id);
+    r.genes = GenesOfRuns(*connection_).of(id);
+    Query file(*connection_,
+               "SELECT name, sha256, size_bytes, content FROM run_file JOIN stored_file USING (sha256) WHERE run_id = "
+               "? ORDER BY position",
+               id);
     while (file.next()) {
       StoredFile& f = r.files.emplace_back();
-      file.get(f.name, f.sha256, f.content);
+      std::int64_t size = 0;
+      std::string packed;
+      file.get(f.name, f.sha256, size, packed);
+      f.content = connection_->unpacked([&] { return inflated(packed, size); });
       if (sha256(f.content) != f.sha256) connection_->refuse("is damaged: the stored file " + f.name + " has changed");
     }
     return r;

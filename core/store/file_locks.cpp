@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdarg>
 #include <map>
 #include <mutex>
@@ -40,14 +41,34 @@ class DescribedLocks {
     forget(descriptor);
     return ::close(descriptor);
   }
-  void beforeFork() { mutex_.lock(); }
-  void inParent() { mutex_.unlock(); }
+  void beforeFork() {
+    mutex_.lock();
+    if (!files_.empty() && ::pipe2(childIsDone_, O_CLOEXEC) != 0) childIsDone_[0] = childIsDone_[1] = -1;
+  }
+  // fork() returns only when the child has closed what it inherited (or has ended, or there is none): a parent killed
+  // right after it would otherwise leave its locks with a child that has not run yet.
+  void inParent() {
+    if (childIsDone_[0] >= 0) {
+      ::close(childIsDone_[1]);
+      char none = 0;
+      while (::read(childIsDone_[0], &none, 1) < 0 && errno == EINTR) {
+      }
+      ::close(childIsDone_[0]);
+      childIsDone_[0] = childIsDone_[1] = -1;
+    }
+    mutex_.unlock();
+  }
   // A child must not hold its parent's locks beyond the parent's end.
   void inChild() {
     for (const auto& [id, file] : files_)
       if (file.own >= 0) ::close(file.own);
     files_.clear();
     users_.clear();
+    if (childIsDone_[0] >= 0) {
+      ::close(childIsDone_[0]);
+      ::close(childIsDone_[1]);
+      childIsDone_[0] = childIsDone_[1] = -1;
+    }
     mutex_.unlock();
   }
 
@@ -95,7 +116,8 @@ class DescribedLocks {
 
   std::mutex mutex_;
   std::map<FileId, File> files_;
-  std::map<int, FileId> users_;  ///< SQLite's descriptors that asked for locks
+  std::map<int, FileId> users_;    ///< SQLite's descriptors that asked for locks
+  int childIsDone_[2] = {-1, -1};  ///< a pipe while fork() runs; its end of file tells the parent
 };
 
 // Lives as long as the process: SQLite may close files at its very end.

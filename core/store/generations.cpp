@@ -18,14 +18,6 @@ GenerationRecord generationOf(const Query& row) {
   return g;
 }
 
-template <class... Values>
-std::vector<IndividualRecord> select(const Connection& connection, const char* rest, const Values&... values) {
-  std::vector<IndividualRecord> all;
-  Query row(connection, (std::string(IndividualRow::select) + rest).c_str(), values...);
-  while (row.next()) all.push_back(IndividualRow::read(row));
-  return all;
-}
-
 // What the individual takes from its generation, and the meaning of a negative sameAs.
 void complete(const Connection& connection, const GenerationRecord& generation, std::size_t index,
               IndividualRecord& individual) {
@@ -65,7 +57,11 @@ void insertGeneration(const Connection& connection, GenerationRecord& g) {
         "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .run(g.run, g.number, g.simulator, g.best, g.mean, g.worst, g.trials, g.reused, g.failed, g.seconds,
            g.finishedAt);
-  Query(connection, "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?)")
+  // A resumed run goes on behind its latest generation: earlier states are not needed any more.
+  Query(connection,
+        "INSERT INTO learner_state (run_id, number, random_state, learner_state) VALUES (?, ?, ?, ?) "
+        "ON CONFLICT (run_id) DO UPDATE SET number = excluded.number, random_state = excluded.random_state, "
+        "learner_state = excluded.learner_state")
       .run(g.run, g.number, g.randomState, g.learnerState);
 
   IndividualRow row(connection);
@@ -106,7 +102,8 @@ std::optional<GenerationRecord> Database::lastGeneration(Id run) const {
                 run, g.number);
     if (state.next()) state.get(g.randomState, g.learnerState);
     g.individuals =
-        select(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run, g.number);
+        Individuals(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run, g.number)
+            .all();
     return g;
   });
 }
@@ -114,16 +111,19 @@ std::optional<GenerationRecord> Database::lastGeneration(Id run) const {
 std::vector<IndividualRecord> Database::individuals(Id run, int generation) const {
   return connection_->read([&] {
     if (generation == 0)
-      return select(*connection_, "WHERE run_id = ? AND iteration = 0 ORDER BY generation, slot", run);
-    return select(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run, generation);
+      return Individuals(*connection_, "WHERE run_id = ? AND iteration = 0 ORDER BY generation, slot", run).all();
+    return Individuals(*connection_, "WHERE run_id = ? AND generation = ? AND iteration = 0 ORDER BY slot", run,
+                       generation)
+        .all();
   });
 }
 
 std::vector<IndividualRecord> Database::individualsOfSimulator(Id run, Id simulator) const {
   return connection_->read([&] {
-    return select(*connection_,
-                  "WHERE simulator_id = ? AND same_as IS NULL AND run_id = ? AND iteration = 0 ORDER BY id", simulator,
-                  run);
+    return Individuals(*connection_,
+                       "WHERE simulator_id = ? AND same_as IS NULL AND run_id = ? AND iteration = 0 ORDER BY id",
+                       simulator, run)
+        .all();
   });
 }
 
@@ -131,15 +131,14 @@ std::vector<IndividualRecord> Database::bestIndividuals(Id run, int count, int f
   return connection_->read([&] {
     std::vector<IndividualRecord> best;
     std::unordered_set<std::string> seen;
-    Query row(
-        *connection_,
-        (std::string(IndividualRow::select) + "WHERE run_id = ?1 AND generation >= ?2 AND (?3 = 0 OR generation <= ?3) "
-                                              "AND iteration = 0 ORDER BY fitness DESC, generation, slot")
-            .c_str(),
-        run, first, last);
-    while (static_cast<int>(best.size()) < count && row.next()) {
-      IndividualRecord individual = IndividualRow::read(row);
-      if (seen.insert(identityOf(individual)).second) best.push_back(std::move(individual));
+    Individuals row(*connection_,
+                    "WHERE run_id = ?1 AND generation >= ?2 AND (?3 = 0 OR generation <= ?3) "
+                    "AND iteration = 0 ORDER BY fitness DESC, generation, slot",
+                    run, first, last);
+    while (static_cast<int>(best.size()) < count) {
+      std::optional<IndividualRecord> individual = row.next();
+      if (!individual) break;
+      if (seen.insert(identityOf(*individual)).second) best.push_back(std::move(*individual));
     }
     return best;
   });
@@ -147,23 +146,23 @@ std::vector<IndividualRecord> Database::bestIndividuals(Id run, int count, int f
 
 IndividualRecord Database::individual(Id id) const {
   return connection_->read([&] {
-    std::vector<IndividualRecord> found = select(*connection_, "WHERE id = ?", id);
-    if (found.empty()) refuseUnknown(*connection_, "individual", id);
-    return found.front();
+    const std::optional<IndividualRecord> found = Individuals(*connection_, "WHERE id = ?", id).next();
+    if (!found) refuseUnknown(*connection_, "individual", id);
+    return *found;
   });
 }
 
 void Database::setTrace(Id individual, const std::string& packed, const std::string& hash) {
   connection_->write([&] {
-    const auto stored =
-        Query(*connection_, "SELECT trace_sha256 FROM individual WHERE id = ?", individual).value<std::string>();
+    const auto cell = Query(*connection_, "SELECT trace_sha256 FROM individual WHERE id = ?", individual).value<Cell>();
+    const auto stored = cell ? std::optional(hashOf(*cell)) : std::nullopt;
     if (!stored) refuseUnknown(*connection_, "individual", individual);
     if (hash.empty()) connection_->refuse("a trace without its hash is not allowed");
     if (!stored->empty() && *stored != hash)
       connection_->refuse("a trace " + hash + " of individual " + std::to_string(individual) +
                           " is not allowed; that of its trial is " + *stored);
     if (stored->empty())
-      Query(*connection_, "UPDATE individual SET trace_sha256 = ? WHERE id = ?").run(hash, individual);
+      Query(*connection_, "UPDATE individual SET trace_sha256 = ? WHERE id = ?").run(packedHash(hash), individual);
     if (!packed.empty())
       Query(*connection_, "INSERT OR IGNORE INTO trace (individual_id, packed) VALUES (?, ?)")
           .run(individual, Blob{packed});

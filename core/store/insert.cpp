@@ -1,5 +1,9 @@
 #include "core/store/insert.h"
 
+#include <cmath>
+
+#include "core/spec/error.h"
+
 namespace btr {
 
 void refuseUnknown(const Connection& connection, const std::string& what, Id id) {
@@ -28,15 +32,33 @@ RunCounters countersOf(const Connection& connection, Id run) {
   return counters;
 }
 
-const char* const IndividualRow::select =
+const std::string Individuals::columns =
     "SELECT id, run_id, generation, slot, simulator_id, chromosome, parameters, fitness, outcome, detail, same_as, "
     "trial_seed, trace_sha256, iteration FROM individual ";
 
-IndividualRecord IndividualRow::read(const Query& row) {
+std::optional<IndividualRecord> Individuals::next() {
+  if (!row_.next()) return std::nullopt;
   IndividualRecord i;
-  row.get(i.id, i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
-          i.sameAs, i.trialSeed, i.traceSha256, i.iteration);
+  Cell chromosome, parameters, hash;
+  row_.get(i.id, i.run, i.generation, i.slot, i.simulator, chromosome, parameters, i.fitness, i.outcome, i.detail,
+           i.sameAs, i.trialSeed, hash, i.iteration);
+  try {
+    i.chromosome = bitsOf(chromosome);
+    // Bounds of genes are read only where something follows from them.
+    static const std::vector<GeneBounds> none;
+    const bool needsGenes = parameters.type == Cell::Type::integer;
+    i.parameters = parametersOf(parameters, i.chromosome, needsGenes ? genes_.of(i.run) : none);
+  } catch (const InputError& error) {
+    connection_.refuse("individual " + std::to_string(i.id) + ": " + error.what());
+  }
+  i.traceSha256 = hashOf(hash);
   return i;
+}
+
+std::vector<IndividualRecord> Individuals::all() {
+  std::vector<IndividualRecord> list;
+  while (std::optional<IndividualRecord> individual = next()) list.push_back(std::move(*individual));
+  return list;
 }
 
 IndividualRow::IndividualRow(const Connection& connection)
@@ -44,11 +66,15 @@ IndividualRow::IndividualRow(const Connection& connection)
               "INSERT INTO individual (run_id, generation, slot, simulator_id, chromosome, parameters, fitness, "
               "outcome, detail, same_as, trial_seed, trace_sha256, iteration) "
               "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-      id_(connection, "SELECT last_insert_rowid()") {}
+      id_(connection, "SELECT last_insert_rowid()"),
+      genes_(connection) {}
 
 Id IndividualRow::insert(const IndividualRecord& i) {
-  insert_.run(i.run, i.generation, i.slot, i.simulator, i.chromosome, i.parameters, i.fitness, i.outcome, i.detail,
-              Reference{i.sameAs}, i.trialSeed, i.traceSha256, i.iteration);
+  for (const double parameter : i.parameters)
+    if (std::isnan(parameter)) genes_.connection().refuse("a parameter is NaN; NaN cannot be stored");
+  insert_.run(i.run, i.generation, i.slot, i.simulator, packedBits(i.chromosome),
+              packedParameters(i.parameters, i.chromosome, genes_.of(i.run)), i.fitness, i.outcome, i.detail,
+              Reference{i.sameAs}, i.trialSeed, packedHash(i.traceSha256), i.iteration);
   const Id id = *id_.value<Id>();
   id_.reset();
   return id;

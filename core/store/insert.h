@@ -1,8 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/store/connection.h"
 #include "core/store/database.h"
+#include "core/store/packing.h"
 
 // What the subjects of core/store share when they store something. All run within Connection::write.
 namespace btr {
@@ -39,16 +42,31 @@ Id insertRun(const Connection& connection, const RunRecord& run, const Simulator
 /// The next generation of its run with its individuals; refuses another number. Ids are written back.
 void insertGeneration(const Connection& connection, GenerationRecord& generation);
 
-/// Rows of the table of individuals.
+/// Writes rows of the table of individuals.
 class IndividualRow {
  public:
-  static const char* const select;  ///< "SELECT … FROM individual ", in the order that read() takes
-  static IndividualRecord read(const Query& row);
   explicit IndividualRow(const Connection& connection);
   Id insert(const IndividualRecord& individual);  ///< returns the new row's id
 
  private:
   Query insert_, id_;
+  GenesOfRuns genes_;
+};
+
+/// Reads them: "SELECT … FROM individual " with what follows in `rest`.
+class Individuals {
+ public:
+  template <class... Values>
+  Individuals(const Connection& connection, const std::string& rest, const Values&... values)
+      : connection_(connection), row_(connection, (columns + rest).c_str(), values...), genes_(connection) {}
+  std::optional<IndividualRecord> next();
+  std::vector<IndividualRecord> all();
+
+ private:
+  static const std::string columns;
+  const Connection& connection_;
+  Query row_;
+  GenesOfRuns genes_;
 };
 
 }  // namespace btr

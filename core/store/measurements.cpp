@@ -26,8 +26,8 @@ Id store(const Connection& connection, const MeasurementRecord& m) {
                      "a finite number " + toText(-largestFitness) + " to " + toText(largestFitness));
   requireUtf8(m.note, place + ", note");
   requireUtf8(m.who, place + ", who measured");
-  if (m.source != "person" && m.source != "stand_in")
-    throw InputError(place, "the source \"" + m.source + "\"", "person or stand_in");
+  requireUtf8(m.source, place + ", source");
+  if (m.source.empty()) throw InputError(place, "a source without a name", "that of who entered the value");
   countersOf(connection, m.run);
   if (!Query(connection, "SELECT 1 FROM measurement_task WHERE individual_id = ? AND run_id = ?", m.individual, m.run)
            .next())

@@ -26,4 +26,10 @@ void evidenceOfAdaptations(SQLite::Database& database);
 /// Simulator versions of scenes that no run belongs to.
 void simulatorsOfRigs(SQLite::Database& database);
 
+/// Bits, hashes, parameters, recordings and files in fewer bytes; of learners' states the latest alone.
+void packedRows(SQLite::Database& database);
+
+/// Runs and measurements take any name of who enters real fitness.
+void realitiesOfAnyName(SQLite::Database& database);
+
 }  // namespace btr

@@ -1,7 +1,11 @@
 #include "core/store/migrations.h"
 
+#include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/Transaction.h>
+#include <sqlite3.h>
 
 #include <array>
 #include <string>
@@ -271,6 +275,26 @@ constexpr std::array steps{
               reasonsForMeasuring},
     Migration{"from which measured values the errors of a generation of L3 come", evidenceOfAdaptations},
     Migration{"simulator versions of rigs: scenes that no run belongs to", simulatorsOfRigs},
+    Migration{"rows that take less room: bits, hashes, parameters, recordings, files, learners' states", packedRows},
+    Migration{"real fitness comes from plugins of any name", realitiesOfAnyName},
+};
+
+/// Foreign keys are not enforced while this lives; afterwards they are as they were.
+class ForeignKeysLater {
+ public:
+  explicit ForeignKeysLater(SQLite::Database& database)
+      : database_(database), were_(database.execAndGet("PRAGMA foreign_keys").getInt() != 0) {
+    database.exec("PRAGMA foreign_keys = OFF");
+  }
+  ~ForeignKeysLater() {
+    if (were_) database_.tryExec("PRAGMA foreign_keys = ON");
+  }
+  ForeignKeysLater(const ForeignKeysLater&) = delete;
+  ForeignKeysLater& operator=(const ForeignKeysLater&) = delete;
+
+ private:
+  SQLite::Database& database_;
+  const bool were_;
 };
 
 }  // namespace
@@ -278,6 +302,8 @@ constexpr std::array steps{
 std::span<const Migration> migrations() { return steps; }
 
 void migrate(SQLite::Database& database, std::span<const Migration> toDo) {
+  // Tables are made anew by a step, and are referred to meanwhile. The pragma does nothing inside a transaction.
+  const ForeignKeysLater later(database);
   // The version is read under the lock: another process may have migrated while we waited for it.
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   const auto version = static_cast<std::size_t>(database.execAndGet("PRAGMA user_version").getInt());
@@ -287,6 +313,10 @@ void migrate(SQLite::Database& database, std::span<const Migration> toDo) {
     database.exec("PRAGMA user_version = " + std::to_string(number));
   }
   database.exec("PRAGMA application_id = " + std::to_string(applicationId));
+  SQLite::Statement dangling(database, "PRAGMA foreign_key_check");
+  if (dangling.executeStep())
+    throw SQLite::Exception("rows of " + dangling.getColumn(0).getString() + " refer to rows that are missing",
+                            SQLITE_CORRUPT);
   transaction.commit();
 }
 

@@ -16,6 +16,7 @@
 #include "core/store/connection.h"
 #include "core/store/database.h"
 #include "core/store/file_locks.h"
+#include "core/store/finished_file.h"
 #include "core/store/migrations.h"
 
 namespace btr {
@@ -153,11 +154,7 @@ void createFile(const std::string& path, int patience_ms) {
     throw InputError(path + ": cannot be created in " + parent.string() + " (" + std::strerror(errno) + ")");
   removeStaleDrafts(path);
   const std::string draft = path + ".new-" + std::to_string(gettid());
-  std::error_code error;
-  const auto remove = [&] {
-    for (const char* end : {"", "-wal", "-shm", "-journal"}) fs::remove(draft + end, error);
-  };
-  remove();
+  removeDraft(draft);
   try {
     const Handle database = openFile(draft, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
     try {
@@ -168,23 +165,18 @@ void createFile(const std::string& path, int patience_ms) {
       throw InputError(explain(path, database.get(), problem.getExtendedErrorCode(), problem.what()));
     }
   } catch (const InputError&) {
-    remove();
+    removeDraft(draft);
     throw;
   }
-  const bool linked = link(draft.c_str(), path.c_str()) == 0;
-  const int cause = errno;
-  // File systems without hard links: the name is taken by renaming, which does not replace a file either.
-  const bool named = linked || cause == EEXIST ||
-                     renameat2(AT_FDCWD, draft.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0 ||
-                     errno == EEXIST;
-  remove();
-  if (!named) throw InputError(path + ": cannot be created (" + std::strerror(cause) + ")");
-  // The name itself reaches the disk with its folder.
-  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY);
-  if (folder >= 0) {
-    fsync(folder);
-    ::close(folder);
-  }
+  nameFinishedFile(draft, path, IfThere::keep);
+}
+
+// A step may have left half of the file empty. Where there is no room to write it anew, or others use it, the empty
+// pages stay and are used again: nothing is lost.
+void giveBackRoom(SQLite::Database& database) {
+  const int pages = database.execAndGet("PRAGMA page_count").getInt();
+  const int unused = database.execAndGet("PRAGMA freelist_count").getInt();
+  if (unused > pages / 4) database.tryExec("VACUUM");
 }
 
 void checkSound(const std::string& path, SQLite::Database& database) {
@@ -226,7 +218,10 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
     const bool older = version < static_cast<int>(migrations().size());
     if (older && !writes)
       throw InputError(path + ": was written by an older UCHILSIM; open it for writing once to update it");
-    if (older) migrate(*database, migrations());
+    if (older) {
+      migrate(*database, migrations());
+      giveBackRoom(*database);
+    }
     if (writes) {
       const std::string journal = database->execAndGet("PRAGMA journal_mode = WAL").getString();
       if (journal != "wal")
@@ -236,7 +231,7 @@ Database Database::open(const std::string& path, Mode mode, int patience_ms) {
     throw InputError(explain(path, database.get(), problem.getExtendedErrorCode(), problem.what()));
   }
   sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
-  return Database(std::make_unique<Connection>(path, std::move(database)));
+  return Database(std::make_unique<Connection>(path, std::move(database), patience_ms));
 }
 
 Database::Database(std::unique_ptr<Connection> connection) : connection_(std::move(connection)) {}

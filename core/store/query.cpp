@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 
+#include "core/spec/error.h"
 #include "core/store/connection.h"
+#include "core/store/packing.h"
 
 namespace btr {
 
@@ -52,15 +54,23 @@ void Query::bind(int index, const Reference& value) {
   }
 }
 
-void Query::bind(int index, const std::vector<double>& value) {
-  std::string bytes;
-  bytes.reserve(value.size() * 8);
-  for (const double number : value) {
-    if (std::isnan(number)) connection_.refuse("a parameter is NaN; NaN cannot be stored");
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
+void Query::bind(int index, const Cell& value) {
+  switch (value.type) {
+    case Cell::Type::null:
+      return statement_->bind(index);
+    case Cell::Type::integer:
+      return statement_->bind(index, value.number);
+    case Cell::Type::text:
+      return statement_->bind(index, value.bytes);
+    case Cell::Type::blob:
+      return bind(index, Blob{value.bytes});
   }
-  bind(index, Blob{bytes});
+}
+
+void Query::bind(int index, const std::vector<double>& value) {
+  for (const double number : value)
+    if (std::isnan(number)) connection_.refuse("a parameter is NaN; NaN cannot be stored");
+  bind(index, Blob{bytesOf(value)});
 }
 
 void Query::read(int column, int& field) const { field = statement_->getColumn(column).getInt(); }
@@ -76,14 +86,19 @@ void Query::read(int column, std::optional<double>& field) const {
 }
 void Query::read(int column, std::string& field) const { field = statement_->getColumn(column).getString(); }
 
+void Query::read(int column, Cell& field) const {
+  const SQLite::Column value = statement_->getColumn(column);
+  field = {};
+  if (value.isInteger()) field = {Cell::Type::integer, value.getInt64(), ""};
+  if (value.isText()) field = {Cell::Type::text, 0, value.getString()};
+  if (value.isBlob()) field = {Cell::Type::blob, 0, value.getString()};
+}
+
 void Query::read(int column, std::vector<double>& field) const {
-  const std::string bytes = statement_->getColumn(column).getString();
-  if (bytes.size() % 8 != 0) connection_.refuse("is damaged: a vector of " + std::to_string(bytes.size()) + " bytes");
-  field.resize(bytes.size() / 8);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    std::uint64_t bits = 0;
-    for (std::size_t k = 0; k < 8; ++k) bits |= std::uint64_t{static_cast<unsigned char>(bytes[8 * i + k])} << (8 * k);
-    field[i] = std::bit_cast<double>(bits);
+  try {
+    field = doublesOf(statement_->getColumn(column).getString());
+  } catch (const InputError& error) {
+    connection_.refuse(error.what());
   }
 }
 

@@ -95,8 +95,7 @@ std::vector<IndividualRecord> Database::realityPolicies(Id run, int stage, int n
   return connection_->read([&] {
     std::vector<IndividualRecord> all;
     for (const Id id : policyIds(*connection_, run, stage, number)) {
-      Query row(*connection_, (std::string(IndividualRow::select) + "WHERE id = ?").c_str(), id);
-      if (row.next()) all.push_back(IndividualRow::read(row));
+      if (auto policy = Individuals(*connection_, "WHERE id = ?", id).next()) all.push_back(std::move(*policy));
     }
     return all;
   });

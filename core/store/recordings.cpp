@@ -3,6 +3,7 @@
 #include "core/store/connection.h"
 #include "core/store/database.h"
 #include "core/store/insert.h"
+#include "core/store/packing.h"
 
 namespace btr {
 namespace {
@@ -32,7 +33,8 @@ Id Database::addRecording(const RecordingRecord& r) {
                "INSERT INTO recording (experiment_id, individual_id, name, sha256, mapping_json, source, added_at) "
                "VALUES (?, ?, ?, ?, ?, ?, ?)",
                r.experiment, Reference{r.individual}, r.name, hash, r.mappingJson, r.source, orNow(r.addedAt));
-    insert(*connection_, "INSERT INTO recording_data (recording_id, csv) VALUES (?, ?)", id, Blob{r.csv});
+    insert(*connection_, "INSERT INTO recording_data (recording_id, size_bytes, csv) VALUES (?, ?, ?)", id,
+           static_cast<std::int64_t>(r.csv.size()), Blob{deflated(r.csv)});
     return id;
   });
 }
@@ -53,9 +55,13 @@ RecordingRecord Database::recording(Id id) const {
     Query row(*connection_, (std::string(recordingColumns) + "WHERE id = ?").c_str(), id);
     if (!row.next()) refuseUnknown(*connection_, "recording", id);
     RecordingRecord r = recordingOf(row);
-    r.csv = Query(*connection_, "SELECT csv FROM recording_data WHERE recording_id = ?", id)
-                .value<std::string>()
-                .value_or("");
+    Query data(*connection_, "SELECT size_bytes, csv FROM recording_data WHERE recording_id = ?", id);
+    if (data.next()) {
+      std::int64_t size = 0;
+      std::string packed;
+      data.get(size, packed);
+      r.csv = connection_->unpacked([&] { return inflated(packed, size); });
+    }
     if (sha256(r.csv) != r.sha256) connection_->refuse("is damaged: the recording " + r.name + " has changed");
     return r;
   });

@@ -28,6 +28,13 @@ struct StoredFile {
   std::string content;
 };
 
+/// Bounds of one gene: with a chromosome they give a parameter (packing.h).
+struct GeneBounds {
+  double minimum = 0, maximum = 0;
+  bool whole = false;  ///< a whole number or a choice
+  bool operator==(const GeneBounds&) const = default;
+};
+
 enum class RunState { ready, learning, waiting, adapting, finished, stopped, failed };
 const char* toText(RunState state);
 RunState runStateFromText(const std::string& text);
@@ -40,10 +47,12 @@ struct RunRecord {
   std::string specSha256;  ///< of specJson + sceneJson + model files: the same spec and seed is the same run
   std::string sceneJson;
   std::vector<StoredFile> files;
+  std::vector<GeneBounds> genes;  ///< of the controller's genotype, in its order; empty: not known
   RunState state = RunState::ready;
   int stage = 0;        ///< measurement stages completed so far
   int generation = 0;   ///< L1 generations completed
-  std::string reality;  ///< "person" or "stand_in"; a stand-in is labelled wherever this run is shown
+  std::string reality;  ///< who enters real fitness: "person", "stand_in" or another plugin; a stand-in is labelled
+                        ///< wherever this run is shown
   std::string programVersion;
   std::string startedAt, updatedAt;
   std::string note;
@@ -84,7 +93,7 @@ struct GenerationRecord {
   double best = 0, mean = 0, worst = 0;
   int trials = 0, reused = 0, failed = 0;
   double seconds = 0;                     ///< wall time; informative, not part of the result
-  std::string randomState, learnerState;  ///< after tell: where a resumed run goes on
+  std::string randomState, learnerState;  ///< after tell: where a resumed run goes on; kept of the latest alone
   std::string finishedAt;
   std::vector<IndividualRecord> individuals;  ///< may be empty when read back, see Database
 };
@@ -116,7 +125,7 @@ struct MeasurementRecord {
   double value = 0;  ///< in the fitness plugin's unit
   bool isVoid = false;
   std::string note = {}, who = {};
-  std::string source = "person";  ///< "person" or "stand_in"
+  std::string source = "person";  ///< who entered it, as the run's reality
   std::string enteredAt = {};
 };
 
@@ -151,7 +160,7 @@ struct AdaptationRecord {
   int stage = 0;
   int number = 0;  ///< 1, 2, …
   double bestError = 0, meanError = 0;
-  std::string randomState, learnerState;
+  std::string randomState, learnerState;  ///< kept of the run's latest alone
   std::vector<AdaptationCandidate> candidates;
   std::string evidenceSha256;  ///< of the measured values that the errors come from; empty: stored before it was
 };

@@ -108,15 +108,21 @@ void Database::addAdaptation(const AdaptationRecord& a) {
                           " is not allowed; the next of run " + std::to_string(a.run) + " is " +
                           std::to_string(number) + " in stage " + std::to_string(stage));
     insert(*connection_,
-           "INSERT INTO adaptation (run_id, stage, number, best_error, mean_error, random_state, learner_state, "
-           "evidence_sha256) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-           a.run, a.stage, a.number, a.bestError, a.meanError, a.randomState, a.learnerState, a.evidenceSha256);
+           "INSERT INTO adaptation (run_id, stage, number, best_error, mean_error, evidence_sha256) "
+           "VALUES (?, ?, ?, ?, ?, ?)",
+           a.run, a.stage, a.number, a.bestError, a.meanError, a.evidenceSha256);
+    // L3 goes on behind its latest generation: earlier states are not needed any more.
+    Query(*connection_,
+          "INSERT INTO adaptation_state (run_id, stage, number, random_state, learner_state) VALUES (?, ?, ?, ?, ?) "
+          "ON CONFLICT (run_id) DO UPDATE SET stage = excluded.stage, number = excluded.number, "
+          "random_state = excluded.random_state, learner_state = excluded.learner_state")
+        .run(a.run, a.stage, a.number, a.randomState, a.learnerState);
     Query candidate(*connection_,
                     "INSERT INTO adaptation_candidate (run_id, stage, number, slot, error, chromosome, parameters) "
                     "VALUES (?, ?, ?, ?, ?, ?, ?)");
     int slot = 0;
     for (const AdaptationCandidate& c : a.candidates)
-      candidate.run(a.run, a.stage, a.number, slot++, c.error, c.chromosome, c.parameters);
+      candidate.run(a.run, a.stage, a.number, slot++, c.error, packedBits(c.chromosome), c.parameters);
   });
 }
 
@@ -124,8 +130,9 @@ std::vector<AdaptationRecord> Database::adaptations(Id run, int stage) const {
   return connection_->read([&] {
     std::vector<AdaptationRecord> all;
     Query row(*connection_,
-              "SELECT run_id, stage, number, best_error, mean_error, random_state, learner_state, evidence_sha256 FROM "
-              "adaptation WHERE run_id = ? AND stage = ? ORDER BY number",
+              "SELECT run_id, stage, number, best_error, mean_error, coalesce(random_state, ''), "
+              "coalesce(learner_state, ''), evidence_sha256 FROM adaptation "
+              "LEFT JOIN adaptation_state USING (run_id, stage, number) WHERE run_id = ? AND stage = ? ORDER BY number",
               run, stage);
     while (row.next()) {
       AdaptationRecord& a = all.emplace_back();
@@ -136,7 +143,9 @@ std::vector<AdaptationRecord> Database::adaptations(Id run, int stage) const {
                       run, stage, a.number);
       while (candidate.next()) {
         AdaptationCandidate& c = a.candidates.emplace_back();
-        candidate.get(c.chromosome, c.parameters, c.error);
+        Cell chromosome;
+        candidate.get(chromosome, c.parameters, c.error);
+        c.chromosome = bitsOf(chromosome);
       }
     }
     return all;

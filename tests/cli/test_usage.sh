@@ -38,7 +38,7 @@ one_line
 expect 0 "the ERS-7" "$btr" model check "$root/resources/robots/ers7.wrl"
 for word in LF_J1 RR_J3 HEAD_TILT kg; do says out "$word"; done
 
-for kind in effects learners controllers fitness; do expect 0 "list $kind" "$btr" list $kind; done
+for kind in effects learners controllers fitness realities plugins; do expect 0 "list $kind" "$btr" list $kind; done
 expect 2 "list of something else" "$btr" list cats
 expect 0 "learners as JSON" "$btr" --json list learners
 says out '"crossover'

@@ -7,8 +7,9 @@
 
 namespace btr::test {
 
+/// With those of UCHILSIM_PLUGINS: an author may run the same tests over a new effect.
 inline const PluginHost& host() {
-  static const PluginHost plugins(PLUGIN_DIR);
+  static const PluginHost plugins(PluginHost::searchPath());
   return plugins;
 }
 

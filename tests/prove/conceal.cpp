@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    const PluginHost host(PluginHost::standardDirectory());
+    const PluginHost host(PluginHost::searchPath());
     const Hideable library{host.effectFactory(), host.effects()};
     const BlindCase blind = drawCase(request, library);
     const std::string answer = toJsonText(blind.answer);

@@ -28,8 +28,12 @@ void smallAdaptation(json& text) {
 }
 
 TEST(Adaptation, ThatGoesOnAfterAMeasuredValueChangedComparesCandidatesByTheNewValuesAlone) {
-  // The same run twice, as far as L3; of the first, L3's first generation is kept.
-  test::SmallKickRun before(6, 3, smallAdaptation), after(6, 3, smallAdaptation);
+  // The same run twice, as far as L3, which the first ends with its first generation.
+  const auto oneGeneration = [](json& text) {
+    smallAdaptation(text);
+    text["adaptation"]["settings"]["generations"] = 1;
+  };
+  test::SmallKickRun before(6, 3, oneGeneration), after(6, 3, smallAdaptation);
   ASSERT_EQ(RunEnd::waiting, before.goOn());
   ASSERT_EQ(RunEnd::waiting, after.goOn());
   measureAll(before, 0);

@@ -78,8 +78,8 @@ TEST_F(Records, ARunThatCannotBeStoredLeavesNothingBehind) {
   run.files = {{"leg.urdf", "0123", "<robot/>"}};
   EXPECT_THAT(refusal([&] { db_.addRun(run, {}); }), HasSubstr("leg.urdf: the hash 0123 is not allowed"));
   run.files.clear();
-  run.reality = "dream";
-  EXPECT_THAT(refusal([&] { db_.addRun(run, {}); }), HasSubstr("\"dream\" is not allowed; person or stand_in"));
+  run.reality = "";
+  EXPECT_THAT(refusal([&] { db_.addRun(run, {}); }), HasSubstr("run's reality: no name is not allowed"));
   run.reality = "person";
   SimulatorRecord broken;
   broken.simulator.values = {{"friction", std::nan("")}};
@@ -280,8 +280,8 @@ TEST_F(Records, MeasurementsThatNobodyAskedForAreRefusedAllTogether) {
   bad.run = 4;
   EXPECT_THAT(refusalOf(), HasSubstr("run 4 is not in the database"));
   bad = good;
-  bad.source = "guess";
-  EXPECT_THAT(refusalOf(), HasSubstr("\"guess\" is not allowed; person or stand_in"));
+  bad.source = "";
+  EXPECT_THAT(refusalOf(), HasSubstr("a source without a name is not allowed"));
   // Beyond the bounds of a stand-in's answers, gaps of it would not be finite any more.
   for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e308, -1.000001e9}) {
     bad = good;

@@ -106,6 +106,7 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
     Database database = create();
     RunRecord run = runOf(database.addExperiment(kickExperiment()));
     run.files = {{"leg.urdf", "", "<robot/>"}};
+    run.genes = {{0, 1, false}};
     SimulatorRecord start;
     start.simulator = {{{"friction", 0.8}}, {{"backlash", "leg.knee", {{"width_rad", 0.1}}}}};
     const Id id = database.addRun(run, start);
@@ -150,7 +151,7 @@ TEST_F(Sharing, TheDatabaseItselfRefusesToForget) {
   std::vector<std::string> tables;
   for (SQLite::Statement row(raw, "SELECT name FROM sqlite_master WHERE type = 'table'"); row.executeStep();)
     tables.push_back(row.getColumn(0).getString());
-  EXPECT_EQ(32u, tables.size());
+  EXPECT_EQ(34u, tables.size());
   for (const std::string& table : tables) {
     EXPECT_GT(raw.execAndGet("SELECT count(*) FROM " + table).getInt(), 0) << table;
     EXPECT_THROW(raw.exec("DELETE FROM " + table), SQLite::Exception) << table;

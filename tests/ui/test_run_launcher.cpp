@@ -57,6 +57,28 @@ class TestRunLauncher : public QObject {
     QVERIFY(bench.database.simulators(copy.id).front().simulator == bench.database.simulators(run).front().simulator);
   }
 
+  void anEditedExperimentIsNamedWithWhatWasChanged() {
+    Bench bench;
+    bench.stored(3);
+    QSignalSpy edited(&bench.launcher, &RunLauncher::edited), stored(&bench.launcher, &RunLauncher::stored);
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+    spec.learner.settings["population"] = 12;
+    bench.launcher.store(bench.path, spec, 3, false);
+    QVERIFY(stored.wait(longest_ms));
+    QCOMPARE(edited.size(), 1);
+    QVERIFY(edited.first().first().toString().contains("learner.settings.population (30, now 12)"));
+  }
+
+  void aBackupHoldsWhatTheDatabaseHolds() {
+    Bench bench;
+    const Id run = bench.stored(3);
+    QSignalSpy spy(&bench.launcher, &RunLauncher::backedUp);
+    const QString file = bench.folder.filePath("copy.db");
+    bench.launcher.backUp(bench.path, file);
+    QVERIFY(spy.wait(longest_ms));
+    QCOMPARE(Database::open(file.toStdString(), Database::Mode::readOnly).run(run).seed, std::uint64_t(3));
+  }
+
   void aSceneThatIsNotThereIsAMessageAndStoresNothing() {
     Bench bench;
     ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <set>
 
 #include "ui/common/section.h"
@@ -71,6 +72,11 @@ ExperimentOffers offersOf(const PluginHost& host) {
     for (const auto& controller : host.controllers())
       offers.learnersOf[QString::fromStdString(controller)].push_back(
           {shown, learner->settingsFor(host.controller(controller)->genotype()), {}});
+  }
+  for (const auto& name : host.realities()) {
+    const auto reality = host.reality(name);
+    offers.realities.push_back({QString::fromStdString(name), QString::fromStdString(reality->meaning()),
+                                reality->settings(), reality->texts()});
   }
   return offers;
 }
@@ -188,7 +194,10 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   adaptationSettings_->setValues(spec.adaptationSettings);
   simulator_->setValues(spec.simulator.values);
   simulator_->setChecked(adaptedNames(spec));
-  chosenReality_ = reality_->findData(QString::fromStdString(spec.reality));
+  const QString reality = QString::fromStdString(spec.reality);
+  realityForm_->setOptions(reality, spec.realityOptions);
+  if (reality_->findData(reality) < 0) reality_->addItem(tr("%1 (not installed)").arg(reality), reality);
+  chosenReality_ = reality_->findData(reality);
   reality_->setCurrentIndex(chosenReality_);
   standIn_->setValues(spec.standIn);
   recordings_->setValues(spec.recordings.settings);
@@ -238,7 +247,9 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.adaptation = adaptation_->choice();
   spec.adaptationSettings = adaptationSettings_->values();
   spec.simulator.values = simulator_->values();
-  spec.reality = reality_->currentData().toString().toStdString();
+  const QString reality = reality_->currentData().toString();
+  spec.reality = reality.toStdString();
+  spec.realityOptions = isOffered(reality) ? realityForm_->options(reality) : shown_.realityOptions;
   spec.standIn = standIn_->values();
   spec.recordings.settings = recordings_->values();
   // "All" may be written as nothing or as every name: what was read stays as it was.
@@ -264,7 +275,10 @@ QStringList ExperimentForm::problems() const {
            << searchStart_->problems() << stages_->problems();
   problems << realityLearner_->problems();
   if (realityLearner_->choice().name != noLearner) problems << realitySettings_->problems();
-  if (reality_->currentData().toString() == "stand_in") problems << standIn_->problems();
+  const QString reality = reality_->currentData().toString();
+  if (reality == "stand_in") problems << standIn_->problems();
+  if (!isOffered(reality)) problems << tr("Measured by: %1 is not installed").arg(reality);
+  problems << realityForm_->problems(reality);
   problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems()
            << recordings_->problems();
   if (simulator_->checked().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
@@ -279,12 +293,18 @@ QStringList ExperimentForm::problems() const {
   return problems;
 }
 
+bool ExperimentForm::isOffered(const QString& reality) const {
+  return reality == "person" || reality == "stand_in" ||
+         std::ranges::any_of(offers_.realities, [&](const RealityForm::Offer& offer) { return offer.name == reality; });
+}
+
 void ExperimentForm::setReadOnly(const QString& why) {
   readOnly_ = true;
   name_->setReadOnly(true);
   scene_->setReadOnly(true);
   browse_->hide();
   reality_->setEnabled(false);
+  realityForm_->setReadOnly(true);
   for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(true);
   for (auto* form : {controller_, fitness_, adaptation_}) form->setReadOnly(true);
   for (auto* form : {learner_, realityLearner_, searchStart_}) form->setReadOnly(true);
@@ -313,6 +333,7 @@ Section* ExperimentForm::add(QVBoxLayout& column, const QString& title, QWidget*
 void ExperimentForm::update() {
   if (!problem_) return;
   const bool standIn = reality_->currentData().toString() == "stand_in";
+  realityForm_->show(reality_->currentData().toString());
   standIn_->setVisible(standIn);
   standInNote_->setVisible(standIn);
   concealed_->setVisible(standIn && shown_.concealed != ConcealedSpec{});

@@ -6,6 +6,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/experiment_spec.h"
 #include "ui/experiment/plugin_form.h"
+#include "ui/experiment/reality_form.h"
 
 class QComboBox;
 class QLabel;
@@ -24,6 +25,7 @@ struct ExperimentOffers {
   std::map<QString, std::vector<PluginForm::Offer>> learnersOf = {};  ///< with what a controller's genotype adds
   std::vector<PluginForm::Offer> adapters = {};                       ///< learners for the simulator's parameters
   std::map<QString, std::vector<PluginForm::Offer>> startsOf = {};    ///< where a controller's search begins
+  std::vector<RealityForm::Offer> realities = {};  ///< who may measure, besides the two that always can
 };
 ExperimentOffers offersOf(const PluginHost& host);
 
@@ -65,6 +67,7 @@ class ExperimentForm : public QWidget {
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
   QLineEdit* addText(QVBoxLayout& column, const QString& name, const QString& label, const QString& toolTip,
                      QWidget* beside = nullptr);
+  bool isOffered(const QString& reality) const;
   void browseScene();
   void update();
 
@@ -76,6 +79,7 @@ class ExperimentForm : public QWidget {
   QLineEdit *name_ = nullptr, *scene_ = nullptr;
   QPushButton* browse_ = nullptr;
   QComboBox* reality_ = nullptr;
+  RealityForm* realityForm_ = nullptr;
   QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
   QWidget *editBar_ = nullptr, *inside_ = nullptr;

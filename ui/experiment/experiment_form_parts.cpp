@@ -87,10 +87,18 @@ QWidget* ExperimentForm::makeReality() {
   reality_->setFocusPolicy(Qt::StrongFocus);
   reality_->addItem(tr("a person, on the real robot"), "person");
   reality_->addItem(tr("a stand-in reality (demonstration)"), "stand_in");
+  for (const RealityForm::Offer& offer : offers_.realities)
+    if (reality_->findData(offer.name) < 0) {
+      reality_->addItem(offer.name, offer.name);
+      reality_->setItemData(reality_->count() - 1, offer.meaning, Qt::ToolTipRole);
+    }
   caption->setBuddy(reality_);
   row->addWidget(caption);
   row->addWidget(reality_, 1);
   column->addLayout(row);
+  realityForm_ = new RealityForm(offers_.realities, undo_, part);
+  connect(realityForm_, &RealityForm::changed, this, &ExperimentForm::update);
+  column->addWidget(realityForm_);
   standInNote_ = new QLabel(
       tr("Stand-in reality: a simulated robot with concealed parameters, for demonstration. It is no real robot; every "
          "result of this run is labelled so."),

@@ -33,9 +33,13 @@ RunLauncher::~RunLauncher() {
 }
 
 void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {
-  inThread([path = database.toStdString(), spec, seed, again, host = host_] {
+  inThread([this, path = database.toStdString(), spec, seed, again, host = host_] {
     Database db = Database::open(path, Database::Mode::readWrite);
-    return startRun(db, *host, spec, seed, again);
+    std::string differs;
+    const Id run = startRun(db, *host, spec, seed, again, &differs);
+    if (!differs.empty())
+      QMetaObject::invokeMethod(this, [this, text = QString::fromStdString(differs)] { emit edited(text); });
+    return run;
   });
 }
 
@@ -128,6 +132,10 @@ bool RunLauncher::isAlive(const QString& name) const {
 void RunLauncher::exportCsv(const QString& database, Id run, const QString& what, const QString& file) {
   runToEnd({"export", "--db", database, "--run", QString::number(run), "--what", what, "--csv", file},
            [this, file] { emit exported(file); });
+}
+
+void RunLauncher::backUp(const QString& database, const QString& file) {
+  runToEnd({"backup", "--db", database, file, "--force"}, [this, file] { emit backedUp(file); });
 }
 
 void RunLauncher::importFitness(const QString& database, Id run, const QString& file) {

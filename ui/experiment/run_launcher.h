@@ -39,6 +39,8 @@ class RunLauncher : public QObject {
   bool isGridAlive() const { return isAlive(grids); }
   /// Writes a table of the run; tells exported() or failed().
   void exportCsv(const QString& database, Id run, const QString& what, const QString& file);
+  /// Makes a checked copy of the database, in place of a file that is there; tells backedUp() or failed().
+  void backUp(const QString& database, const QString& file);
   /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
   void importFitness(const QString& database, Id run, const QString& file);
   /// Makes the simulator of a gap report the newest version of a run or, where `rig` names a scene's file, of that rig;
@@ -54,7 +56,10 @@ class RunLauncher : public QObject {
 
  signals:
   void stored(btr::Id run);
+  /// The run that is being stored is one that was edited: in what it differs from which.
+  void edited(const QString& differences);
   void exported(const QString& file);
+  void backedUp(const QString& file);
   void imported(const QString& file);
   void simulatorChanged(btr::Id run, const QString& rig);
   void recordingsKept(int files);

@@ -3,7 +3,7 @@
 extern "C" {
 extern const btr::PluginModule btr_plugin;
 const btr::PluginModule btr_plugin = {
-    btr::pluginApiVersion - 1, __VERSION__, "earlier_version", [](btr::PluginRegistry& registry) {
+    btr::pluginApiVersion - 1, BTR_PLUGIN_BUILD, "earlier_version", {}, [](btr::PluginRegistry& registry) {
       registry.add("earlier_version",
                    std::function<std::unique_ptr<btr::Effect>()>([] { return std::make_unique<EmptyEffect>(); }));
     }};

@@ -1,0 +1,15 @@
+#pragma once
+#include <optional>
+#include <string>
+
+namespace btr {
+
+/// The name of a network file system by its number in statfs ("NFS"); empty for others.
+std::string networkFileSystem(long magic);
+
+/// What to say when a database stands on a network file system: its locks do not hold between machines, and SQLite's
+/// write-ahead log needs memory that processes share. None for a local file, also for one that is not there yet in a
+/// local folder.
+std::optional<std::string> networkWarning(const std::string& path);
+
+}  // namespace btr

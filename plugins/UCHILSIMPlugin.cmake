@@ -1,0 +1,25 @@
+# uchilsim_add_plugin(KIND FILE.cpp [VERSION v] [AUTHOR name] [LICENCE spdx])
+#   makes the module plugins/KIND/FILE.so in the build folder (or below UCHILSIM_PLUGIN_OUTPUT), where KIND is
+#   controllers, learners, fitness, effects or reality; the folder plugins/ is what UCHILSIM_PLUGINS takes. The target is
+#   called plugin_KIND_FILE.
+function(uchilsim_add_plugin kind source)
+  cmake_parse_arguments(ABOUT "" "VERSION;AUTHOR;LICENCE" "" ${ARGN})
+  set(kinds controllers learners fitness effects reality)
+  if(NOT kind IN_LIST kinds)
+    message(FATAL_ERROR "uchilsim_add_plugin: \"${kind}\" is not a kind of plugin; ${kinds}")
+  endif()
+  if(NOT UCHILSIM_PLUGIN_OUTPUT)
+    set(UCHILSIM_PLUGIN_OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/plugins)
+  endif()
+  get_filename_component(name ${source} NAME_WE)
+  set(target plugin_${kind}_${name})
+  add_library(${target} MODULE ${source})
+  target_link_libraries(${target} PRIVATE UCHILSIM::plugin)
+  foreach(what VERSION AUTHOR LICENCE)
+    if(ABOUT_${what})
+      target_compile_definitions(${target} PRIVATE "BTR_PLUGIN_${what}=\"${ABOUT_${what}}\"")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${name} SUFFIX .so CXX_EXTENSIONS OFF
+    LIBRARY_OUTPUT_DIRECTORY ${UCHILSIM_PLUGIN_OUTPUT}/${kind})
+endfunction()

@@ -1,0 +1,120 @@
+#include "ui/experiment/reality_form.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QUndoStack>
+#include <QVBoxLayout>
+
+#include "ui/common/edit_command.h"
+#include "ui/experiment/parameter_form.h"
+
+namespace btr::ui {
+
+RealityForm::RealityForm(const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
+    : QWidget(parent), undo_(undo) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  for (const Offer& offer : offers) {
+    if (offer.settings.empty() && offer.texts.empty()) continue;
+    Page page{offer, new QWidget(this), {}, nullptr};
+    auto* rows = new QVBoxLayout(page.widget);
+    rows->setContentsMargins(0, 0, 0, 0);
+    for (const TextSetting& setting : offer.texts) page.texts.push_back(addText(page, setting));
+    page.numbers = new ParameterForm(offer.settings, undo_, page.widget);
+    connect(page.numbers, &ParameterForm::changed, this, &RealityForm::changed);
+    rows->addWidget(page.numbers);
+    page.widget->hide();
+    column->addWidget(page.widget);
+    pages_.push_back(std::move(page));
+  }
+}
+
+QLineEdit* RealityForm::addText(Page& page, const TextSetting& setting) {
+  const QString label = QString::fromStdString(setting.name);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 2, 8, 2);
+  auto* caption = new QLabel(label, page.widget);
+  auto* edit = new QLineEdit(page.widget);
+  caption->setBuddy(edit);
+  edit->setObjectName(page.offer.name + "." + label);
+  edit->setAccessibleName(label);
+  edit->setToolTip(QString::fromStdString(setting.meaning) +
+                   (setting.kind == TextSetting::Kind::text ? QString() : tr(" (relative to the experiment's file)")));
+  row->addWidget(caption);
+  row->addWidget(edit, 1);
+  static_cast<QVBoxLayout*>(page.widget->layout())->addLayout(row);
+
+  // As for the experiment's name: the line edit tells only what it became.
+  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
+    if (!edit->isModified()) edit->setProperty("before", text);
+  });
+  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
+  connect(edit, &QLineEdit::textEdited, this, [this, edit, label](const QString& text) {
+    const QString before = edit->property("before").toString();
+    edit->setProperty("before", text);
+    undo_.push(new EditCommand(tr("change %1").arg(label), edit->objectName(), visit_, before, text,
+                               [this, edit](const QVariant& value) {
+                                 if (edit->text() != value.toString()) edit->setText(value.toString());
+                                 emit changed();
+                               }));
+  });
+  return edit;
+}
+
+const RealityForm::Page* RealityForm::page(const QString& name) const {
+  for (const Page& page : pages_)
+    if (page.offer.name == name) return &page;
+  return nullptr;
+}
+
+void RealityForm::show(const QString& name) {
+  for (const Page& page : pages_) page.widget->setVisible(page.offer.name == name);
+  setVisible(this->page(name) != nullptr);
+}
+
+void RealityForm::setOptions(const QString& name, const RealityOptions& options) {
+  const Page* shown = page(name);
+  if (!shown) return;
+  PluginChoice numbers{name.toStdString(), options.settings, options.words};
+  std::vector<QString> texts;
+  for (const TextSetting& setting : shown->offer.texts) {
+    const auto given = numbers.words.find(setting.name);
+    texts.push_back(given == numbers.words.end() ? QString() : QString::fromStdString(given->second));
+    numbers.words.erase(setting.name);
+  }
+  const Values values = settingsOf(numbers, shown->offer.settings, "reality/settings");
+  for (std::size_t i = 0; i < texts.size(); ++i) shown->texts[i]->setText(texts[i]);
+  shown->numbers->setValues(values);
+}
+
+RealityOptions RealityForm::options(const QString& name) const {
+  const Page* shown = page(name);
+  if (!shown) return {};
+  PluginChoice choice = choiceOf(name.toStdString(), shown->numbers->values(), shown->offer.settings);
+  for (std::size_t i = 0; i < shown->texts.size(); ++i)
+    if (const QString text = shown->texts[i]->text().trimmed(); !text.isEmpty())
+      choice.words[shown->offer.texts[i].name] = text.toStdString();
+  return {std::move(choice.settings), std::move(choice.words)};
+}
+
+QStringList RealityForm::problems(const QString& name) const {
+  const Page* shown = page(name);
+  if (!shown) return {};
+  QStringList problems;
+  for (std::size_t i = 0; i < shown->texts.size(); ++i)
+    if (shown->offer.texts[i].required && shown->texts[i]->text().trimmed().isEmpty())
+      problems << tr("Measured by %1: %2 is missing (%3)")
+                      .arg(name, QString::fromStdString(shown->offer.texts[i].name),
+                           QString::fromStdString(shown->offer.texts[i].meaning));
+  return problems + shown->numbers->problems();
+}
+
+void RealityForm::setReadOnly(bool readOnly) {
+  for (const Page& page : pages_) {
+    for (QLineEdit* edit : page.texts) edit->setReadOnly(readOnly);
+    page.numbers->setReadOnly(readOnly);
+  }
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,51 @@
+#pragma once
+#include <QWidget>
+#include <vector>
+
+#include "core/plugin/reality.h"
+#include "core/spec/experiment_spec.h"
+
+class QLineEdit;
+class QUndoStack;
+
+namespace btr::ui {
+class ParameterForm;
+
+/// What a reality plugin lets the user set: its paths and texts, and its numbers. One page for each plugin, of which
+/// one is seen; what was typed on the others stays while the form lives.
+class RealityForm : public QWidget {
+  Q_OBJECT
+ public:
+  struct Offer {
+    QString name, meaning;
+    std::vector<Parameter> settings = {};
+    std::vector<TextSetting> texts = {};
+  };
+  RealityForm(const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
+
+  void show(const QString& name);  ///< its page, or none
+  /// Not an undo step. Throws InputError if a setting is not allowed.
+  void setOptions(const QString& name, const RealityOptions& options);
+  RealityOptions options(const QString& name) const;
+  QStringList problems(const QString& name) const;
+  void setReadOnly(bool readOnly);
+
+ signals:
+  void changed();
+
+ private:
+  struct Page {
+    Offer offer;
+    QWidget* widget;
+    std::vector<QLineEdit*> texts;
+    ParameterForm* numbers;
+  };
+  const Page* page(const QString& name) const;
+  QLineEdit* addText(Page& page, const TextSetting& setting);
+
+  QUndoStack& undo_;
+  int visit_ = 0;
+  std::vector<Page> pages_;
+};
+
+}  // namespace btr::ui

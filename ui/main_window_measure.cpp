@@ -80,6 +80,7 @@ void MainWindow::hideSimulated() {
     for (const MeasurementTask& task : tasks_)
       if (task.stage == run_.stage + 1 && task.iteration == count.iteration) hidden.insert(task.individual);
   individuals_->setHidden(hidden);
+  panel_->setBlind(!hidden.empty());
 }
 
 // What the pages say while the selected run waits. Its process may be at work: right after the last value, or on L3
@@ -92,6 +93,7 @@ void MainWindow::showWaiting() {
   if (wanted && !sheetWanted_ && layout_.page().isEmpty()) layout_.raise("sheet");
   sheetWanted_ = wanted;
   sheet_->setWaiting(waits);
+  sheet_->setGoesOnByItself(settings_.flag("continueWhenMeasured", true));
   const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;
   policies_->setWaiting(waits && !isStandIn(run_) && learnsInReality);
 }

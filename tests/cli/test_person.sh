@@ -52,14 +52,31 @@ one_line
 expect 1 "a run that is not there" "$btr" fitness import --db "$db" --run 3 "$folder/latin.csv"
 one_line
 says err "run 3 is not in the database"
-expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery"
+expect 1 "a kick of less than nothing" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value -0.5 --yes
+one_line
+says err "-0.5 m is not possible"
+expect 1 "a kick of a thousand kilometres" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 1000000
+one_line
+says err "1e+06 m is about"
+says err "--yes"
+printf 'individual,value_ft\n%s,1\n' "${ids[0]}" > "$folder/feet.csv"
+expect 1 "a unit that is not known" "$btr" fitness import --db "$db" --run 1 "$folder/feet.csv"
+one_line
+says err 'feet.csv line 1, column 2: values in the unit "ft"'
+printf 'individual,value\n%s,0.5\n%s,5000\n' "${ids[0]}" "${ids[1]}" > "$folder/slip.csv"
+expect 1 "a table with a slip" "$btr" fitness import --db "$db" --run 1 "$folder/slip.csv"
+one_line
+says err "slip.csv line 3: 5000 m"
+expect 0 "nothing of it was stored" "$btr" --json fitness list --db "$db" --run 1
+grep -q '"measurement"' "$folder/out" && fail "a doubtful value was stored"
+expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery" --yes
 printf 'individual,value,note,void\n%s,0.25,,\n%s,zero,,\n' "${ids[1]}" "${ids[2]}" > "$folder/wrong.csv"
 expect 1 "a table with a word for a number" "$btr" fitness import --db "$db" --run 1 "$folder/wrong.csv"
 one_line
 says err "line 3"
 expect 0 "what was stored" "$btr" --json fitness list --db "$db" --run 1
 grep -q '0.25' "$folder/out" && fail "half a table was stored"
-printf 'individual,value,note,void\n%s,0.25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
+printf 'individual,value [cm],note,void\n%s,25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
 expect 0 "the table mended" "$btr" fitness import --db "$db" --run 1 "$folder/right.csv"
 
 expect 0 "what counts" "$btr" fitness list --db "$db" --run 1
@@ -87,6 +104,10 @@ expect 10 "second stage" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "gaps" "$btr" export --db "$db" --run 1 --what gaps
 says out "stage"
 [ "$(wc -l < "$folder/out")" = 2 ] || fail "one gap was expected"
+expect 0 "a value is void after L3 took it in" "$btr" fitness void --db "$db" --run 1 --measurement 1
+says err "simulator version 1 was adapted to this value (stage 1)"
+says err "--version 0"
+expect 0 "it counts again" "$btr" fitness void --db "$db" --run 1 --measurement 1 --undo
 expect 0 "status says the gap on the held-out individual, too" "$btr" status --db "$db"
 says out "held-out gap"
 expect 0 "status" "$btr" --json status --db "$db"

@@ -22,6 +22,7 @@
 #include "ui/common/progress.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
+#include "ui/common/wheel_guard.h"
 #include "ui/gap/mapping_form.h"
 #include "ui/window/scroll_page.h"
 
@@ -66,6 +67,7 @@ QWidget* withButton(QLineEdit* edit, QPushButton* button) {
 }  // namespace
 
 AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new MappingForm(this)) {
+  WheelGuard::ensure();
   auto* splitter = new QSplitter(Qt::Vertical, this);
   splitter->addWidget(makeInputs());
   splitter->addWidget(mapping_);
@@ -95,6 +97,7 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   // The bar stays in sight, however low the window is.
   layout->addWidget(new ScrollPage(splitter, this), 1);
   layout->addLayout(bar);
+  connect(&tick_, &QTimer::timeout, this, [this] { showProgress(stageNow_, shareNow_); });
   connect(mapping_, &MappingForm::failed, this, &AnalysisSetup::failed);
   connect(mapping_, &MappingForm::saved, this, [this] { refresh(); });
   setRunning(false);
@@ -233,7 +236,10 @@ void AnalysisSetup::addRecordings(const QStringList& paths) {
   }
   if (recordings_->currentRow() < 0 && recordings_->rowCount() > 0) recordings_->setCurrentCell(0, file);
   if (out_->text().isEmpty() && recordings_->rowCount() > 0)
-    out_->setText(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).path() + "/gap-report");
+    out_->setText(
+        QDir(reportBase_)
+            .filePath(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).completeBaseName() +
+                      "-gap-report"));
   refresh();
 }
 
@@ -321,14 +327,25 @@ void AnalysisSetup::openMapping() {
   }
 }
 
-void AnalysisSetup::showProgress(const QString& stage, double share) { ui::showProgress(*progress_, stage, share); }
+// Said again each second: some stages last without a word.
+void AnalysisSetup::showProgress(const QString& stage, double share) {
+  stageNow_ = stage;
+  shareNow_ = share;
+  ui::showProgress(*progress_, stage, share, begun_.isValid() ? double(begun_.elapsed()) / 1000 : -1);
+}
 
 void AnalysisSetup::setRunning(bool running) {
   running_ = running;
   progress_->setVisible(running);
   cancel_->setEnabled(running);
   cancel_->setVisible(running);
-  if (running) showProgress(tr("starting"), 0);
+  if (running) {
+    begun_.start();
+    tick_.start(1000);
+    showProgress(tr("starting"), 0);
+  } else {
+    tick_.stop();
+  }
   refresh();
 }
 

@@ -1,4 +1,7 @@
 #pragma once
+#include <QElapsedTimer>
+#include <QStandardPaths>
+#include <QTimer>
 #include <QWidget>
 
 #include "core/sim/scene.h"
@@ -41,6 +44,8 @@ class AnalysisSetup : public QWidget {
   /// What is missing before it can be started; empty if nothing is.
   QString problem() const;
   void showProgress(const QString& stage, double share);
+  /// Where new reports are proposed: beside the database, not among the recordings.
+  void setReportBase(const QString& folder) { reportBase_ = folder; }
   void setRunning(bool running);
 
   MappingForm& mapping() { return *mapping_; }
@@ -80,6 +85,11 @@ class AnalysisSetup : public QWidget {
   ModelSet models_;
   RecordingDoctor doctor_;
   mutable FileDigests digests_;
+  QElapsedTimer begun_;
+  QTimer tick_;
+  QString stageNow_;
+  double shareNow_ = 0;
+  QString reportBase_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   bool certain_ = false;  ///< the doctor: an analysis would refuse these recordings
   bool running_ = false;
 };

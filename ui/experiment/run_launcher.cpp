@@ -130,9 +130,10 @@ void RunLauncher::exportCsv(const QString& database, Id run, const QString& what
            [this, file] { emit exported(file); });
 }
 
-void RunLauncher::importFitness(const QString& database, Id run, const QString& file) {
-  runToEnd({"fitness", "import", "--db", database, "--run", QString::number(run), file},
-           [this, file] { emit imported(file); });
+void RunLauncher::importFitness(const QString& database, Id run, const QString& file, bool confirmed) {
+  QStringList arguments{"fitness", "import", "--db", database, "--run", QString::number(run), file};
+  if (confirmed) arguments << "--yes";
+  runToEnd(arguments, [this, file] { emit imported(file); });
 }
 
 void RunLauncher::adopt(const QString& database, Id run, const QString& rig, const QString& simulator,

@@ -12,6 +12,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -24,6 +25,7 @@
 #include "ui/common/theme.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/gap/mapping_form.h"
+#include "ui/gap/recording_plot.h"
 #include "ui/window/scroll_page.h"
 
 namespace btr::ui {
@@ -70,7 +72,13 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   WheelGuard::ensure();
   auto* splitter = new QSplitter(Qt::Vertical, this);
   splitter->addWidget(makeInputs());
-  splitter->addWidget(mapping_);
+  looks_ = new RecordingPlot(this);
+  auto* below = new QTabWidget(this);
+  below->setDocumentMode(true);
+  below->addTab(mapping_, tr("Mappin&g"));
+  below->addTab(looks_, tr("&Look at it"));
+  below->setTabToolTip(1, tr("The recording as its mapping reads it"));
+  splitter->addWidget(below);
   splitter->setChildrenCollapsible(false);
   splitter->setStretchFactor(0, 1);
   splitter->setStretchFactor(1, 1);
@@ -99,7 +107,10 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   layout->addLayout(bar);
   connect(&tick_, &QTimer::timeout, this, [this] { showProgress(stageNow_, shareNow_); });
   connect(mapping_, &MappingForm::failed, this, &AnalysisSetup::failed);
-  connect(mapping_, &MappingForm::saved, this, [this] { refresh(); });
+  connect(mapping_, &MappingForm::saved, this, [this] {
+    refresh();
+    looks_->setRecording(mapping_->recording(), mappingOf(mapping_->recording()), scene());
+  });
   setRunning(false);
 }
 
@@ -158,6 +169,12 @@ QWidget* AnalysisSetup::makeInputs() {
   row->addWidget(recordings_, 1);
   row->addLayout(buttons);
   form->addRow(tr("Recordings"), row);
+  example_ = button("games-hint", tr("&Try it with a simulated XL330 servo"), [this] { fillWithExample(); });
+  example_->setObjectName("tryExample");
+  example_->setToolTip(
+      tr("Three recordings that the simulator made itself, with dry friction that the scene does not have: an analysis "
+         "finds it in about a minute"));
+  form->addRow(example_);
   doctorSays_ = new QLabel(inputs);
   doctorSays_->setObjectName("doctorSays");
   doctorSays_->setWordWrap(true);
@@ -243,6 +260,17 @@ void AnalysisSetup::addRecordings(const QStringList& paths) {
   refresh();
 }
 
+void AnalysisSetup::fillWithExample() {
+  const QDir resources(resourceDirectory());
+  const QDir made(resources.filePath("recordings/xl330-made"));
+  setScene(QDir::cleanPath(resources.filePath("scenes/xl330.json")));
+  addRecordings({QDir::cleanPath(made.filePath("made_kp200_sines.csv")),
+                 QDir::cleanPath(made.filePath("made_kp400_slow.csv")),
+                 QDir::cleanPath(made.filePath("made_kp200_chirp.csv"))});
+  for (int row = 0; row < recordings_->rowCount(); ++row)
+    setHeldOut(row, recordings_->item(row, file)->text() == "made_kp200_chirp.csv");
+}
+
 void AnalysisSetup::removeRecording() {
   if (recordings_->currentRow() >= 0) recordings_->removeRow(recordings_->currentRow());
   refresh();
@@ -319,6 +347,7 @@ void AnalysisSetup::openMapping() {
   const int row = recordings_->currentRow();
   if (row < 0 || !recordings_->item(row, file)) return;
   const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
+  looks_->setRecording(path, mappingOf(path), scene());
   if (mapping_->recording() == path || (mapping_->isChanged() && !mapping_->recording().isEmpty())) return;
   try {
     mapping_->open(path, mappingOf(path));
@@ -384,6 +413,7 @@ void AnalysisSetup::refresh() {
     recordings_->item(row, mapped)->setText(found.isEmpty() ? tr("none") : QFileInfo(found).fileName());
     recordings_->item(row, mapped)->setToolTip(found);
   }
+  example_->setVisible(recordings_->rowCount() == 0);
   askDoctor();
   const QString missing = problem();
   problem_->setText(missing);

@@ -19,6 +19,7 @@ class QTableWidget;
 
 namespace btr::ui {
 class MappingForm;
+class RecordingPlot;
 
 /// What is to be analysed: scene, recordings (training or held out) with their mappings, simulator, folder of the
 /// report. Starts nothing itself.
@@ -35,6 +36,9 @@ class AnalysisSetup : public QWidget {
   /// Files that are there already are not added twice.
   void addRecordings(const QStringList& paths);
   void removeRecording();
+  /// Fills an empty page with the shipped example: a simulated XL330 servo whose recordings hide dry friction, one of
+  /// them held out.
+  void fillWithExample();
   void setHeldOut(int row, bool heldOut);
   /// Simulators to start from beside the scene as given: names for people and their texts (simulator.json).
   void setSimulators(const QStringList& names, const QStringList& texts);
@@ -49,6 +53,7 @@ class AnalysisSetup : public QWidget {
   void setRunning(bool running);
 
   MappingForm& mapping() { return *mapping_; }
+  RecordingPlot& looks() { return *looks_; }
   QTableWidget& recordings() { return *recordings_; }
 
  signals:
@@ -76,6 +81,8 @@ class AnalysisSetup : public QWidget {
   QComboBox* simulator_;
   QTableWidget* recordings_;
   MappingForm* mapping_;
+  RecordingPlot* looks_;
+  QPushButton* example_;
   QLabel *problem_, *doctorSays_;
   QCheckBox* asRecorded_;
   QProgressBar* progress_;

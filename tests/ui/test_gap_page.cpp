@@ -34,6 +34,7 @@
 #include "ui/gap/heat_map.h"
 #include "ui/gap/mapping_draft.h"
 #include "ui/gap/mapping_form.h"
+#include "ui/gap/recording_plot.h"
 #include "ui/gap/report_view.h"
 
 using namespace btr;
@@ -180,6 +181,21 @@ class TestGapPage : public QObject {
     // The report lies beside the database, not among the recordings.
     QCOMPARE(QFileInfo(job.out).absolutePath(), QFileInfo(home.path()).absoluteFilePath());
     qunsetenv("UCHILSIM_RESOURCES");
+  }
+
+  void aRecordingIsSeenBeforeItIsAnalysed() {
+    QTemporaryDir folder;
+    const QString csv =
+        file(folder, "a.csv", "time_s,leg.knee.command_rad,leg.knee.position_rad\n0,1,0\n0.5,1,0.5\n1,1,0.75\n");
+    RecordingPlot looks;
+    looks.setRecording(csv, {}, {});
+    QCOMPARE(looks.channel().currentText(), QString("leg.knee.position_rad"));
+    const PlotData& plot = looks.plot().data();
+    QCOMPARE(plot.series.size(), std::size_t(2));  // with the command beside it
+    QCOMPARE(plot.series[0].points, (std::vector<QPointF>{{0, 0}, {0.5, 0.5}, {1, 0.75}}));
+    QVERIFY(plot.yTitle.contains("(rad)"));
+    looks.setRecording(file(folder, "b.csv", "time_s\nno number\n"), {}, {});
+    QVERIFY2(looks.plot().data().empty.contains("b.csv"), qPrintable(looks.plot().data().empty));
   }
 
   void aFolderThatIsNoReportIsAMessageAndKeepsWhatIsShown() {

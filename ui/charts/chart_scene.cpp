@@ -4,6 +4,7 @@
 #include <QCategoryAxis>
 #include <QChart>
 #include <QGraphicsLayout>
+#include <QGraphicsScene>
 #include <QGraphicsTextItem>
 #include <QLineSeries>
 #include <QLogValueAxis>

@@ -12,7 +12,7 @@ struct StagePlots {
   Q_DECLARE_TR_FUNCTIONS(StagePlot)
 };
 
-bool isNeverNegative(const std::vector<ComparedArm>& arms) {
+bool isFitnessNeverNegative(const std::vector<ComparedArm>& arms) {
   for (const ComparedArm& arm : arms)
     for (const std::vector<StageOutcome>& run : arm.runs)
       if (std::ranges::any_of(run, [](const StageOutcome& o) { return o.realMean < 0; })) return false;
@@ -34,7 +34,7 @@ PlotData stagePlot(const std::vector<ComparedArm>& arms, StageQuantity quantity,
   plot.yColumn = columnName(isGap ? "gap" : "real_fitness", unit);
   plot.wholeX = true;
   plot.yFromZero = true;
-  plot.neverNegative = isGap || isNeverNegative(arms);
+  plot.neverNegative = isGap || isFitnessNeverNegative(arms);
   plot.empty = StagePlots::tr("Tick runs with finished measurement stages to compare them");
 
   // Marks of different arms stand beside each other.

@@ -183,6 +183,21 @@ class TestGapPage : public QObject {
     qunsetenv("UCHILSIM_RESOURCES");
   }
 
+  void theUnitOfACalibratedNumberIsThatOfItsPath() {
+    GapReport report;
+    for (const char* path : {"robots.a.servos.b.torque_constant_nm_per_a", "robots.a.servos.b.resistance_ohm",
+                             "robots.a.servos.b.rotor_inertia_kg_m2", "floor.friction", "robots.a.servos.b.p"})
+      report.calibrated.emplace_back().name = path;
+    CalibratedTable table;
+    table.setReport(report);
+    const auto unit = [&](int row) { return table.item(row, CalibratedTable::unit)->text(); };
+    QCOMPARE(unit(0), QString("N·m/A"));
+    QCOMPARE(unit(1), QString("Ω"));
+    QCOMPARE(unit(2), QString("kg·m²"));
+    QCOMPARE(unit(3), QString("1"));
+    QCOMPARE(unit(4), QString());
+  }
+
   void aRecordingIsSeenBeforeItIsAnalysed() {
     QTemporaryDir folder;
     const QString csv =

@@ -1,6 +1,8 @@
 #include "ui/gap/effects_table.h"
 
 #include <QHeaderView>
+#include <array>
+#include <utility>
 
 #include "core/gap/report_figures.h"
 #include "ui/common/format.h"
@@ -22,6 +24,34 @@ QTableWidgetItem* fillCell(QTableWidget& table, int row, int column, const QStri
   item->setToolTip(text);
   table.setItem(row, column, item);
   return item;
+}
+
+/// A scene's path ends in its unit: "robots.leg.servos.knee.max_torque_nm". Without one it is a pure number, but for
+/// the gains of a servo, whose unit depends on its joint: nothing is said of these.
+QString unitOfPath(const std::string& path) {
+  constexpr std::array<std::pair<const char*, const char*>, 19> endings{{{"_nm_s_rad", "N·m·s/rad"},
+                                                                         {"_nm_per_a", "N·m/A"},
+                                                                         {"_v_per_rad", "V/rad"},
+                                                                         {"_nm_rad", "N·m/rad"},
+                                                                         {"_kg_m2", "kg·m²"},
+                                                                         {"_rad_s", "rad/s"},
+                                                                         {"_m_s2", "m/s²"},
+                                                                         {"_n_s_m", "N·s/m"},
+                                                                         {"_m_s", "m/s"},
+                                                                         {"_n_m", "N/m"},
+                                                                         {"_ohm", "Ω"},
+                                                                         {"_nm", "N·m"},
+                                                                         {"_kg", "kg"},
+                                                                         {"_rad", "rad"},
+                                                                         {"_m", "m"},
+                                                                         {"_s", "s"},
+                                                                         {"_v", "V"},
+                                                                         {"_a", "A"},
+                                                                         {"_n", "N"}}};
+  for (const auto& [ending, unit] : endings)
+    if (path.ends_with(ending)) return QString::fromUtf8(unit);
+  const std::string leaf = path.substr(path.rfind('.') + 1);
+  return leaf == "p" || leaf == "i" || leaf == "d" ? QString() : QStringLiteral("1");
 }
 
 QString numberText(const GapReport::Number& n) {
@@ -112,7 +142,7 @@ void CalibratedTable::setReport(const GapReport& report) {
     fillCell(*this, row, after, word(brief(n.value)), true);
     fillCell(*this, row, interval, n.ci95.known() ? word(brief(n.ci95)) : tr("–"), true);
     fillCell(*this, row, amongRivals, n.amongRivals.known() ? word(brief(n.amongRivals)) : tr("–"), true);
-    fillCell(*this, row, unit, word(n.unit.empty() ? "1" : n.unit));
+    fillCell(*this, row, unit, n.unit.empty() ? unitOfPath(n.name) : word(n.unit));
     fillCell(*this, row, remark,
              !n.excited  ? tr("the recordings do not tell it")
              : n.atBound ? tr("at its bound")

@@ -12,6 +12,7 @@ class QTabWidget;
 namespace btr::ui {
 class CalibratedTable;
 class EffectsTable;
+class ErrorsTable;
 class HeatMap;
 class PlotWidget;
 

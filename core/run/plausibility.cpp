@@ -93,7 +93,8 @@ std::vector<Doubt> doubts(const KnownFitness& known, const std::vector<Measureme
   std::vector<Doubt> all;
   for (std::size_t i = 0; i < entered.size(); ++i) {
     const double value = entered[i].value;
-    if (entered[i].isVoid) continue;
+    // What is beyond any fitness is refused when it is stored.
+    if (entered[i].isVoid || !(std::abs(value) <= largestFitness)) continue;
     if (value < 0 && !known.canBeNegative) {
       all.push_back({i, say.negative(value), true});
       continue;

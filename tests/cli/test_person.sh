@@ -39,7 +39,7 @@ for value in 1e308 -1e308 1000000001; do
   one_line
   says err "-1e+09 to 1e+09"
 done
-expect 1 "a note that is not UTF-8" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 1 --note $'\xff\xfe'
+expect 1 "a note that is not UTF-8" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 1 --yes --note $'\xff\xfe'
 one_line
 says err "note: the byte 0xFF"
 printf 'individual,value,note\n%s,1,d\351rap\303\251\n' "${ids[0]}" > "$folder/latin.csv"
@@ -118,7 +118,7 @@ says out "new battery"
 
 expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))])' "$folder/out"); do
-  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.4
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.4 --yes
 done
 expect 0 "the end" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "status" "$btr" --json status --db "$db"
@@ -158,7 +158,7 @@ for t in json.load(open(sys.argv[1])):
     for repeat in range(t["wanted_repeats"]):
         print(f'{t["individual"]},{0.3 + 0.01 * t["position"] + 0.002 * repeat}')
 PY
-  expect 0 "import" "$btr" fitness import --db "$db" --run 1 "$folder/all.csv"
+  expect 0 "import" "$btr" fitness import --db "$db" --run 1 --yes "$folder/all.csv"
 }
 expect 10 "L1" "$btr" run "$folder/l2.json" --db "$db"
 measure_all
@@ -168,7 +168,7 @@ expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 [ "$(grep -c '"iteration": 1' "$folder/out")" = 4 ] || fail "three policies and the centre should wait"
 grep -q simulated_fitness "$folder/out" && fail "the simulated fitness of policies is not hidden"
 policy=$(python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))[0]["individual"])' "$folder/out")
-expect 0 "a policy by hand" "$btr" fitness enter --db "$db" --run 1 --individual "$policy" --value 0.6 --value 0.62
+expect 0 "a policy by hand" "$btr" fitness enter --db "$db" --run 1 --individual "$policy" --value 0.6 --value 0.62 --yes
 measure_all
 expect 0 "replay of a policy" "$btr" replay --db "$db" --run 1 --individual "$policy"
 says out "identical to the stored run"
@@ -189,7 +189,7 @@ measure_all
 expect 10 "L2 waits" "$btr" run "$folder/l2.json" --db "$db"
 expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))][:2])' "$folder/out"); do
-  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91 --yes
 done
 expect 0 "it is enough" "$btr" --json end-l2 --db "$db" --run 1
 expect 10 "the next stage waits" "$btr" run "$folder/l2.json" --db "$db"

@@ -256,7 +256,7 @@ class TestParameterForm : public QObject {
     QScrollArea area;
     auto* inside = new QWidget;
     auto* column = new QVBoxLayout(inside);
-    PluginForm learner(tr("Learner"), {{"ga", "", someParameters()}, {"pgrl", "", someParameters()}}, undo);
+    PluginForm learner(tr("Learner"), {{"ga", someParameters(), ""}, {"pgrl", someParameters(), ""}}, undo);
     column->addWidget(&learner);
     auto* spin = new QSpinBox;
     column->addWidget(spin);

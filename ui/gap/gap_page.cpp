@@ -164,7 +164,7 @@ bool GapPage::openReport(const QString& folder) {
     emit failed(QString::fromUtf8(error.what()));
     return false;
   }
-  tabs_->setCurrentWidget(view_);
+  tabs_->setCurrentIndex(1);  // the report
   refresh();
   emit reportOpened(folder_);
   return true;

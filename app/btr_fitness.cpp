@@ -8,8 +8,10 @@
 
 #include "app/btr_commands.h"
 #include "core/run/measured_import.h"
+#include "core/run/plausibility.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/reality_gap.h"
+#include "core/run/resting_simulator.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 
@@ -20,7 +22,7 @@ struct FitnessArguments {
   std::string database, note, file;
   Id run = 0, individual = 0, measurement = 0;
   std::vector<double> values;
-  bool isVoid = false, counts = false, showSimulated = false, hasNote = false;
+  bool isVoid = false, counts = false, showSimulated = false, hasNote = false, yes = false;
 };
 
 std::string operatorName() {
@@ -94,6 +96,33 @@ void list(const FitnessArguments& a, Shell& shell) {
                        rows));
 }
 
+/// Refuses what is not possible, and without --yes what is doubtful. `places` says for each value where it came from.
+void requirePlausible(const Database& db, const FitnessArguments& a, Shell& shell,
+                      const std::vector<MeasurementRecord>& entered, const std::vector<std::string>& places) {
+  const RunRecord run = db.run(a.run);
+  const PreparedExperiment prepared = prepareFromRun(run, shell.plugins());
+  const Fitness& fitness = *prepared.fitness;
+  const std::vector<Doubt> all =
+      doubts({db.measurementTasks(a.run), db.measurements(a.run), fitness.unit(), fitness.canBeNegative()}, entered);
+  std::string said;
+  bool isImpossible = false;
+  for (const Doubt& doubt : all) {
+    if (a.yes && !doubt.isImpossible) continue;
+    said += (said.empty() ? "" : "; ") + places[doubt.index] + ": " + doubt.sentence;
+    isImpossible = isImpossible || doubt.isImpossible;
+  }
+  if (said.empty()) return;
+  throw InputError(said + (isImpossible ? "" : "; nothing was stored; with --yes it counts as it is"));
+}
+
+/// L3 has taken the value in already: a version of the simulator rests on it.
+void warnOfAdapted(const Database& db, const MeasurementRecord& m) {
+  if (const auto resting = simulatorRestingOn(db, m.run, m.individual))
+    std::cerr << "btr: simulator version " << resting->number << " was adapted to this value (stage " << resting->stage
+              << ") and stays as it is; to adapt again from the version before it: btr gap revert --db " << db.path()
+              << " --run " << m.run << " --version " << resting->parent << "\n";
+}
+
 void enter(const FitnessArguments& a, Shell& shell) {
   if (a.values.empty() && !a.isVoid) throw CLI::ValidationError("enter", "give --value (once a repeat), or --void");
   Database db = Database::open(a.database, Database::Mode::readWrite);
@@ -109,6 +138,8 @@ void enter(const FitnessArguments& a, Shell& shell) {
     m.value = value;
     all.push_back(m);
   }
+  requirePlausible(db, a, shell, all,
+                   std::vector<std::string>(all.size(), "individual " + std::to_string(a.individual)));
   const std::vector<Id> stored = db.addMeasurements(all);
   keepInFile(db);
   if (shell.json) return printJson({{"individual", a.individual}, {"measurements", stored}});
@@ -123,9 +154,11 @@ void setVoid(const FitnessArguments& a, Shell& shell) {
   if (m.run != a.run)
     throw InputError(db.path() + " run " + std::to_string(a.run), "measurement " + std::to_string(a.measurement),
                      "those of this run; it is of run " + std::to_string(m.run));
+  const bool was = m.isVoid;
   db.setMeasurementVoid(m.id, a.isVoid, a.hasNote ? a.note : m.note);
   keepInFile(db);
   m = db.measurement(m.id);
+  if (m.isVoid && !was) warnOfAdapted(db, m);
   if (shell.json)
     return printJson({{"measurement", m.id},
                       {"individual", m.individual},
@@ -146,12 +179,16 @@ void import(const FitnessArguments& a, Shell& shell) {
   Database db = Database::open(a.database, Database::Mode::readWrite);
   db.run(a.run);  // an unknown run is named, not the individuals that it does not ask for
   const std::vector<MeasurementTask> tasks = db.measurementTasks(a.run);
-  std::vector<MeasurementRecord> all = readMeasuredCsv(a.file, &tasks);
+  const std::string unit = prepareFromRun(db.run(a.run), shell.plugins()).fitness->unit();
+  std::vector<std::string> places;
+  std::vector<MeasurementRecord> all = readMeasuredCsv(a.file, &tasks, unit, &places);
   for (MeasurementRecord& m : all) {
     m.run = a.run;
     m.who = operatorName();
     m.enteredAt = utcNow();
   }
+  for (std::string& place : places) place = a.file + " " + place;
+  requirePlausible(db, a, shell, all, places);
   const std::vector<Id> stored = db.addMeasurements(all);
   keepInFile(db);
   if (shell.json) return printJson({{"file", a.file}, {"measurements", stored}});
@@ -184,12 +221,14 @@ void addFitnessCommands(CLI::App& app, Shell& shell) {
       ->transform(decimalNumber());
   enterCommand->add_option("--note", a->note, "surface, battery, what happened");
   enterCommand->add_flag("--void", a->isVoid, "does not count (the robot fell, the ball hit a wall)");
+  enterCommand->add_flag("--yes", a->yes, "values far from what is expected are right: store them");
   enterCommand->callback([a, &shell] { enter(*a, shell); });
 
   CLI::App* importCommand =
       fitness->add_subcommand("import", "store a table of measured values: individual,value[,note][,void]");
   common(importCommand, *a);
   importCommand->add_option("MEASURED.csv", a->file, "the table")->required();
+  importCommand->add_flag("--yes", a->yes, "values far from what is expected are right: store them");
   importCommand->callback([a, &shell] { import(*a, shell); });
 
   CLI::App* voidCommand = fitness->add_subcommand("void", "a stored value does not count, or with --undo counts again");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "core/gap/report/report_figures.h"
 #include "core/run/adoption.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -34,14 +35,17 @@ void tell(const SimulatorRecord& version, const AdoptArguments& a, Shell& shell)
     return;
   }
   std::cout << (version.run != 0 ? "run " + std::to_string(version.run) : "rig " + loadRig(a.rig).name)
-            << ": simulator version " << version.number << (version.madeBy == "by hand" ? " " : " by ")
-            << version.madeBy;
+            << ": simulator version " << version.number << (version.madeBy == "by hand" ? ", " : " by ")
+            << originOf(version);
   if (version.run != 0) std::cout << ", used after generation " << version.madeAfterGeneration;
   std::cout << '\n';
 }
 
 void adopt(const AdoptArguments& a, Shell& shell) {
   // A rig needs no run, so its database may be a new one.
+  if (!a.report.empty())
+    if (const std::string warning = unseenWarning(loadReport(a.report)); !warning.empty())
+      std::cerr << "btr: " << a.report << ": " << warning << '\n';
   Database db = Database::open(a.database, a.rig.empty() ? Database::Mode::readWrite : Database::Mode::create);
   tell(a.rig.empty() ? adoptFromFiles(db, shell.plugins(), a.run, a.simulator, a.report)
                      : adoptForRig(db, shell.plugins(), a.rig, a.simulator, a.report),
@@ -82,7 +86,7 @@ void versions(const AdoptArguments& a, Shell& shell) {
                     {"created_at", s.createdAt},
                     {"values", s.simulator.values.size()},
                     {"effects", effects}});
-    rows.push_back({std::to_string(s.number), parent == all.end() ? "" : std::to_string(parent->number), s.madeBy,
+    rows.push_back({std::to_string(s.number), parent == all.end() ? "" : std::to_string(parent->number), originOf(s),
                     s.createdAt, std::to_string(s.simulator.values.size()), effects});
   }
   if (shell.json)

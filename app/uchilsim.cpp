@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QFileInfo>
 #include <QIcon>
+#include <QLocale>
 #include <QTimer>
 #include <cstdio>
 
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(commandLine, argc, argv);
 
   QApplication application(argc, argv);
+  QLocale::setDefault(QLocale::c());  // numbers have a decimal point everywhere, as in files and on the command line
   QApplication::setApplicationName("UCHILSIM");
   QApplication::setApplicationVersion(QString::fromStdString(btr::programVersion()));
   QApplication::setDesktopFileName("uchilsim");

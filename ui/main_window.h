@@ -1,6 +1,7 @@
 #pragma once
 #include <QMainWindow>
 #include <QTimer>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -36,6 +37,7 @@ class GapPage;
 class GridForm;
 class GridPage;
 struct GridState;
+struct ReplayData;
 class ProgramProcess;
 class MeasurementSheet;
 class MessageBanner;
@@ -70,6 +72,7 @@ class MainWindow : public QMainWindow {
   void continueRun(Id run);
   void stopRun(Id run);
   void replayIndividual(Id individual);
+  void replayPair(Id first, Id second);
   void replayBest();  ///< of the last generation
 
   /// Opens a gap report's folder in the gap page. False, with a message, keeps what was there.
@@ -147,6 +150,7 @@ class MainWindow : public QMainWindow {
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
   void keepMeasurements();
   void hideSimulated();
+  std::function<ReplayData(Id)> replayer() const;  ///< for another thread
   void showWaiting();
   void callForPerson(const std::vector<RunRecord>& runs);
   void showPolicies(const RunProgress& progress);

@@ -6,6 +6,9 @@
 #include <QFileDialog>
 #include <QFileInfo>
 
+#include "core/run/adoption.h"
+#include "core/run/prepared_experiment.h"
+#include "core/run/resting_simulator.h"
 #include "core/spec/json_reader.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/plot_data.h"
@@ -14,6 +17,7 @@
 #include "ui/gap/gap_page.h"
 #include "ui/main_window.h"
 #include "ui/measure/alarm.h"
+#include "ui/measure/measured_questions.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/policy_page.h"
 
@@ -80,6 +84,7 @@ void MainWindow::hideSimulated() {
     for (const MeasurementTask& task : tasks_)
       if (task.stage == run_.stage + 1 && task.iteration == count.iteration) hidden.insert(task.individual);
   individuals_->setHidden(hidden);
+  panel_->setBlind(!hidden.empty());
 }
 
 // What the pages say while the selected run waits. Its process may be at work: right after the last value, or on L3
@@ -92,6 +97,7 @@ void MainWindow::showWaiting() {
   if (wanted && !sheetWanted_ && layout_.page().isEmpty()) layout_.raise("sheet");
   sheetWanted_ = wanted;
   sheet_->setWaiting(waits);
+  sheet_->setGoesOnByItself(settings_.flag("continueWhenMeasured", true));
   const bool learnsInReality = !tasks_.empty() && tasks_.back().iteration > 0 && tasks_.back().stage == run_.stage + 1;
   policies_->setWaiting(waits && !isStandIn(run_) && learnsInReality);
 }
@@ -181,9 +187,16 @@ void MainWindow::submit(const std::vector<MeasurementRecord>& measurements) {
 
 void MainWindow::voidMeasurement(Id measurement, bool isVoid, const QString& note) {
   guard([&] {
+    const MeasurementRecord before = writer().measurement(measurement);
     writer().setMeasurementVoid(measurement, isVoid, note.toStdString());
     if (const QString where = whereItStands(); !where.isEmpty()) inform(tr("Stored") + where);
     watcher_.poll();
+    if (!isVoid || before.isVoid) return;
+    if (const auto resting = simulatorRestingOn(writer(), before.run, before.individual))
+      if (askToGoBack(this, *resting)) {
+        revertSimulator(writer(), before.run, resting->parent);
+        watcher_.poll();
+      }
   });
 }
 
@@ -191,7 +204,14 @@ void MainWindow::importMeasurements() {
   const QString file =
       QFileDialog::getOpenFileName(this, tr("Import measured fitness"), QFileInfo(databasePath()).absolutePath(),
                                    tr("Tables (*.csv);;All files (*)"));
-  if (!file.isEmpty()) launcher_.importFitness(databasePath(), run_.id, file);
+  if (file.isEmpty()) return;
+  guard([&] {
+    const PreparedExperiment prepared = prepareFromRun(writer().run(run_.id), *host_);
+    const ImportAnswer answer =
+        askAboutImport(this, file, {tasks_, measurements_, unit_.toStdString(), prepared.fitness->canBeNegative()});
+    if (answer != ImportAnswer::cancelled)
+      launcher_.importFitness(databasePath(), run_.id, file, answer == ImportAnswer::confirmed);
+  });
 }
 
 // What a robot's own program needs: one line an individual, the controller's parameters by name in its order.

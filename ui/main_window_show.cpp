@@ -80,6 +80,7 @@ void MainWindow::connectShow() {
     versions_->setGaps(gaps_);
   });
   connect(individuals_, &IndividualsTable::replayRequested, this, &MainWindow::replayIndividual);
+  connect(individuals_, &IndividualsTable::pairRequested, this, &MainWindow::replayPair);
 }
 
 void MainWindow::selectRun(Id run) {
@@ -139,6 +140,8 @@ void MainWindow::showSpec(const RunRecord& run) {
   policies_->setUnit(unit_);
   policiesSeen_.clear();
   sheet_->setUnit(unit_);
+  const bool canBeNegative = host_->fitness(spec.fitness.name)->canBeNegative();
+  sheet_->setAllowed({canBeNegative ? std::optional<double>() : 0.0, {}});
   sheet_->setStandIn(shown.standIn);
   sheet_->model().setSimulatedShown(valueOf(stageParameters(), spec.stages, "hide_simulated") == 0);
 }
@@ -153,12 +156,9 @@ void MainWindow::showRun(const RunRecord& run, const RunProgress& progress, bool
 }
 
 // Made again in a thread of its own, from a connection of its own.
-void MainWindow::replayIndividual(Id individual) {
-  if (!watcher_.isOpen() || run_.id == 0) return;
-  layout_.raise("replay");
-  ghosts_ = {};
-  individuals_->select(individual);
-  replayJob_->start([path = databasePath().toStdString(), run = run_.id, individual, host = host_, unit = unit_] {
+std::function<ReplayData(Id)> MainWindow::replayer() const {
+  return [path = databasePath().toStdString(), run = run_.id, host = host_, unit = unit_,
+          hidden = individuals_->model().hidden()](Id individual) {
     const Database database = Database::open(path, Database::Mode::readOnly);
     const RunRecord record = database.run(run);
     const IndividualRecord stored = database.individual(individual);
@@ -170,6 +170,26 @@ void MainWindow::replayIndividual(Id individual) {
                      tr("run %1, generation %2, individual %3").arg(run).arg(stored.generation).arg(individual), unit);
     shown.simulator = tr("simulator %1").arg(database.simulator(stored.simulator).number);
     shown.standIn = isStandIn(record);
+    shown.fitnessHidden = hidden.contains(individual) || hidden.contains(stored.sameAs);
+    return shown;
+  };
+}
+
+void MainWindow::replayIndividual(Id individual) {
+  if (!watcher_.isOpen() || run_.id == 0) return;
+  layout_.raise("replay");
+  ghosts_ = {};
+  individuals_->select(individual);
+  replayJob_->start([replay = replayer(), individual] { return replay(individual); });
+}
+
+void MainWindow::replayPair(Id first, Id second) {
+  if (!watcher_.isOpen() || run_.id == 0) return;
+  layout_.raise("replay");
+  ghosts_ = {};
+  replayJob_->start([replay = replayer(), first, second] {
+    ReplayData shown = replay(first);
+    shown.beside = std::make_shared<const ReplayData>(replay(second));
     return shown;
   });
 }

@@ -181,4 +181,11 @@ SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number)
                   versionAfter(all.back(), wanted.simulator, "by hand", reverting(wanted, all.back())));
 }
 
+std::string originOf(const SimulatorRecord& version) {
+  const auto evidence = nlohmann::json::parse(version.evidence, nullptr, false);
+  if (evidence.is_object() && evidence.contains("reverts_to"))
+    return "back to version " + std::to_string(evidence["reverts_to"].get<int>());
+  return version.madeBy;
+}
+
 }  // namespace btr

@@ -32,4 +32,7 @@ SimulatorRecord revertSimulator(Database& database, Id run, std::optional<int> n
 /// The same for a rig, by its experiment.
 SimulatorRecord revertRig(Database& database, Id rig, std::optional<int> number = {});
 
+/// What a version came from, for people: "L3", "gap analysis", "by hand"; "back to version 0" for a reverting one.
+std::string originOf(const SimulatorRecord& version);
+
 }  // namespace btr

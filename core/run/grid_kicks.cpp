@@ -82,8 +82,7 @@ GridKick gridKick(const Database& database, const PluginHost& host, Id grid, con
   r.result = prepared.trial(scene, kick.parameters, 1, true);
   r.fitness = r.storedFitness = prepared.fitnessOf(r.result);
   r.sha256 = r.result.trace.sha256();
-  r.model = std::make_shared<const RobotModel>(scene.robots.front().model);
-  r.robotName = scene.robots.front().name;
+  r.robots = robotsOf(scene);
   kick.figures = prepared.figuresOf(r.result);
   return kick;
 }

@@ -4,6 +4,13 @@
 
 namespace btr {
 
+std::vector<Replay::Robot> robotsOf(const Scene& scene) {
+  std::vector<Replay::Robot> robots;
+  for (const SceneRobot& robot : scene.robots)
+    robots.push_back({robot.name, std::make_shared<const RobotModel>(robot.model), robot.start});
+  return robots;
+}
+
 Replay replay(const Database& database, const PluginHost& host, Id run, Id individual) {
   const PreparedExperiment prepared = prepareFromRun(database.run(run), host);
   const IndividualRecord stored = database.individual(individual);
@@ -16,8 +23,7 @@ Replay replay(const Database& database, const PluginHost& host, Id run, Id indiv
   replay.storedSha256 = stored.traceSha256;
   replay.identical =
       replay.fitness == replay.storedFitness && (replay.storedSha256.empty() || replay.sha256 == replay.storedSha256);
-  replay.model = std::make_shared<const RobotModel>(scene.robots.front().model);
-  replay.robotName = scene.robots.front().name;
+  replay.robots = robotsOf(scene);
   return replay;
 }
 

@@ -26,6 +26,8 @@ class Fitness {
   }
   /// What a failed trial is worth.
   virtual double ofFailure() const { return 0; }
+  /// False where no trial can be worth less than 0, such as a distance: a measured −0.5 is then a slip.
+  virtual bool canBeNegative() const { return true; }
 };
 
 }  // namespace btr

@@ -16,6 +16,7 @@ namespace {
 
 class KickDistance final : public btr::Fitness {
   std::string unit() const override { return "m"; }
+  bool canBeNegative() const override { return false; }
 
   std::string meaning() const override {
     return "Distance on the floor from where the ball lay (or from below the neck joint, see measured_from) to where "

@@ -6,10 +6,16 @@
 ///           π_n ← π_n + η·ε_n·A_n/|A|, within the bounds
 ///
 /// The paper has t = 15 and η = 2; η = 1 gains more in our checks (core/learn/policy_gradient.h has the arithmetic).
+/// Where a search begins at the defaults of what it searches (L1 without a start), nothing nearby may be worth more
+/// than anything else: a kick that does not reach the ball. While all policies of an iteration are worth the same, they
+/// are drawn twice as far out the next time, at most half a range; the first that is worth more than that is where π
+/// goes, and ε is itself again. A search that was given a place to begin at (beginAt: L2, L3) never does that.
+///
 /// Not monotone: π may lose what it had; `measure_centre` evaluates π itself along with the policies around it.
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/plugin/plugin.h"
 
@@ -20,15 +26,16 @@ class PolicyGradientLearner final : public btr::Learner {
   std::vector<btr::Parameter> settings() const override {
     return {{"policies", "", "policies of an iteration", 3, 1000, 15, {}, true},
             {"step", "", "length of an iteration's step in units of epsilon; 2 in the paper", 0.01, 100, 1},
-            {"epsilon", "", "change of a parameter, as a share of its range", 0.0001, 0.5, 0.05},
+            {"epsilon", "", "change of a parameter, as a share of its range", 0.0001, largestShare, defaultShare},
             {"measure_centre", "", "evaluate the centre itself too", 0, 1, 0, {}, false, {"no", "yes"}}};
   }
 
   std::vector<btr::Parameter> settingsFor(std::span<const btr::Parameter> genotype) const override {
     std::vector<btr::Parameter> declared = settings();
     for (const btr::Parameter& p : genotype)
-      declared.push_back({"epsilon_" + p.name, p.unit, "change of " + p.name + "; 0: the share of its range", 0,
-                          p.maximum - p.minimum, 0});
+      declared.push_back({"epsilon_" + p.name, p.unit,
+                          "change of " + p.name + "; while it is not set, or 0, the share `epsilon` of its range", 0,
+                          p.maximum - p.minimum, defaultShare * (p.maximum - p.minimum)});
     return declared;
   }
 
@@ -43,7 +50,7 @@ class PolicyGradientLearner final : public btr::Learner {
     centre_.clear();
     for (std::size_t n = 0; n < genotype_.size(); ++n) {
       const btr::Parameter& p = genotype_[n];
-      const double own = value[4 + n];
+      const double own = values.contains("epsilon_" + p.name) ? value[4 + n] : 0;
       double epsilon = own > 0 ? own : value[2] * (p.maximum - p.minimum);
       if (p.integer || !p.choices.empty()) epsilon = std::max(1.0, std::round(epsilon));
       epsilons_.push_back(epsilon);
@@ -51,14 +58,18 @@ class PolicyGradientLearner final : public btr::Learner {
     }
     asked_.clear();
     iteration_ = 1;
+    wider_ = 1;
+    plateau_.reset();
+    explores_ = true;
   }
 
   void beginAt(std::span<const double> at, const btr::Permutations&, btr::Random&) override {
+    explores_ = false;
     centre_ = btr::feasible(genotype_, at);
   }
 
   std::vector<btr::Candidate> ask(btr::Random& random) override {
-    if (asked_.empty()) asked_ = btr::drawPolicies(genotype_, centre_, epsilons_, policies_, random);
+    if (asked_.empty()) asked_ = btr::drawPolicies(genotype_, centre_, widened(), policies_, random);
     std::vector<btr::Candidate> candidates;
     for (const auto& policy : asked_) candidates.push_back({"", policy});
     if (measureCentre_) candidates.push_back({"", centre()});
@@ -70,7 +81,9 @@ class PolicyGradientLearner final : public btr::Learner {
     if (asked_.empty() || fitness.size() != expected)
       throw btr::InputError("pgrl", std::to_string(fitness.size()) + " fitness values",
                             "one for each of the " + std::to_string(expected) + " policies that were asked for");
-    centre_ = btr::policyGradient(genotype_, centre_, epsilons_, step_, asked_, fitness.first(asked_.size())).centre;
+    const std::span<const double> worth = fitness.first(asked_.size());
+    if (!explores_ || !leavePlateau(worth))
+      centre_ = btr::policyGradient(genotype_, centre_, epsilons_, step_, asked_, worth).centre;
     asked_.clear();
     ++iteration_;
   }
@@ -78,7 +91,11 @@ class PolicyGradientLearner final : public btr::Learner {
   std::vector<double> centre() const override { return btr::feasible(genotype_, centre_); }
 
   std::string state() const override {
-    return nlohmann::json{{"iteration", iteration_}, {"centre", centre_}, {"asked", asked_}}.dump();
+    nlohmann::json state{{"iteration", iteration_}, {"centre", centre_}, {"asked", asked_}};
+    if (!explores_) return state.dump();
+    state["wider"] = wider_;
+    if (plateau_) state["plateau"] = *plateau_;
+    return state.dump();
   }
 
   void setState(const std::string& state) override {
@@ -91,6 +108,11 @@ class PolicyGradientLearner final : public btr::Learner {
           iteration >= 1 && fits(centre) && (asked.empty() || asked.size() == static_cast<std::size_t>(policies_));
       for (const auto& policy : asked) good = good && fits(policy);
       if (!good) throw btr::InputError("pgrl: the stored state does not belong to a search with these settings");
+      // States that were stored before plateaus were left have none of this: they go on as they began.
+      explores_ = document.contains("wider");
+      wider_ = document.value("wider", 1.0);
+      plateau_.reset();
+      if (document.contains("plateau")) plateau_ = document.at("plateau").get<double>();
       iteration_ = iteration;
       centre_ = std::move(centre);
       asked_ = std::move(asked);
@@ -100,6 +122,38 @@ class PolicyGradientLearner final : public btr::Learner {
   }
 
  private:
+  static constexpr double defaultShare = 0.05, largestShare = 0.5;
+
+  std::vector<double> widened() const {
+    std::vector<double> all = epsilons_;
+    for (std::size_t n = 0; n < all.size() && wider_ > 1; ++n)
+      all[n] =
+          std::max(all[n], std::min(all[n] * wider_, largestShare * (genotype_[n].maximum - genotype_[n].minimum)));
+    return all;
+  }
+
+  /// True where all are worth the same, or were until now: then there is no gradient to follow.
+  bool leavePlateau(std::span<const double> worth) {
+    std::size_t best = 0;
+    bool isFlat = true;
+    for (std::size_t i = 1; i < worth.size(); ++i) {
+      isFlat = isFlat && worth[i] == worth[0];
+      if (worth[i] > worth[best]) best = i;
+    }
+    if (isFlat && (!plateau_ || worth[0] <= *plateau_)) {
+      plateau_ = worth[0];
+      wider_ = std::min(2 * wider_, largestShare / 0.0001);
+      return true;
+    }
+    if (!plateau_) return false;
+    if (worth[best] > *plateau_) {
+      centre_ = asked_[best];
+      plateau_.reset();
+      wider_ = 1;
+    }
+    return true;
+  }
+
   bool fits(const std::vector<double>& vector) const {
     bool good = vector.size() == genotype_.size();
     for (std::size_t n = 0; good && n < vector.size(); ++n)
@@ -114,6 +168,9 @@ class PolicyGradientLearner final : public btr::Learner {
   bool measureCentre_ = false;
   long iteration_ = 1;
   std::vector<double> centre_;              ///< π; whole parameters are rounded only where it is evaluated
+  bool explores_ = true;                    ///< it begins at the defaults and may have to look around
+  double wider_ = 1;                        ///< how much further out than ε policies are drawn
+  std::optional<double> plateau_;           ///< what everything nearby is worth, while nothing is worth more
   std::vector<std::vector<double>> asked_;  ///< policies that wait for their fitness
 };
 

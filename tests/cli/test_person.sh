@@ -39,7 +39,7 @@ for value in 1e308 -1e308 1000000001; do
   one_line
   says err "-1e+09 to 1e+09"
 done
-expect 1 "a note that is not UTF-8" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 1 --note $'\xff\xfe'
+expect 1 "a note that is not UTF-8" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 1 --yes --note $'\xff\xfe'
 one_line
 says err "note: the byte 0xFF"
 printf 'individual,value,note\n%s,1,d\351rap\303\251\n' "${ids[0]}" > "$folder/latin.csv"
@@ -52,14 +52,31 @@ one_line
 expect 1 "a run that is not there" "$btr" fitness import --db "$db" --run 3 "$folder/latin.csv"
 one_line
 says err "run 3 is not in the database"
-expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery"
+expect 1 "a kick of less than nothing" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value -0.5 --yes
+one_line
+says err "-0.5 m is not possible"
+expect 1 "a kick of a thousand kilometres" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 1000000
+one_line
+says err "1e+06 m is about"
+says err "--yes"
+printf 'individual,value_ft\n%s,1\n' "${ids[0]}" > "$folder/feet.csv"
+expect 1 "a unit that is not known" "$btr" fitness import --db "$db" --run 1 "$folder/feet.csv"
+one_line
+says err 'feet.csv line 1, column 2: values in the unit "ft"'
+printf 'individual,value\n%s,0.5\n%s,5000\n' "${ids[0]}" "${ids[1]}" > "$folder/slip.csv"
+expect 1 "a table with a slip" "$btr" fitness import --db "$db" --run 1 "$folder/slip.csv"
+one_line
+says err "slip.csv line 3: 5000 m"
+expect 0 "nothing of it was stored" "$btr" --json fitness list --db "$db" --run 1
+grep -q '"measurement"' "$folder/out" && fail "a doubtful value was stored"
+expect 0 "one by hand" "$btr" fitness enter --db "$db" --run 1 --individual "${ids[0]}" --value 0.5 --value 0.7 --note "new battery" --yes
 printf 'individual,value,note,void\n%s,0.25,,\n%s,zero,,\n' "${ids[1]}" "${ids[2]}" > "$folder/wrong.csv"
 expect 1 "a table with a word for a number" "$btr" fitness import --db "$db" --run 1 "$folder/wrong.csv"
 one_line
 says err "line 3"
 expect 0 "what was stored" "$btr" --json fitness list --db "$db" --run 1
 grep -q '0.25' "$folder/out" && fail "half a table was stored"
-printf 'individual,value,note,void\n%s,0.25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
+printf 'individual,value [cm],note,void\n%s,25,,\n%s,0,"fell, on its nose",1\n' "${ids[1]}" "${ids[2]}" > "$folder/right.csv"
 expect 0 "the table mended" "$btr" fitness import --db "$db" --run 1 "$folder/right.csv"
 
 expect 0 "what counts" "$btr" fitness list --db "$db" --run 1
@@ -87,6 +104,10 @@ expect 10 "second stage" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "gaps" "$btr" export --db "$db" --run 1 --what gaps
 says out "stage"
 [ "$(wc -l < "$folder/out")" = 2 ] || fail "one gap was expected"
+expect 0 "a value is void after L3 took it in" "$btr" fitness void --db "$db" --run 1 --measurement 1
+says err "simulator version 1 was adapted to this value (stage 1)"
+says err "--version 0"
+expect 0 "it counts again" "$btr" fitness void --db "$db" --run 1 --measurement 1 --undo
 expect 0 "status says the gap on the held-out individual, too" "$btr" status --db "$db"
 says out "held-out gap"
 expect 0 "status" "$btr" --json status --db "$db"
@@ -97,7 +118,7 @@ says out "new battery"
 
 expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))])' "$folder/out"); do
-  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.4
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.4 --yes
 done
 expect 0 "the end" "$btr" run "$folder/kick.json" --db "$db"
 expect 0 "status" "$btr" --json status --db "$db"
@@ -137,7 +158,7 @@ for t in json.load(open(sys.argv[1])):
     for repeat in range(t["wanted_repeats"]):
         print(f'{t["individual"]},{0.3 + 0.01 * t["position"] + 0.002 * repeat}')
 PY
-  expect 0 "import" "$btr" fitness import --db "$db" --run 1 "$folder/all.csv"
+  expect 0 "import" "$btr" fitness import --db "$db" --run 1 --yes "$folder/all.csv"
 }
 expect 10 "L1" "$btr" run "$folder/l2.json" --db "$db"
 measure_all
@@ -147,7 +168,7 @@ expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 [ "$(grep -c '"iteration": 1' "$folder/out")" = 4 ] || fail "three policies and the centre should wait"
 grep -q simulated_fitness "$folder/out" && fail "the simulated fitness of policies is not hidden"
 policy=$(python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))[0]["individual"])' "$folder/out")
-expect 0 "a policy by hand" "$btr" fitness enter --db "$db" --run 1 --individual "$policy" --value 0.6 --value 0.62
+expect 0 "a policy by hand" "$btr" fitness enter --db "$db" --run 1 --individual "$policy" --value 0.6 --value 0.62 --yes
 measure_all
 expect 0 "replay of a policy" "$btr" replay --db "$db" --run 1 --individual "$policy"
 says out "identical to the stored run"
@@ -168,7 +189,7 @@ measure_all
 expect 10 "L2 waits" "$btr" run "$folder/l2.json" --db "$db"
 expect 0 "list" "$btr" --json fitness list --db "$db" --run 1
 for id in $(python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(open(sys.argv[1]))][:2])' "$folder/out"); do
-  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91
+  expect 0 "enter" "$btr" fitness enter --db "$db" --run 1 --individual "$id" --value 0.9 --value 0.91 --yes
 done
 expect 0 "it is enough" "$btr" --json end-l2 --db "$db" --run 1
 expect 10 "the next stage waits" "$btr" run "$folder/l2.json" --db "$db"

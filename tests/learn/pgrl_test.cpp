@@ -66,6 +66,55 @@ TEST_F(Pgrl, MovesTheCentreByTheArithmeticOfItsPolicies) {
   EXPECT_GT(centre[0], 0.3);
 }
 
+TEST_F(Pgrl, TheDefaultStepOfAParameterIsItsShareOfTheRangeNotNothing) {
+  const auto settings = learner->settingsFor(genotype(2));  // from −1 to 1
+  EXPECT_EQ(0.05 * 2, find(settings, "epsilon_p0")->byDefault);
+  // The common share applies to those that have no step of their own.
+  Random random(1);
+  learner->start(genotype(2), {{"epsilon", 0.25}, {"epsilon_p1", 0}}, random);
+  double furthest = 0;
+  for (const Candidate& c : learner->ask(random))
+    for (const double p : c.parameters) furthest = std::max(furthest, std::abs(p));
+  EXPECT_EQ(0.5, furthest);
+}
+
+/// Worth something only in a corner that no policy one ε around the defaults reaches.
+double farCorner(const std::vector<double>& p) { return p[0] > 0.3 && p[1] < -0.3 ? 1 + p[0] - p[1] : 0; }
+
+TEST_F(Pgrl, LeavesAPlateauWhereItWouldStandStill) {
+  Random random(4);
+  learner->start(genotype(2), {}, random);
+  double best = 0;
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    std::vector<double> fitness;
+    for (const Candidate& c : learner->ask(random)) {
+      fitness.push_back(farCorner(c.parameters));
+      best = std::max(best, fitness.back());
+    }
+    // Every state can be taken up again.
+    const std::string state = learner->state();
+    learner = host.learner("pgrl");
+    Random unused(1);
+    learner->start(genotype(2), {}, unused);
+    learner->setState(state);
+    learner->tell(fitness);
+  }
+  EXPECT_GT(farCorner(learner->centre()), 2.5);  // 1 + 1 + 1 in the corner itself
+  EXPECT_GT(best, 2.5);
+}
+
+TEST_F(Pgrl, ASearchThatWasPutSomewhereNeverLooksFurtherOut) {
+  Random random(4);
+  learner->start(genotype(2), {}, random);
+  learner->beginAt(std::vector{0.0, 0.0}, {}, random);
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    for (const Candidate& c : learner->ask(random))
+      for (const double p : c.parameters) EXPECT_LE(std::abs(p), 0.1);
+    learner->tell(std::vector(15, 0.0));
+  }
+  EXPECT_EQ(std::vector(2, 0.0), learner->centre());
+}
+
 TEST_F(Pgrl, EvaluatesTheCentreOnlyWhereThatIsWanted) {
   Random one(3), other(3);
   learner->start(genotype(2), {}, one);

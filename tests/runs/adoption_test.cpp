@@ -123,6 +123,8 @@ TEST_F(Adoption, RevertingMakesTheParentTheNewestAgain) {
   EXPECT_EQ(reverted.number, 2);
   EXPECT_EQ(reverted.parent, adopted.id);
   EXPECT_EQ(reverted.madeBy, "by hand");
+  EXPECT_EQ(originOf(reverted), "back to version 0");
+  EXPECT_EQ(originOf(adopted), "gap analysis");
   EXPECT_EQ(reverted.simulator, database_.simulators(run_)[0].simulator);
   EXPECT_EQ(database_.simulators(run_).size(), 3u);
   EXPECT_EQ(revertSimulator(database_, run_, 1).simulator, adopted.simulator);

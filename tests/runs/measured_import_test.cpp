@@ -72,6 +72,32 @@ TEST(MeasuredImport, NamesLineAndColumnOfTheFirstWrongCell) {
   EXPECT_THAT(refusalOf("individual,value\n7,\"1\n"), HasSubstr("line 2, column 2: the quote"));
 }
 
+TEST(MeasuredImport, ConvertsAUnitInTheHeadingOrRefusesIt) {
+  const auto in = [](const std::string& heading, const std::string& unit, double value) {
+    std::istringstream stream("individual," + heading + "\n7," + std::to_string(value) + "\n");
+    return readMeasuredCsv(stream, "measured.csv", &tasks, unit).front().value;
+  };
+  for (const char* heading : {"value [cm]", "value (cm)", "value_cm", "value[cm]"}) {
+    EXPECT_EQ(0.41, in(heading, "m", 41)) << heading;
+    EXPECT_EQ(41, in(heading, "cm", 41)) << heading;
+  }
+  EXPECT_EQ(0.41, in("value (mm)", "m", 410));
+  EXPECT_EQ(20, in("value_m_s", "cm/s", 0.2));
+  EXPECT_DOUBLE_EQ(3.14159265358979312 / 2, in("value [deg/s]", "rad/s", 90));
+  EXPECT_EQ(41, in("value", "m", 41));
+  EXPECT_EQ("measured.csv line 1, column 2: values in the unit \"ft\" is not allowed; m, cm, mm",
+            test::refusal([&] { in("value [ft]", "m", 1); }));
+  EXPECT_THAT(test::refusal([&] { in("value_cm", "", 1); }), HasSubstr("without a unit"));
+  EXPECT_THAT(test::refusal([&] { in("value [kg]", "cm/s", 1); }), HasSubstr("m/s, cm/s, mm/s"));
+}
+
+TEST(MeasuredImport, TellsTheLineOfEachValue) {
+  std::istringstream stream("individual,value,note\n7,1,\"two\nlines\"\n12,2,\n");
+  std::vector<std::string> places;
+  readMeasuredCsv(stream, "measured.csv", &tasks, "m", &places);
+  EXPECT_EQ((std::vector<std::string>{"line 2", "line 4"}), places);
+}
+
 TEST(MeasuredImport, ChecksTheHeader) {
   EXPECT_EQ(
       "measured.csv line 1, column 3: the column \"colour\" is not allowed; columns are "

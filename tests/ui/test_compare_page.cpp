@@ -138,15 +138,45 @@ class TestComparePage : public QObject {
     page.setChosen({1, 2, 3});
     const PlotData& plot = page.stages().data();
     QCOMPARE(plot.note, QString("stand-in reality"));
-    QCOMPARE(plot.yTitle, QString("fitness, or its gap (m)"));
-    QCOMPARE(plot.series.size(), std::size_t(4));
+    QCOMPARE(plot.yTitle, QString("gap on unseen individuals (m)"));
+    QCOMPARE(plot.series.size(), std::size_t(2));
     QCOMPARE(plot.series[0].points, (std::vector<QPointF>{{1, 0.2}}));
     // Half the difference times Student's t of one degree of freedom.
     QVERIFY(std::abs(plot.series[0].errors[0] - 0.1 * 12.7062) < 1e-5);
-    QCOMPARE(plot.series[1].points, (std::vector<QPointF>{{1, 1.5}}));
-    QCOMPARE(plot.series[2].points, (std::vector<QPointF>{{1, 0.5}}));
-    QCOMPARE(plot.series[2].errors, std::vector<double>{0.0});
-    QVERIFY(plot.series[0].colour != plot.series[2].colour);
+    QCOMPARE(plot.series[1].points, (std::vector<QPointF>{{1, 0.5}}));
+    QCOMPARE(plot.series[1].errors, std::vector<double>{0.0});
+    QVERIFY(plot.series[0].colour != plot.series[1].colour);
+    // Fitness has an axis of its own.
+    const PlotData& real = page.realFitness().data();
+    QCOMPARE(real.yTitle, QString("real fitness (m)"));
+    QCOMPARE(real.series[0].points, (std::vector<QPointF>{{1, 1.5}}));
+    // 1.5 − 0.5·12.7 m lies far below 0: a kick's interval is drawn down to 0, exported as it is.
+    QVERIFY(real.series[0].errors[0] > 1.5);
+    page.realFitness().resize(600, 400);
+    page.realFitness().resetZoom();
+    QCOMPARE(page.realFitness().visibleRange().top(), 0.0);
+    QCOMPARE(page.stages().visibleRange().top(), 0.0);
+  }
+
+  void whatWasReachedAtTheEndStandsInATable() {
+    ComparePage page;
+    page.setReader([&](Id id) {
+      ComparePage::History all = history(1);
+      all.stages = {{1, 9, 9, 9, 9}, {2, 0.1 * double(id), 0, double(id), double(id)}};
+      return all;
+    });
+    page.setRuns({run(1, 7, 30), run(3, 7, 60)}, {{1, "Kick"}});
+    page.setChosen({1, 3});
+    const QTableWidget& table = page.reached();
+    QCOMPARE(table.rowCount(), 2);
+    const auto text = [&](int row, int column) { return table.item(row, column)->text(); };
+    QCOMPARE(text(0, 1), QString("2"));
+    QCOMPARE(text(0, 3), QString("0.1"));
+    QCOMPARE(text(1, 4), QString("3"));
+    QCOMPARE(text(0, 5), QString());
+    QCOMPARE(text(1, 5), QString("0.2"));
+    QCOMPARE(text(1, 6), QString("2"));
+    QCOMPARE(table.horizontalHeaderItem(4)->text(), QString("real fitness (m)"));
   }
 
   void runsWithAnotherUnitAreLeftOutOfTheChartsAndNamed() {
@@ -161,7 +191,7 @@ class TestComparePage : public QObject {
     page.setChosen({1, 2, 3});
     QVERIFY(page.plot().data().yTitle.contains("(m)"));
     QCOMPARE(page.plot().data().series.size(), std::size_t(4));
-    QCOMPARE(page.stages().data().series.size(), std::size_t(4));
+    QCOMPARE(page.stages().data().series.size(), std::size_t(2));
     const auto* leftOut = page.findChild<QLabel*>("leftOut");
     QVERIFY2(leftOut->text().contains("run 2 (cm/s)") && !leftOut->isHidden(), qPrintable(leftOut->text()));
     QCOMPARE(page.differences().columnCount(), 4);

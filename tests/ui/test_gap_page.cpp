@@ -1,28 +1,35 @@
 // The gap page: a stored report shown, the map and its plots, effects with their reasons, adoption, the mapping form.
 #include <QAction>
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/report/report_files.h"
 #include "core/gap/report/report_html.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/recordings/recording.h"
+#include "core/gap/report/report_figures.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/sample_report.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/common/progress.h"
 #include "ui/gap/analysis_setup.h"
 #include "ui/gap/clues_view.h"
 #include "ui/gap/effects_table.h"
@@ -32,6 +39,7 @@
 #include "ui/gap/heat_map.h"
 #include "ui/gap/mapping_draft.h"
 #include "ui/gap/mapping_form.h"
+#include "ui/gap/recording_plot.h"
 #include "ui/gap/report_view.h"
 
 using namespace btr;
@@ -76,6 +84,138 @@ class TestGapPage : public QObject {
     QCOMPARE(bench.page.findChild<QLabel*>("headline")->text(), QString("Physics was left out"));
     QCOMPARE(bench.page.findChild<QLabel*>("sentence")->text(), QString::fromStdString(sampleReport().sentence));
     QCOMPARE(bench.page.findChild<QTabWidget*>("gapTabs")->currentIndex(), 1);
+  }
+
+  // A success on what was fitted is none where the user's own held-out recording got worse: 259 → 278 noise floors.
+  void whatGotWorseOnHeldOutRecordingsIsInTheHeadlineAndAskedAboutBeforeItIsAdopted() {
+    GapReport report = sampleReport();
+    for (GapReport::Channel& channel : report.channels)
+      channel.heldoutAsGiven = channel.heldoutCalibrated = channel.heldoutWithEffects = 0;
+    GapReport::Channel& channel = report.channels.front();
+    channel.heldoutAsGiven = 259 * channel.noiseFloor;
+    channel.heldoutCalibrated = 260 * channel.noiseFloor;
+    channel.heldoutWithEffects = 278 * channel.noiseFloor;
+    QTemporaryDir folder;
+    writeReport(report, folder.filePath("report").toStdString());
+    GapPage page(BTR_PROGRAM);
+    page.show();
+    QVERIFY(page.openReport(folder.filePath("report")));
+    const QString headline = page.findChild<QLabel*>("headline")->text();
+    QVERIFY2(headline.contains("held out got worse: 259 → 278 noise floors"), qPrintable(headline));
+    page.setTargets({{"Run 1", "", versions(1), ""}});
+    QSignalSpy adopt(&page, &GapPage::adoptRequested);
+    const auto answer = [](const char* name) {
+      QTimer::singleShot(0, [name] {
+        auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+        QVERIFY(box && box->text().contains("259 → 278"));
+        if (auto* button = box->findChild<QPushButton*>(name))
+          button->click();
+        else
+          box->reject();
+      });
+    };
+    answer("");
+    page.adoptAction()->trigger();
+    QCOMPARE(adopt.count(), 0);
+    answer("adoptWorse");
+    page.adoptAction()->trigger();
+    QCOMPARE(adopt.count(), 1);
+    const auto* errors = page.findChild<QTableWidget*>("errors");
+    QCOMPARE(errors->rowCount(), int(report.channels.size()));
+    QCOMPARE(errors->item(0, ErrorsTable::unit)->text(), QString::fromStdString(channel.unit));
+    QCOMPARE(errors->item(0, ErrorsTable::heldWithEffects)->text(),
+             QString::fromStdString(brief(278 * channel.noiseFloor)));
+  }
+
+  void bothPlotsOfARecordingShowTheSameTime() {
+    Bench bench;
+    auto* overlay = bench.page.findChild<PlotWidget*>("overlay");
+    auto* error = bench.page.findChild<PlotWidget*>("error");
+    overlay->zoomTo(QRectF(0.5, overlay->visibleRange().top(), 0.25, overlay->visibleRange().height()));
+    QCOMPARE(error->visibleRange().left(), 0.5);
+    QCOMPARE(error->visibleRange().width(), 0.25);
+    error->zoomTo(QRectF(0.25, error->visibleRange().top(), 0.5, error->visibleRange().height()));
+    QCOMPARE(overlay->visibleRange().left(), 0.25);
+    error->resetZoom();
+    QVERIFY(!overlay->isZoomed());
+    QCOMPARE(overlay->visibleRange().width(), error->visibleRange().width());
+  }
+
+  void anIntervalAThousandTimesTheCurveIsCutOffAndSaid() {
+    GapReport report;
+    report.remainder.on = "velocity";
+    report.remainder.at = "leg.knee";
+    report.remainder.unitY = "N·m";
+    report.remainder.x = {-1, 0, 1};
+    report.remainder.y = {-0.7, 0, 0.7};
+    report.remainder.standardError = {0.01, 0.01, 300};
+    const PlotData plot = remainderPlot(report);
+    PlotWidget widget;
+    widget.setData(plot);
+    widget.resetZoom();
+    QVERIFY(widget.visibleRange().height() < 10);
+    QVERIFY2(plot.note.contains("± 588"), qPrintable(plot.note));  // 1.96·300
+  }
+
+  void progressTellsTheTimeLeftAtThePaceSoFar() {
+    QCOMPARE(secondsLeft(0.25, 30), 90.0);
+    QCOMPARE(secondsLeft(0.5, 10), 10.0);
+    QVERIFY(secondsLeft(0, 30) < 0);
+    QVERIFY(secondsLeft(-1, 30) < 0);
+    QProgressBar bar;
+    showProgress(bar, "handing over", 0.5, 10);
+    QVERIFY2(bar.format().contains("handing over") && bar.format().contains("about 10 s left"),
+             qPrintable(bar.format()));
+  }
+
+  void anEmptyPageIsFilledWithTheShippedExample() {
+    qputenv("UCHILSIM_RESOURCES", SOURCE_DIR "/resources");
+    QTemporaryDir home;
+    GapPage page(BTR_PROGRAM);
+    page.setMeasured(home.filePath("my.db"), 0, 0);
+    page.show();
+    AnalysisSetup& setup = page.setup();
+    auto* example = setup.findChild<QPushButton*>("tryExample");
+    QVERIFY(example->isVisibleTo(&setup));
+    QTest::mouseClick(example, Qt::LeftButton);
+    QVERIFY2(setup.problem().isEmpty(), qPrintable(setup.problem()));
+    const AnalysisJob job = setup.job();
+    QCOMPARE(job.recordings.size(), 2);
+    QCOMPARE(job.heldOut.size(), 1);
+    QVERIFY(!example->isVisibleTo(&setup));
+    // The report lies beside the database, not among the recordings.
+    QCOMPARE(QFileInfo(job.out).absolutePath(), QFileInfo(home.path()).absoluteFilePath());
+    qunsetenv("UCHILSIM_RESOURCES");
+  }
+
+  void theUnitOfACalibratedNumberIsThatOfItsPath() {
+    GapReport report;
+    for (const char* path : {"robots.a.servos.b.torque_constant_nm_per_a", "robots.a.servos.b.resistance_ohm",
+                             "robots.a.servos.b.rotor_inertia_kg_m2", "floor.friction", "robots.a.servos.b.p"})
+      report.calibrated.emplace_back().name = path;
+    CalibratedTable table;
+    table.setReport(report);
+    const auto unit = [&](int row) { return table.item(row, CalibratedTable::unit)->text(); };
+    QCOMPARE(unit(0), QString("N·m/A"));
+    QCOMPARE(unit(1), QString("Ω"));
+    QCOMPARE(unit(2), QString("kg·m²"));
+    QCOMPARE(unit(3), QString("1"));
+    QCOMPARE(unit(4), QString());
+  }
+
+  void aRecordingIsSeenBeforeItIsAnalysed() {
+    QTemporaryDir folder;
+    const QString csv =
+        file(folder, "a.csv", "time_s,leg.knee.command_rad,leg.knee.position_rad\n0,1,0\n0.5,1,0.5\n1,1,0.75\n");
+    RecordingPlot looks;
+    looks.setRecording(csv, {}, {});
+    QCOMPARE(looks.channel().currentText(), QString("leg.knee.position_rad"));
+    const PlotData& plot = looks.plot().data();
+    QCOMPARE(plot.series.size(), std::size_t(2));  // with the command beside it
+    QCOMPARE(plot.series[0].points, (std::vector<QPointF>{{0, 0}, {0.5, 0.5}, {1, 0.75}}));
+    QVERIFY(plot.yTitle.contains("(rad)"));
+    looks.setRecording(file(folder, "b.csv", "time_s\nno number\n"), {}, {});
+    QVERIFY2(looks.plot().data().empty.contains("b.csv"), qPrintable(looks.plot().data().empty));
   }
 
   void aFolderThatIsNoReportIsAMessageAndKeepsWhatIsShown() {

@@ -142,6 +142,23 @@ class TestIndividualsTable : public QObject {
     QCOMPARE(table.model().index(1, M::fitness).data().toString(), QString("0.5"));
   }
 
+  // The detail of a kick tells how far it went, as well as its fitness does.
+  void theDetailOfWhoIsMeasuredBlindIsInNoAnswerEither() {
+    std::vector<IndividualRecord> all = example();
+    all[1].detail = "way_m 1.234";
+    IndividualsTable table;
+    table.model().append(all);
+    table.setHidden({2});
+    QVERIFY(table.select(2));
+    for (const auto* label : table.findChildren<QLabel*>())
+      QVERIFY2(!label->text().contains("1.234") && !label->toolTip().contains("1.234"), qPrintable(label->text()));
+    QVERIFY(!table.model().index(1, M::outcome).data(Qt::ToolTipRole).isValid());
+    table.filter().setWords("1.234");
+    QCOMPARE(shown(table), QList<Id>());
+    table.setHidden({});
+    QCOMPARE(table.model().index(1, M::outcome).data(Qt::ToolTipRole).toString(), QString("way_m 1.234"));
+  }
+
   void aStandInIsNamedInTheHeader() {
     IndividualsModel model;
     model.setUnit("m");

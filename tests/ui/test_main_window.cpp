@@ -18,7 +18,7 @@
 #include <QTreeView>
 #include <algorithm>
 
-#include "core/gap/search/screen.h"
+#include "core/run/adoption.h"
 #include "core/run/prepared_experiment.h"
 #include "tests/gap/rig_report.h"
 #include "tests/plugin/built_plugins.h"
@@ -39,6 +39,7 @@
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/measurement_view.h"
+#include "ui/measure/question_bar.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -362,6 +363,32 @@ class TestMainWindow : public QObject {
     QCOMPARE(window->settings().measurementDraft(stored.qpath(), run), QString());
   }
 
+  void voidingAValueThatL3TookInOffersToGoBack() {
+    StoredRun stored;
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    const Id individual = stored.database.measurementTasks(run).front().individual;
+    const Id value = stored.measure(run, individual, 0.5);
+    SimulatorRecord version;
+    version.run = run;
+    version.parent = stored.database.simulators(run).back().id;
+    version.madeBy = "L3";
+    version.evidence = R"({"stage": 1, "individuals": [)" + std::to_string(individual) + "]}";
+    stored.database.addSimulator(version);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->selectRun(run);
+    answerClosing("goBack");
+    emit window->findChild<MeasurementSheet*>()->voidRequested(value, true, "hit the wall");
+    QVERIFY(stored.database.measurement(value).isVoid);
+    const std::vector<SimulatorRecord> versions = stored.database.simulators(run);
+    QCOMPARE(versions.size(), std::size_t(3));
+    QCOMPARE(originOf(versions.back()), std::string("back to version 0"));
+    // Nothing rests on it any more: counting it and voiding it again asks nothing.
+    emit window->findChild<MeasurementSheet*>()->voidRequested(value, false, "");
+    emit window->findChild<MeasurementSheet*>()->voidRequested(value, true, "");
+    QCOMPARE(stored.database.simulators(run).size(), std::size_t(3));
+  }
+
   void anOpenEditorIsKeptToo() {
     StoredRun stored;
     const Id run = stored.addWaitingRun(stored.addExperiment());
@@ -681,6 +708,10 @@ class TestMainWindow : public QObject {
           texts.push_back({row, MeasurementModel::firstRepeat + repeat, QString::number(8 + 0.5 * ++entered)});
       sheet->model().write(texts, "entry");
       sheet->save();
+      // The last values of a stage: the run goes on with them by itself.
+      auto* question = sheet->findChild<QuestionBar*>();
+      QVERIFY2(question->isAsking() && question->text().contains("goes on"), qPrintable(question->text()));
+      QTest::mouseClick(question->yes(), Qt::LeftButton);
     }
     const RunRecord end = stored().run(run);
     QCOMPARE(end.state, RunState::finished);

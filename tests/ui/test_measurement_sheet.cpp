@@ -17,9 +17,10 @@
 #include <cmath>
 
 #include "ui/common/message_banner.h"
+#include "ui/common/number_entry.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/measurement_view.h"
-#include "ui/measure/number_entry.h"
+#include "ui/measure/question_bar.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -288,6 +289,98 @@ class TestMeasurementSheet : public QObject {
     s.press(Qt::Key_V, Qt::ControlModifier);
     QCOMPARE(s.text(1, first), QString("1"));
     QCOMPARE(s.text(0, first), QString());
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QVERIFY2(banner->text().contains("2; 3; 4"), qPrintable(banner->text()));
+    QTest::keyClick(&s.sheet.view(), Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(banner->text(), QString());
+  }
+
+  void whatIsPastedOverAStoredValueIsSaidToBeLeftOut() {
+    Stored s(2);
+    s.records = {saved(1, 102, 0.25)};
+    s.sheet.setMeasurements(s.records);
+    QApplication::clipboard()->setText("0.31\n0.32");
+    s.goTo(0, first);
+    s.press(Qt::Key_V, Qt::ControlModifier);
+    QCOMPARE(s.text(0, first), QString("0.25"));
+    QCOMPARE(s.text(1, first), QString("0.32"));
+    QVERIFY(s.sheet.findChild<MessageBanner*>()->text().contains("0.31"));
+  }
+
+  // The simulator expects 0.875 and 1.875 m of these two.
+  void aValueFarFromWhatIsExpectedIsAskedAboutBeforeItCounts() {
+    Stored s(2);
+    auto* question = s.sheet.findChild<QuestionBar*>();
+    s.goTo(1, first);
+    s.type("41");
+    s.press(Qt::Key_Return);
+    s.press(Qt::Key_S, Qt::ControlModifier);
+    QVERIFY(question->isAsking());
+    QVERIFY2(question->text().contains("Individual 101: 41 m"), qPrintable(question->text()));
+    QVERIFY2(!question->text().contains("0.875") && !question->text().contains("1.875"), qPrintable(question->text()));
+    QVERIFY(s.records.empty());
+    QTest::mouseClick(question->no(), Qt::LeftButton);
+    QVERIFY(!question->isAsking());
+    QVERIFY(s.records.empty());
+    QCOMPARE(s.sheet.view().currentIndex(), s.model().index(1, first));
+    s.sheet.save();
+    QTest::mouseClick(question->yes(), Qt::LeftButton);
+    QCOMPARE(s.records.size(), std::size_t(1));
+    QCOMPARE(s.records[0].value, 41.0);
+  }
+
+  void aQuestionEndsWithTheEditThatAnswersIt() {
+    Stored s(2);
+    auto* question = s.sheet.findChild<QuestionBar*>();
+    s.model().write({{0, first, "1000000"}}, "entry");
+    s.sheet.save();
+    QVERIFY(question->isAsking());
+    s.model().write({{0, first, "1"}}, "entry");
+    QVERIFY(!question->isAsking());
+    s.sheet.save();
+    QCOMPARE(s.records.size(), std::size_t(1));
+  }
+
+  void theLastValuesOfAStageAreAskedAboutOnceWhereTheRunGoesOnByItself() {
+    Stored s(2);
+    s.sheet.setGoesOnByItself(true);
+    auto* question = s.sheet.findChild<QuestionBar*>();
+    s.model().write({{0, first, "1.1"}}, "entry");
+    s.sheet.save();
+    QCOMPARE(s.records.size(), std::size_t(1));
+    s.model().write({{1, first, "1.2"}}, "entry");
+    s.sheet.save();
+    QVERIFY(question->isAsking());
+    QCOMPARE(s.records.size(), std::size_t(1));
+    QTest::mouseClick(question->no(), Qt::LeftButton);
+    s.model().undoStack().undo();
+    QCOMPARE(s.text(1, first), QString());
+    s.model().undoStack().redo();
+    s.sheet.save();
+    QTest::mouseClick(question->yes(), Qt::LeftButton);
+    QCOMPARE(s.records.size(), std::size_t(2));
+    QVERIFY(!question->isAsking());
+  }
+
+  void aNoteAboutADecimalCommaEndsWithUndo() {
+    Stored s(2);
+    s.goTo(0, first);
+    s.type("0,5");
+    s.press(Qt::Key_Return);
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QVERIFY(banner->text().contains("0,5 read as 0.5"));
+    QTest::keyClick(&s.sheet.view(), Qt::Key_Z, Qt::ControlModifier);
+    QCOMPARE(banner->text(), QString());
+  }
+
+  void anErrorOfSavingEndsWhenItsCellIsMended() {
+    Stored s(2);
+    s.model().write({{0, first, "far"}, {1, first, "1"}}, "paste");
+    s.sheet.save();
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QVERIFY(banner->text().contains("far"));
+    s.model().write({{0, first, "1"}}, "entry");
+    QCOMPARE(banner->text(), QString());
   }
 
   void deleteClearsOnlyWhatIsNotSaved() {

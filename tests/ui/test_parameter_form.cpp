@@ -4,16 +4,24 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
 #include <QUndoStack>
+#include <QVBoxLayout>
+#include <QWheelEvent>
 
+#include "ui/common/decimal_spin_box.h"
 #include "ui/common/number_edit.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/experiment/parameter_text.h"
+#include "ui/experiment/plugin_form.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -210,6 +218,69 @@ class TestParameterForm : public QObject {
     QTest::keyClicks(form.findChild<QLineEdit*>("search"), "individuals");
     QVERIFY(form.findChild<NumberEdit*>("population")->isVisible());
     QVERIFY(!form.findChild<NumberEdit*>("leg_mass_kg")->isVisible());
+  }
+
+  void aDecimalCommaIsReadAsInTheSheet() {
+    QUndoStack undo;
+    ParameterForm form(someParameters(), undo);
+    form.show();
+    auto* mass = form.findChild<NumberEdit*>("leg_mass_kg");
+    type(mass, "0,25");
+    QCOMPARE(form.values(), (Values{{"leg_mass_kg", 0.25}}));
+    QVERIFY(form.isValid());
+    QTest::keyClick(mass, Qt::Key_Up);
+    QCOMPARE(mass->numberText(), QString("0.251"));
+    type(mass, "0.2,5");
+    QVERIFY(!form.isValid());
+  }
+
+  void theNumbersOfThePageReadACommaAndPrintAPoint() {
+    const QLocale german(QLocale::German);
+    const QLocale before;
+    QLocale::setDefault(german);
+    DecimalSpinBox box;
+    QLocale::setDefault(before);
+    box.setRange(0, 2000);
+    box.setDecimals(2);
+    box.show();
+    type(&box, "0,25");
+    QCOMPARE(box.value(), 0.25);
+    QCOMPARE(box.text(), QString("0.25"));
+    box.setValue(1234.5);
+    QCOMPARE(box.text(), QString("1234.50"));
+  }
+
+  // A form is scrolled with the pointer wherever it happens to be, and the field may have the focus.
+  void theWheelScrollsTheFormAndChangesNothing() {
+    QUndoStack undo;
+    QScrollArea area;
+    auto* inside = new QWidget;
+    auto* column = new QVBoxLayout(inside);
+    PluginForm learner(tr("Learner"), {{"ga", someParameters(), ""}, {"pgrl", someParameters(), ""}}, undo);
+    column->addWidget(&learner);
+    auto* spin = new QSpinBox;
+    column->addWidget(spin);
+    column->addSpacing(2000);
+    area.setWidget(inside);
+    area.setWidgetResizable(true);
+    area.resize(400, 200);
+    area.show();
+    QVERIFY(QTest::qWaitForWindowActive(&area));
+    for (QWidget* field : std::initializer_list<QWidget*>{
+             learner.findChild<QComboBox*>(), spin, learner.findChild<NumberEdit*>("population"),
+             learner.findChild<NumberEdit*>("population")->findChild<QLineEdit*>()}) {
+      field->setFocus();
+      const int before = area.verticalScrollBar()->value();
+      const QPointF at = field->rect().center();
+      QWheelEvent wheel(at, field->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+      QApplication::sendEvent(field, &wheel);
+      QVERIFY(area.verticalScrollBar()->value() > before);
+    }
+    QCOMPARE(learner.choice().name, std::string("ga"));
+    QVERIFY(learner.choice().settings.empty());
+    QCOMPARE(spin->value(), 0);
+    QCOMPARE(undo.count(), 0);
+    learner.setParent(nullptr);
   }
 
   void readOnlyFieldsCannotBeTypedInto() {

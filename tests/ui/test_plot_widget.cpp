@@ -1,6 +1,7 @@
 // The plot behind all charts: what it draws, zooms, hides and exports.
 #include <QClipboard>
 #include <QGraphicsScene>
+#include <QGraphicsTextItem>
 #include <QGraphicsView>
 #include <QMimeData>
 #include <QSignalSpy>
@@ -316,6 +317,107 @@ class TestPlotWidget : public QObject {
         "interval,3,,,0.2,0.3,stand-in reality\n"
         "simulator 1,2,,,,,stand-in reality\n";
     QCOMPARE(QByteArray::fromStdString(toCsv(example())), expected);
+  }
+
+  void theIntervalOfAMeanStandsInItsOwnRow() {
+    PlotData plot;
+    plot.xColumn = "stage";
+    plot.yColumn = "fitness_m";
+    plot.series.push_back({"mean", 0, PlotSeries::Style::line, {{1, 0.25}, {2, 0.5}}, {}, false, 0.125});
+    plot.bands.push_back({"mean", 0, {2.125}, {0.25}, {0.75}});
+    QCOMPARE(QByteArray::fromStdString(toCsv(plot)), QByteArray("series,stage,fitness_m,error,lower,upper,note\n"
+                                                                "mean,1,0.25,,,,\n"
+                                                                "mean,2,0.5,,0.25,0.75,\n"));
+  }
+
+  void aTickAtZeroHasNoSign() {
+    QVERIFY(isNegativeZero("-0.0") && isNegativeZero("-0") && !isNegativeZero("-0.1") && !isNegativeZero("0.0"));
+    PlotWidget plot;
+    plot.resize(600, 400);
+    plot.show();
+    for (const double step : {0.1, 0.2, 0.3, 0.7}) {
+      PlotData data;
+      PlotSeries series{"a", 0, PlotSeries::Style::line, {}, {}, false};
+      for (int i = -7; i <= 7; ++i) series.points.emplace_back(i * step, i * step);
+      data.series.push_back(series);
+      plot.setData(data);
+      plot.resetZoom();
+      plot.grab();
+      auto* view = plot.findChild<QGraphicsView*>();
+      for (QGraphicsItem* item : view->scene()->items())
+        if (auto* label = qgraphicsitem_cast<QGraphicsTextItem*>(item))
+          QVERIFY2(!isNegativeZero(label->toPlainText()), qPrintable(label->toPlainText()));
+    }
+  }
+
+  void aLowPlotHasAtLeastTwoTicks() {
+    for (const double range : {1.9, 1.01, 0.99, 47.0, 3.3e-3})
+      for (const double from : {0.05, 0.51, 12.3}) {
+        int most = 3;
+        double step = niceStep(range, most);
+        while (ticksWithin(from, from + range, step) < 2) step = niceStep(range, ++most);
+        QVERIFY(most < 12);
+      }
+    PlotWidget plot;
+    plot.resize(300, 180);
+    plot.show();
+    PlotData data = example();
+    data.series[0].points = {{1, 0.3}, {2, 2.2}, {3, 1.7}};
+    plot.setData(data);
+    plot.zoomTo(QRectF(1, 0.31, 2, 0.9));
+    plot.grab();
+    int labels = 0;
+    for (QGraphicsItem* item : plot.findChild<QGraphicsView*>()->scene()->items())
+      if (auto* label = qgraphicsitem_cast<QGraphicsTextItem*>(item)) {
+        bool isNumber = false;
+        const double value = label->toPlainText().toDouble(&isNumber);
+        labels += isNumber && value > 0.3 && value < 1.25;
+      }
+    QVERIFY2(labels >= 2, qPrintable(QString::number(labels)));
+  }
+
+  void manyLongNamesLeaveThePlotMostOfTheRoom() {
+    PlotWidget plot;
+    plot.resize(420, 240);
+    plot.show();
+    PlotData data = example();
+    data.series.clear();
+    for (int i = 0; i < 12; ++i)
+      data.series.push_back({QString("Learning to kick, short, with a stand-in reality, run %1: maximum").arg(i),
+                             i,
+                             PlotSeries::Style::line,
+                             {{1, 0.1}, {2, 0.2}},
+                             {},
+                             false});
+    plot.setData(data);
+    plot.grab();
+    const int top = plot.placeOf({1, plot.visibleRange().bottom()}).y(),
+              low = plot.placeOf({1, plot.visibleRange().top()}).y();
+    QVERIFY2(low - top > 60, qPrintable(QString::number(low - top)));
+  }
+
+  void aMarkAtTheEdgeIsDrawnWhole() {
+    PlotWidget plot;
+    PlotData data = example();
+    data.series = {{"measured", 1, PlotSeries::Style::points, {{1, 0.1}, {5, 0.2}}, {}, false}};
+    data.bands.clear();
+    data.markers.clear();
+    plot.setData(data);
+    plot.resetZoom();
+    QVERIFY(plot.visibleRange().right() > 5);
+  }
+
+  void anIntervalOfADistanceIsDrawnDownToZeroOnly() {
+    PlotWidget plot;
+    PlotData data = example();
+    data.bands[0].lower = {-3, -1, 0.1};
+    plot.setData(data);
+    plot.resetZoom();
+    QVERIFY(plot.visibleRange().top() <= -3);
+    data.neverNegative = true;
+    plot.setData(data);
+    plot.resetZoom();
+    QVERIFY(plot.visibleRange().top() > -0.5);
   }
 
   void columnsEndInTheirUnit() {

@@ -88,6 +88,80 @@ class TestReplayPanel : public QObject {
   Q_OBJECT
 
  private slots:
+  // A robot that is simulated is drawn: the badge says that this is the stored run.
+  void everyRobotOfTheSceneIsDrawn() {
+    ReplayData data = someReplay(3);
+    data.others.push_back({"other", test::smallRobot(), Isometry3d::Identity()});
+    for (const char* channel : {"other.base.x_m", "other.base.y_m", "other.base.z_m", "other.pitch.position_rad"})
+      data.trace.channels.push_back(channel);
+    const std::size_t before = data.trace.channels.size() - 4;
+    std::vector<double> values;
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < before; ++k) values.push_back(data.trace.values[row * before + k]);
+      for (const double value : {-1.0, 0.5, 0.2, 0.1 * double(row)}) values.push_back(value);
+    }
+    data.trace.values = values;
+    const ReplayFrames frames(data);
+    const ScenePose pose = frames.pose(2);
+    QCOMPARE(pose.others.size(), std::size_t(1));
+    QCOMPARE(pose.others[0].size(), pose.links.size());
+    QVERIFY((pose.others[0][0].translation() - Vector3d(-1, 0.5, 0.2)).norm() < 1e-12);
+
+    // In the picture too: the same view with the second robot differs from the one without.
+    SceneView view;
+    if (const QString problem = view.problem(); !problem.isEmpty()) QSKIP(qPrintable("needs OpenGL: " + problem));
+    view.setRobot(data.model);
+    view.setPose(frames.pose(0));
+    const QImage alone = view.picture({320, 240});
+    view.setFurtherRobots(frames.otherModels());
+    view.setPose(frames.pose(0));
+    QVERIFY(view.picture({320, 240}) != alone);
+  }
+
+  void whatWasAskedForPlaysByItself() {
+    ReplayPanel panel(nullptr, noOpenGl);
+    ReplayJob job;
+    panel.attach(job);
+    job.start([] { return someReplay(); });
+    QTRY_VERIFY(panel.playback().playing());
+  }
+
+  void twoIndividualsStandBesideEachOtherAtTheSameTime() {
+    ReplayPanel panel(nullptr, noOpenGl);
+    panel.resize(900, 500);
+    panel.show();
+    ReplayData both = someReplay(251);
+    ReplayData other = someReplay(11);  // ends earlier
+    other.title = "kick, individual 9";
+    both.beside = std::make_shared<const ReplayData>(other);
+    panel.setReplay(both);
+    QVERIFY(panel.besideView() && panel.besideView()->isVisible());
+    QVERIFY(std::abs(panel.besideView()->width() - panel.view().width()) <= 1);
+    panel.showTime(1.0);
+    QCOMPARE(panel.playback().timeOf(panel.playback().frame()), 1.0);
+    // Turned together.
+    ViewCamera camera = panel.view().camera();
+    camera.orbit({40, 10});
+    panel.view().setCamera(camera);
+    QVERIFY(panel.besideView()->camera() == panel.view().camera());
+    panel.setReplay(someReplay());
+    QVERIFY(!panel.besideView()->isVisible());
+  }
+
+  void theFitnessOfWhoIsMeasuredBlindIsNotTold() {
+    ReplayPanel panel(nullptr, noOpenGl);
+    ReplayData data = someReplay(3);
+    data.fitness = data.storedFitness = 0.6125;
+    data.fitnessHidden = true;
+    for (const auto check : {ReplayData::Check::identical, ReplayData::Check::differs}) {
+      data.check = check;
+      panel.setReplay(data);
+      for (const auto* label : panel.findChildren<QLabel*>())
+        QVERIFY2(!label->text().contains("0.61") && !label->toolTip().contains("0.61"), qPrintable(label->text()));
+      for (const Badge& badge : badgesOf(data)) QVERIFY2(!badge.text.contains("0.61"), qPrintable(badge.text));
+    }
+  }
+
   void playbackShowsTheFrameWhoseTimeHasCome();
   void playbackRunsAtItsSpeed_data();
   void playbackRunsAtItsSpeed();

@@ -211,6 +211,22 @@ class TestRunPanel : public QObject {
     QCOMPARE(jobs.last().first().toInt(), 2);
   }
 
+  void whileSomebodyMeasuresBlindTheBestIsHidden() {
+    RunPanel panel;
+    panel.setUnit("m");
+    show(panel, aRun(RunState::waiting), progressIn("measuring"), false);
+    GenerationRecord generation;
+    generation.number = 50;
+    generation.best = 1.117;
+    generation.mean = 0.619;
+    panel.setGeneration(generation);
+    panel.setBlind(true);
+    for (const auto* label : panel.findChildren<QLabel*>())
+      QVERIFY2(!label->text().contains("1.117") && !label->text().contains("0.619"), qPrintable(label->text()));
+    panel.setBlind(false);
+    QVERIFY(panel.findChild<QLabel*>("best")->text().contains("1.117"));
+  }
+
   void withoutARunItSaysWhatToDo() {
     RunPanel panel;
     panel.show();

@@ -4,6 +4,8 @@
 #include <QCategoryAxis>
 #include <QChart>
 #include <QGraphicsLayout>
+#include <QGraphicsScene>
+#include <QGraphicsTextItem>
 #include <QLineSeries>
 #include <QLogValueAxis>
 #include <QScatterSeries>
@@ -172,10 +174,20 @@ void ChartScene::refreshTicks() {
     axis->setLabelFormat(tickFormat(step, std::max(std::abs(range_.left()), std::abs(range_.right()))));
   }
   if (auto* axis = qobject_cast<QValueAxis*>(yAxis_)) {
-    const double step = niceStep(range_.height(), std::clamp(static_cast<int>(area.height() / 38), 2, 10));
+    const int most = std::clamp(static_cast<int>(area.height() / 24), 3, 10);
+    double step = niceStep(range_.height(), most);
+    // A single tick gives no scale.
+    for (int more = most + 1; ticksWithin(range_.top(), range_.bottom(), step) < 2 && more < 4 * most; ++more)
+      step = niceStep(range_.height(), more);
     axis->setTickInterval(step);
     axis->setLabelFormat(tickFormat(step, std::max(std::abs(range_.top()), std::abs(range_.bottom()))));
   }
+}
+
+void ChartScene::tidyLabels() {
+  for (QGraphicsItem* item : chart_->scene() ? chart_->scene()->items() : QList<QGraphicsItem*>())
+    if (auto* label = qgraphicsitem_cast<QGraphicsTextItem*>(item))
+      if (const QString text = label->toPlainText(); isNegativeZero(text)) label->setHtml(text.mid(1));
 }
 
 void ChartScene::refresh() {
@@ -195,7 +207,7 @@ void ChartScene::refresh() {
     for (std::size_t k = 0; k < band.x.size(); ++k) {
       // The band ends at the lowest visible number where a logarithmic axis cannot show its lower edge.
       if (!allowed(band.upper[k])) continue;
-      lower.emplace_back(band.x[k], allowed(band.lower[k]) ? band.lower[k] : range_.top());
+      lower.emplace_back(band.x[k], allowed(band.lower[k]) ? atLeast(band.lower[k]) : range_.top());
       upper.emplace_back(band.x[k], band.upper[k]);
     }
     bands_[i]->lowerSeries()->replace(thinned(lower, true));
@@ -216,18 +228,23 @@ QRectF ChartScene::fullRange() const {
     for (std::size_t i = 0; i < series.points.size(); ++i) {
       const QPointF point = series.drawnAt(i);
       const double error = i < series.errors.size() ? series.errors[i] : 0;
-      include(point.x(), point.y() - error);
+      include(point.x(), atLeast(point.y() - error));
       include(point.x(), point.y() + error);
     }
   }
   for (const PlotBand& band : data_.bands) {
     if (!isShown(band.name)) continue;
     for (std::size_t i = 0; i < band.x.size(); ++i) {
-      include(band.x[i], band.lower[i]);
+      include(band.x[i], atLeast(band.lower[i]));
       include(band.x[i], band.upper[i]);
     }
   }
   if (!(left <= right)) left = 0, right = 1, low = logarithmic_ ? 0.1 : 0, high = 1;
+  // Marks at the edge are drawn whole.
+  const bool marks = std::ranges::any_of(data_.series, [](const PlotSeries& s) {
+    return !s.points.empty() && (isPoints(s.style) || s.style == PlotSeries::Style::lineWithPoints);
+  });
+  if (marks && data_.xLabels.isEmpty() && !data_.xTo) right += 0.015 * (right - left);
   if (data_.xFrom) left = std::min(left, *data_.xFrom);
   if (data_.xTo) right = std::max(right, *data_.xTo);
   if (left == right) left -= 1, right += 1;

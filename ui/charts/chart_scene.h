@@ -52,6 +52,8 @@ class ChartScene : public QObject {
   std::vector<QPointF> drawnPoints(const QString& name) const;
   void setReadOut(std::optional<PlotOverlay::ReadOut> readOut) { overlay_->setReadOut(std::move(readOut)); }
   QPointF toPosition(const QPointF& value) const;  ///< in the chart's coordinates
+  /// The library writes "−0.0" where its sum of steps misses 0 by a rounding error; to be called before painting.
+  void tidyLabels();
   QPointF toValue(const QPointF& position) const;
 
  signals:
@@ -67,6 +69,7 @@ class ChartScene : public QObject {
   void obeyHidden();
   void arrangeLegend();
   void updateTitle();
+  double atLeast(double y) const { return data_.neverNegative && y < 0 ? 0 : y; }
   bool allowed(double y) const { return !logarithmic_ || y > 0; }
 
   QChart* chart_ = nullptr;
@@ -76,7 +79,7 @@ class ChartScene : public QObject {
   PlotColours colours_;
   QFont font_;
   QRectF range_{0, 0, 1, 1};
-  bool logarithmic_ = false, changingRange_ = false;
+  bool logarithmic_ = false, changingRange_ = false, isForPrint_ = false;
   std::set<QString> hidden_, met_;   ///< met: names whose hiddenAtFirst has been obeyed
   std::vector<QXYSeries*> series_;   ///< as data_.series
   std::vector<QAreaSeries*> bands_;  ///< as data_.bands

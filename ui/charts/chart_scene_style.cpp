@@ -21,6 +21,7 @@ void ChartScene::setColours(const PlotColours& colours) {
 void ChartScene::setForPrint(bool print) {
   overlay_->setReadOut({});
   legend_->setHiddenListed(!print);
+  isForPrint_ = print;
   arrangeLegend();
 }
 
@@ -78,7 +79,9 @@ void ChartScene::obeyHidden() {
 void ChartScene::arrangeLegend() {
   constexpr double side = 10, gap = 4;
   const QSizeF size = chart_->size();
-  const double height = legend_->arrange(std::max(50.0, size.width() - 2 * side));
+  // On paper nothing is shortened; on the screen the plot itself keeps most of the room.
+  const double most = isForPrint_ ? size.height() : 0.3 * size.height();
+  const double height = legend_->arrange(std::max(50.0, size.width() - 2 * side), most);
   legend_->setPos(side, size.height() - height - gap);
   chart_->setMargins({6, 4, 12, static_cast<int>(height > 0 ? height + 2 * gap : gap)});
 }

@@ -13,6 +13,8 @@
 #include "core/spec/error.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/charts/stage_plot.h"
+#include "ui/common/format.h"
+#include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
@@ -55,8 +57,10 @@ ComparePage::ComparePage(QWidget* parent)
       tree_(new QTreeWidget(this)),
       plot_(new PlotWidget(this)),
       stages_(new PlotWidget(this)),
+      real_(new PlotWidget(this)),
       charts_(new QTabWidget(this)),
-      differences_(new QTableWidget(this)) {
+      differences_(new QTableWidget(this)),
+      reached_(new QTableWidget(this)) {
   tree_->setHeaderLabels({tr("run"), tr("seed"), tr("generations")});
   tree_->setAccessibleName(tr("Runs to compare"));
   tree_->setToolTip(tr("Tick the runs to compare; a tick beside an experiment takes all of its runs"));
@@ -82,7 +86,11 @@ ComparePage::ComparePage(QWidget* parent)
   belowLayout->addWidget(differences_, 1);
   auto* right = new QSplitter(Qt::Vertical, this);
   charts_->addTab(plot_, tr("Fitness by generation"));
-  charts_->addTab(stages_, tr("Gap and real fitness by stage"));
+  charts_->addTab(stages_, tr("Gap by stage"));
+  charts_->addTab(real_, tr("Real fitness by stage"));
+  charts_->addTab(reached_, tr("At the end"));
+  reached_->setAccessibleName(tr("What was reached after the last common stage"));
+  reached_->setObjectName("reached");
   right->addWidget(charts_);
   right->addWidget(below);
   right->setStretchFactor(0, 3);
@@ -218,11 +226,46 @@ void ComparePage::draw() {
     curves.push_back(std::move(curve));
   }
   plot_->setData(comparisonPlot(curves, unit, joinSeeds_->isChecked()));
-  stages_->setData(stagePlot(armsOf(curves, drawn, read_, joinSeeds_->isChecked()), unit, realityNote(curves)));
+  const std::vector<ComparedArm> arms = armsOf(curves, drawn, read_, joinSeeds_->isChecked());
+  stages_->setData(stagePlot(arms, StageQuantity::gap, unit, realityNote(curves)));
+  real_->setData(stagePlot(arms, StageQuantity::realFitness, unit, realityNote(curves)));
+  fillReached(arms, unit);
   fillDifferences(records);
   leftOut_->setText(tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", ")));
   leftOut_->setVisible(!leftOut.isEmpty());
   if (!trouble.isEmpty()) summary_->setText(trouble);
+}
+
+// One row an arm, each at its last stage; differences are to the first arm, paired by seed.
+void ComparePage::fillReached(const std::vector<ComparedArm>& arms, const QString& unit) {
+  const auto text = [](const Spread& s) {
+    if (s.count == 0) return QString();
+    return shortNumber(s.mean) + (s.count > 1 ? " ± " + shortNumber(s.halfWidth95) : QString());
+  };
+  setUpForReading(*reached_,
+                  {tr("arm"), tr("stage"), tr("seeds"), axisTitle(tr("gap"), unit), axisTitle(tr("real fitness"), unit),
+                   axisTitle(tr("gap − first arm's"), unit), axisTitle(tr("real fitness − first arm's"), unit)});
+  reached_->setToolTip(tr("Mean ± half of its 95 % interval over the seeds"));
+  reached_->setRowCount(0);
+  for (const ComparedArm& arm : arms) {
+    if (arm.stages.empty()) continue;
+    const ComparedStage& last = arm.stages.back();
+    const int row = reached_->rowCount();
+    reached_->insertRow(row);
+    const QStringList cells{QString::fromStdString(arm.name),
+                            QString::number(last.stage),
+                            QString::number(last.gap.count),
+                            text(last.gap),
+                            text(last.realMean),
+                            text(last.gapDifference),
+                            text(last.realDifference)};
+    for (int column = 0; column < int(cells.size()); ++column) {
+      auto* item = new QTableWidgetItem(cells[column]);
+      if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      reached_->setItem(row, column, item);
+    }
+  }
+  reached_->resizeColumnsToContents();
 }
 
 void ComparePage::fillDifferences(const std::vector<RunRecord>& runs) {

@@ -18,8 +18,9 @@ namespace btr::ui {
 
 class PlotWidget;
 
-/// Several runs side by side: their fitness in one chart, reality gap and real fitness by measurement stage in another,
-/// runs that differ only in their seed as mean and 95 % interval, and a table of the settings that differ. Charts hold
+/// Several runs side by side: charts of their fitness, and by measurement stage of the reality gap and of real fitness;
+/// runs that differ only in their seed as mean and 95 % interval; tables of what they reached and of the settings that
+/// differ. Charts hold
 /// one unit of fitness: of the first chosen run; runs with another one are left out of them, and named.
 class ComparePage : public QWidget {
   Q_OBJECT
@@ -46,7 +47,9 @@ class ComparePage : public QWidget {
   void refresh();
 
   PlotWidget& plot() { return *plot_; }
-  PlotWidget& stages() { return *stages_; }
+  PlotWidget& stages() { return *stages_; }     ///< the gap by stage
+  PlotWidget& realFitness() { return *real_; }  ///< the same of real fitness
+  QTableWidget& reached() { return *reached_; }
   /// Brings the chart of the measurement stages to the front, or that of fitness.
   void showStages(bool on);
   QTableWidget& differences() { return *differences_; }
@@ -56,12 +59,13 @@ class ComparePage : public QWidget {
   QString experimentOf(const RunRecord& run) const;
   QString nameOf(const RunRecord& run) const;
   void draw();
+  void fillReached(const std::vector<ComparedArm>& arms, const QString& unit);
   void fillDifferences(const std::vector<RunRecord>& runs);
 
   QTreeWidget* tree_;
-  PlotWidget *plot_, *stages_;
+  PlotWidget *plot_, *stages_, *real_;
   QTabWidget* charts_;
-  QTableWidget* differences_;
+  QTableWidget *differences_, *reached_;
   QLabel *summary_, *leftOut_;
   QCheckBox *joinSeeds_, *onlyDifferent_;
   Reader reader_;

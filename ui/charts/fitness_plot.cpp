@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/run/adoption.h"
 #include "core/run/spread.h"
 
 namespace btr::ui {
@@ -69,12 +70,18 @@ std::vector<PlotMarker> updates(const std::vector<SimulatorRecord>& simulators) 
   for (const SimulatorRecord& simulator : simulators) {
     if (simulator.number < 1) continue;
     QString label = FitnessPlots::tr("simulator %1").arg(simulator.number);
-    if (simulator.madeBy != "L3" && !simulator.madeBy.empty())
-      label += " (" + QString::fromStdString(simulator.madeBy) + ')';
+    if (const std::string origin = originOf(simulator); origin != "L3" && !origin.empty())
+      label += " (" + QString::fromStdString(origin) + ')';
     markers.push_back({static_cast<double>(simulator.madeAfterGeneration), label});
   }
   std::stable_sort(markers.begin(), markers.end(), [](auto& a, auto& b) { return a.x < b.x; });
   return markers;
+}
+
+bool isNeverNegative(const FitnessRun& run) {
+  const auto isNegative = [](const auto& record) { return record < 0; };
+  return std::ranges::none_of(run.generations, isNegative, &GenerationRecord::worst) &&
+         std::ranges::none_of(run.generations, isNegative, &GenerationRecord::mean);
 }
 
 /// A line through one point would not be seen.
@@ -140,6 +147,7 @@ PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
       {FitnessPlots::tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
   if (PlotSeries points = measured(run); !points.points.empty()) plot.series.push_back(std::move(points));
   plot.markers = updates(run.simulators);
+  plot.neverNegative = isNeverNegative(run);
   markSinglePoints(plot);
   return plot;
 }
@@ -148,6 +156,7 @@ PlotData comparisonPlot(const std::vector<FitnessRun>& runs, const QString& unit
   PlotData plot = frame(unit);
   plot.empty = FitnessPlots::tr("Tick runs to compare them");
   plot.note = realityNote(runs);
+  plot.neverNegative = std::ranges::all_of(runs, isNeverNegative);
 
   // Groups keep the order in which their first run comes.
   std::vector<std::vector<const FitnessRun*>> groups;

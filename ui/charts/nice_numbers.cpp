@@ -24,6 +24,15 @@ AxisRange niceRange(double from, double to, double step) {
   return {std::floor(from / step + 1e-9) * step, std::ceil(to / step - 1e-9) * step};
 }
 
+int ticksWithin(double from, double to, double step) {
+  return static_cast<int>(std::floor(to / step + 1e-9) - std::ceil(from / step - 1e-9)) + 1;
+}
+
+bool isNegativeZero(const QString& text) {
+  if (text.size() < 2 || (text[0] != '-' && text[0] != QChar(u'−'))) return false;
+  return std::all_of(text.begin() + 1, text.end(), [](QChar c) { return c == '0' || c == '.'; });
+}
+
 QString tickFormat(double step, double largest) {
   if (step < 1e-4 || largest >= 1e6) return "%g";
   // A step of 0.25 needs two decimals, one of 0.5 only one.

@@ -14,6 +14,10 @@ struct AxisRange {
 AxisRange niceRange(double from, double to, double step);
 
 /// printf format that shows multiples of `step` up to `largest` with as many digits as they need, "%.2f" or "%g".
+/// Multiples of `step` from `from` to `to`.
+int ticksWithin(double from, double to, double step);
+/// "-0", "-0.00": a rounding error below zero, not a number.
+bool isNegativeZero(const QString& text);
 QString tickFormat(double step, double largest);
 
 }  // namespace btr::ui

@@ -49,6 +49,7 @@ struct PlotData {
   QString xColumn, yColumn;  ///< the same for CSV files, a unit at the end: "generation", "fitness_m"
   bool wholeX = false;       ///< ticks on whole numbers only
   bool yFromZero = false;
+  bool neverNegative = false;        ///< a distance, a gap: intervals are drawn down to 0 only
   std::optional<double> xFrom, xTo;  ///< the axis reaches at least so far
   QMap<double, QString> xLabels;     ///< not empty: words instead of numbers on the x axis
   QString empty = "No data yet";     ///< shown while there is no point

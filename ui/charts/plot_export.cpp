@@ -8,6 +8,8 @@
 #include <QPdfWriter>
 #include <QSaveFile>
 #include <QSvgGenerator>
+#include <algorithm>
+#include <utility>
 
 #include "core/spec/error.h"
 
@@ -17,6 +19,18 @@ namespace {
 QString quoted(QString text) {
   if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) return text;
   return '"' + text.replace('"', "\"\"") + '"';
+}
+
+bool isOfSeries(const PlotData& data, const PlotBand& band) {
+  return std::ranges::any_of(data.series, [&](const PlotSeries& series) { return series.name == band.name; });
+}
+
+/// The interval of a mean stands in the mean's own row: that of the band of the same name at the same place.
+std::pair<QString, QString> intervalAt(const PlotData& data, const PlotSeries& series, std::size_t point) {
+  for (const PlotBand& band : data.bands)
+    for (std::size_t k = 0; k < band.x.size() && band.name == series.name; ++k)
+      if (band.x[k] == series.drawnAt(point).x()) return {exactText(band.lower[k]), exactText(band.upper[k])};
+  return {};
 }
 
 QByteArray png(const PlotPicture& picture) {
@@ -73,18 +87,19 @@ std::string toCsv(const PlotData& data) {
   for (const PlotSeries& series : data.series)
     for (std::size_t i = 0; i < series.points.size(); ++i) {
       const QString error = i < series.errors.size() ? exactText(series.errors[i]) : QString();
+      const auto [lower, upper] = intervalAt(data, series, i);
       text += QStringList{quoted(series.name),
                           exactText(series.points[i].x()),
                           exactText(series.points[i].y()),
                           error,
-                          "",
-                          "",
+                          lower,
+                          upper,
                           note}
                   .join(',') +
               '\n';
     }
   for (const PlotBand& band : data.bands)
-    for (std::size_t i = 0; i < band.x.size(); ++i)
+    for (std::size_t i = 0; i < band.x.size() && !isOfSeries(data, band); ++i)
       text += QStringList{quoted(band.name),        exactText(band.x[i]),     "",  "",
                           exactText(band.lower[i]), exactText(band.upper[i]), note}
                   .join(',') +

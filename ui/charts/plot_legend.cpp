@@ -5,6 +5,7 @@
 #include <QGraphicsSceneMouseEvent>
 #include <QPainter>
 #include <algorithm>
+#include <cmath>
 
 namespace btr::ui {
 namespace {
@@ -50,19 +51,35 @@ QStringList PlotLegend::names() const {
   return names;
 }
 
-double PlotLegend::arrange(double width) {
+double PlotLegend::arrange(double width, double most) {
   prepareGeometryChange();
-  const QFontMetricsF metrics(font_);
-  const double rowHeight = metrics.height() + 5;
+  const double rowHeight = QFontMetricsF(font_).height() + 5;
   arranged_ = entries();
   width_ = width;
+  height_ = place(width, width);
+  // Too high for its plot: in columns of equal width, as many as it takes.
+  const auto rows = std::max(1.0, std::floor(most / rowHeight));
+  if (height_ > rows * rowHeight) {
+    const double columns = std::ceil(static_cast<double>(arranged_.size()) / rows);
+    height_ = place(width, std::max(width / columns - entryGap, 4 * symbolWidth));
+  }
+  update();
+  return height_;
+}
+
+double PlotLegend::place(double width, double widest) {
+  const QFontMetricsF metrics(font_);
+  const double rowHeight = metrics.height() + 5;
+  const double room = widest - symbolWidth - symbolGap;
+  for (Entry& entry : arranged_)
+    entry.shown = widest < width ? metrics.elidedText(entry.name, Qt::ElideMiddle, room) : entry.name;
   double y = 0;
   for (auto first = arranged_.begin(); first != arranged_.end(); y += rowHeight) {
     // Fill a row, then centre it.
     double x = 0;
     auto last = first;
     for (; last != arranged_.end(); ++last) {
-      const double needed = symbolWidth + symbolGap + metrics.horizontalAdvance(last->name);
+      const double needed = symbolWidth + symbolGap + metrics.horizontalAdvance(last->shown);
       if (last != first && x + needed > width) break;
       last->place = QRectF(x, y, needed, rowHeight);
       x += needed + entryGap;
@@ -70,9 +87,7 @@ double PlotLegend::arrange(double width) {
     const double shift = std::max(0.0, (width - (x - entryGap)) / 2);
     for (; first != last; ++first) first->place.translate(shift, 0);
   }
-  height_ = y;
-  update();
-  return height_;
+  return y;
 }
 
 void PlotLegend::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
@@ -86,7 +101,7 @@ void PlotLegend::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidg
     painter->setFont(font);
     painter->setPen(colours_.text);
     painter->drawText(entry.place.adjusted(symbolWidth + symbolGap, 0, 2, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                      entry.name);
+                      entry.shown);
   }
   painter->setOpacity(1);
 }

@@ -9,7 +9,8 @@
 
 namespace btr::ui {
 
-/// Names of what a plot shows, in as many centred rows as they need, never shortened. A click hides or shows; a hidden
+/// Names of what a plot shows, in as many centred rows as they need; shortened in the middle only where they would take
+/// more than the height that they are given. A click hides or shows; a hidden
 /// name stays, struck out. A band and a series of the same name are one entry.
 class PlotLegend final : public QGraphicsObject {
   Q_OBJECT
@@ -20,8 +21,8 @@ class PlotLegend final : public QGraphicsObject {
 
   void setColours(const PlotColours& colours);
   void setFont(const QFont& font);
-  /// Arranges the entries; returns the height they need.
-  double arrange(double width);
+  /// Arranges the entries; returns the height they take, at most `most` or one row.
+  double arrange(double width, double most);
   QStringList names() const;
   /// On paper nothing can be clicked: hidden names are left out there. Takes effect with the next arrange().
   void setHiddenListed(bool listed) { hiddenListed_ = listed; }
@@ -43,8 +44,10 @@ class PlotLegend final : public QGraphicsObject {
     const PlotSeries* series = nullptr;
     const PlotBand* band = nullptr;
     QRectF place;
+    QString shown = {};  ///< the name, or what there is room for
   };
   std::vector<Entry> entries() const;
+  double place(double width, double widest);
   void paintSymbol(QPainter& painter, const Entry& entry, const QRectF& place) const;
 
   const PlotData& data_;

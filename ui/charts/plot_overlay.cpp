@@ -64,7 +64,9 @@ void PlotOverlay::paintMarkers(QPainter& painter) const {
     painter.drawLine(QPointF(x, area_.top()), QPointF(x, area_.bottom()));
   }
   // Labels stand right of their line, in the first row where they cover no other label.
+  // They take a third of the plot at most: a label without room is left out, its line stays.
   std::vector<double> rowEnds;
+  const auto mostRows = static_cast<std::ptrdiff_t>(std::max(1.0, area_.height() / 3 / metrics.height()));
   for (const PlotMarker& marker : data_.markers) {
     const double x = toPosition_({marker.x, 0}).x();
     if (!(x >= area_.left() - 1 && x <= area_.right() + 1)) continue;
@@ -72,6 +74,7 @@ void PlotOverlay::paintMarkers(QPainter& painter) const {
     const double left = x + 4 + width > area_.right() ? x - 4 - width : x + 4;
     const auto row = std::find_if(rowEnds.begin(), rowEnds.end(), [&](double end) { return end < left - 6; });
     const auto index = row - rowEnds.begin();
+    if (index >= mostRows) continue;
     if (row == rowEnds.end()) rowEnds.push_back(0);
     rowEnds[static_cast<std::size_t>(index)] = left + width;
     const QRectF box(left, area_.top() + 2 + static_cast<double>(index) * metrics.height(), width, metrics.height());
@@ -103,7 +106,9 @@ void PlotOverlay::paintErrorBars(QPainter& painter) const {
     for (std::size_t i = 0; i < std::min(series.errors.size(), series.points.size()); ++i) {
       const double error = series.errors[i];
       if (!(error > 0)) continue;
-      const QPointF low = toPosition_(series.drawnAt(i) - QPointF(0, error));
+      QPointF end = series.drawnAt(i) - QPointF(0, error);
+      if (data_.neverNegative) end.setY(std::max(end.y(), 0.0));
+      const QPointF low = toPosition_(end);
       const QPointF high = toPosition_(series.drawnAt(i) + QPointF(0, error));
       // On a logarithmic axis the lower end may lie below every number.
       const double bottom = std::isfinite(low.y()) ? low.y() : area_.bottom();

@@ -49,12 +49,14 @@ struct PlotWidget::Impl {
     zoomed = false;
     reset->setEnabled(false);
     scene.setRange(scene.fullRange());
+    emit self.rangeChanged();
   }
   void zoom(const QRectF& range) {
     if (!(range.width() > 0) || !(range.height() > 0) || !std::isfinite(range.width() + range.height())) return;
     zoomed = true;
     reset->setEnabled(true);
     scene.setRange(range);
+    emit self.rangeChanged();
   }
   QPointF valueAt(const QPointF& place) const {
     return scene.toValue(scene.chart()->mapFromScene(view->mapToScene(place.toPoint())));
@@ -112,6 +114,7 @@ struct PlotWidget::Impl {
       scene.setForPrint(true);
       scene.setColours(PlotColours::forPrint());
       chart->layout()->activate();
+      scene.tidyLabels();
       view->scene()->render(&painter, target, chart->mapRectToScene(chart->rect()));
       scene.setColours(shown);
       scene.setForPrint(false);
@@ -129,6 +132,8 @@ PlotWidget::PlotWidget(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   impl_->view->setFrameShape(QFrame::NoFrame);
   impl_->view->setRenderHint(QPainter::Antialiasing);
   impl_->view->setFocusPolicy(Qt::NoFocus);
+  // In parts, pieces of labels that moved stay behind beside the axes.
+  impl_->view->setViewportUpdateMode(QGraphicsView::FullViewportUpdate);
   impl_->view->setContextMenuPolicy(Qt::NoContextMenu);
   impl_->view->viewport()->setObjectName("plotArea");
   impl_->view->viewport()->setMouseTracking(true);
@@ -282,6 +287,9 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
       d.scale(wheel->position(), std::pow(0.8, wheel->angleDelta().y() / 120.0));
       return true;
     }
+    case QEvent::Paint:
+      d.scene.tidyLabels();
+      return false;
     case QEvent::Leave:
       d.scene.setReadOut({});
       return false;

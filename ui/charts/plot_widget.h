@@ -54,6 +54,10 @@ class PlotWidget : public QWidget {
   QSize sizeHint() const override { return {640, 380}; }
   QSize minimumSizeHint() const override { return {260, 180}; }
 
+ signals:
+  /// By the user or by a call: zoomed, moved, or everything shown again.
+  void rangeChanged();
+
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;

@@ -12,53 +12,51 @@ struct StagePlots {
   Q_DECLARE_TR_FUNCTIONS(StagePlot)
 };
 
+bool isFitnessNeverNegative(const std::vector<ComparedArm>& arms) {
+  for (const ComparedArm& arm : arms)
+    for (const std::vector<StageOutcome>& run : arm.runs)
+      if (std::ranges::any_of(run, [](const StageOutcome& o) { return o.realMean < 0; })) return false;
+  return true;
+}
+
 }  // namespace
 
-PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, const QString& note) {
+PlotData stagePlot(const std::vector<ComparedArm>& arms, StageQuantity quantity, const QString& unit,
+                   const QString& note) {
+  const bool isGap = quantity == StageQuantity::gap;
   PlotData plot;
-  plot.title = StagePlots::tr("Reality gap and real fitness by measurement stage");
+  plot.title =
+      isGap ? StagePlots::tr("Reality gap by measurement stage") : StagePlots::tr("Real fitness by measurement stage");
   plot.note = note;
   plot.xTitle = StagePlots::tr("measurement stage");
-  plot.yTitle = axisTitle(StagePlots::tr("fitness, or its gap"), unit);
+  plot.yTitle = axisTitle(isGap ? StagePlots::tr("gap on unseen individuals") : StagePlots::tr("real fitness"), unit);
   plot.xColumn = "stage";
-  plot.yColumn = columnName("fitness_or_gap", unit);
+  plot.yColumn = columnName(isGap ? "gap" : "real_fitness", unit);
   plot.wholeX = true;
   plot.yFromZero = true;
+  plot.neverNegative = isGap || isFitnessNeverNegative(arms);
   plot.empty = StagePlots::tr("Tick runs with finished measurement stages to compare them");
 
-  // Marks of different arms stand beside each other, those of an arm above each other.
+  // Marks of different arms stand beside each other.
   constexpr double apart = 0.06;
   const double first = -apart * (static_cast<double>(arms.size()) - 1) / 2;
   for (std::size_t a = 0; a < arms.size(); ++a) {
     const ComparedArm& arm = arms[a];
-    const QString name = QString::fromStdString(arm.name);
-    const int colour = static_cast<int>(a), seeds = static_cast<int>(arm.runs.size());
-    const double shift = first + apart * static_cast<double>(a);
-    const QString over = seeds > 1 ? StagePlots::tr(", mean and 95 % interval of %1 seeds").arg(seeds) : QString();
-    using Style = PlotSeries::Style;
-    PlotSeries gap{StagePlots::tr("%1: gap on unseen individuals%2").arg(name, over),
-                   colour,
-                   Style::lineWithPoints,
-                   {},
-                   {},
-                   false,
-                   shift};
-    PlotSeries real{StagePlots::tr("%1: real fitness%2").arg(name, over), colour, Style::dotted, {}, {}, false, shift};
-    PlotBand band{real.name, colour, {}, {}, {}};
+    const int seeds = static_cast<int>(arm.runs.size());
+    PlotSeries series;
+    series.name = QString::fromStdString(arm.name);
+    if (seeds > 1) series.name += StagePlots::tr(", mean and 95 % interval of %1 seeds").arg(seeds);
+    series.colour = static_cast<int>(a);
+    series.style = PlotSeries::Style::lineWithPoints;
+    series.shift = first + apart * static_cast<double>(a);
     for (const ComparedStage& stage : arm.stages) {
-      gap.points.emplace_back(stage.stage, stage.gap.mean);
-      gap.errors.push_back(stage.gap.halfWidth95);
-      real.points.emplace_back(stage.stage, stage.realMean.mean);
-      if (stage.realMean.count < 2) continue;
-      band.x.push_back(stage.stage + shift);
-      band.lower.push_back(stage.realMean.mean - stage.realMean.halfWidth95);
-      band.upper.push_back(stage.realMean.mean + stage.realMean.halfWidth95);
+      const Spread& value = isGap ? stage.gap : stage.realMean;
+      series.points.emplace_back(stage.stage, value.mean);
+      series.errors.push_back(value.halfWidth95);
       plot.xFrom = std::min(plot.xFrom.value_or(stage.stage - 0.5), stage.stage - 0.5);
       plot.xTo = std::max(plot.xTo.value_or(stage.stage + 0.5), stage.stage + 0.5);
     }
-    plot.series.push_back(std::move(gap));
-    plot.series.push_back(std::move(real));
-    if (!band.x.empty()) plot.bands.push_back(std::move(band));
+    plot.series.push_back(std::move(series));
   }
   return plot;
 }

@@ -1,14 +1,15 @@
 #pragma once
-#include <vector>
-
 #include "core/run/comparison.h"
 #include "ui/charts/plot_data.h"
 
 namespace btr::ui {
 
-/// Reality gap and real fitness of several arms by measurement stage in one chart: for each arm its mean gap on
-/// individuals that no update had seen, and the mean real fitness of the measured individuals, both with 95 % intervals
-/// over the seeds. `note` says where real fitness came from.
-PlotData stagePlot(const std::vector<ComparedArm>& arms, const QString& unit, const QString& note);
+/// What is compared by measurement stage: each has an axis of its own.
+enum class StageQuantity { gap, realFitness };
+
+/// Gap on unseen individuals, or real fitness, by measurement stage: one series an arm; of several seeds the mean, with
+/// the 95 % interval as bars. A fitness of which no value is negative has no interval below 0, nor has a gap.
+PlotData stagePlot(const std::vector<ComparedArm>& arms, StageQuantity quantity, const QString& unit,
+                   const QString& note);
 
 }  // namespace btr::ui

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/spec/parameter.h"
+#include "ui/common/number_entry.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
@@ -40,7 +40,7 @@ void NumberEdit::setMarked(bool marked) {
 }
 
 void NumberEdit::stepBy(int steps) {
-  const auto now = toNumber(numberText().trimmed().toStdString());
+  const auto now = readNumber(numberText()).value;
   // A hundredth of the range, rounded down to a power of ten, so that stepping gives round numbers.
   const double step = integer_ ? 1 : std::pow(10.0, std::floor(std::log10(std::max(maximum_ - minimum_, 1e-12) / 50)));
   double next = now ? std::round((*now + steps * step) / step) * step : minimum_;
@@ -59,7 +59,7 @@ QSize NumberEdit::sizeHint() const {
 
 QAbstractSpinBox::StepEnabled NumberEdit::stepEnabled() const {
   if (isReadOnly()) return StepNone;
-  const auto now = toNumber(lineEdit()->text().trimmed().toStdString());
+  const auto now = readNumber(lineEdit()->text()).value;
   if (!now) return StepUpEnabled | StepDownEnabled;
   StepEnabled enabled = StepNone;
   if (*now < maximum_) enabled |= StepUpEnabled;

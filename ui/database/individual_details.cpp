@@ -70,7 +70,8 @@ void IndividualDetails::setIndividual(const IndividualRecord& individual, int si
   const QString fitness = fitnessHidden ? tr("hidden") : withUnit(individual.fitness, unit_);
   QStringList facts{tr("Fitness %1 in simulator %2").arg(fitness).arg(simulatorNumber),
                     tr("trial %1").arg(QString::fromStdString(individual.outcome))};
-  if (!individual.detail.empty()) facts.last() += ": " + QString::fromStdString(individual.detail);
+  // The detail of a kick tells how far it went.
+  if (!individual.detail.empty() && !fitnessHidden) facts.last() += ": " + QString::fromStdString(individual.detail);
   if (individual.sameAs) facts << tr("same as individual %1, not simulated again").arg(individual.sameAs);
   facts << tr("seed %1").arg(individual.trialSeed);
   facts_->setText(facts.join(" · "));

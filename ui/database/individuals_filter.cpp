@@ -67,7 +67,7 @@ bool IndividualsFilter::filterAcceptsRow(int row, const QModelIndex&) const {
   return std::all_of(words_.begin(), words_.end(), [&](const QString& word) {
     return QString::number(record.id) == word ||
            QString::fromStdString(record.outcome).contains(word, Qt::CaseInsensitive) ||
-           QString::fromStdString(record.detail).contains(word, Qt::CaseInsensitive) ||
+           (!model_.isHidden(record) && QString::fromStdString(record.detail).contains(word, Qt::CaseInsensitive)) ||
            QString::fromStdString(record.chromosome).startsWith(word);
   });
 }

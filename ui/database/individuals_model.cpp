@@ -238,7 +238,8 @@ QVariant IndividualsModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
       return QVariant(column == outcome ? Qt::AlignLeft | Qt::AlignVCenter : Qt::AlignRight | Qt::AlignVCenter);
     case Qt::ToolTipRole:
-      if (column == outcome && !record.detail.empty()) return QString::fromStdString(record.detail);
+      if (column == outcome && !record.detail.empty() && !isHidden(record))
+        return QString::fromStdString(record.detail);
       if (column == fitness || column == measuredMean || column == measuredDeviation) {
         const QVariant value = valueAt(index.row(), column);
         if (value.isValid()) return exactText(value.toDouble()) + (unit_.isEmpty() ? QString() : ' ' + unit_);

@@ -41,6 +41,7 @@ class IndividualsModel : public QAbstractTableModel {
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
   /// Individuals whose simulated fitness nobody shall know yet: they wait to be measured.
   void setHidden(const std::set<Id>& hidden);
+  const std::set<Id>& hidden() const { return hidden_; }
   bool isHidden(const IndividualRecord& individual) const {
     return hidden_.contains(individual.id) || hidden_.contains(individual.sameAs);
   }

@@ -60,7 +60,13 @@ IndividualsTable::IndividualsTable(QWidget* parent)
   connect(view_, &QTableView::doubleClicked, this,
           [this](const QModelIndex& index) { emit replayRequested(filter_.recordAt(index).id); });
   connect(view_, &QWidget::customContextMenuRequested, this, &IndividualsTable::showMenu);
-  connect(details_, &IndividualDetails::replayRequested, this, &IndividualsTable::replayRequested);
+  // With two individuals selected, both are meant.
+  connect(details_, &IndividualDetails::replayRequested, this, [this](Id individual) {
+    if (const std::vector<Id> pair = selectedAll(); pair.size() == 2)
+      emit pairRequested(pair[0], pair[1]);
+    else
+      emit replayRequested(individual);
+  });
   for (const auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved})
     connect(&filter_, signal, this, &IndividualsTable::showCount);
   connect(&filter_, &QAbstractItemModel::modelReset, this, &IndividualsTable::showCount);
@@ -215,6 +221,12 @@ bool IndividualsTable::select(Id individual) {
 
 Id IndividualsTable::selected() const { return details_->individual(); }
 
+std::vector<Id> IndividualsTable::selectedAll() const {
+  std::vector<Id> all;
+  for (const QModelIndex& row : view_->selectionModel()->selectedRows()) all.push_back(filter_.recordAt(row).id);
+  return all;
+}
+
 void IndividualsTable::showSelected() {
   const QModelIndexList rows = view_->selectionModel()->selectedRows();
   if (rows.isEmpty()) return details_->clear();
@@ -265,6 +277,9 @@ void IndividualsTable::showMenu(const QPoint& place) {
   QMenu menu(this);
   menu.addAction(themeIcon("media-playback-start"), tr("Replay individual %1").arg(record.id), this,
                  [this, id = record.id] { emit replayRequested(id); });
+  if (const std::vector<Id> pair = selectedAll(); pair.size() == 2)
+    menu.addAction(themeIcon("view-split-left-right"), tr("Replay %1 and %2 side by side").arg(pair[0]).arg(pair[1]),
+                   this, [this, pair] { emit pairRequested(pair[0], pair[1]); });
   if (record.sameAs)
     menu.addAction(themeIcon("go-jump"), tr("Go to individual %1, which it repeats").arg(record.sameAs), this,
                    [this, id = record.sameAs] { select(id); });
@@ -280,6 +295,11 @@ bool IndividualsTable::eventFilter(QObject* watched, QEvent* event) {
     const auto* key = static_cast<QKeyEvent*>(event);
     if (key->matches(QKeySequence::Copy)) {
       copyCsv();
+      return true;
+    }
+    if ((key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) && selectedAll().size() == 2) {
+      const std::vector<Id> pair = selectedAll();
+      emit pairRequested(pair[0], pair[1]);
       return true;
     }
     if ((key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) && selected() != 0) {

@@ -42,6 +42,7 @@ class IndividualsTable : public QWidget {
   /// Shows and selects it; false if it is not in the table (yet) or filtered out.
   bool select(Id individual);
   Id selected() const;  ///< 0 if none
+  std::vector<Id> selectedAll() const;
   /// The visible rows as CSV, those selected if more than one is.
   QString csv() const;
   void copyCsv() const;
@@ -54,6 +55,8 @@ class IndividualsTable : public QWidget {
  signals:
   void selectionChanged(btr::Id individual);
   void replayRequested(btr::Id individual);
+  /// Both at once, beside each other.
+  void pairRequested(btr::Id first, btr::Id second);
   void loaded();
 
  protected:

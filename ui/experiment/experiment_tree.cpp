@@ -7,6 +7,7 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 
+#include "core/run/adoption.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/badge_delegate.h"
 #include "ui/experiment/run_text.h"
@@ -134,13 +135,13 @@ void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& s
   for (const auto& simulator : simulators) {
     const QString detail =
         simulator.madeAfterGeneration > 0
-            ? tr("%1, after generation %2").arg(text(simulator.madeBy)).arg(simulator.madeAfterGeneration)
-            : text(simulator.madeBy);
+            ? tr("%1, after generation %2").arg(text(originOf(simulator))).arg(simulator.madeAfterGeneration)
+            : text(originOf(simulator));
     QStandardItem* item = showSimulator(*found->second, simulator, detail);
     found->second->child(item->row(), 1)->setText(QString::number(simulator.madeAfterGeneration));
     item->setToolTip(tr("Simulator version %1, made by %2 after generation %3")
                          .arg(simulator.number)
-                         .arg(text(simulator.madeBy))
+                         .arg(text(originOf(simulator)))
                          .arg(simulator.madeAfterGeneration));
   }
 }
@@ -152,9 +153,9 @@ void ExperimentTree::setRigs(const std::vector<SimulatorRecord>& versions) {
     rigs_.insert(version.rig);
     QStandardItem* rig = child(*model_->invisibleRootItem(), experimentKind, version.rig);
     rig->setData(tr("rig · simulator version %1").arg(version.number), BadgeDelegate::DetailRole);
-    showSimulator(*rig, version, version.number == 0 ? tr("the scene as given") : text(version.madeBy))
+    showSimulator(*rig, version, version.number == 0 ? tr("the scene as given") : text(originOf(version)))
         ->setToolTip(tr("Simulator version %1 of %2, made by %3")
-                         .arg(QString::number(version.number), rig->text(), text(version.madeBy)));
+                         .arg(QString::number(version.number), rig->text(), text(originOf(version))));
   }
 }
 
@@ -164,7 +165,7 @@ QStandardItem* ExperimentTree::showSimulator(QStandardItem& parent, const Simula
   item->setText(tr("Simulator %1").arg(simulator.number));
   item->setIcon(themeIcon("cpu"));
   item->setData(detail, BadgeDelegate::DetailRole);
-  parent.child(item->row(), 2)->setText(text(simulator.madeBy));
+  parent.child(item->row(), 2)->setText(text(originOf(simulator)));
   return item;
 }
 

@@ -11,6 +11,7 @@
 #include "ui/common/form_undo.h"
 #include "ui/common/number_edit.h"
 #include "ui/common/theme.h"
+#include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_text.h"
 
 namespace btr::ui {
@@ -22,6 +23,7 @@ ParameterField::ParameterField(const Parameter& parameter, bool checkable, QWidg
       unit_(new QLabel(QString::fromStdString(parameter.unit), form)),
       reset_(new QToolButton(form)),
       problem_(new QLabel(form)) {
+  WheelGuard::ensure();
   const QString name = QString::fromStdString(parameter.name);
   const QString toolTip = toolTipOf(parameter);
   if (checkable) {
@@ -139,11 +141,6 @@ bool ParameterField::matches(const QString& filter) const {
 
 bool ParameterField::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::FocusIn) ++visit_;
-  // Scrolling a long form must not change a choice on the way.
-  if (event->type() == QEvent::Wheel && watched == choice_ && !choice_->hasFocus()) {
-    event->ignore();
-    return true;
-  }
   return QObject::eventFilter(watched, event);
 }
 

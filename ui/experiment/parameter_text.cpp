@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/common/number_entry.h"
+
 namespace btr::ui {
 namespace {
 
@@ -73,7 +75,7 @@ std::optional<double> fieldValue(const Parameter& parameter, const QString& text
     if (found == parameter.choices.end()) return {};
     return double(found - parameter.choices.begin());
   }
-  const auto value = toNumber(text.trimmed().toStdString());
+  const auto value = readNumber(text).value;
   if (!value || *value < parameter.minimum || *value > parameter.maximum) return {};
   if (parameter.integer && *value != std::floor(*value)) return {};
   return value;

@@ -7,12 +7,14 @@
 #include <QVBoxLayout>
 
 #include "ui/common/edit_command.h"
+#include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_form.h"
 
 namespace btr::ui {
 
 PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
     : QWidget(parent), what_(what), offers_(offers), undo_(undo), names_(new QComboBox(this)) {
+  WheelGuard::ensure();
   names_->setAccessibleName(what);
   names_->setToolTip(tr("%1: one of the installed plugins").arg(what));
   names_->setFocusPolicy(Qt::StrongFocus);

@@ -138,9 +138,10 @@ void RunLauncher::backUp(const QString& database, const QString& file) {
   runToEnd({"backup", "--db", database, file, "--force"}, [this, file] { emit backedUp(file); });
 }
 
-void RunLauncher::importFitness(const QString& database, Id run, const QString& file) {
-  runToEnd({"fitness", "import", "--db", database, "--run", QString::number(run), file},
-           [this, file] { emit imported(file); });
+void RunLauncher::importFitness(const QString& database, Id run, const QString& file, bool confirmed) {
+  QStringList arguments{"fitness", "import", "--db", database, "--run", QString::number(run), file};
+  if (confirmed) arguments << "--yes";
+  runToEnd(arguments, [this, file] { emit imported(file); });
 }
 
 void RunLauncher::adopt(const QString& database, Id run, const QString& rig, const QString& simulator,

@@ -42,7 +42,8 @@ class RunLauncher : public QObject {
   /// Makes a checked copy of the database, in place of a file that is there; tells backedUp() or failed().
   void backUp(const QString& database, const QString& file);
   /// Enters a table of measured fitness (columns individual,value[,note][,void]); tells imported() or failed().
-  void importFitness(const QString& database, Id run, const QString& file);
+  /// `confirmed`: a person has looked at the values that are far from what is expected.
+  void importFitness(const QString& database, Id run, const QString& file, bool confirmed = false);
   /// Makes the simulator of a gap report the newest version of a run or, where `rig` names a scene's file, of that rig;
   /// or the newest one's parent again. Tells simulatorChanged() or failed().
   void adopt(const QString& database, Id run, const QString& rig, const QString& simulator, const QString& report);

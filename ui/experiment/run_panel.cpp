@@ -139,6 +139,12 @@ void RunPanel::setMeasuring(const MeasuringCount& measuring) {
   refresh();
 }
 
+void RunPanel::setBlind(bool blind) {
+  if (blind_ == blind) return;
+  blind_ = blind;
+  refresh();
+}
+
 void RunPanel::clear() {
   empty_ = true;
   run_ = {};
@@ -209,8 +215,12 @@ void RunPanel::refresh() {
   best_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
   mean_.caption->setText(adapting ? tr("Mean error") : tr("Mean"));
   const bool known = adapting ? !isOld : generation_.number > 0;
-  best_.value->setText(known ? withUnit(adapting ? progress_.best : generation_.best, unit_) : QStringLiteral("–"));
-  mean_.value->setText(known ? withUnit(adapting ? progress_.mean : generation_.mean, unit_) : QStringLiteral("–"));
+  const auto said = [&](double value) {
+    if (blind_ && !adapting) return tr("hidden");
+    return known ? withUnit(value, unit_) : QStringLiteral("–");
+  };
+  best_.value->setText(said(adapting ? progress_.best : generation_.best));
+  mean_.value->setText(said(adapting ? progress_.mean : generation_.mean));
   speed_.value->setText(active_ && progress_.trialsPerSecond > 0
                             ? tr("%1 trials/s").arg(shortNumber(progress_.trialsPerSecond))
                             : QStringLiteral("–"));

@@ -20,6 +20,8 @@ class RunPanel : public QWidget {
   /// The last generation of L1; while L3 works, its errors stand in these places.
   void setGeneration(const GenerationRecord& generation);
   void setMeasuring(const MeasuringCount& measuring);
+  /// Best and mean stay unsaid while somebody measures blind: the best are those who are measured.
+  void setBlind(bool blind);
   void clear();
   void setUnit(const QString& unit);  ///< of the fitness
   void setJobs(int jobs);             ///< worker processes, 0: as many as processors
@@ -45,7 +47,7 @@ class RunPanel : public QWidget {
   RunProgress progress_;
   MeasuringCount measuring_;
   GenerationRecord generation_;
-  bool active_ = false, empty_ = true;
+  bool active_ = false, empty_ = true, blind_ = false;
   RunFace face_ = RunFace::ready;
   QString unit_;
   QLabel *icon_, *stage_, *name_, *standIn_, *next_, *message_;

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "core/run/adoption.h"
 #include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"
@@ -140,7 +141,7 @@ void SimulatorsPage::showVersions() {
     const QString lineage =
         parent ? tr("%1  ← %2").arg(simulator.number).arg(parent->number) : QString::number(simulator.number);
     putCell(*versions_, row, 0, lineage)->setToolTip(tr("Made %1").arg(QString::fromStdString(simulator.createdAt)));
-    putCell(*versions_, row, 1, QString::fromStdString(simulator.madeBy));
+    putCell(*versions_, row, 1, QString::fromStdString(originOf(simulator)));
     putCell(*versions_, row, 2, simulator.rig != 0 ? QString() : QString::number(simulator.madeAfterGeneration));
     QString before, after;
     bool better = false;

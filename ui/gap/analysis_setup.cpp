@@ -12,6 +12,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -23,7 +24,9 @@
 #include "ui/common/progress.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
+#include "ui/common/wheel_guard.h"
 #include "ui/gap/mapping_form.h"
+#include "ui/gap/recording_plot.h"
 #include "ui/window/scroll_page.h"
 
 namespace btr::ui {
@@ -67,9 +70,16 @@ QWidget* withButton(QLineEdit* edit, QPushButton* button) {
 }  // namespace
 
 AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new MappingForm(this)) {
+  WheelGuard::ensure();
   auto* splitter = new QSplitter(Qt::Vertical, this);
   splitter->addWidget(makeInputs());
-  splitter->addWidget(mapping_);
+  looks_ = new RecordingPlot(this);
+  auto* below = new QTabWidget(this);
+  below->setDocumentMode(true);
+  below->addTab(mapping_, tr("Mappin&g"));
+  below->addTab(looks_, tr("&Look at it"));
+  below->setTabToolTip(1, tr("The recording as its mapping reads it"));
+  splitter->addWidget(below);
   splitter->setChildrenCollapsible(false);
   splitter->setStretchFactor(0, 1);
   splitter->setStretchFactor(1, 1);
@@ -96,8 +106,12 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   // The bar stays in sight, however low the window is.
   layout->addWidget(new ScrollPage(splitter, this), 1);
   layout->addLayout(bar);
+  connect(&tick_, &QTimer::timeout, this, [this] { showProgress(stageNow_, shareNow_); });
   connect(mapping_, &MappingForm::failed, this, &AnalysisSetup::failed);
-  connect(mapping_, &MappingForm::saved, this, [this] { refresh(); });
+  connect(mapping_, &MappingForm::saved, this, [this] {
+    refresh();
+    looks_->setRecording(mapping_->recording(), mappingOf(mapping_->recording()), scene());
+  });
   setRunning(false);
 }
 
@@ -156,6 +170,12 @@ QWidget* AnalysisSetup::makeInputs() {
   row->addWidget(recordings_, 1);
   row->addLayout(buttons);
   form->addRow(tr("Recordings"), row);
+  example_ = button("games-hint", tr("&Try it with a simulated XL330 servo"), [this] { fillWithExample(); });
+  example_->setObjectName("tryExample");
+  example_->setToolTip(
+      tr("Three recordings that the simulator made itself, with dry friction that the scene does not have: an analysis "
+         "finds it in about a minute"));
+  form->addRow(example_);
   doctorSays_ = new QLabel(inputs);
   doctorSays_->setObjectName("doctorSays");
   doctorSays_->setWordWrap(true);
@@ -234,8 +254,22 @@ void AnalysisSetup::addRecordings(const QStringList& paths) {
   }
   if (recordings_->currentRow() < 0 && recordings_->rowCount() > 0) recordings_->setCurrentCell(0, file);
   if (out_->text().isEmpty() && recordings_->rowCount() > 0)
-    out_->setText(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).path() + "/gap-report");
+    out_->setText(
+        QDir(reportBase_)
+            .filePath(QFileInfo(recordings_->item(0, file)->data(Qt::UserRole).toString()).completeBaseName() +
+                      "-gap-report"));
   refresh();
+}
+
+void AnalysisSetup::fillWithExample() {
+  const QDir resources(resourceDirectory());
+  const QDir made(resources.filePath("recordings/xl330-made"));
+  setScene(QDir::cleanPath(resources.filePath("scenes/xl330.json")));
+  addRecordings({QDir::cleanPath(made.filePath("made_kp200_sines.csv")),
+                 QDir::cleanPath(made.filePath("made_kp400_slow.csv")),
+                 QDir::cleanPath(made.filePath("made_kp200_chirp.csv"))});
+  for (int row = 0; row < recordings_->rowCount(); ++row)
+    setHeldOut(row, recordings_->item(row, file)->text() == "made_kp200_chirp.csv");
 }
 
 void AnalysisSetup::removeRecording() {
@@ -314,6 +348,7 @@ void AnalysisSetup::openMapping() {
   const int row = recordings_->currentRow();
   if (row < 0 || !recordings_->item(row, file)) return;
   const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
+  looks_->setRecording(path, mappingOf(path), scene());
   if (mapping_->recording() == path || (mapping_->isChanged() && !mapping_->recording().isEmpty())) return;
   try {
     mapping_->open(path, mappingOf(path));
@@ -322,14 +357,25 @@ void AnalysisSetup::openMapping() {
   }
 }
 
-void AnalysisSetup::showProgress(const QString& stage, double share) { ui::showProgress(*progress_, stage, share); }
+// Said again each second: some stages last without a word.
+void AnalysisSetup::showProgress(const QString& stage, double share) {
+  stageNow_ = stage;
+  shareNow_ = share;
+  ui::showProgress(*progress_, stage, share, begun_.isValid() ? double(begun_.elapsed()) / 1000 : -1);
+}
 
 void AnalysisSetup::setRunning(bool running) {
   running_ = running;
   progress_->setVisible(running);
   cancel_->setEnabled(running);
   cancel_->setVisible(running);
-  if (running) showProgress(tr("starting"), 0);
+  if (running) {
+    begun_.start();
+    tick_.start(1000);
+    showProgress(tr("starting"), 0);
+  } else {
+    tick_.stop();
+  }
   refresh();
 }
 
@@ -368,6 +414,7 @@ void AnalysisSetup::refresh() {
     recordings_->item(row, mapped)->setText(found.isEmpty() ? tr("none") : QFileInfo(found).fileName());
     recordings_->item(row, mapped)->setToolTip(found);
   }
+  example_->setVisible(recordings_->rowCount() == 0);
   askDoctor();
   const QString missing = problem();
   problem_->setText(missing);

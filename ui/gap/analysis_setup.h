@@ -1,4 +1,7 @@
 #pragma once
+#include <QElapsedTimer>
+#include <QStandardPaths>
+#include <QTimer>
 #include <QWidget>
 
 #include "core/sim/scene.h"
@@ -16,6 +19,7 @@ class QTableWidget;
 
 namespace btr::ui {
 class MappingForm;
+class RecordingPlot;
 
 /// What is to be analysed: scene, recordings (training or held out) with their mappings, simulator, folder of the
 /// report. Starts nothing itself.
@@ -32,6 +36,9 @@ class AnalysisSetup : public QWidget {
   /// Files that are there already are not added twice.
   void addRecordings(const QStringList& paths);
   void removeRecording();
+  /// Fills an empty page with the shipped example: a simulated XL330 servo whose recordings hide dry friction, one of
+  /// them held out.
+  void fillWithExample();
   void setHeldOut(int row, bool heldOut);
   /// Simulators to start from beside the scene as given: names for people and their texts (simulator.json).
   void setSimulators(const QStringList& names, const QStringList& texts);
@@ -41,9 +48,12 @@ class AnalysisSetup : public QWidget {
   /// What is missing before it can be started; empty if nothing is.
   QString problem() const;
   void showProgress(const QString& stage, double share);
+  /// Where new reports are proposed: beside the database, not among the recordings.
+  void setReportBase(const QString& folder) { reportBase_ = folder; }
   void setRunning(bool running);
 
   MappingForm& mapping() { return *mapping_; }
+  RecordingPlot& looks() { return *looks_; }
   QTableWidget& recordings() { return *recordings_; }
 
  signals:
@@ -71,6 +81,8 @@ class AnalysisSetup : public QWidget {
   QComboBox* simulator_;
   QTableWidget* recordings_;
   MappingForm* mapping_;
+  RecordingPlot* looks_;
+  QPushButton* example_;
   QLabel *problem_, *doctorSays_;
   QCheckBox* asRecorded_;
   QProgressBar* progress_;
@@ -80,6 +92,11 @@ class AnalysisSetup : public QWidget {
   ModelSet models_;
   RecordingDoctor doctor_;
   mutable FileDigests digests_;
+  QElapsedTimer begun_;
+  QTimer tick_;
+  QString stageNow_;
+  double shareNow_ = 0;
+  QString reportBase_ = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   bool certain_ = false;  ///< the doctor: an analysis would refuse these recordings
   bool running_ = false;
 };

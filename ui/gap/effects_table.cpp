@@ -1,6 +1,8 @@
 #include "ui/gap/effects_table.h"
 
 #include <QHeaderView>
+#include <array>
+#include <utility>
 
 #include "core/gap/report/report_figures.h"
 #include "core/gap/search/gap_report.h"
@@ -19,12 +21,40 @@ void prepare(QTableWidget& table, const QStringList& headers) {
   table.horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
 }
 
-QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& text, bool number = false) {
+QTableWidgetItem* fillCell(QTableWidget& table, int row, int column, const QString& text, bool number = false) {
   auto* item = new QTableWidgetItem(text);
   if (number) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   item->setToolTip(text);
   table.setItem(row, column, item);
   return item;
+}
+
+/// A scene's path ends in its unit: "robots.leg.servos.knee.max_torque_nm". Without one it is a pure number, but for
+/// the gains of a servo, whose unit depends on its joint: nothing is said of these.
+QString unitOfPath(const std::string& path) {
+  constexpr std::array<std::pair<const char*, const char*>, 19> endings{{{"_nm_s_rad", "N·m·s/rad"},
+                                                                         {"_nm_per_a", "N·m/A"},
+                                                                         {"_v_per_rad", "V/rad"},
+                                                                         {"_nm_rad", "N·m/rad"},
+                                                                         {"_kg_m2", "kg·m²"},
+                                                                         {"_rad_s", "rad/s"},
+                                                                         {"_m_s2", "m/s²"},
+                                                                         {"_n_s_m", "N·s/m"},
+                                                                         {"_m_s", "m/s"},
+                                                                         {"_n_m", "N/m"},
+                                                                         {"_ohm", "Ω"},
+                                                                         {"_nm", "N·m"},
+                                                                         {"_kg", "kg"},
+                                                                         {"_rad", "rad"},
+                                                                         {"_m", "m"},
+                                                                         {"_s", "s"},
+                                                                         {"_v", "V"},
+                                                                         {"_a", "A"},
+                                                                         {"_n", "N"}}};
+  for (const auto& [ending, unit] : endings)
+    if (path.ends_with(ending)) return QString::fromUtf8(unit);
+  const std::string leaf = path.substr(path.rfind('.') + 1);
+  return leaf == "p" || leaf == "i" || leaf == "d" ? QString() : QStringLiteral("1");
 }
 
 QString numberText(const GapReport::Number& n) {
@@ -60,21 +90,21 @@ void EffectsTable::setReport(const GapReport& report) {
   const Tones tones = tonesOf(palette());
   for (int row = 0; row < rowCount(); ++row) {
     const GapReport::Effect& e = report.tried[std::size_t(row)];
-    put(*this, row, effect, word(inWords(e.effect)));
-    put(*this, row, at, word(e.at));
-    put(*this, row, verdict, e.accepted ? tr("accepted") : tr("rejected"));
+    fillCell(*this, row, effect, word(inWords(e.effect)));
+    fillCell(*this, row, at, word(e.at));
+    fillCell(*this, row, verdict, e.accepted ? tr("accepted") : tr("rejected"));
     QStringList numbers, others;
     for (const GapReport::Number& n : e.parameters) numbers << numberText(n);
     for (const GapReport::Rival& r : e.rivals)
       others << tr("%1 (error × %2)").arg(word(inWords(r)), word(brief(r.heldoutErrorRatio)));
-    put(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));
-    put(*this, row, gain, word(percent(e.heldoutErrorReduction)), true);
-    put(*this, row, pValue, word(brief(e.pValue)), true);
-    put(*this, row, qValue, word(brief(e.qValue)), true);
-    put(*this, row, rivals, others.join("; "));
-    put(*this, row, rank,
-        e.screenRank > 0 ? tr("%1 (%2)").arg(e.screenRank).arg(word(percent(e.screenShare))) : tr("–"), true);
-    put(*this, row, reason, word(e.reason));
+    fillCell(*this, row, parameters, numbers.join("; "))->setToolTip(numbers.join("\n"));
+    fillCell(*this, row, gain, word(percent(e.heldoutErrorReduction)), true);
+    fillCell(*this, row, pValue, word(brief(e.pValue)), true);
+    fillCell(*this, row, qValue, word(brief(e.qValue)), true);
+    fillCell(*this, row, rivals, others.join("; "));
+    fillCell(*this, row, rank,
+             e.screenRank > 0 ? tr("%1 (%2)").arg(e.screenRank).arg(word(percent(e.screenShare))) : tr("–"), true);
+    fillCell(*this, row, reason, word(e.reason));
     for (int column = 0; column < columns; ++column) {
       QTableWidgetItem* cell = item(row, column);
       QFont font = cell->font();
@@ -110,16 +140,44 @@ void CalibratedTable::setReport(const GapReport& report) {
   setRowCount(int(report.calibrated.size()));
   for (int row = 0; row < rowCount(); ++row) {
     const GapReport::Number& n = report.calibrated[std::size_t(row)];
-    put(*this, row, name, word(n.name));
-    put(*this, row, before, word(brief(n.before)), true);
-    put(*this, row, after, word(brief(n.value)), true);
-    put(*this, row, interval, n.ci95.known() ? word(brief(n.ci95)) : tr("–"), true);
-    put(*this, row, amongRivals, n.amongRivals.known() ? word(brief(n.amongRivals)) : tr("–"), true);
-    put(*this, row, unit, word(n.unit));
-    put(*this, row, remark,
-        !n.excited  ? tr("the recordings do not tell it")
-        : n.atBound ? tr("at its bound")
-                    : QString());
+    fillCell(*this, row, name, word(n.name));
+    fillCell(*this, row, before, word(brief(n.before)), true);
+    fillCell(*this, row, after, word(brief(n.value)), true);
+    fillCell(*this, row, interval, n.ci95.known() ? word(brief(n.ci95)) : tr("–"), true);
+    fillCell(*this, row, amongRivals, n.amongRivals.known() ? word(brief(n.amongRivals)) : tr("–"), true);
+    fillCell(*this, row, unit, n.unit.empty() ? unitOfPath(n.name) : word(n.unit));
+    fillCell(*this, row, remark,
+             !n.excited  ? tr("the recordings do not tell it")
+             : n.atBound ? tr("at its bound")
+                         : QString());
+  }
+}
+
+ErrorsTable::ErrorsTable(QWidget* parent) : QTableWidget(parent) {
+  setAccessibleName(tr("Errors by channel"));
+  setObjectName("errors");
+  prepare(*this, {tr("Channel"), tr("Unit"), tr("Noise floor"), tr("As given"), tr("Calibrated"), tr("With effects"),
+                  tr("Held out: as given"), tr("Calibrated"), tr("With effects")});
+  setToolTip(
+      tr("Root mean square of simulated − recorded. The first three are cross-validated: alternate blocks of the "
+         "fitted recordings predict each other. Held out: recordings that no fit saw."));
+}
+
+void ErrorsTable::setReport(const GapReport& report) {
+  setRowCount(0);
+  setRowCount(int(report.channels.size()));
+  const bool anyHeldOut = unseenError(report).has_value();
+  for (int column = heldAsGiven; column <= heldWithEffects; ++column) setColumnHidden(column, !anyHeldOut);
+  for (int row = 0; row < rowCount(); ++row) {
+    const GapReport::Channel& c = report.channels[std::size_t(row)];
+    fillCell(*this, row, channel, word(c.name));
+    fillCell(*this, row, unit, word(c.unit));
+    int column = floor;
+    for (const double error : {c.noiseFloor, c.asGiven, c.calibrated, c.withEffects, c.heldoutAsGiven,
+                               c.heldoutCalibrated, c.heldoutWithEffects})
+      fillCell(*this, row, column++, word(brief(error)), true);
+    if (c.heldoutWithEffects > 1.05 * c.heldoutAsGiven)
+      item(row, heldWithEffects)->setForeground(tonesOf(palette()).bad);
   }
 }
 

@@ -23,4 +23,13 @@ class CalibratedTable : public QTableWidget {
   void setReport(const GapReport& report);
 };
 
+/// What each channel is off by, in its own unit: cross-validated, and on the recordings that were held out.
+class ErrorsTable : public QTableWidget {
+  Q_OBJECT
+ public:
+  enum Column { channel, unit, floor, asGiven, calibrated, withEffects, heldAsGiven, heldCalibrated, heldWithEffects };
+  explicit ErrorsTable(QWidget* parent = nullptr);
+  void setReport(const GapReport& report);
+};
+
 }  // namespace btr::ui

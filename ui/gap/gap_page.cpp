@@ -5,6 +5,8 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QTabWidget>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -16,8 +18,12 @@
 #include "core/gap/report/report_text.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
+#include "core/gap/report/report_figures.h"
+#include "core/gap/report/report_text.h"
+#include "core/run/adoption.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "ui/common/format.h"
 #include "ui/common/theme.h"
 #include "ui/gap/analysis_setup.h"
 #include "ui/gap/clues_view.h"
@@ -111,7 +117,8 @@ void GapPage::makeActions() {
     if (!file.isEmpty()) exportTo(file);
   });
   connect(adopt_, &QAction::triggered, this, [this] {
-    if (target()) emit adoptRequested(QDir(folder_).filePath("simulator.json"), folder_, target()->rig);
+    if (target() && confirmAdoption())
+      emit adoptRequested(QDir(folder_).filePath("simulator.json"), folder_, target()->rig);
   });
   connect(revert_, &QAction::triggered, this, [this] {
     if (target()) emit revertRequested(target()->rig);
@@ -120,6 +127,22 @@ void GapPage::makeActions() {
     chosen_ = true;
     refresh();
   });
+}
+
+// What was found may fit what was fitted, and mislead elsewhere: that is said where it is taken over.
+bool GapPage::confirmAdoption() {
+  const std::string warning = view_->report() ? unseenWarning(*view_->report()) : "";
+  if (warning.empty()) return true;
+  QMessageBox box(QMessageBox::Warning, tr("Adopt the simulator"),
+                  tr("In this simulator %1. Adopt it all the same?").arg(word(warning)), QMessageBox::Cancel, this);
+  box.setInformativeText(
+      tr("It fits the recordings that were fitted and misleads on motions like those that were held out. Record and "
+         "fit some of those first."));
+  auto* yes = box.addButton(tr("Adopt it"), QMessageBox::AcceptRole);
+  yes->setObjectName("adoptWorse");
+  box.setDefaultButton(QMessageBox::Cancel);
+  box.exec();
+  return box.clickedButton() == yes;
 }
 
 void GapPage::start() {
@@ -148,7 +171,7 @@ bool GapPage::openReport(const QString& folder) {
     emit failed(QString::fromUtf8(error.what()));
     return false;
   }
-  tabs_->setCurrentWidget(view_);
+  tabs_->setCurrentIndex(1);  // the report
   refresh();
   emit reportOpened(folder_);
   return true;
@@ -182,10 +205,7 @@ void GapPage::setStarts(const std::vector<AdoptionTarget>& owners) {
   for (const AdoptionTarget& owner : owners)
     for (auto version = owner.versions.rbegin(); version != owner.versions.rend(); ++version) {
       if (version->rig != 0 && version->number == 0) continue;  // the scene as given, which is there already
-      names << tr("%1, version %2 by %3")
-                   .arg(owner.name)
-                   .arg(version->number)
-                   .arg(QString::fromStdString(version->madeBy));
+      names << tr("%1, version %2 by %3").arg(owner.name).arg(version->number).arg(word(originOf(*version)));
       texts << QString::fromStdString(toJsonText(version->simulator));
     }
   setup_->setSimulators(names, texts);
@@ -196,7 +216,10 @@ const AdoptionTarget* GapPage::target() const {
   return index >= 0 && index < int(targets_.size()) ? &targets_[std::size_t(index)] : nullptr;
 }
 
-void GapPage::setMeasured(const QString& database, Id run, int measured) { clues_->setRun(database, run, measured); }
+void GapPage::setMeasured(const QString& database, Id run, int measured) {
+  clues_->setRun(database, run, measured);
+  if (!database.isEmpty()) setup_->setReportBase(QFileInfo(database).absolutePath());
+}
 
 void GapPage::refresh() {
   const bool open = view_->report() != nullptr;

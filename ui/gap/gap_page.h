@@ -65,6 +65,7 @@ class GapPage : public QWidget {
  private:
   void makeActions();
   void start();
+  bool confirmAdoption();
   void refresh();
   const AdoptionTarget* target() const;  ///< the chosen one
 

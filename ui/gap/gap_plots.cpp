@@ -171,8 +171,19 @@ PlotData remainderPlot(const GapReport& report) {
     band.lower[i] -= half;
     band.upper[i] += half;
   }
-  plot.bands = {band};
   plot.series = {line(GapPlots::tr("learned force"), repaired, points(r.x, r.y))};
+  // Where there were next to no samples the interval is a thousand times the curve: it is cut off, and said.
+  const auto [low, high] = std::minmax_element(r.y.begin(), r.y.end());
+  const double room = 2 * std::max({*high - *low, std::abs(*high), std::abs(*low)});
+  double widest = 0;
+  for (std::size_t i = 0; i < r.x.size(); ++i) {
+    widest = std::max(widest, (band.upper[i] - band.lower[i]) / 2);
+    band.lower[i] = std::max(band.lower[i], *low - room);
+    band.upper[i] = std::min(band.upper[i], *high + room);
+  }
+  if (room > 0 && widest > room)
+    plot.note = GapPlots::tr("95 % interval cut off: it reaches ± %1").arg(withUnit(widest, word(r.unitY)));
+  plot.bands = {band};
   return plot;
 }
 

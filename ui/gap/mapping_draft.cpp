@@ -14,6 +14,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
+#include "ui/common/number_entry.h"
 
 namespace btr::ui {
 namespace {
@@ -72,8 +73,8 @@ std::string MappingDraft::toJson() const {
     const std::string channel = row.channel.trimmed().toStdString();
     json entry = old.contains(channel) ? old.at(channel) : json::object();
     entry["column"] = row.column.toStdString();
-    entry["scale"] = (row.flipped ? -1 : 1) * toNumber(row.scale.trimmed().toStdString()).value_or(1);
-    entry["offset"] = toNumber(row.offset.trimmed().toStdString()).value_or(0);
+    entry["scale"] = (row.flipped ? -1 : 1) * readNumber(row.scale).value.value_or(1);
+    entry["offset"] = readNumber(row.offset).value.value_or(0);
     document[channel] = entry;
   }
   for (const auto& [key, value] : old.items())
@@ -101,8 +102,7 @@ MappingProblems problemsOf(const MappingDraft& draft, const QStringList& columns
     if (!columns.contains(row.column))
       wrong(MappingField::column, row.column.isEmpty() ? MappingTexts::tr("Choose a column of the file")
                                                        : MappingTexts::tr("The file has no column %1").arg(row.column));
-    const auto scale = toNumber(row.scale.trimmed().toStdString()),
-               offset = toNumber(row.offset.trimmed().toStdString());
+    const auto scale = readNumber(row.scale).value, offset = readNumber(row.offset).value;
     if (!scale || *scale <= 0 || *scale > 1e12)
       wrong(MappingField::scale,
             MappingTexts::tr("%1 is not allowed; a number above 0 (Flip turns the sign)").arg(row.scale));

@@ -20,6 +20,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/format.h"
+#include "ui/common/number_entry.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
@@ -66,7 +67,7 @@ class WordsDelegate final : public QStyledItemDelegate {
 };
 
 QString unitOf(const MappingRow& row) {
-  const auto scale = toNumber(row.scale.trimmed().toStdString());
+  const auto scale = readNumber(row.scale).value;
   if (scale)
     for (const auto& [name, factor] : unitsFor(row.channel))
       if (std::abs(*scale - factor) <= 1e-9 * factor) return name;
@@ -75,7 +76,7 @@ QString unitOf(const MappingRow& row) {
 
 QString rangeOf(const MappingRow& row, const CsvPreview& preview) {
   const qsizetype column = preview.columns.indexOf(row.column);
-  const auto scale = toNumber(row.scale.trimmed().toStdString()), offset = toNumber(row.offset.trimmed().toStdString());
+  const auto scale = readNumber(row.scale).value, offset = readNumber(row.offset).value;
   if (column < 0 || !scale || !offset) return {};
   auto [low, high] = preview.ranges[std::size_t(column)];
   if (std::isnan(low)) return MappingForm::tr("no numbers");

@@ -61,12 +61,14 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
   ladder_ = new PlotWidget(this);
   effects_ = new EffectsTable(this);
   calibrated_ = new CalibratedTable(this);
+  errors_ = new ErrorsTable(this);
   remainder_ = new PlotWidget(this);
   remainderText_ = paragraph(this);
   notes_ = paragraph(this);
   notes_->setAlignment(Qt::AlignTop);
   tabs_->addTab(makeWhere(), tr("&Where it differs"));
   tabs_->addTab(ladder_, tr("&Step by step"));
+  tabs_->addTab(errors_, tr("Err&ors"));
   tabs_->addTab(makeRegimes(), tr("&Regimes"));
   tabs_->addTab(effects_, tr("&Effects tried"));
   tabs_->addTab(calibrated_, tr("&Calibrated"));
@@ -117,6 +119,8 @@ QWidget* ReportView::makeWhere() {
   splitter->setSizes({260, 300, 220});
   splitter->setChildrenCollapsible(false);
 
+  connect(overlay_, &PlotWidget::rangeChanged, this, [this] { follow(*error_, *overlay_); });
+  connect(error_, &PlotWidget::rangeChanged, this, [this] { follow(*overlay_, *error_); });
   connect(which_, &QComboBox::currentIndexChanged, this,
           [this](int index) { map_->setSimulated(static_cast<Simulated>(index)); });
   connect(channel_, &QComboBox::activated, this, [this](int index) {
@@ -160,6 +164,15 @@ QWidget* ReportView::makeNext() {
   return column(this, {bar, next_});
 }
 
+// Both plots of a recording show the same time; their values have axes of their own.
+void ReportView::follow(PlotWidget& other, const PlotWidget& moved) {
+  const QRectF now = other.visibleRange(), wanted = moved.visibleRange();
+  if (now.left() == wanted.left() && now.right() == wanted.right()) return;
+  const QSignalBlocker quiet(&other);
+  if (!moved.isZoomed()) return other.resetZoom();
+  other.zoomTo(QRectF(wanted.left(), now.top(), wanted.width(), now.height()));
+}
+
 void ReportView::setReport(std::shared_ptr<const GapReport> report) {
   report_ = std::move(report);
   cursor_.reset();
@@ -171,6 +184,7 @@ void ReportView::setReport(std::shared_ptr<const GapReport> report) {
   regimes_->setData(regimePlot(shown, 0));
   effects_->setReport(shown);
   calibrated_->setReport(shown);
+  errors_->setReport(shown);
   remainder_->setData(remainderPlot(shown));
   next_->setData(nextRecordingPlot(shown));
   saveNext_->setEnabled(!shown.next.columns.empty());
@@ -213,11 +227,12 @@ void ReportView::showVerdict() {
     colour = v == Verdict::noMismatch || v == Verdict::parametersSuffice ? tones.good
              : v == Verdict::missingPhysics                              ? tones.accent
                                                                          : tones.warning;
+    if (!unseenWarning(*report_).empty()) colour = tones.bad;
   }
   QPalette colours = headline_->palette();
   colours.setColor(QPalette::WindowText, colour);
   headline_->setPalette(colours);
-  headline_->setText(report_ ? word(headline(report_->verdict)) : tr("No report yet"));
+  headline_->setText(report_ ? word(headline(*report_)) : tr("No report yet"));
   sentence_->setText(report_ ? word(report_->sentence)
                              : tr("Start an analysis, or open the folder of a report that is there already."));
 }
@@ -261,7 +276,10 @@ void ReportView::changeEvent(QEvent* event) {
     // Colours with a meaning follow light and dark; the labels' own change comes back here once, with nothing new.
     const QColor before = headline_->palette().color(QPalette::WindowText);
     showVerdict();
-    if (report_ && before != headline_->palette().color(QPalette::WindowText)) effects_->setReport(*report_);
+    if (report_ && before != headline_->palette().color(QPalette::WindowText)) {
+      effects_->setReport(*report_);
+      errors_->setReport(*report_);
+    }
   }
 }
 

@@ -12,6 +12,7 @@ class QTabWidget;
 namespace btr::ui {
 class CalibratedTable;
 class EffectsTable;
+class ErrorsTable;
 class HeatMap;
 class PlotWidget;
 
@@ -49,6 +50,7 @@ class ReportView : public QWidget {
   QWidget* makeRegimes();
   QWidget* makeNext();
   void showVerdict();
+  void follow(PlotWidget& other, const PlotWidget& moved);
   void showChannel(std::size_t trial, std::size_t series, std::optional<double> time_s);
   void fillChoices();
 
@@ -61,6 +63,7 @@ class ReportView : public QWidget {
   PlotWidget *overlay_, *error_, *ladder_, *regimes_, *remainder_, *next_;
   EffectsTable* effects_;
   CalibratedTable* calibrated_;
+  ErrorsTable* errors_;
   QPushButton* saveNext_;
 };
 

@@ -20,6 +20,7 @@
 #include "ui/common/format.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
+#include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_form.h"
 
 namespace btr::ui {
@@ -60,6 +61,7 @@ std::vector<std::uint64_t> seedsIn(const QString& text, const std::string& what)
 }  // namespace
 
 GridForm::GridForm(QWidget* parent) : QDialog(parent) {
+  WheelGuard::ensure();
   setWindowTitle(tr("New grid of experiments"));
   setObjectName("gridForm");
   name_ = new QLineEdit;

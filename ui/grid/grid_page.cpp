@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/run/grid_cells.h"
+#include "ui/common/decimal_spin_box.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
 #include "ui/grid/cube_view.h"
@@ -20,7 +21,7 @@ namespace btr::ui {
 namespace {
 
 QDoubleSpinBox* numberBox(const QString& name, const QString& unit, int decimals, double step, const QString& tip) {
-  auto* box = new QDoubleSpinBox;
+  auto* box = new DecimalSpinBox;
   box->setDecimals(decimals);
   box->setSingleStep(step);
   box->setSuffix(unit);

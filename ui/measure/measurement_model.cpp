@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/run/plausibility.h"
+
 namespace btr::ui {
 
 /// Rows before and after, so that a pasted block is one step.
@@ -227,6 +229,27 @@ QModelIndex MeasurementModel::firstInvalid() const {
     for (int column = firstRepeat; column < meanColumn(); ++column)
       if (!problem(row, column).isEmpty()) return index(row, column);
   return {};
+}
+
+std::vector<MeasurementModel::DoubtfulCell> MeasurementModel::doubtful() const {
+  KnownFitness known;
+  for (const MeasurementRow& row : rows_) known.tasks.push_back(row.task);
+  known.measurements = measurements_;
+  known.unit = unit_.toStdString();
+  std::vector<MeasurementRecord> entered;
+  std::vector<QModelIndex> cells;
+  for (int row = 0; row < rowCount(); ++row) {
+    const MeasurementRow& r = rows_[static_cast<std::size_t>(row)];
+    for (std::size_t k = 0; k < r.edit.values.size() && !r.edit.isVoid; ++k)
+      if (const auto value = readNumber(r.edit.values[k].text).value; value && !r.edit.values[k].isVoid) {
+        entered.emplace_back().value = *value;
+        cells.push_back(index(row, firstRepeat + static_cast<int>(r.saved.size() + k)));
+      }
+  }
+  std::vector<DoubtfulCell> all;
+  for (const Doubt& doubt : doubts(known, entered))
+    all.push_back({cells[doubt.index], QString::fromStdString(doubt.sentence)});
+  return all;
 }
 
 std::vector<MeasurementRecord> MeasurementModel::toVoid() const {

@@ -2,8 +2,8 @@
 #include <QAbstractTableModel>
 #include <QUndoStack>
 
+#include "ui/common/number_entry.h"
 #include "ui/measure/measurement_row.h"
-#include "ui/measure/number_entry.h"
 
 namespace btr::ui {
 
@@ -72,6 +72,12 @@ class MeasurementModel : public QAbstractTableModel {
   QModelIndex firstInvalid() const;
   /// Why the cell is not allowed, "" if it is.
   QString problem(int row, int column) const;
+  /// Unsaved values that are allowed and yet far from what is expected of them, in reading order.
+  struct DoubtfulCell {
+    QModelIndex cell;
+    QString sentence;
+  };
+  std::vector<DoubtfulCell> doubtful() const;
   /// Stored values that count and that rows to become void would take along.
   std::vector<MeasurementRecord> toVoid() const;
   /// Unsaved values as records, to be handed to the store. They stay unsaved until setMeasurements brings them, and

@@ -19,11 +19,15 @@
 #include "ui/common/message_banner.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_view.h"
+#include "ui/measure/question_bar.h"
 
 namespace btr::ui {
 
 MeasurementSheet::MeasurementSheet(QWidget* parent)
-    : QWidget(parent), view_(new MeasurementView(model_, this)), banner_(new MessageBanner(this)) {
+    : QWidget(parent),
+      view_(new MeasurementView(model_, this)),
+      banner_(new MessageBanner(this)),
+      question_(new QuestionBar(this)) {
   stage_ = new QComboBox(this);
   stage_->setObjectName("stage");
   stage_->setAccessibleName(tr("Stage"));
@@ -41,23 +45,34 @@ MeasurementSheet::MeasurementSheet(QWidget* parent)
   layout->addLayout(head);
   layout->addWidget(makeToolBar());
   layout->addWidget(view_, 1);
+  layout->addWidget(question_);
   layout->addWidget(banner_);  // above the rows it would push them from under the hand that types
   layout->addWidget(makeFooter());
 
   connect(&model_, &MeasurementModel::changed, this, &MeasurementSheet::refresh);
   connect(&model_, &MeasurementModel::converted, this, [this](const QString& message) {
+    saysEdit_ = true;
     banner_->showMessage(MessageBanner::Kind::information, tr("Decimal comma: %1").arg(message));
   });
   connect(&model_, &MeasurementModel::refused, this, [this](int row, const QString& why) {
     const auto at = static_cast<std::size_t>(row);
     saysRefused_ = true;
+    saysEdit_ = false;
     banner_->showMessage(MessageBanner::Kind::error,
                          tr("Individual %1: %2").arg(model_.rows()[at].task.individual).arg(why));
   });
   // The rows that it takes are the last ones: the current one stays in sight.
   connect(
       banner_, &MessageBanner::shown, view_, [this] { view_->scrollTo(view_->currentIndex()); }, Qt::QueuedConnection);
-  connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::refresh);
+  connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::editsChanged);
+  connect(view_, &MeasurementView::leftOut, this, &MeasurementSheet::sayLeftOut);
+  connect(question_, &QuestionBar::answered, this, [this](bool yes) {
+    view_->setFocus();
+    if (yes)
+      store();
+    else if (asked_.isValid())
+      view_->setCurrentIndex(asked_);
+  });
   connect(view_, &MeasurementView::replayRequested, this, &MeasurementSheet::replayRequested);
   connect(view_, &MeasurementView::voidRequested, this, &MeasurementSheet::askVoid);
   connect(view_, &MeasurementView::parametersRequested, this, &MeasurementSheet::parametersRequested);
@@ -186,6 +201,7 @@ void MeasurementSheet::fillStages(std::size_t shown) {
 
 void MeasurementSheet::showStage(std::size_t index) {
   finishEditing();
+  question_->withdraw();
   shown_ = index;
   stage_->setCurrentIndex(stages_.empty() ? -1 : static_cast<int>(index));
   model_.setTasks(stages_.empty() ? std::vector<MeasurementTask>() : stages_[index]);
@@ -199,6 +215,7 @@ void MeasurementSheet::showNewest() {
 void MeasurementSheet::setDraft(const MeasurementDraft& draft) {
   if (draft.empty()) return;
   model_.setDraft(draft);
+  saysEdit_ = true;
   banner_->showMessage(MessageBanner::Kind::information,
                        tr("What was entered here and not saved yet stands in the sheet again."));
 }
@@ -219,6 +236,7 @@ void MeasurementSheet::setWaiting(bool waiting) {
 }
 
 void MeasurementSheet::submissionFailed(const QString& message) {
+  saysEdit_ = false;
   model_.submissionFailed();
   banner_->showMessage(MessageBanner::Kind::error, message);
 }
@@ -279,16 +297,52 @@ void MeasurementSheet::refresh() {
                                               : tr("Measure every individual first, or mark it void"));
 }
 
+// A message about an edit, or a question, ends with the next edit, undo or redo.
+void MeasurementSheet::editsChanged() {
+  question_->withdraw();
+  if (saysEdit_) banner_->clear();
+  saysEdit_ = false;
+  refresh();
+}
+
 void MeasurementSheet::save() {
   finishEditing();
   if (const QModelIndex bad = model_.firstInvalid(); bad.isValid()) {
     view_->setCurrentIndex(bad);
+    saysRefused_ = true;
     banner_->showMessage(MessageBanner::Kind::error,
                          tr("Individual %1: %2")
                              .arg(bad.siblingAtColumn(MeasurementModel::individualColumn).data().toString(),
                                   model_.problem(bad.row(), bad.column())));
     return;
   }
+  if (!askBeforeSaving()) store();
+}
+
+bool MeasurementSheet::completesStage() const {
+  const auto& rows = model_.rows();
+  return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.isDone() || row.isEntered(); });
+}
+
+// True if a person has to answer first.
+bool MeasurementSheet::askBeforeSaving() {
+  const std::vector<MeasurementModel::DoubtfulCell> doubtful = model_.doubtful();
+  const bool isLast =
+      goesOnByItself_ && waiting_ && isNewest() && model_.hasUnsaved() && !model_.isComplete() && completesStage();
+  if (doubtful.empty() && !isLast) return false;
+  QStringList lines;
+  for (const auto& [cell, sentence] : doubtful)
+    lines << tr("Individual %1: %2")
+                 .arg(cell.siblingAtColumn(MeasurementModel::individualColumn).data().toString(), sentence);
+  if (isLast)
+    lines << tr("These are the last values of this stage: once they are saved, the run goes on with them by itself.");
+  asked_ = doubtful.empty() ? QModelIndex() : doubtful.front().cell;
+  question_->ask(lines.join('\n'), doubtful.empty() ? tr("Save and go on") : tr("They are right, save them"),
+                 tr("Look again"));
+  return true;
+}
+
+void MeasurementSheet::store() {
   const std::vector<MeasurementRecord> toVoid = model_.toVoid();
   if (!toVoid.empty() && !confirmVoid(toVoid)) return;
   std::map<Id, QString> notes;
@@ -299,14 +353,23 @@ void MeasurementSheet::save() {
     emit voidRequested(value.id, true, note.isEmpty() ? QString::fromStdString(value.note) : note);
   }
   if (records.empty() && toVoid.empty()) {
-    if (model_.hasUnsaved())
+    if (model_.hasUnsaved()) {
+      saysEdit_ = true;
       banner_->showMessage(MessageBanner::Kind::warning,
                            tr("A note is stored together with a value or void: enter one beside it"));
+    }
     return;
   }
   banner_->clear();
   if (!records.empty()) emit submitted(records);
   if (!model_.isComplete()) view_->goToNextOpen();
+}
+
+void MeasurementSheet::sayLeftOut(const QStringList& texts) {
+  saysEdit_ = true;
+  banner_->showMessage(MessageBanner::Kind::warning,
+                       tr("Not pasted, as there is no free cell for it: %1")
+                           .arg(texts.mid(0, 5).join(QStringLiteral("; ")) + (texts.size() > 5 ? "; …" : "")));
 }
 
 bool MeasurementSheet::confirmVoid(const std::vector<MeasurementRecord>& values) {

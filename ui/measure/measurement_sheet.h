@@ -15,6 +15,7 @@ namespace btr::ui {
 
 class MessageBanner;
 class MeasurementView;
+class QuestionBar;
 
 /// The page on which a person enters real fitness: the individuals of a stage in the drawn order, their repeats, notes
 /// and falls. It stores nothing: what is saved goes out by submitted() and comes back by setMeasurements().
@@ -26,6 +27,8 @@ class MeasurementSheet : public QWidget {
 
   void setUnit(const QString& unit);
   void setAllowed(const AllowedRange& allowed);
+  /// Whether the run goes on by itself once its last value is stored; the sheet then asks before it stores that one.
+  void setGoesOnByItself(bool goesOn) { goesOnByItself_ = goesOn; }
   /// The stand-in reality answers by itself; the sheet says so.
   void setStandIn(bool standIn);
   /// All tasks of a run, in the order in which its stages and iterations of L2 asked for them. One of these is shown at
@@ -50,7 +53,8 @@ class MeasurementSheet : public QWidget {
   QString progressText() const;
 
  public slots:
-  /// Submits everything that is entered and readable; otherwise says which cell is not and submits nothing.
+  /// Submits everything that is entered and readable; otherwise says which cell is not and submits nothing. Values that
+  /// are far from what is expected, and the last ones of a stage, are asked about first.
   void save();
 
  signals:
@@ -72,11 +76,17 @@ class MeasurementSheet : public QWidget {
   bool isNewest() const { return shown_ + 1 == stages_.size(); }
   void askVoid(const QModelIndex& cell);
   bool confirmVoid(const std::vector<MeasurementRecord>& values);
+  bool askBeforeSaving();
+  void store();
+  void sayLeftOut(const QStringList& texts);
+  void editsChanged();
+  bool completesStage() const;
   QAction* addKey(const QString& text, const char* icon, const QKeySequence& keys);
 
   MeasurementModel model_;
   MeasurementView* view_;
   MessageBanner* banner_;
+  QuestionBar* question_;
   std::vector<std::vector<MeasurementTask>> stages_;  ///< stages and iterations apart
   std::size_t shown_ = 0;
   QComboBox* stage_;
@@ -88,7 +98,10 @@ class MeasurementSheet : public QWidget {
   QPushButton *save_, *continue_;
   QAction *saveAction_ = nullptr, *undo_ = nullptr, *redo_ = nullptr;
   bool standIn_ = false, waiting_ = false;
+  bool goesOnByItself_ = false;
+  QModelIndex asked_;         ///< the first cell that the question is about
   bool saysRefused_ = false;  ///< the banner is about a value that is not allowed
+  bool saysEdit_ = false;     ///< the banner is about the edit that was made last
 };
 
 }  // namespace btr::ui

@@ -155,17 +155,25 @@ void MeasurementView::copySelection() const {
 void MeasurementView::paste() {
   const QModelIndex corner = currentIndex();
   if (!corner.isValid()) return;
+  const bool isNote = corner.column() == model_.noteColumn();
+  if (!isNote && !model_.isRepeat(corner.column())) return;
   std::vector<MeasurementModel::Text> texts;
+  QStringList leftOut;
   int row = corner.row();
   for (const QStringList& line : cellsOf(QApplication::clipboard()->text())) {
     // A block may be wider than the sheet: it adds repeats. Only the note column takes anything but repeats.
-    for (int i = 0; i < line.size(); ++i)
-      if (corner.column() == model_.noteColumn() ? i == 0 : corner.column() >= MeasurementModel::firstRepeat)
-        texts.push_back({row, corner.column() + i, line[i]});
+    for (int i = 0; i < line.size(); ++i) {
+      const int column = corner.column() + i;
+      const bool isStored = model_.savedAt(model_.index(row, column)) != nullptr;
+      if (row < model_.rowCount() && !isStored && (!isNote || i == 0))
+        texts.push_back({row, column, line[i]});
+      else if (!line[i].trimmed().isEmpty())
+        leftOut << line[i].trimmed();
+    }
     ++row;
   }
-  if (corner.column() != model_.noteColumn() && !model_.isRepeat(corner.column())) return;
   model_.write(texts, tr("paste"));
+  if (!leftOut.isEmpty()) emit this->leftOut(leftOut);
 }
 
 void MeasurementView::clearUnsaved() {

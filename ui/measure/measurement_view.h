@@ -24,6 +24,8 @@ class MeasurementView : public QTableView {
   std::vector<Id> selectedIndividuals() const;
 
  signals:
+  /// Pasted texts for which there was no free cell.
+  void leftOut(const QStringList& texts);
   void replayRequested(btr::Id individual);
   void voidRequested(const QModelIndex& savedCell);
   void parametersRequested(const std::vector<btr::Id>& individuals, bool asFile);

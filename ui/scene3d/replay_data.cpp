@@ -10,8 +10,13 @@ ReplayData toReplayData(const Replay& replay, std::vector<ReplayBall> balls, con
                         const QString& fitnessUnit) {
   ReplayData data;
   data.trace = replay.result.trace;
-  data.model = replay.model;
-  data.robotName = replay.robotName;
+  for (const Replay::Robot& robot : replay.robots) data.others.push_back({robot.name, robot.model, robot.start});
+  if (!data.others.empty()) {
+    data.robotName = data.others.front().name;
+    data.model = data.others.front().model;
+    data.fixedBase = data.others.front().fixedBase;
+    data.others.erase(data.others.begin());
+  }
   data.balls = std::move(balls);
   const std::size_t simulated = data.trace.rows();
   if (replay.result.outcome == TrialResult::Outcome::finished)
@@ -29,8 +34,7 @@ ReplayData toReplayData(const Replay& replay, std::vector<ReplayBall> balls, con
   return data;
 }
 
-ReplayFrames::ReplayFrames(const ReplayData& data)
-    : trace_(data.trace), model_(data.model), fixedBase_(data.fixedBase) {
+ReplayFrames::ReplayFrames(const ReplayData& data) : trace_(data.trace) {
   const int time = trace_.column("time_s");
   if (time < 0) throw InputError("trace of " + data.title.toStdString() + ": no column time_s");
   for (std::size_t row = 0; row < trace_.rows(); ++row) {
@@ -39,18 +43,36 @@ ReplayFrames::ReplayFrames(const ReplayData& data)
       throw InputError("trace of " + data.title.toStdString() + " row " + std::to_string(row + 1) + " time_s",
                        std::to_string(times_[row]), "times increase");
   }
-  base_ = find(trace_, data.robotName + ".base");
-  if (model_)
-    for (const Joint& joint : model_->joints) {
-      const bool slides = joint.type == Joint::Type::slide;
-      joints_.push_back(trace_.column(data.robotName + "." + joint.name + (slides ? ".position_m" : ".position_rad")));
-    }
+  first_ = columnsOf(trace_, {data.robotName, data.model, data.fixedBase});
+  for (const ReplayRobot& robot : data.others) {
+    others_.push_back(columnsOf(trace_, robot));
+    otherModels_.push_back(robot.model);
+  }
   for (const ReplayBall& ball : data.balls) {
     const PoseColumns columns = find(trace_, ball.name);
     if (columns.column[0] < 0) continue;
     balls_.push_back(columns);
     radii_.push_back(ball.radius_m);
   }
+}
+
+ReplayFrames::RobotColumns ReplayFrames::columnsOf(const Trace& trace, const ReplayRobot& robot) {
+  RobotColumns columns{robot.model, robot.fixedBase, find(trace, robot.name + ".base"), {}};
+  if (robot.model)
+    for (const Joint& joint : robot.model->joints) {
+      const bool slides = joint.type == Joint::Type::slide;
+      columns.joints.push_back(
+          trace.column(robot.name + "." + joint.name + (slides ? ".position_m" : ".position_rad")));
+    }
+  return columns;
+}
+
+std::vector<Eigen::Isometry3d> ReplayFrames::linksOf(std::size_t row, const RobotColumns& robot) const {
+  if (!robot.model) return {};
+  std::vector<double> positions;
+  for (int column : robot.joints)
+    positions.push_back(column < 0 ? 0 : trace_.at(row, static_cast<std::size_t>(column)));
+  return forwardKinematics(*robot.model, robot.base.column[0] < 0 ? robot.fixedBase : read(row, robot.base), positions);
 }
 
 ReplayFrames::PoseColumns ReplayFrames::find(const Trace& trace, const std::string& prefix) {
@@ -72,11 +94,8 @@ Eigen::Isometry3d ReplayFrames::read(std::size_t row, const PoseColumns& columns
 
 ScenePose ReplayFrames::pose(std::size_t frame) const {
   ScenePose result;
-  if (model_) {
-    std::vector<double> positions;
-    for (int column : joints_) positions.push_back(column < 0 ? 0 : trace_.at(frame, static_cast<std::size_t>(column)));
-    result.links = forwardKinematics(*model_, base_.column[0] < 0 ? fixedBase_ : read(frame, base_), positions);
-  }
+  result.links = linksOf(frame, first_);
+  for (const RobotColumns& robot : others_) result.others.push_back(linksOf(frame, robot));
   for (const PoseColumns& columns : balls_) result.balls.push_back(read(frame, columns));
   return result;
 }

@@ -12,6 +12,13 @@
 
 namespace btr::ui {
 
+/// A robot beside the first one.
+struct ReplayRobot {
+  std::string name;
+  std::shared_ptr<const RobotModel> model;
+  Eigen::Isometry3d fixedBase = Eigen::Isometry3d::Identity();
+};
+
 struct ReplayBall {
   std::string name = "ball";  ///< prefix of its channels
   double radius_m = 0.0425;
@@ -26,6 +33,7 @@ struct ReplayData {
   std::string robotName;                    ///< prefix of its channels
   /// Where the root link is when the trace has no base channels (a robot bolted to the ground).
   Eigen::Isometry3d fixedBase = Eigen::Isometry3d::Identity();
+  std::vector<ReplayRobot> others;  ///< further robots of the scene
   std::vector<ReplayBall> balls;
   Ground ground = Ground::field;
   QString title;         ///< "kick-short, run 1, individual 17"
@@ -34,9 +42,12 @@ struct ReplayData {
   Check check = Check::notChecked;
   double fitness = 0;
   double storedFitness = 0;
+  bool fitnessHidden = false;  ///< somebody measures it blind
   QString fitnessUnit;
   double rollsFrom_s = -1;  ///< from then on the ball rolls out by the closed form; −1: the trial shows all
   QString note;             ///< a failed trial's reason, or empty
+  /// Another trial that is shown beside this one, at the same time of its own; null: none.
+  std::shared_ptr<const ReplayData> beside;
 };
 
 /// What core/run says of a stored individual, with the words and sizes that it does not know.
@@ -55,6 +66,8 @@ class ReplayFrames {
   ScenePose pose(std::size_t frame) const;
   /// Radii of the balls that pose() gives, in its order.
   const std::vector<double>& ballRadii() const { return radii_; }
+  /// Models of the robots whose links pose() gives as `others`.
+  const std::vector<std::shared_ptr<const RobotModel>>& otherModels() const { return otherModels_; }
 
  private:
   /// Columns of x, y, z, qw, qx, qy, qz, or −1.
@@ -64,11 +77,20 @@ class ReplayFrames {
   static PoseColumns find(const Trace& trace, const std::string& prefix);
   Eigen::Isometry3d read(std::size_t row, const PoseColumns& columns) const;
 
+  /// One robot's columns.
+  struct RobotColumns {
+    std::shared_ptr<const RobotModel> model;
+    Eigen::Isometry3d fixedBase = Eigen::Isometry3d::Identity();
+    PoseColumns base{};
+    std::vector<int> joints;
+  };
+  static RobotColumns columnsOf(const Trace& trace, const ReplayRobot& robot);
+  std::vector<Eigen::Isometry3d> linksOf(std::size_t row, const RobotColumns& robot) const;
+
   Trace trace_;
-  std::shared_ptr<const RobotModel> model_;
-  Eigen::Isometry3d fixedBase_ = Eigen::Isometry3d::Identity();
-  PoseColumns base_{};
-  std::vector<int> joints_;
+  RobotColumns first_;
+  std::vector<RobotColumns> others_;
+  std::vector<std::shared_ptr<const RobotModel>> otherModels_;
   std::vector<PoseColumns> balls_;
   std::vector<double> radii_, times_;
 };

@@ -41,6 +41,7 @@ Badge checkBadge(const ReplayData& data) {
       return {ReplayPanel::tr("identical to the stored run"), Badge::Tone::good};
     case ReplayData::Check::differs: {
       const auto [stored, now] = distinct(data.storedFitness, data.fitness, data.fitnessUnit);
+      if (data.fitnessHidden) return {ReplayPanel::tr("differs from the stored run"), Badge::Tone::bad};
       if (data.storedFitness == data.fitness)
         return {ReplayPanel::tr("differs from the stored run: fitness %1 in both, motion differs").arg(stored),
                 Badge::Tone::bad};
@@ -67,7 +68,7 @@ const std::vector<double>& ReplayPanel::speeds() {
 }
 
 ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
-    : QWidget(parent), view_(new SceneView(this, std::move(factory))) {
+    : QWidget(parent), factory_(std::move(factory)), view_(new SceneView(this, factory_)) {
   result_ = new QLabel(this);
   result_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   result_->setFocusPolicy(Qt::NoFocus);
@@ -88,7 +89,9 @@ ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
   all->setContentsMargins(4, 4, 4, 4);
   all->setSpacing(4);
   all->addLayout(head);
-  all->addWidget(view_, 1);
+  views_ = new QHBoxLayout;
+  views_->addWidget(view_, 1);
+  all->addLayout(views_, 1);
   all->addLayout(makeTransport());
 
   timer_.setInterval(16);
@@ -153,6 +156,7 @@ QLayout* ReplayPanel::makeTransport() {
 void ReplayPanel::setReplay(const ReplayData& replay) {
   try {
     frames_ = ReplayFrames(replay);
+    besideFrames_ = replay.beside ? ReplayFrames(*replay.beside) : ReplayFrames();
   } catch (const InputError& error) {
     return showMessage(QString::fromUtf8(error.what()), Badge::Tone::bad);
   }
@@ -161,10 +165,14 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
   playback_.setTimes(frames_.times());
   view_->setGround(replay.ground);
   view_->setRobot(replay.model);
+  view_->setFurtherRobots(frames_.otherModels());
   view_->setBalls(frames_.ballRadii());
+  showBeside(replay.beside.get());
   QStringList result;
   if (!replay.title.isEmpty()) result << replay.title;
-  if (replay.check != ReplayData::Check::notChecked || replay.fitness != 0)
+  if (replay.fitnessHidden)
+    result << tr("fitness hidden");
+  else if (replay.check != ReplayData::Check::notChecked || replay.fitness != 0)
     result << tr("fitness %1").arg(withUnit(replay.fitness, replay.fitnessUnit));
   if (!replay.simulator.isEmpty()) result << replay.simulator;
   if (!replay.note.isEmpty()) result << replay.note;
@@ -174,6 +182,34 @@ void ReplayPanel::setReplay(const ReplayData& replay) {
   slider_->setRange(0, std::max(0, int(playback_.frames()) - 1));
   setPlaying(false);
   refresh();
+}
+
+// A second trial stands in a view of its own, seen from the same place.
+void ReplayPanel::showBeside(const ReplayData* other) {
+  if (!other) {
+    if (beside_) beside_->hide();
+    return;
+  }
+  if (!beside_) {
+    beside_ = new SceneView(this, factory_);
+    beside_->setObjectName("beside");
+    views_->addWidget(beside_, 1);
+    const auto link = [this](SceneView* from, SceneView* to) {
+      connect(from, &SceneView::cameraChanged, to, [from, to] {
+        const QSignalBlocker quiet(to);
+        to->setCamera(from->camera());
+      });
+    };
+    link(view_, beside_);
+    link(beside_, view_);
+  }
+  beside_->setGround(other->ground);
+  beside_->setRobot(other->model);
+  beside_->setFurtherRobots(besideFrames_.otherModels());
+  beside_->setBalls(besideFrames_.ballRadii());
+  beside_->setBadges(badgesOf(*other));
+  beside_->setCamera(view_->camera());
+  beside_->show();
 }
 
 void ReplayPanel::setGhosts(const std::vector<GhostReplay>& ghosts) {
@@ -189,7 +225,9 @@ void ReplayPanel::showMessage(const QString& text, Badge::Tone tone) {
   playback_.setTimes({});
   view_->setGhosts({});
   view_->setRobot(nullptr);
+  view_->setFurtherRobots({});
   view_->setBalls({});
+  showBeside(nullptr);
   view_->setCaption({});
   view_->setBadges({Badge{text, tone}});
   result_->clear();
@@ -200,7 +238,10 @@ void ReplayPanel::showMessage(const QString& text, Badge::Tone tone) {
 
 void ReplayPanel::attach(ReplayJob& job) {
   connect(&job, &ReplayJob::started, this, [this] { showMessage(tr("Running the trial again …")); });
-  connect(&job, &ReplayJob::finished, this, &ReplayPanel::setReplay);
+  connect(&job, &ReplayJob::finished, this, [this](const ReplayData& replay) {
+    setReplay(replay);
+    setPlaying(playback_.frames() > 0);  // what was asked for is seen moving
+  });
   connect(&job, &ReplayJob::failed, this, [this](const QString& reason) { showMessage(reason, Badge::Tone::bad); });
 }
 
@@ -256,6 +297,13 @@ void ReplayPanel::refresh() {
   }
   if (any) {
     view_->setPose(frames_.pose(playback_.frame()));
+    if (isBeside()) {
+      Playback at;
+      at.setTimes(besideFrames_.times());
+      at.showTime(playback_.timeOf(playback_.frame()));
+      beside_->setMoving(playing || slider_->isSliderDown());
+      beside_->setPose(besideFrames_.pose(at.frame()));
+    }
     std::vector<Ghost> shown;
     for (const auto& [frames, colour] : ghosts_) {
       Playback at;
@@ -282,6 +330,7 @@ void ReplayPanel::refreshCaption() {
   lines << tr("t = %1 s, %2×").arg(seconds(now), QLocale::c().toString(playback_.speed()));
   if (data_.rollsFrom_s >= 0 && now > data_.rollsFrom_s) lines << tr("the ball rolls out, by formula");
   view_->setCaption(lines);
+  if (isBeside()) beside_->setCaption({data_.beside->title, lines.value(1)});
 }
 
 void ReplayPanel::keyPressEvent(QKeyEvent* event) {

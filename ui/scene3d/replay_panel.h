@@ -9,6 +9,7 @@
 #include "ui/scene3d/scene_view.h"
 
 class QComboBox;
+class QHBoxLayout;
 class QLabel;
 class QSlider;
 class QToolButton;
@@ -46,6 +47,7 @@ class ReplayPanel : public QWidget {
   void attach(ReplayJob& job);
 
   SceneView& view() { return *view_; }
+  SceneView* besideView() { return beside_; }  ///< null until a pair was shown
   const Playback& playback() const { return playback_; }
   void setPlaying(bool playing);
   void setSpeed(double speed);  ///< one of speeds()
@@ -67,15 +69,20 @@ class ReplayPanel : public QWidget {
   QLayout* makeTransport();
   void refresh();
   void refreshCaption();
+  void showBeside(const ReplayData* other);
+  bool isBeside() const { return beside_ && data_.beside && besideFrames_.times().size() > 0; }
 
+  GlContextFactory factory_;
   SceneView* view_;
+  SceneView* beside_ = nullptr;  ///< made for the first pair
+  QHBoxLayout* views_;
   QToolButton *first_, *back_, *play_, *forward_, *loop_;
   QSlider* slider_;
   QComboBox* speed_;
   QLabel *time_, *result_;
   Playback playback_;
   ReplayData data_;
-  ReplayFrames frames_;
+  ReplayFrames frames_, besideFrames_;
   std::vector<std::pair<ReplayFrames, QColor>> ghosts_;
   QTimer timer_;
   QElapsedTimer since_;

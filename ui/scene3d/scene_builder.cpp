@@ -155,6 +155,8 @@ struct SceneBuilder::Impl {
   std::vector<Ghost> ghostPoses;
   std::vector<Figure> ghostFigures;
   std::unique_ptr<Figure> figure;
+  std::vector<std::shared_ptr<const RobotModel>> furtherModels;
+  std::vector<Figure> further;
   std::string jacket = "red";
   Ground groundKind = Ground::field;
   bool collisionShapes = false, dark = false;
@@ -164,17 +166,31 @@ struct SceneBuilder::Impl {
   void rebuildGround();
   void showOutlines() {
     for (auto& node : figure->outlines) node->setNodeMask(collisionShapes ? kCastsNoShadow : kHidden);
+    for (const Figure& other : further)
+      for (auto& node : other.outlines) node->setNodeMask(collisionShapes ? kCastsNoShadow : kHidden);
+  }
+  void place() {
+    figure->place(pose);
+    for (std::size_t i = 0; i < further.size(); ++i)
+      further[i].place({i < pose.others.size() ? pose.others[i] : std::vector<Eigen::Isometry3d>(), {}, {}});
+  }
+  void showJacket() {
+    figure->showJacket(jacket);
+    for (Figure& other : further) other.showJacket(jacket);
   }
 };
 
 void SceneBuilder::Impl::rebuildFigure() {
   pose = {};
   figure = std::make_unique<Figure>(model.get(), radii, nullptr);
-  figure->showJacket(jacket);
-  figure->place(pose);
+  further.clear();
+  for (const auto& other : furtherModels) further.emplace_back(other.get(), std::vector<double>(), nullptr);
+  showJacket();
+  place();
   showOutlines();
   body->removeChildren(0, body->getNumChildren());
   body->addChild(figure->group);
+  for (const Figure& other : further) body->addChild(other.group);
   ghostPoses.clear();
   rebuildGhosts();
 }
@@ -248,6 +264,11 @@ void SceneBuilder::setRobot(std::shared_ptr<const RobotModel> model) {
   impl_->rebuildFigure();
 }
 
+void SceneBuilder::setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models) {
+  impl_->furtherModels = std::move(models);
+  impl_->rebuildFigure();
+}
+
 void SceneBuilder::setBalls(std::vector<double> radii_m) {
   impl_->radii = std::move(radii_m);
   impl_->rebuildFigure();
@@ -255,7 +276,7 @@ void SceneBuilder::setBalls(std::vector<double> radii_m) {
 
 void SceneBuilder::setPose(const ScenePose& pose) {
   impl_->pose = pose;
-  impl_->figure->place(pose);
+  impl_->place();
 }
 
 void SceneBuilder::setGhosts(std::vector<Ghost> ghosts) {
@@ -275,7 +296,7 @@ void SceneBuilder::setGround(Ground ground) {
 
 void SceneBuilder::setJacket(const std::string& part) {
   impl_->jacket = part;
-  impl_->figure->showJacket(part);
+  impl_->showJacket();
   impl_->rebuildGhosts();
 }
 

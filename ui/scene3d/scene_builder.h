@@ -14,6 +14,7 @@ namespace btr::ui {
 struct ScenePose {
   std::vector<Eigen::Isometry3d> links;  ///< by link of the model; fewer than the model has: no robot is drawn
   std::vector<Eigen::Isometry3d> balls;
+  std::vector<std::vector<Eigen::Isometry3d>> others;  ///< links of the further robots
 };
 
 /// A second, translucent robot and its balls, to compare with the solid ones.
@@ -36,6 +37,8 @@ class SceneBuilder {
 
   /// Draws the model's drawn shapes; null takes the robot away. Poses are forgotten.
   void setRobot(std::shared_ptr<const RobotModel> model);
+  /// Robots beside the first one, whose poses are ScenePose::others.
+  void setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models);
   /// One ball a radius [m]. Poses are forgotten.
   void setBalls(std::vector<double> radii_m);
   void setPose(const ScenePose& pose);

@@ -75,6 +75,11 @@ void SceneView::setRobot(std::shared_ptr<const RobotModel> model) {
   redraw();
 }
 
+void SceneView::setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models) {
+  scene_.setFurtherRobots(std::move(models));
+  redraw();
+}
+
 void SceneView::setBalls(std::vector<double> radii_m) {
   scene_.setBalls(std::move(radii_m));
   redraw();

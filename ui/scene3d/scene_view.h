@@ -27,6 +27,7 @@ class SceneView : public QWidget {
   ~SceneView() override;
 
   void setRobot(std::shared_ptr<const RobotModel> model);
+  void setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models);
   void setBalls(std::vector<double> radii_m);
   void setPose(const ScenePose& pose);
   void setGhosts(std::vector<Ghost> ghosts);

@@ -207,8 +207,7 @@ std::string provenance(const GapReport& report) {
 
 std::string toHtml(const GapReport& report) {
   std::string html = head;
-  html +=
-      "<h1>" + escaped(headline(report.verdict)) + "</h1>\n<p class=\"verdict\">" + escaped(report.sentence) + "</p>\n";
+  html += "<h1>" + escaped(headline(report)) + "</h1>\n<p class=\"verdict\">" + escaped(report.sentence) + "</p>\n";
   html += "<section><h2>Error, step by step</h2>\n" +
           figure(plots::ladder(report),
                  "Cross-validated error after each step, down to what the recordings resolve; bars: "

@@ -63,4 +63,32 @@ const char* toText(GapReport::Verdict verdict) {
   return "not_excited";
 }
 
+std::optional<UnseenError> unseenError(const GapReport& report) {
+  UnseenError sum;
+  double channels = 0;
+  for (const GapReport::Channel& channel : report.channels) {
+    const double floor2 = channel.noiseFloor * channel.noiseFloor;
+    if (floor2 <= 0 || channel.heldoutAsGiven <= 0) continue;
+    sum.asGiven += channel.heldoutAsGiven * channel.heldoutAsGiven / floor2;
+    sum.calibrated += channel.heldoutCalibrated * channel.heldoutCalibrated / floor2;
+    sum.withEffects += channel.heldoutWithEffects * channel.heldoutWithEffects / floor2;
+    ++channels;
+  }
+  if (channels == 0) return std::nullopt;
+  return UnseenError{std::sqrt(sum.asGiven / channels), std::sqrt(sum.calibrated / channels),
+                     std::sqrt(sum.withEffects / channels)};
+}
+
+std::string unseenWarning(const GapReport& report) {
+  const auto unseen = unseenError(report);
+  if (!unseen || !unseen->gotWorse()) return "";
+  return "the recordings that were held out got worse: " + digits(unseen->asGiven) + " → " +
+         digits(unseen->withEffects) + " noise floors";
+}
+
+std::string headline(const GapReport& report) {
+  const std::string warning = unseenWarning(report);
+  return headline(report.verdict) + (warning.empty() ? "" : ", but " + warning);
+}
+
 }  // namespace btr

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "core/gap/search/gap_report.h"
@@ -18,6 +19,18 @@ std::string brief(const GapReport::Interval& interval);
 std::string intervalsOf(const GapReport::Number& number);
 /// What the verdict means, a few words.
 std::string headline(GapReport::Verdict verdict);
+/// Error of the recordings that no fit saw, root mean square over their channels in noise floors; nothing if none was
+/// held out. It got worse where the simulator to adopt is off by 5 % more than the one as given.
+struct UnseenError {
+  double asGiven = 0, calibrated = 0, withEffects = 0;
+  bool gotWorse() const { return withEffects > 1.05 * asGiven; }
+};
+std::optional<UnseenError> unseenError(const GapReport& report);
+/// "the recordings that were held out got worse: 259 → 278 noise floors"; "" if they did not.
+std::string unseenWarning(const GapReport& report);
+/// What the verdict means, and what speaks against it: a success on paper whose held-out recordings got worse is none.
+std::string headline(const GapReport& report);
+
 /// False where the simulator as given agrees with the recordings, or they cannot tell.
 bool leavesSomethingToAdopt(GapReport::Verdict verdict);
 const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters_suffice", …

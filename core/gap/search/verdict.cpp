@@ -224,24 +224,17 @@ std::string colourText(const Findings& e) {
 /// recordings cannot: a number or an effect that fits, and misleads.
 std::string unseenText(const GapReport& report, bool named) {
   constexpr double worse = 1.05;
-  double given = 0, calibrated = 0, final = 0, channels = 0;
-  for (const GapReport::Channel& channel : report.channels) {
-    const double floor2 = channel.noiseFloor * channel.noiseFloor;
-    if (floor2 <= 0 || channel.heldoutAsGiven <= 0) continue;
-    given += channel.heldoutAsGiven * channel.heldoutAsGiven / floor2;
-    calibrated += channel.heldoutCalibrated * channel.heldoutCalibrated / floor2;
-    final += channel.heldoutWithEffects * channel.heldoutWithEffects / floor2;
-    ++channels;
-  }
-  if (channels == 0) return "";  // none was held out
-  std::string text = "Recordings that no fit saw are left by " + inFloors(given / channels) + " as given, " +
-                     digits(std::sqrt(calibrated / channels)) + " calibrated";
-  if (named) text += ", " + digits(std::sqrt(final / channels)) + " with what was found";
+  const auto unseen = unseenError(report);
+  if (!unseen) return "";  // none was held out
+  std::string text = "Recordings that no fit saw are left by " + inFloors(unseen->asGiven * unseen->asGiven) +
+                     " as given, " + digits(unseen->calibrated) + " calibrated";
+  if (named) text += ", " + digits(unseen->withEffects) + " with what was found";
   text += ". ";
-  const bool misleads = named ? final > worse * worse * calibrated : calibrated > worse * worse * given;
+  const bool byEffects = named && unseen->withEffects > worse * unseen->calibrated;
+  const bool misleads = byEffects || unseen->gotWorse() || (!named && unseen->calibrated > worse * unseen->asGiven);
   if (misleads)
-    text += std::string(named ? "There it does worse than calibration alone: it"
-                              : "There the numbers as given do better: what was calibrated") +
+    text += std::string(byEffects ? "There it does worse than calibration alone: it"
+                                  : "There the numbers as given do better: what was calibrated") +
             " does not hold for motions like those; record and fit some of them before it is adopted. ";
   return text;
 }

@@ -1,4 +1,4 @@
-#include "ui/measure/number_entry.h"
+#include "ui/common/number_entry.h"
 
 #include <QCoreApplication>
 

@@ -5,7 +5,9 @@
 
 #include "app/btr_commands.h"
 #include "core/gap/report/report_figures.h"
+#include "core/gap/report/report_files.h"
 #include "core/run/adoption.h"
+#include "core/gap/search/report_words.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"

@@ -14,7 +14,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "core/gap/search/screen.h"
 #include "core/spec/error.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"

@@ -3,7 +3,6 @@
 #include <QScreen>
 #include <algorithm>
 
-#include "core/gap/search/screen.h"
 #include "ui/charts/compare_page.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/main_window.h"

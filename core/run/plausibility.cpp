@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/gap/report/report_figures.h"
+#include "core/spec/figures.h"
 
 namespace btr {
 namespace {

@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/gap/fit/gap_problem.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
 #include "core/gap/search/refused_jobs.h"
 #include "core/sim/effect.h"
 #include "core/spec/error.h"

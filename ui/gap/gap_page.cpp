@@ -12,14 +12,13 @@
 #include <QVBoxLayout>
 
 #include "core/gap/replay/number_table.h"
+#include "core/gap/report/report_figures.h"
 #include "core/gap/report/report_files.h"
 #include "core/gap/report/report_html.h"
 #include "core/gap/report/report_json.h"
 #include "core/gap/report/report_text.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
-#include "core/gap/report/report_figures.h"
-#include "core/gap/report/report_text.h"
 #include "core/run/adoption.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"

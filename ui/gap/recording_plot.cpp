@@ -7,6 +7,8 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
 #include "core/spec/error.h"
 #include "ui/charts/plot_widget.h"

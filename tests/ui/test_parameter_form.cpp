@@ -273,7 +273,8 @@ class TestParameterForm : public QObject {
       const int before = area.verticalScrollBar()->value();
       const QPointF at = field->rect().center();
       QWheelEvent wheel(at, field->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
-      QApplication::sendEvent(field, &wheel);
+      QSpontaneKeyEvent::setSpontaneous(&wheel);  // as from the mouse: only such events go on to the parents
+      qApp->notify(field, &wheel);
       QVERIFY(area.verticalScrollBar()->value() > before);
     }
     QCOMPARE(learner.choice().name, std::string("ga"));

@@ -24,7 +24,7 @@ QTableWidget* makeTable(const QString& name, const QStringList& headers, QWidget
   return table;
 }
 
-QTableWidgetItem* put(QTableWidget& table, int row, int column, const QString& text, bool bold = false) {
+QTableWidgetItem* putCell(QTableWidget& table, int row, int column, const QString& text, bool bold = false) {
   auto* item = new QTableWidgetItem(text);
   if (column > 0) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
   QFont font = item->font();
@@ -139,9 +139,9 @@ void SimulatorsPage::showVersions() {
     const SimulatorRecord* parent = byId(simulator.parent);
     const QString lineage =
         parent ? tr("%1  ← %2").arg(simulator.number).arg(parent->number) : QString::number(simulator.number);
-    put(*versions_, row, 0, lineage)->setToolTip(tr("Made %1").arg(QString::fromStdString(simulator.createdAt)));
-    put(*versions_, row, 1, QString::fromStdString(simulator.madeBy));
-    put(*versions_, row, 2, simulator.rig != 0 ? QString() : QString::number(simulator.madeAfterGeneration));
+    putCell(*versions_, row, 0, lineage)->setToolTip(tr("Made %1").arg(QString::fromStdString(simulator.createdAt)));
+    putCell(*versions_, row, 1, QString::fromStdString(simulator.madeBy));
+    putCell(*versions_, row, 2, simulator.rig != 0 ? QString() : QString::number(simulator.madeAfterGeneration));
     QString before, after;
     bool better = false;
     for (const GapRecord& gap : gaps_)
@@ -150,8 +150,8 @@ void SimulatorsPage::showVersions() {
         after = withUnit(gap.after, unit_);
         better = gap.after < gap.before;
       }
-    put(*versions_, row, 3, before);
-    put(*versions_, row, 4, after, better);
+    putCell(*versions_, row, 3, before);
+    putCell(*versions_, row, 4, after, better);
   }
 }
 
@@ -190,9 +190,9 @@ void SimulatorsPage::showDifference() {
     const bool differs = isNew || isGone || before->second != now->second;
     const QString given = tr("as given");
     changed += differs;
-    put(*difference_, row, 0, label, differs)->setToolTip(QString::fromStdString(name));
-    put(*difference_, row, 1, !parent ? QString() : isNew ? given : shortNumber(before->second));
-    QTableWidgetItem* value = put(*difference_, row, 2, isGone ? given : shortNumber(now->second), differs);
+    putCell(*difference_, row, 0, label, differs)->setToolTip(QString::fromStdString(name));
+    putCell(*difference_, row, 1, !parent ? QString() : isNew ? given : shortNumber(before->second));
+    QTableWidgetItem* value = putCell(*difference_, row, 2, isGone ? given : shortNumber(now->second), differs);
     if (!isGone) value->setToolTip(QString::fromStdString(btr::toText(now->second)));
     QString change;
     if (differs && !isNew && !isGone && before->second != 0)
@@ -201,7 +201,7 @@ void SimulatorsPage::showDifference() {
                    .arg(std::abs(now->second / before->second - 1) * 100, 0, 'f', 1);
     else if (differs)
       change = isGone ? tr("taken back") : tr("new");
-    put(*difference_, row, 3, change);
+    putCell(*difference_, row, 3, change);
   }
   title_->setText(
       parent

@@ -11,6 +11,8 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "core/spec/process.h"
+#include "ui/controllers/grid_controller.h"
+#include "ui/controllers/replay_controller.h"
 #include "ui/main_window.h"
 
 namespace {
@@ -63,14 +65,20 @@ int main(int argc, char** argv) {
     btr::ui::Theme theme(application);
     const auto host = std::make_shared<const btr::PluginHost>(btr::PluginHost::searchPath());
     btr::ui::MainWindow window(host, theme);
+    const QString database = chooseDatabase(arguments, window.bench().settings());
+    if (!arguments.screenshot.empty() && !QFileInfo::exists(database))
+      throw btr::InputError(database.toStdString() + ": there is no such database");
     if (!arguments.look.empty()) theme.apply(btr::ui::lookFromText(QString::fromStdString(arguments.look)));
     if (!arguments.screenshot.empty()) window.resize(arguments.width, arguments.height);
     window.show();
-    window.openDatabase(chooseDatabase(arguments, window.settings()));
+    // Only a name that the user has typed is asked about.
+    if (!arguments.database.empty() || QFileInfo::exists(database)) window.openDatabase(database);
+    const bool asked = arguments.run || arguments.grid || arguments.replayBest || !arguments.report.empty();
+    if (!asked && arguments.screenshot.empty()) window.showStartIfIdle();
     if (arguments.run) window.selectRun(arguments.run);
     if (!arguments.report.empty()) window.openReport(QString::fromStdString(arguments.report));
-    if (arguments.grid) window.showGrid(arguments.grid);
-    if (arguments.replayBest) window.replayBest();
+    if (arguments.grid) window.grids().show(arguments.grid);
+    if (arguments.replayBest) window.replays().replayBest();
 
     int result = 0;
     if (!arguments.screenshot.empty())

@@ -1,33 +1,48 @@
 #include "ui/main_window.h"
 
-#include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMessageBox>
+#include <QProcess>
 #include <QScreen>
 #include <QStatusBar>
 #include <QTableView>
 #include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
-#include <algorithm>
 
-#include "core/spec/error.h"
+#include "ui/charts/compare_page.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/common/message_banner.h"
+#include "ui/controllers/compare_controller.h"
+#include "ui/controllers/draft_controller.h"
+#include "ui/controllers/grid_controller.h"
+#include "ui/controllers/measure_controller.h"
+#include "ui/controllers/replay_controller.h"
+#include "ui/controllers/rig_controller.h"
+#include "ui/controllers/run_controller.h"
+#include "ui/controllers/run_views.h"
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_panel.h"
 #include "ui/experiment/simulators_page.h"
+#include "ui/gap/analysis_setup.h"
+#include "ui/gap/gap_page.h"
+#include "ui/grid/grid_page.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/policy_page.h"
-#include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
+#include "ui/window/file_drops.h"
+#include "ui/window/start_page.h"
+#include "ui/window/window_menus.h"
+#include "ui/window/window_pages.h"
 
 namespace btr::ui {
 namespace {
@@ -63,126 +78,266 @@ class AlarmPlace final : public QWidget {
 }  // namespace
 
 MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, const WindowOptions& options)
-    : host_(std::move(host)),
-      theme_(theme),
-      options_(options),
-      layout_(*this),
-      settings_(options.settingsFile),
-      launcher_(host_, options.program),
-      // A process of ours counts from its start on: until it holds the run's lock nobody else can tell.
-      watcher_([this](const std::string& database, Id run) {
-        return launcher_.isAlive(run) || options_.isActive(database, run);
-      }) {
+    : theme_(theme), layout_(*this), bench_(std::move(host), options, *this), pages_(std::make_unique<WindowPages>()) {
   setObjectName("mainWindow");
-  theme_.apply(settings_.look());
+  theme_.apply(bench_.settings().look());
+  pages_->alarm = new Alarm(this, options.settingsFile);
   makeDocks();
-  makeMenus();
-  connectRuns();
-  connectShow();
-  connectMeasure();
-  connectGap();
-  connectCompare();
-  connectGrid();
-  connectMerge();
+  makeMessages();
+  makeControllers();
+  connectTree();
+  connectStart();
+  connectDrops();
+  makeWindowMenus({*this, theme_, bench_, layout_, *pages_, *drafts_, *runs_, *replays_},
+                  {new AlarmPlace(*pages_->alarm, this), messages_, [this] { resetLayout(); }});
   restoreWindow();
-  restoreDraft();
-  for (const std::string& problem : host_->problems())
-    report(tr("A plugin was left out: %1").arg(QString::fromStdString(problem)));
+  drafts_->restore();
+  for (const std::string& problem : bench_.host()->problems())
+    bench_.report(tr("A plugin was left out: %1").arg(QString::fromStdString(problem)));
   showTitle();
 }
 
 MainWindow::~MainWindow() = default;
 
-bool MainWindow::openDatabase(const QString& path) {
-  const QString absolute = QFileInfo(path).absoluteFilePath();
-  sheet_->finishEditing();
-  const bool opened = guard([&] {
-    // Made or brought up to date first: the watcher only reads. A file that may only be read is opened so.
-    std::optional<Database> writer;
-    if (!QFileInfo::exists(absolute) || QFileInfo(absolute).isWritable())
-      writer = Database::open(absolute.toStdString(), Database::Mode::create);
-    watcher_.open(absolute);
-    writer_ = std::move(writer);
-  });
-  if (!opened) return false;
-  // Numbers of runs begin anew in each database.
-  sheet_->setTasks({});
-  banner_->clear();
-  launched_.clear();
-  settings_.addRecentDatabase(absolute);
-  fillRecent();
-  showTitle();
+ExperimentForm& MainWindow::draft() { return *pages_->draft; }
+GapPage& MainWindow::gapPage() { return *pages_->gapPage; }
+GridPage& MainWindow::gridPage() { return *pages_->gridPage; }
+ComparePage& MainWindow::comparePage() { return *pages_->comparePage; }
 
-  // The run that was looked at last, else the newest.
-  const std::vector<RunRecord>& runs = watcher_.runs();
-  Id wanted = settings_.selectedRun(absolute);
-  const bool known = std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.id == wanted; });
-  selectRun(known ? wanted : runs.empty() ? 0 : runs.back().id);
-  return true;
-}
+bool MainWindow::openDatabase(const QString& path, Workbench::Absent absent) { return bench_.open(path, absent); }
 
 void MainWindow::makeDocks() {
-  const ExperimentOffers offers = offersOf(*host_);
-  tree_ = new ExperimentTree(this);
-  panel_ = new RunPanel(this);
-  fitness_ = new FitnessChart(this);
-  gap_ = new GapChart(this);
-  versions_ = new SimulatorsPage(this);
-  individuals_ = new IndividualsTable(this);
-  individuals_->view().sortByColumn(IndividualsModel::fitness, Qt::DescendingOrder);
-  sheet_ = new MeasurementSheet(this);
-  policies_ = new PolicyPage(this);
-  replay_ = new ReplayPanel(this);
-  replayJob_ = new ReplayJob(this);
-  replay_->attach(*replayJob_);
-  draft_ = new ExperimentForm(offers, this);
-  spec_ = new ExperimentForm(offers, this);
-  draft_->setObjectName("draft");
-  spec_->setObjectName("spec");
-  spec_->setReadOnly(tr("A stored run never changes."));
-  layout_.add("tree", tr("Experiments"), "view-list-tree", tree_);
-  layout_.add("run", tr("Run"), "media-playback-start", panel_);
-  layout_.add("fitness", tr("Fitness"), "office-chart-line", fitness_);
-  layout_.add("gap", tr("Reality gap"), "office-chart-scatter", gap_);
-  layout_.add("simulators", tr("Simulators"), "cpu", versions_);
-  layout_.add("individuals", tr("Individuals"), "view-list-details", individuals_);
-  layout_.add("sheet", tr("Measurement sheet"), "document-edit", sheet_);
-  layout_.add("policies", tr("Learning in reality"), "view-statistics", policies_);
-  layout_.add("replay", tr("Replay"), "media-playback-playing", replay_);
-  layout_.add("draft", tr("New experiment"), "document-new", draft_);
-  makeGapPage();
-  makeComparePage();
-  makeGridPage();
-  layout_.add("spec", tr("Settings of the run"), "document-properties", spec_);
+  const ExperimentOffers offers = offersOf(*bench_.host());
+  const QString program = bench_.launcher().program();
+  WindowPages& p = *pages_;
+  const auto dock = [this](const QString& name, const QString& title, const QString& icon, auto*& page, auto* made) {
+    page = made;
+    layout_.add(name, title, icon, made);
+  };
+  dock("tree", tr("Experiments"), "view-list-tree", p.tree, new ExperimentTree(this));
+  dock("run", tr("Run"), "media-playback-start", p.panel, new RunPanel(this));
+  dock("fitness", tr("Fitness"), "office-chart-line", p.fitness, new FitnessChart(this));
+  dock("gap", tr("Reality gap"), "office-chart-scatter", p.gap, new GapChart(this));
+  dock("simulators", tr("Simulators"), "cpu", p.versions, new SimulatorsPage(this));
+  dock("individuals", tr("Individuals"), "view-list-details", p.individuals, new IndividualsTable(this));
+  p.individuals->view().sortByColumn(IndividualsModel::fitness, Qt::DescendingOrder);
+  dock("sheet", tr("Measurement sheet"), "document-edit", p.sheet, new MeasurementSheet(this));
+  dock("policies", tr("Learning in reality"), "view-statistics", p.policies, new PolicyPage(this));
+  dock("replay", tr("Replay"), "media-playback-playing", p.replay, new ReplayPanel(this));
+  dock("draft", tr("New experiment"), "document-new", p.draft, new ExperimentForm(offers, this));
+  p.draft->setObjectName("draft");
+  p.gapPage = new GapPage(program, this);
+  layout_.addPage("analysis", tr("Gap analysis"), "office-chart-area", p.gapPage, {"tree", "replay"});
+  dock("compare", tr("Compare runs"), "office-chart-line", p.comparePage, new ComparePage(this));
+  p.gridPage = new GridPage(program, this);
+  layout_.addPage("grid", tr("The whole kick"), "view-grid", p.gridPage, {"tree", "replay"});
+  dock("spec", tr("Settings of the run"), "document-properties", p.spec, new ExperimentForm(offers, this));
+  p.spec->setObjectName("spec");
+  p.spec->setReadOnly(tr("A stored run never changes."));
+  p.start = new StartPage(this);
+  layout_.addPage("start", tr("Start"), "go-home", p.start, {"tree"});
+  // Tab leads out of a table; cells that are typed into are moved through by Tab and left by Ctrl+Tab.
+  for (QTableView* table : findChildren<QTableView*>())
+    if (table->editTriggers() == QAbstractItemView::NoEditTriggers) table->setTabKeyNavigation(false);
+}
 
-  // Messages stand above everything, in a tool bar of their own that is there only while there is one; the alarm has
-  // its place beside the tools.
+// Messages stand above everything, in a tool bar of their own that is there only while there is one.
+void MainWindow::makeMessages() {
   banner_ = new MessageBanner(this);
-  auto* messages = new QToolBar(tr("Messages"), this);
-  messages->setObjectName("toolbar.messages");
-  messages->setMovable(false);
-  messages->toggleViewAction()->setVisible(false);
-  alarm_ = new Alarm(this, options_.settingsFile);
-  alarmPlace_ = new AlarmPlace(*alarm_, this);
-  auto* stack = new MessageArea(messages);
+  messages_ = new QToolBar(tr("Messages"), this);
+  messages_->setObjectName("toolbar.messages");
+  messages_->setMovable(false);
+  messages_->toggleViewAction()->setVisible(false);
+  auto* stack = new MessageArea(messages_);
   auto* column = new QVBoxLayout(stack);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   column->addWidget(banner_);
   stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
-  messages->addWidget(stack);
-  addToolBar(Qt::TopToolBarArea, messages);
-  const auto showIfAny = [this, messages] { messages->setVisible(!banner_->text().isEmpty()); };
+  messages_->addWidget(stack);
+  addToolBar(Qt::TopToolBarArea, messages_);
+  const auto showIfAny = [this] { messages_->setVisible(!banner_->text().isEmpty()); };
   showIfAny();
-  connect(banner_, &MessageBanner::shown, messages, showIfAny);
-  connect(banner_, &MessageBanner::cleared, messages, showIfAny);
+  connect(banner_, &MessageBanner::shown, messages_, showIfAny);
+  connect(banner_, &MessageBanner::cleared, messages_, showIfAny);
+  connect(&bench_, &Workbench::reported, banner_,
+          [this](const QString& error) { banner_->showMessage(MessageBanner::Kind::error, error); });
+  connect(&bench_, &Workbench::noted, banner_,
+          [this](const QString& text) { banner_->showMessage(MessageBanner::Kind::information, text); });
+  connect(&bench_, &Workbench::messagesOver, banner_, &MessageBanner::clear);
+  connect(&bench_, &Workbench::informed, this, [this](const QString& text) { statusBar()->showMessage(text, 8000); });
 
   databaseLabel_ = new QLabel(this);
+  databaseLabel_->setObjectName("database");
   activeLabel_ = new QLabel(this);
   databaseLabel_->setContentsMargins(6, 0, 6, 0);
   activeLabel_->setContentsMargins(6, 0, 6, 0);
   statusBar()->addPermanentWidget(activeLabel_);
   statusBar()->addPermanentWidget(databaseLabel_);
+  connect(&bench_, &Workbench::databaseOpened, this, [this] {
+    banner_->clear();
+    showTitle();
+    if (bench_.isReadOnly())
+      bench_.note(tr("%1 may only be read: it can be looked at, and nothing can be started or entered.")
+                      .arg(QFileInfo(bench_.path()).fileName()));
+  });
+  connect(&bench_.watcher(), &DatabaseWatcher::activeChanged, this, [this](const std::set<Id>& active) {
+    activeLabel_->setText(active.empty()       ? QString()
+                          : active.size() == 1 ? tr("1 run is working")
+                                               : tr("%1 runs are working").arg(active.size()));
+  });
+}
+
+void MainWindow::makeControllers() {
+  WindowPages& p = *pages_;
+  runs_ = new RunController(bench_);
+  drafts_ = new DraftController(bench_, *p.draft, *p.spec);
+  views_ = new RunViews(bench_, {*p.spec, *p.panel, *p.fitness, *p.gap, *p.versions, *p.individuals});
+  measuring_ = new MeasureController(bench_, *runs_, {*p.sheet, *p.policies, *p.alarm, *p.individuals});
+  replays_ = new ReplayController(bench_, *p.replay, *p.individuals, *p.gapPage);
+  grids_ = new GridController(bench_, *runs_, *p.gridPage);
+  rigs_ = new RigController(bench_, *p.gapPage, *p.tree, *p.versions);
+  comparing_ = new CompareController(bench_, *p.comparePage);
+
+  runs_->setJobs(bench_.settings().jobs());
+  p.panel->setJobs(runs_->jobs());
+  connect(p.panel, &RunPanel::jobsChanged, this, [this](int jobs) {
+    runs_->setJobs(jobs);
+    bench_.settings().setJobs(jobs);
+  });
+  connect(p.panel, &RunPanel::continueRequested, runs_, &RunController::resume);
+  connect(p.panel, &RunPanel::stopRequested, runs_, &RunController::stop);
+  connect(measuring_, &MeasureController::measuringChanged, p.panel, &RunPanel::setMeasuring);
+  connect(measuring_, &MeasureController::blindChanged, p.panel, &RunPanel::setBlind);
+  connect(measuring_, &MeasureController::measured, p.fitness, &FitnessChart::setMeasurements);
+  connect(grids_, &GridController::kickWanted, replays_, &ReplayController::playKick);
+  connect(&bench_, &Workbench::dockWanted, this, &MainWindow::raise);
+  // Who is on a page stays there; the alarm rings, and the sheet is in front when the page is left.
+  connect(measuring_, &MeasureController::sheetWanted, this, [this] {
+    if (layout_.page().isEmpty()) layout_.raise("sheet");
+  });
+  connect(&layout_, &DockLayout::pageChanged, this, [this](const QString& page) {
+    if (page == "grid") grids_->read();
+    if (page.isEmpty() && measuring_->isSheetWanted()) layout_.raise("sheet");
+  });
+}
+
+void MainWindow::connectTree() {
+  ExperimentTree* tree = pages_->tree;
+  DatabaseWatcher& watcher = bench_.watcher();
+  connect(&watcher, &DatabaseWatcher::runsChanged, this,
+          [this, tree](const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs) {
+            tree->setContent(experiments, runs, grids_->groups());
+            pages_->start->setRuns(experiments, runs);
+          });
+  connect(&watcher, &DatabaseWatcher::versionsChanged, tree, &ExperimentTree::setSimulators);
+  connect(&watcher, &DatabaseWatcher::simulatorsChanged, tree, &ExperimentTree::setSimulators);
+  connect(&watcher, &DatabaseWatcher::activeChanged, tree, &ExperimentTree::setActive);
+  connect(&watcher, &DatabaseWatcher::runChanged, tree, [tree](const RunRecord& run) { tree->selectRun(run.id); });
+  connect(tree, &ExperimentTree::runSelected, &bench_, &Workbench::selectRun);
+  connect(tree, &ExperimentTree::specRequested, this, [this](Id run) {
+    bench_.selectRun(run);
+    layout_.raise("spec");
+  });
+  connect(tree, &ExperimentTree::simulatorSelected, this, [this](Id, Id simulator) {
+    pages_->versions->select(simulator);
+    layout_.raise("simulators");
+  });
+  connect(tree, &ExperimentTree::gridRequested, grids_, &GridController::show);
+  connect(tree, &ExperimentTree::compareRequested, this, &MainWindow::compareRuns);
+  connect(tree, &ExperimentTree::continueRequested, runs_, &RunController::resume);
+  connect(tree, &ExperimentTree::stopRequested, runs_, &RunController::stop);
+  connect(tree, &ExperimentTree::duplicateRequested, runs_, &RunController::duplicate);
+  connect(tree, &ExperimentTree::runNoteRequested, runs_, &RunController::editRunNote);
+  connect(tree, &ExperimentTree::experimentNoteRequested, runs_, &RunController::editExperimentNote);
+  connect(tree, &ExperimentTree::renameRequested, runs_, &RunController::renameExperiment);
+  connect(tree, &ExperimentTree::exportRequested, runs_, &RunController::exportTable);
+  connect(tree, &ExperimentTree::archivedChanged, this, [this](const std::set<Id>& experiments) {
+    bench_.settings().setArchived(bench_.path(), {experiments.begin(), experiments.end()});
+  });
+  connect(&bench_, &Workbench::databaseOpened, tree, [this, tree] {
+    const auto archived = bench_.settings().archived(bench_.path());
+    tree->setArchived({archived.begin(), archived.end()});
+  });
+}
+
+void MainWindow::connectStart() {
+  StartPage* start = pages_->start;
+  start->setShownAtStart(bench_.settings().flag("startPage", true));
+  connect(start, &StartPage::shownAtStartChanged, this,
+          [this](bool shown) { bench_.settings().setFlag("startPage", shown); });
+  connect(start, &StartPage::runWanted, this, [this](Id run) {
+    bench_.selectRun(run);
+    layout_.raise("fitness");
+  });
+  connect(start, &StartPage::databaseWanted, this, [this](const QString& file) {
+    const QString path = file.isEmpty() ? QFileDialog::getOpenFileName(this, tr("Open a database"), bench_.path(),
+                                                                       tr("Experiment databases (*.db);;All files (*)"))
+                                        : file;
+    if (!path.isEmpty() && openDatabase(path)) showPage({});
+  });
+  connect(start, &StartPage::newWanted, drafts_, &DraftController::begin);
+  connect(start, &StartPage::exampleWanted, drafts_, &DraftController::open);
+  connect(start, &StartPage::analysisWanted, this, [this] { showPage("analysis"); });
+  connect(start, &StartPage::reportWanted, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of a gap report"));
+    if (!folder.isEmpty()) openReport(folder);
+  });
+}
+
+void MainWindow::connectDrops() {
+  auto* drops = new FileDrops(*this);
+  connect(drops, &FileDrops::databaseGiven, this, [this](const QString& file) { openDatabase(file); });
+  connect(drops, &FileDrops::experimentGiven, drafts_, &DraftController::open);
+  // Of the page that is open: an analysis, or else the experiment in the form.
+  connect(drops, &FileDrops::sceneGiven, this, [this](const QString& file) {
+    if (layout_.page() == "analysis") return gapPage().setup().setScene(file);
+    draft().chooseScene(file);
+    raise("draft");
+  });
+  connect(drops, &FileDrops::recordingsGiven, this, [this](const QStringList& files) {
+    showPage("analysis");
+    gapPage().setup().addRecordings(files);
+  });
+  connect(drops, &FileDrops::reportGiven, this, &MainWindow::openReport);
+  connect(drops, &FileDrops::refused, &bench_, &Workbench::report);
+  connect(drops, &FileDrops::robotGiven, &bench_.launcher(), &RunLauncher::checkModel);
+  connect(&bench_.launcher(), &RunLauncher::modelChecked, this, [this](const QString& file, const QString& text) {
+    auto* box = new QMessageBox(QMessageBox::Information, tr("Robot model"),
+                                tr("%1 is a robot model. A scene names it under “robots”.").arg(file),
+                                QMessageBox::Close, this);
+    box->setObjectName("robotModel");
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setDetailedText(text);
+    box->open();
+  });
+}
+
+// A wide page: it stands in a window of its own size until the user docks it.
+void MainWindow::compareRuns(const std::vector<Id>& runs) { comparing_->compare(runs); }
+
+void MainWindow::raise(const QString& dock) {
+  if (layout_.isPage(layout_.dock(dock))) return layout_.showPage(dock);
+  if (dock == "compare" && !layout_.dock(dock)->isFloating()) {
+    layout_.dock(dock)->setFloating(true);
+    layout_.dock(dock)->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
+  }
+  layout_.raise(dock);
+}
+
+void MainWindow::showPage(const QString& page) {
+  layout_.showPage(page);
+  if (page == "analysis") gapPage().setFocus();
+}
+
+void MainWindow::showStartIfIdle() {
+  if (bench_.settings().flag("startPage", true) && !StartPage::isSomethingOpen(bench_.watcher().runs()))
+    showPage("start");
+}
+
+bool MainWindow::openReport(const QString& folder) {
+  showPage("analysis");
+  return gapPage().openReport(folder);
 }
 
 /// The screen less what a window manager's frame and title take.
@@ -215,9 +370,9 @@ void MainWindow::keepOnScreen() {
 
 void MainWindow::restoreWindow() {
   resize(defaultSize());
-  if (const QByteArray geometry = settings_.geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
+  if (const QByteArray geometry = bench_.settings().geometry(); !geometry.isEmpty()) restoreGeometry(geometry);
   layout_.arrange();
-  if (const QByteArray layout = settings_.layout(); !layout.isEmpty()) layout_.restore(layout);
+  if (const QByteArray layout = bench_.settings().layout(); !layout.isEmpty()) layout_.restore(layout);
 }
 
 // Widgets behind a tab count as visible to Qt, which would give them the focus: the keys would go where nobody looks.
@@ -241,36 +396,21 @@ bool MainWindow::focusNextPrevChild(bool next) {
   return false;
 }
 
-void MainWindow::report(const QString& error) { banner_->showMessage(MessageBanner::Kind::error, error); }
-void MainWindow::inform(const QString& text) { statusBar()->showMessage(text, 8000); }
-
-bool MainWindow::guard(const std::function<void()>& action) {
-  try {
-    action();
-    return true;
-  } catch (const std::exception& error) {
-    report(QString::fromUtf8(error.what()));
-    return false;
-  }
-}
-
 void MainWindow::closeEvent(QCloseEvent* event) {
-  sheet_->finishEditing();
-  watcher_.poll();
-  if (const auto active = watcher_.activeRuns(); !active.empty()) {
-    const CloseAnswer answer = askWhileActive(active);
-    if (answer == CloseAnswer::cancel) return event->ignore();
-    if (answer == CloseAnswer::stop)
-      for (const Id run : active) stopRun(run);
-  }
-  keepDraft();
-  settings_.setWindow(saveGeometry(), layout_.state());
+  pages_->sheet->finishEditing();
+  if (!runs_->mayClose()) return event->ignore();
+  drafts_->keep();
+  bench_.settings().setWindow(saveGeometry(), layout_.state());
   event->accept();
 }
 
-Database& MainWindow::writer() {
-  if (!writer_) writer_ = Database::open(watcher_.path().toStdString(), Database::Mode::readWrite);
-  return *writer_;
+void MainWindow::showTitle() {
+  const QString name = QFileInfo(bench_.path()).fileName();
+  const QString shown = bench_.isReadOnly() ? tr("%1 (read only)").arg(name) : name;
+  setWindowTitle(name.isEmpty() ? QStringLiteral("UCHILSIM") : shown + QStringLiteral(" — UCHILSIM"));
+  setWindowFilePath(QString());
+  databaseLabel_->setText(name.isEmpty() ? tr("No database") : shown);
+  databaseLabel_->setToolTip(bench_.path());
 }
 
 }  // namespace btr::ui

@@ -1,8 +1,11 @@
 // The tree of experiments, runs and simulator versions, from a stored database.
 #include <QAbstractItemModelTester>
+#include <QComboBox>
+#include <QLineEdit>
 #include <QMenu>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 #include <QTreeView>
 
 #include "tests/ui/stored_run.h"
@@ -190,6 +193,113 @@ class TestExperimentTree : public QObject {
     QSignalSpy table(&tree, &ExperimentTree::exportRequested);
     entry(menu, "Export as CSV")->menu()->actions().first()->trigger();
     QCOMPARE(table.first().last().toString(), QString("generations"));
+  }
+
+  void experimentsOfOneNameAreToldApart() {
+    StoredRun stored;
+    const Id first = stored.addExperiment("Kick");
+    stored.addExperiment("Kick");
+    stored.addExperiment("Walk");
+    ExperimentTree tree;
+    fill(tree, stored);
+    QAbstractItemModel& model = *tree.view()->model();
+    const auto detail = [&](int row) { return model.index(row, 0).data(BadgeDelegate::DetailRole).toString(); };
+    QVERIFY(detail(0).startsWith(QString("number %1, stored 2").arg(first)));
+    QVERIFY(detail(0) != detail(1));
+    QCOMPARE(detail(2), QString());
+  }
+
+  void searchShowsWhatHasTheTextAndWhatIsAboveAndBelow() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment("Kick"), 7);
+    stored.addRun(stored.addExperiment("Walk"), 8);
+    stored.database.setRunNote(run, "worn knee");
+    ExperimentTree tree;
+    fill(tree, stored);
+    auto* search = tree.findChild<QLineEdit*>("searchExperiments");
+    const auto hidden = [&](int row) { return tree.view()->isRowHidden(row, {}); };
+    QTest::keyClicks(search, "WORN");
+    QVERIFY(!hidden(0) && hidden(1));
+    QVERIFY(!tree.view()->isRowHidden(0, tree.view()->model()->index(0, 0)));
+    search->setText("walk");
+    QVERIFY(hidden(0) && !hidden(1));
+    QVERIFY(!tree.view()->isRowHidden(0, tree.view()->model()->index(1, 0)));
+    // What comes along meanwhile is judged by the same text.
+    stored.addExperiment("Swing");
+    fill(tree, stored);
+    QVERIFY(hidden(2));
+    search->clear();
+    QVERIFY(!hidden(0) && !hidden(1) && !hidden(2));
+  }
+
+  void sortsByNameOrAgeAndKeepsTheSelection() {
+    StoredRun stored;
+    stored.addExperiment("Walk");
+    const Id run = stored.addRun(stored.addExperiment("kick"));
+    stored.addExperiment("Swing");
+    ExperimentTree tree;
+    fill(tree, stored);
+    tree.selectRun(run);
+    auto* order = tree.findChild<QComboBox*>("orderExperiments");
+    const auto names = [&] {
+      QStringList all;
+      for (int row = 0; row < 3; ++row) all << tree.view()->model()->index(row, 0).data().toString();
+      return all;
+    };
+    QCOMPARE(names(), QStringList({"Walk", "kick", "Swing"}));
+    order->setCurrentIndex(1);
+    QCOMPARE(names(), QStringList({"Swing", "kick", "Walk"}));
+    order->setCurrentIndex(2);
+    QCOMPARE(names(), QStringList({"kick", "Swing", "Walk"}));
+    QCOMPARE(tree.selectedRun(), run);
+    order->setCurrentIndex(0);
+    QCOMPARE(names(), QStringList({"Walk", "kick", "Swing"}));
+  }
+
+  void archivedExperimentsAreHiddenUntilTheArchiveIsShown() {
+    StoredRun stored;
+    const Id kick = stored.addExperiment("Kick");
+    stored.addExperiment("Walk");
+    ExperimentTree tree;
+    fill(tree, stored);
+    QSignalSpy archived(&tree, &ExperimentTree::archivedChanged), renamed(&tree, &ExperimentTree::renameRequested);
+    tree.view()->setCurrentIndex(tree.view()->model()->index(0, 0));
+    QMenu menu;
+    tree.fillMenu(menu);
+    entry(menu, "Rename")->trigger();
+    QCOMPARE(renamed.first().first().value<Id>(), kick);
+    entry(menu, "Archive")->trigger();
+    QCOMPARE(archived.first().first().value<std::set<Id>>(), std::set<Id>{kick});
+    QVERIFY(tree.view()->isRowHidden(0, {}));
+    tree.findChild<QToolButton*>("showArchive")->click();
+    QVERIFY(!tree.view()->isRowHidden(0, {}));
+    QMenu again;
+    tree.fillMenu(again);
+    entry(again, "Take out of the archive")->trigger();
+    tree.findChild<QToolButton*>("showArchive")->click();
+    QVERIFY(!tree.view()->isRowHidden(0, {}));
+  }
+
+  void severalSelectedRunsAreComparedAndStoppedTogether() {
+    StoredRun stored;
+    const Id experiment = stored.addExperiment();
+    const Id first = stored.addRun(experiment, 1), second = stored.addRun(experiment, 2);
+    stored.addRun(experiment, 3);
+    ExperimentTree tree;
+    fill(tree, stored);
+    tree.setActive({first, second});
+    const QModelIndex kick = tree.view()->model()->index(0, 0);
+    auto* selection = tree.view()->selectionModel();
+    for (const int row : {0, 1})
+      selection->select(tree.view()->model()->index(row, 0, kick),
+                        QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    QMenu menu;
+    tree.fillMenu(menu);
+    QSignalSpy compare(&tree, &ExperimentTree::compareRequested), stop(&tree, &ExperimentTree::stopRequested);
+    entry(menu, "Compare these 2 runs")->trigger();
+    QCOMPARE(compare.first().first().value<std::vector<Id>>(), (std::vector<Id>{first, second}));
+    entry(menu, "Stop them")->trigger();
+    QCOMPARE(stop.count(), 2);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/message_banner.h"
+#include "ui/controllers/grid_controller.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/grid/cube_view.h"
@@ -386,7 +387,7 @@ class TestGridPage : public QObject {
     MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});
     window.show();
     QVERIFY(window.openDatabase(folder.filePath("a.db")));
-    window.showGridPage(true);
+    window.showPage("grid");
     window.gridPage().findChild<QPushButton*>("new")->click();
     auto* form = window.findChild<GridForm*>();
     QVERIFY(form);
@@ -403,12 +404,12 @@ class TestGridPage : public QObject {
     const auto stored = [&] { return Database::open(folder.filePath("a.db").toStdString(), Database::Mode::readOnly); };
     QTRY_VERIFY_WITH_TIMEOUT(go->isVisible() && go->text() == "Stop" && !stored().runs().empty(), 60'000);
     go->click();
-    QTRY_VERIFY_WITH_TIMEOUT(window.watcher().activeGrids().empty(), 60'000);
+    QTRY_VERIFY_WITH_TIMEOUT(window.bench().watcher().activeGrids().empty(), 60'000);
     QVERIFY2(window.banner().text().isEmpty(), qPrintable(window.banner().text()));
     QVERIFY(stored().runs().front().generation < 60);
     QTRY_COMPARE(go->text(), QString("Continue"));
     go->click();
-    QTRY_VERIFY_WITH_TIMEOUT(isGridFinished(stored(), 1) && window.watcher().activeGrids().empty(), 120'000);
+    QTRY_VERIFY_WITH_TIMEOUT(isGridFinished(stored(), 1) && window.bench().watcher().activeGrids().empty(), 120'000);
     QTRY_VERIFY(!go->isVisible());
     QVERIFY2(window.banner().text().isEmpty(), qPrintable(window.banner().text()));
   }
@@ -422,13 +423,13 @@ class TestGridPage : public QObject {
                       {folder.filePath("settings.ini"), BTR_PROGRAM});
     window.show();
     QVERIFY(window.openDatabase(folder.filePath("a.db")));
-    window.showGridPage(true);
+    window.showPage("grid");
     window.gridPage().findChild<QPushButton*>("new")->click();
     auto* form = window.findChild<GridForm*>();
     form->findChild<QLineEdit*>("distances_m")->setText("0.8");
     form->findChild<QPushButton*>("start")->click();
     QTRY_VERIFY_WITH_TIMEOUT(window.banner().text().contains("0.8 is not allowed"), 60'000);
-    QVERIFY(window.watcher().database().grids().empty());
+    QVERIFY(window.bench().watcher().database().grids().empty());
   }
 
   void theWindowShowsAStoredGridAndPlaysAKickBetweenItsCells() {
@@ -455,7 +456,7 @@ class TestGridPage : public QObject {
     MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});
     window.show();
     QVERIFY(window.openDatabase(folder.filePath("a.db")));
-    window.showGrid(1);
+    window.grids().show(1);
     QVERIFY(window.gridPage().isVisible());
     QCOMPARE(window.gridPage().current(), Id(1));
     // A cell's replay selects its run.
@@ -473,11 +474,11 @@ class TestGridPage : public QObject {
     QVERIFY(shown.trace.rows() > 50);
     QCOMPARE(failed.count(), 0);
     // The runs come back, and the other page takes the place of this one.
-    window.showGapPage(true);
+    window.showPage("analysis");
     QVERIFY(!window.gridPage().isVisible());
-    window.showGridPage(true);
+    window.showPage("grid");
     QVERIFY(window.gridPage().isVisible());
-    window.showGridPage(false);
+    window.showPage({});
     QVERIFY(!window.gridPage().isVisible());
   }
 };

@@ -27,6 +27,8 @@
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/message_banner.h"
+#include "ui/controllers/draft_controller.h"
+#include "ui/controllers/run_controller.h"
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/experiment_tree.h"
@@ -80,7 +82,7 @@ struct Desk {
   std::unique_ptr<MainWindow> open(const QString& database) {
     auto window = std::make_unique<MainWindow>(host, theme, options);
     window->show();
-    window->openDatabase(database);
+    window->openDatabase(database, Workbench::Absent::make);
     return window;
   }
   QTemporaryDir folder;
@@ -182,7 +184,7 @@ class TestMainWindow : public QObject {
     QVERIFY(!window->openDatabase(bad));
     QVERIFY2(message(*window).contains("bad.db"), qPrintable(message(*window)));
     QVERIFY(window->banner().isVisible());
-    QCOMPARE(window->databasePath(), stored.qpath());
+    QCOMPARE(window->bench().path(), stored.qpath());
     QCOMPARE(window->findChild<FitnessChart*>()->run().generations.size(), 6u);
   }
 
@@ -197,7 +199,7 @@ class TestMainWindow : public QObject {
     panel->setJobs(2);
     QTest::mouseClick(panel->findChild<QPushButton*>("go"), Qt::LeftButton);
     QTRY_COMPARE(program.said(), QString("run --db %1 --run %2 --quiet --jobs 2").arg(stored.qpath()).arg(run));
-    QCOMPARE(window->watcher().activeRuns(), std::set<Id>{run});
+    QCOMPARE(window->bench().watcher().activeRuns(), std::set<Id>{run});
     QVERIFY(!panel->findChild<QPushButton*>("go")->isEnabled());
 
     QTest::mouseClick(panel->findChild<QPushButton*>("stop"), Qt::LeftButton);
@@ -205,7 +207,7 @@ class TestMainWindow : public QObject {
     QCOMPARE(panel->findChild<QLabel*>("stage")->text(), QString("Stopping …"));
     stored.database.setRunState(run, RunState::stopped, "");
     program.end();
-    QTRY_VERIFY(window->watcher().activeRuns().empty());
+    QTRY_VERIFY(window->bench().watcher().activeRuns().empty());
     QTRY_VERIFY(panel->findChild<QPushButton*>("go")->isEnabled());
     QCOMPARE(message(*window), QString());
   }
@@ -289,7 +291,7 @@ class TestMainWindow : public QObject {
       QVERIFY(window->close());
     }
     const auto window = desk.open(stored.qpath());
-    QCOMPARE(window->settings().recentDatabases().first(), stored.qpath());
+    QCOMPARE(window->bench().settings().recentDatabases().first(), stored.qpath());
     QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), first);
     QVERIFY(window->findChild<QDockWidget*>("dock.gap")->isHidden());
     QVERIFY(!window->findChild<QDockWidget*>("dock.fitness")->isHidden());
@@ -323,7 +325,7 @@ class TestMainWindow : public QObject {
     QTRY_VERIFY(program.said().startsWith("run --db"));
     stored.database.setRunState(run, RunState::stopped, "");
     program.end();
-    QTRY_VERIFY(window->watcher().activeRuns().empty());
+    QTRY_VERIFY(window->bench().watcher().activeRuns().empty());
   }
 
   // Typed and not saved: another run, another database, the end of the program; nothing is lost and nobody is asked.
@@ -360,7 +362,7 @@ class TestMainWindow : public QObject {
     QVERIFY(sheet->findChild<MessageBanner*>()->text().contains("not saved yet"));
     sheet->save();
     QCOMPARE(stored.database.measurements(run).size(), 1u);
-    QCOMPARE(window->settings().measurementDraft(stored.qpath(), run), QString());
+    QCOMPARE(window->bench().settings().measurementDraft(stored.qpath(), run), QString());
   }
 
   void voidingAValueThatL3TookInOffersToGoBack() {
@@ -401,7 +403,7 @@ class TestMainWindow : public QObject {
     QTest::keyClick(&sheet->view(), Qt::Key_7);
     QVERIFY(!sheet->model().hasUnsaved());
     QVERIFY(window->close());
-    QVERIFY(window->settings().measurementDraft(stored.qpath(), run).contains("\"7\""));
+    QVERIFY(window->bench().settings().measurementDraft(stored.qpath(), run).contains("\"7\""));
   }
 
   void theKeyForSavingIsOfThePageWithTheFocus() {
@@ -550,7 +552,7 @@ class TestMainWindow : public QObject {
     QVERIFY(json.open(QIODevice::WriteOnly));
     json.write("{\"format\": \"uchilsim-experiment-1\", \"name\": 3}");
     json.close();
-    QVERIFY(!window->openExperiment(file));
+    QVERIFY(!window->drafts().open(file));
     QVERIFY2(message(*window).contains("wrong.json"), qPrintable(message(*window)));
     QCOMPARE(window->draft().spec().name, std::string("Kick"));
   }
@@ -595,8 +597,8 @@ class TestMainWindow : public QObject {
     startDraft(*window);
     QTRY_VERIFY_WITH_TIMEOUT(window->findChild<FitnessChart*>()->run().generations.size() >= 1, 120000);
     const Id run = window->findChild<ExperimentTree*>()->selectedRun();
-    window->stopRun(run);
-    QTRY_VERIFY_WITH_TIMEOUT(window->watcher().activeRuns().empty(), 120000);
+    window->runs().stop(run);
+    QTRY_VERIFY_WITH_TIMEOUT(window->bench().watcher().activeRuns().empty(), 120000);
     QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));
   }
 
@@ -606,14 +608,14 @@ class TestMainWindow : public QObject {
     theirs.addGenerations(theirs.addRun(theirs.addExperiment(), 6), 6);
     Desk desk(BTR_PROGRAM);
     const auto window = desk.open(ours.qpath());
-    window->mergeDatabase(theirs.qpath());
+    window->runs().merge(theirs.qpath());
     QTRY_COMPARE_WITH_TIMEOUT(message(*window), QString("1 runs with 12 individuals were copied from test.db."), 20000);
     QTRY_COMPARE(window->findChild<ExperimentTree*>()->view()->model()->rowCount(
                      window->findChild<ExperimentTree*>()->view()->model()->index(0, 0)),
                  2);
     QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), own);
     // Once more: they are there.
-    window->mergeDatabase(theirs.qpath());
+    window->runs().merge(theirs.qpath());
     QTRY_VERIFY_WITH_TIMEOUT(message(*window).contains("nothing was copied"), 20000);
     QCOMPARE(ours.database.runs().size(), std::size_t(2));
   }
@@ -696,7 +698,7 @@ class TestMainWindow : public QObject {
     for (; visits < 10; ++visits) {
       const auto isOpen = [&](const MeasurementRow& row) { return !row.isDone(); };
       QTRY_VERIFY_WITH_TIMEOUT(
-          window->watcher().activeRuns().empty() &&
+          window->bench().watcher().activeRuns().empty() &&
               (stored().run(run).state == RunState::finished || std::ranges::any_of(sheet->model().rows(), isOpen)),
           120000);
       QVERIFY2(message(*window).isEmpty(), qPrintable(message(*window)));

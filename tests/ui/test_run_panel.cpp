@@ -49,7 +49,7 @@ Shown show(RunPanel& panel, const RunRecord& run, const RunProgress& progress, b
   last.number = run.generation;
   last.best = 0.8125;
   last.mean = 0.25;
-  panel.setGeneration(last);
+  panel.setGenerations({last});
   panel.setUnit("m");
   panel.show();
   panel.showRun(run, progress, active);
@@ -234,6 +234,43 @@ class TestRunPanel : public QObject {
     panel.clear();
     QCOMPARE(panel.findChild<QLabel*>("stage")->text(), QString("No run is selected"));
     QVERIFY(!panel.findChild<QPushButton*>("go")->isVisible());
+  }
+
+  void bestAndTrialsAreOfAllStoredGenerations() {
+    RunPanel panel;
+    const RunRecord run = aRun(RunState::learning);
+    panel.showRun(run, progressIn("L1"), true);
+    std::vector<GenerationRecord> all;
+    for (const auto& [best, trials] : {std::pair{0.25, 30}, std::pair{1.125, 28}, std::pair{0.5, 29}}) {
+      GenerationRecord generation;
+      generation.run = run.id;
+      generation.number = int(all.size()) + 1;
+      generation.best = best;
+      generation.mean = best / 2;
+      generation.trials = trials;
+      all.push_back(generation);
+    }
+    panel.setUnit("m");
+    panel.setGenerations(all);
+    const auto text = [&](const char* name) {
+      return panel.findChild<QLabel*>(name)->text().replace(QChar(0x202f), ' ');
+    };
+    QCOMPARE(text("best"), QString("1.125 m"));
+    QVERIFY(panel.findChild<QLabel*>("best")->toolTip().contains("generation 2"));
+    QCOMPARE(text("mean"), QString("0.25 m"));
+    QCOMPARE(text("trials"), QString("87"));
+    // A process that was started again counts its own trials from 0; the run's stay.
+    RunProgress restarted = progressIn("L1");
+    restarted.trials = 3;
+    panel.showRun(run, restarted, true);
+    QCOMPARE(text("trials"), QString("87"));
+    GenerationRecord next = all.back();
+    next.number = 4;
+    next.best = 0.75;
+    next.trials = 10;
+    panel.addGenerations({next});
+    QCOMPARE(text("best"), QString("1.125 m"));
+    QCOMPARE(text("trials"), QString("97"));
   }
 };
 

@@ -2,6 +2,9 @@
 
 #include <QCoreApplication>
 #include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QJsonDocument>
 
 namespace btr::ui {
 namespace {
@@ -30,6 +33,20 @@ QString resourceDirectory() {
 }
 
 QStringList exampleExperiments() { return filesIn("experiments"); }
+QString exampleName(const QString& path) {
+  QFile file(path);
+  if (file.open(QIODevice::ReadOnly))
+    if (const QString name = QJsonDocument::fromJson(file.readAll())["name"].toString(); !name.isEmpty()) return name;
+  return QFileInfo(path).completeBaseName();
+}
+
+QString exampleDatabase() {
+  const QString resources = resourceDirectory();
+  for (const QString& path : {resources + "/experiments.db", resources + "/../experiments.db"})
+    if (!resources.isEmpty() && QFileInfo::exists(path)) return QDir::cleanPath(path);
+  return {};
+}
+
 QStringList exampleGrids() { return filesIn("grids"); }
 
 }  // namespace btr::ui

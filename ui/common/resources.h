@@ -9,6 +9,10 @@ namespace btr::ui {
 QString resourceDirectory();
 /// Full paths of the example experiments, sorted by name.
 QStringList exampleExperiments();
+/// The name that an example gives itself; its file's name where it gives none.
+QString exampleName(const QString& file);
+/// The database that comes with the program; empty if it is not there.
+QString exampleDatabase();
 /// The same of grids.
 QStringList exampleGrids();
 

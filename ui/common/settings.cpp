@@ -60,6 +60,18 @@ void Settings::addRecentDatabase(const QString& path) {
 qint64 Settings::selectedRun(const QString& database) const { return store_.value(runKey(database)).toLongLong(); }
 void Settings::setSelectedRun(const QString& database, qint64 run) { store_.setValue(runKey(database), run); }
 
+std::set<qint64> Settings::archived(const QString& database) const {
+  std::set<qint64> ids;
+  for (const QString& id : store_.value("archived/" + keyOf(database)).toStringList()) ids.insert(id.toLongLong());
+  return ids;
+}
+
+void Settings::setArchived(const QString& database, const std::set<qint64>& experiments) {
+  QStringList ids;
+  for (const qint64 id : experiments) ids << QString::number(id);
+  store_.setValue("archived/" + keyOf(database), ids);
+}
+
 QString Settings::draft() const { return store_.value("draft/json").toString(); }
 QString Settings::draftFolder() const { return store_.value("draft/folder").toString(); }
 void Settings::setDraft(const QString& json, const QString& folder) {

@@ -3,6 +3,7 @@
 #include <QSettings>
 #include <QString>
 #include <QStringList>
+#include <set>
 
 #include "ui/common/theme.h"
 
@@ -28,6 +29,10 @@ class Settings {
   /// The run that was selected last in this database, 0 if none.
   qint64 selectedRun(const QString& database) const;
   void setSelectedRun(const QString& database, qint64 run);
+
+  /// Experiments of this database that the tree puts away.
+  std::set<qint64> archived(const QString& database) const;
+  void setArchived(const QString& database, const std::set<qint64>& experiments);
 
   /// The experiment in the form that was not started yet, and the folder that its paths start from.
   QString draft() const;

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/spec/error.h"
+#include "core/spec/file_kind.h"
 #include "ui/common/section.h"
 #include "ui/common/tab_order.h"
 #include "ui/common/theme.h"
@@ -271,6 +273,12 @@ QStringList ExperimentForm::problems() const {
     problems << tr("Scene: the path of a scene file");
   else if (!readOnly_ && !QFileInfo(folder, scene).isFile())
     problems << tr("Scene: there is no such file: %1").arg(folder.absoluteFilePath(scene));
+  else if (!readOnly_)
+    try {
+      requireKind(folder.absoluteFilePath(scene).toStdString(), FileKind::scene);
+    } catch (const InputError& wrong) {
+      problems << tr("Scene: %1").arg(QString::fromUtf8(wrong.what()));
+    }
   problems << seed_->problems() << controller_->problems() << fitness_->problems() << learner_->problems()
            << searchStart_->problems() << stages_->problems();
   problems << realityLearner_->problems();
@@ -286,6 +294,9 @@ QStringList ExperimentForm::problems() const {
     const double heldOut = valueOf(adaptationParameters(), adaptationSettings_->values(), "held_out");
     const double measured = valueOf(stageParameters(), stages_->values(), "measured_individuals");
     const double disagreeing = valueOf(stageParameters(), stages_->values(), "disagreeing_individuals");
+    const double first = valueOf(stageParameters(), stages_->values(), "first_generations");
+    if (valueOf(stageParameters(), stages_->values(), "total_generations") < first)
+      problems << tr("Total generations: at least the %1 first generations").arg(first);
     if (disagreeing > measured)
       problems << tr("Disagreeing individuals: at most the %1 measured individuals").arg(measured);
     if (heldOut >= measured) problems << tr("Held out: less than the %1 measured individuals").arg(measured);

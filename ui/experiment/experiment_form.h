@@ -48,6 +48,10 @@ class ExperimentForm : public QWidget {
   void setReadOnly(const QString& why);
   QUndoStack& undoStack() { return undo_; }
   void resetAll();
+  /// The keyboard begins here: the name, selected.
+  void focusFirst();
+  /// Another scene, as one step that can be undone.
+  void chooseScene(const QString& file);
 
  signals:
   void changed();

@@ -1,7 +1,8 @@
 // The parts of the experiment form that are not made from declared parameters.
 #include <QAction>
 #include <QComboBox>
-#include <QFileDialog>
+#include <QDir>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -11,7 +12,9 @@
 #include <utility>
 
 #include "ui/common/edit_command.h"
+#include "ui/common/file_choice.h"
 #include "ui/common/form_undo.h"
+#include "ui/common/resources.h"
 #include "ui/common/tab_order.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/experiment_form.h"
@@ -247,14 +250,27 @@ void ExperimentForm::makeBars(QVBoxLayout& column) {
 
 void ExperimentForm::browseScene() {
   const QDir folder(QString::fromStdString(shown_.directory));
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Scene"), folder.absolutePath(), tr("Scenes (*.json);;All files (*)"));
-  if (file.isEmpty()) return;
+  const QFileInfo present(folder, scene_->text().trimmed());
+  const QString scenes = resourceDirectory() + "/scenes";
+  const QString start = present.isFile()            ? present.absolutePath()
+                        : QFileInfo(scenes).isDir() ? scenes
+                                                    : folder.absolutePath();
+  if (const QString file = chooseFile(this, tr("Choose a scene"), start, FileKind::scene); !file.isEmpty())
+    chooseScene(file);
+}
+
+void ExperimentForm::chooseScene(const QString& file) {
+  const QDir folder(QString::fromStdString(shown_.directory));
   const QString path = shown_.directory.empty() ? file : folder.relativeFilePath(file);
   undo_.push(new EditCommand(tr("choose a scene"), {}, -1, scene_->text(), path, [this](const QVariant& value) {
     scene_->setText(value.toString());
     update();
   }));
+}
+
+void ExperimentForm::focusFirst() {
+  name_->setFocus(Qt::OtherFocusReason);
+  name_->selectAll();
 }
 
 }  // namespace btr::ui

@@ -1,11 +1,15 @@
 #include "ui/experiment/experiment_tree.h"
 
-#include <QHeaderView>
+#include <QComboBox>
+#include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QMenu>
 #include <QStandardItemModel>
+#include <QToolButton>
 #include <QTreeView>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/run/adoption.h"
 #include "ui/common/theme.h"
@@ -17,6 +21,8 @@ namespace {
 
 constexpr int KindRole = Qt::UserRole + 1;
 constexpr int IdRole = Qt::UserRole + 2;
+constexpr int SortRole = Qt::UserRole + 20;
+enum Order { byStoring, newestFirst, byName };
 
 int kindOf(const QModelIndex& index) { return index.siblingAtColumn(0).data(KindRole).toInt(); }
 Id idOf(const QModelIndex& index) { return index.siblingAtColumn(0).data(IdRole).toLongLong(); }
@@ -25,7 +31,13 @@ QString text(const std::string& plain) { return QString::fromStdString(plain); }
 }  // namespace
 
 ExperimentTree::ExperimentTree(QWidget* parent)
-    : QWidget(parent), view_(new QTreeView(this)), model_(new QStandardItemModel(0, 3, this)) {
+    : QWidget(parent),
+      view_(new QTreeView(this)),
+      search_(new QLineEdit(this)),
+      order_(new QComboBox(this)),
+      archive_(new QToolButton(this)),
+      model_(new QStandardItemModel(0, 3, this)) {
+  model_->setSortRole(SortRole);
   model_->setHorizontalHeaderLabels({tr("Experiment"), tr("Generation"), tr("State")});
   view_->setModel(model_);
   view_->setObjectName("experimentTree");
@@ -38,29 +50,145 @@ ExperimentTree::ExperimentTree(QWidget* parent)
   view_->setColumnHidden(1, true);
   view_->setColumnHidden(2, true);
   view_->setHeaderHidden(true);
+  view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   view_->setIndentation(16);
   view_->setIconSize({18, 18});
-  setMinimumWidth(200);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(makeBar());
   column->addWidget(view_);
 
   connect(view_, &QWidget::customContextMenuRequested, this, &ExperimentTree::openMenu);
   connect(view_, &QTreeView::activated, this, &ExperimentTree::activate);
   connect(view_->selectionModel(), &QItemSelectionModel::currentChanged, this,
           [this](const QModelIndex& index) { current(index); });
-  // F2 edits the note, the menu key opens the menu where the selection is.
-  auto* note = new QAction(tr("Edit note…"), view_);
+  // F2 renames an experiment and edits the note of a run, the menu key opens the menu where the selection is.
+  auto* note = new QAction(tr("Rename, or edit note…"), view_);
   note->setShortcut(Qt::Key_F2);
   note->setShortcutContext(Qt::WidgetShortcut);
   view_->addAction(note);
   connect(note, &QAction::triggered, this, [this] {
     const QModelIndex index = view_->currentIndex();
     if (kindOf(index) == experimentKind)
-      emit experimentNoteRequested(idOf(index));
+      emit renameRequested(idOf(index));
     else if (const Id run = selectedRun())
       emit runNoteRequested(run);
   });
+}
+
+QWidget* ExperimentTree::makeBar() {
+  auto* bar = new QWidget(this);
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(4, 2, 4, 4);
+  row->setSpacing(4);
+  search_->setObjectName("searchExperiments");
+  search_->setPlaceholderText(tr("Search"));
+  search_->setAccessibleName(tr("Search experiments and runs"));
+  search_->setToolTip(tr("Shows what has this text in its name, note or state"));
+  search_->setClearButtonEnabled(true);
+  order_->setObjectName("orderExperiments");
+  order_->addItems({tr("Oldest first"), tr("Newest first"), tr("By name")});
+  order_->setAccessibleName(tr("Order of the experiments"));
+  order_->setFocusPolicy(Qt::StrongFocus);
+  order_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  order_->setMinimumContentsLength(6);
+  archive_->setObjectName("showArchive");
+  archive_->setIcon(themeIcon("folder-tar"));
+  archive_->setCheckable(true);
+  archive_->setAutoRaise(true);
+  archive_->setToolTip(tr("Also show archived experiments"));
+  archive_->setAccessibleName(tr("Show archived experiments"));
+  row->addWidget(search_, 1);
+  row->addWidget(order_);
+  row->addWidget(archive_);
+  connect(search_, &QLineEdit::textChanged, this, &ExperimentTree::filter);
+  connect(archive_, &QToolButton::toggled, this, &ExperimentTree::filter);
+  connect(order_, &QComboBox::currentIndexChanged, this, [this] {
+    sort();
+    filter();
+  });
+  return bar;
+}
+
+// Experiments of one name are told apart by when they were stored.
+void ExperimentTree::nameExperiments(const std::vector<ExperimentRecord>& experiments) {
+  std::map<std::string, int> count;
+  for (const auto& experiment : experiments) ++count[experiment.name];
+  for (const auto& experiment : experiments) {
+    QStandardItem* item = child(*model_->invisibleRootItem(), experimentKind, experiment.id);
+    QStringList words;
+    if (count[experiment.name] > 1)
+      words << tr("number %1, stored %2").arg(experiment.id).arg(text(experiment.createdAt).left(16).replace('T', ' '));
+    if (!experiment.note.empty()) words << text(experiment.note);
+    if (archived_.count(experiment.id)) words << tr("archived");
+    if (!rigs_.count(experiment.id)) item->setData(words.join(" · "), BadgeDelegate::DetailRole);
+  }
+}
+
+void ExperimentTree::setArchived(const std::set<Id>& experiments) {
+  archived_ = experiments;
+  filter();
+}
+
+void ExperimentTree::archive(const std::vector<Id>& experiments, bool away) {
+  for (const Id experiment : experiments)
+    if (away)
+      archived_.insert(experiment);
+    else
+      archived_.erase(experiment);
+  filter();
+  emit archivedChanged(archived_);
+}
+
+// Runs stay in the order in which they were stored.
+void ExperimentTree::sort() {
+  const int order = order_->currentIndex();
+  const QStandardItem& root = *model_->invisibleRootItem();
+  std::vector<std::pair<QString, Id>> names;
+  for (int row = 0; row < root.rowCount(); ++row)
+    names.emplace_back(root.child(row)->text().toLower(), idOf(root.child(row)->index()));
+  std::ranges::sort(names);
+  const auto setKeys = [](const auto& self, const QStandardItem& parent) -> void {
+    for (int row = 0; row < parent.rowCount(); ++row) {
+      // Runs before simulators, as they came.
+      parent.child(row)->setData(row, SortRole);
+      self(self, *parent.child(row));
+    }
+  };
+  setKeys(setKeys, root);
+  for (int row = 0; row < root.rowCount(); ++row) {
+    const Id id = idOf(root.child(row)->index());
+    const auto place = std::ranges::find(names, id, [](const auto& entry) { return entry.second; });
+    const qlonglong key = order == byName        ? place - names.begin()
+                          : order == newestFirst ? -qlonglong(id)
+                                                 : qlonglong(id);
+    root.child(row)->setData(key, SortRole);
+  }
+  model_->sort(0);
+}
+
+void ExperimentTree::filter() {
+  const QString wanted = search_->text().trimmed();
+  const QStandardItem& root = *model_->invisibleRootItem();
+  filterChildren(root, wanted);
+  for (int row = 0; row < root.rowCount(); ++row)
+    if (archived_.count(idOf(root.child(row)->index())) && !archive_->isChecked()) view_->setRowHidden(row, {}, true);
+}
+
+// True if something below is shown. What is below a hit is shown whole.
+bool ExperimentTree::filterChildren(const QStandardItem& parent, const QString& wanted) {
+  bool any = false;
+  for (int row = 0; row < parent.rowCount(); ++row) {
+    const QStandardItem& item = *parent.child(row);
+    const QString words = item.text() + ' ' + item.data(BadgeDelegate::DetailRole).toString() + ' ' +
+                          item.data(BadgeDelegate::BadgeRole).toString() + ' ' + item.toolTip();
+    const bool hit = words.contains(wanted, Qt::CaseInsensitive);
+    const bool below = filterChildren(item, hit ? QString() : wanted);
+    view_->setRowHidden(row, parent.index(), !hit && !below);
+    any = any || hit || below;
+  }
+  return any;
 }
 
 void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments, const std::vector<RunRecord>& runs,
@@ -73,8 +201,6 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     const bool isNew = model_->match(model_->index(0, 0), IdRole, qint64(experiment.id), 1, Qt::MatchExactly).isEmpty();
     QStandardItem* item = child(root, experimentKind, experiment.id);
     item->setText(text(experiment.name));
-    if (!experiment.note.empty() && !rigs_.count(experiment.id))
-      item->setData(text(experiment.note), BadgeDelegate::DetailRole);
     item->setIcon(themeIcon("folder-open"));
     item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
                      (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
@@ -116,6 +242,9 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     runItems_[run.id] = item;
     showRun(*item, run);
   }
+  nameExperiments(experiments);
+  if (order_->currentIndex() != byStoring) sort();
+  filter();
 }
 
 void ExperimentTree::showGroup(QStandardItem& item, const RunGroup& group) {
@@ -277,21 +406,65 @@ std::vector<Id> ExperimentTree::runsOf(Id experiment) const {
   return ids;
 }
 
-void ExperimentTree::openMenu(const QPoint& position) {
-  const QModelIndex index = view_->indexAt(position);
-  QMenu menu(this);
-  if (kindOf(index) == experimentKind) {
-    menu.addAction(themeIcon("edit-rename"), tr("Edit note…"), this,
-                   [this, id = idOf(index)] { emit experimentNoteRequested(id); });
-    if (!rigs_.count(idOf(index)))
-      menu.addAction(themeIcon("office-chart-line"), tr("Compare its runs"), this,
-                     [this, id = idOf(index)] { emit compareRequested(runsOf(id)); });
-  } else if (kindOf(index) == groupKind) {
+std::vector<Id> ExperimentTree::chosen(Kind kind) const {
+  std::vector<Id> ids;
+  for (const QModelIndex& index : view_->selectionModel()->selectedRows())
+    if (kindOf(index) == kind) ids.push_back(idOf(index));
+  std::ranges::sort(ids);
+  return ids;
+}
+
+void ExperimentTree::fillRunsMenu(QMenu& menu, const std::vector<Id>& runs) {
+  menu.addAction(themeIcon("office-chart-line"), tr("Compare these %1 runs").arg(runs.size()), this,
+                 [this, runs] { emit compareRequested(runs); });
+  menu.addSeparator();
+  menu.addAction(themeIcon("media-playback-start"), tr("Continue them"), this, [this, runs] {
+    for (const Id run : runs)
+      if (runs_.at(run).state != RunState::finished && active_.count(run) == 0) emit continueRequested(run);
+  });
+  menu.addAction(themeIcon("media-playback-stop"), tr("Stop them"), this, [this, runs] {
+    for (const Id run : runs)
+      if (active_.count(run) > 0) emit stopRequested(run);
+  });
+}
+
+void ExperimentTree::fillExperimentsMenu(QMenu& menu, const std::vector<Id>& experiments) {
+  if (experiments.size() == 1) {
+    menu.addAction(themeIcon("edit-rename"), tr("Rename…"), this,
+                   [this, id = experiments.front()] { emit renameRequested(id); });
+    menu.addAction(themeIcon("document-edit"), tr("Edit note…"), this,
+                   [this, id = experiments.front()] { emit experimentNoteRequested(id); });
+  }
+  std::vector<Id> runs;
+  for (const Id experiment : experiments)
+    for (const Id run : runsOf(experiment)) runs.push_back(run);
+  if (!runs.empty())
+    menu.addAction(themeIcon("office-chart-line"),
+                   experiments.size() == 1 ? tr("Compare its runs") : tr("Compare their runs"), this,
+                   [this, runs] { emit compareRequested(runs); });
+  const bool away = std::ranges::all_of(experiments, [&](Id id) { return archived_.count(id) > 0; });
+  menu.addAction(themeIcon("folder-tar"), away ? tr("Take out of the archive") : tr("Archive"), this,
+                 [this, experiments, away] { archive(experiments, !away); });
+}
+
+void ExperimentTree::fillMenu(QMenu& menu) {
+  const std::vector<Id> experiments = chosen(experimentKind), runs = chosen(runKind);
+  const QModelIndex index = view_->currentIndex();
+  if (!experiments.empty() && runs.empty())
+    fillExperimentsMenu(menu, experiments);
+  else if (runs.size() > 1)
+    fillRunsMenu(menu, runs);
+  else if (kindOf(index) == groupKind)
     menu.addAction(themeIcon("view-grid"), tr("Show in “The whole kick”"), this,
                    [this, id = idOf(index)] { emit gridRequested(id); });
-  } else if (const Id run = selectedRun()) {
+  else if (const Id run = selectedRun())
     fillRunMenu(menu, run);
-  }
+}
+
+void ExperimentTree::openMenu(const QPoint& position) {
+  if (!view_->indexAt(position).isValid()) return;
+  QMenu menu(this);
+  fillMenu(menu);
   if (!menu.isEmpty()) menu.exec(view_->viewport()->mapToGlobal(position));
 }
 

@@ -6,10 +6,13 @@
 
 #include "core/store/records.h"
 
+class QComboBox;
+class QLineEdit;
 class QMenu;
 class QModelIndex;
 class QStandardItem;
 class QStandardItemModel;
+class QToolButton;
 class QTreeView;
 
 namespace btr::ui {
@@ -40,7 +43,11 @@ class ExperimentTree : public QWidget {
   Id selectedRig() const;  ///< of the selected rig or its simulator version, else 0
   /// What can be done with a run, as a menu with the entries that make sense now.
   void fillRunMenu(QMenu& menu, Id run);
+  /// What can be done with all that is selected.
+  void fillMenu(QMenu& menu);
   QTreeView* view() const { return view_; }
+  /// Experiments that are put away: seen only while the archive is shown.
+  void setArchived(const std::set<Id>& experiments);
 
  signals:
   void runSelected(btr::Id run);
@@ -52,6 +59,8 @@ class ExperimentTree : public QWidget {
   void specRequested(btr::Id run);
   void runNoteRequested(btr::Id run);
   void experimentNoteRequested(btr::Id experiment);
+  void renameRequested(btr::Id experiment);
+  void archivedChanged(const std::set<btr::Id>& experiments);
   void exportRequested(btr::Id run, const QString& what);
   void compareRequested(const std::vector<btr::Id>& runs);
   void gridRequested(btr::Id grid);
@@ -65,14 +74,26 @@ class ExperimentTree : public QWidget {
   void keepOnly(QStandardItem& parent, Kind kind, const std::set<Id>& ids);
   void openMenu(const QPoint& position);
   std::vector<Id> runsOf(Id experiment) const;
+  std::vector<Id> chosen(Kind kind) const;  ///< those of the selection
+  void fillRunsMenu(QMenu& menu, const std::vector<Id>& runs);
+  void fillExperimentsMenu(QMenu& menu, const std::vector<Id>& experiments);
+  void archive(const std::vector<Id>& experiments, bool away);
+  QWidget* makeBar();
+  void nameExperiments(const std::vector<ExperimentRecord>& experiments);
+  void sort();
+  void filter();
+  bool filterChildren(const QStandardItem& parent, const QString& wanted);
   void current(const QModelIndex& index);
   void activate(const QModelIndex& index);
 
   QTreeView* view_;
+  QLineEdit* search_;
+  QComboBox* order_;
+  QToolButton* archive_;
   QStandardItemModel* model_;
   std::map<Id, RunRecord> runs_;
   std::map<Id, QStandardItem*> runItems_;
-  std::set<Id> rigs_;
+  std::set<Id> rigs_, archived_;
   std::map<Id, int> cells_;  ///< of grids, by their runs
   std::set<Id> active_;
   bool quiet_ = false;  ///< while the program itself changes the selection

@@ -163,12 +163,21 @@ void RunLauncher::keepRecordings(const QString& database, Id run, const QString&
   runToEnd(arguments + files, [this, count = int(files.size())] { emit recordingsKept(count); });
 }
 
+void RunLauncher::checkModel(const QString& file) {
+  runToEnd({"model", "check", file},
+           std::function<void(const QString&)>([this, file](const QString& text) { emit modelChecked(file, text); }));
+}
+
 // Short commands run beside the window; one line on their standard error says what is wrong.
 void RunLauncher::runToEnd(const QStringList& arguments, const std::function<void()>& done) {
+  runToEnd(arguments, std::function<void(const QString&)>([done](const QString&) { done(); }));
+}
+
+void RunLauncher::runToEnd(const QStringList& arguments, const std::function<void(const QString&)>& done) {
   auto* process = new QProcess(this);
   connect(process, &QProcess::finished, this, [this, process, done](int code, QProcess::ExitStatus status) {
     if (status == QProcess::NormalExit && code == 0)
-      done();
+      done(QString::fromUtf8(process->readAllStandardOutput()));
     else
       emit failed(QString::fromUtf8(process->readAllStandardError()).trimmed());
     process->deleteLater();

@@ -53,6 +53,8 @@ class RunLauncher : public QObject {
   /// none of their own.
   void keepRecordings(const QString& database, Id run, const QString& rig, const QStringList& files,
                       const QString& scene);
+  /// Reads a robot model; tells modelChecked() or failed().
+  void checkModel(const QString& file);
   bool isBusy() const { return thread_ != nullptr; }
 
  signals:
@@ -64,10 +66,12 @@ class RunLauncher : public QObject {
   void imported(const QString& file);
   void simulatorChanged(btr::Id run, const QString& rig);
   void recordingsKept(int files);
+  void modelChecked(const QString& file, const QString& text);
   void failed(const QString& message);
 
  private:
   void runToEnd(const QStringList& arguments, const std::function<void()>& done);
+  void runToEnd(const QStringList& arguments, const std::function<void(const QString& output)>& done);
   void inThread(std::function<Id()> task);
   static QString nameOf(Id run) { return QStringLiteral("run-%1").arg(run); }
   bool start(const QString& name, QStringList arguments, const QString& jobsOption, int jobs);

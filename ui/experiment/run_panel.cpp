@@ -75,10 +75,11 @@ RunPanel::RunPanel(QWidget* parent)
 
   auto* figures = new QHBoxLayout;
   figures->setSpacing(28);
-  best_ = addFigure(*figures, "best", tr("Best"), tr("Best fitness of the last generation"));
+  bestShown_ = addFigure(*figures, "best", tr("Best"), tr("Best fitness of all generations"));
   mean_ = addFigure(*figures, "mean", tr("Mean"), tr("Mean fitness of the last generation"));
   speed_ = addFigure(*figures, "speed", tr("Speed"), tr("Simulated trials per second, all workers together"));
-  trials_ = addFigure(*figures, "trials", tr("Trials"), tr("Trials simulated since this start"));
+  trialsShown_ =
+      addFigure(*figures, "trials", tr("Trials"), tr("Trials of L1 in all stored generations, over all starts"));
   left_ = addFigure(*figures, "left", tr("Time left"), tr("Estimate for the simulated part"));
   figures->addStretch();
 
@@ -120,7 +121,10 @@ RunPanel::Figure RunPanel::addFigure(QHBoxLayout& row, const QString& name, cons
 
 void RunPanel::showRun(const RunRecord& run, const RunProgress& progress, bool active) {
   if (run.id != run_.id) measuring_ = {};
-  if (run.id != generation_.run) generation_ = {};
+  if (run.id != generation_.run) {
+    generation_ = best_ = {};
+    trials_ = 0;
+  }
   run_ = run;
   progress_ = progress;
   active_ = active;
@@ -128,9 +132,20 @@ void RunPanel::showRun(const RunRecord& run, const RunProgress& progress, bool a
   refresh();
 }
 
-void RunPanel::setGeneration(const GenerationRecord& generation) {
-  generation_ = generation;
+void RunPanel::setGenerations(const std::vector<GenerationRecord>& all) {
+  generation_ = best_ = {};
+  trials_ = 0;
+  addGenerations(all);
+}
+
+void RunPanel::addGenerations(const std::vector<GenerationRecord>& added) {
+  for (const GenerationRecord& generation : added) {
+    trials_ += generation.trials;
+    if (best_.number == 0 || generation.best > best_.best) best_ = generation;
+    generation_ = generation;
+  }
   generation_.individuals.clear();
+  best_.individuals.clear();
   refresh();
 }
 
@@ -175,7 +190,8 @@ void RunPanel::refresh() {
     message_->clear();
     for (QWidget* widget : std::initializer_list<QWidget*>{standIn_, message_, overall_, within_, go_, stop_})
       widget->setVisible(false);
-    for (const Figure& figure : {best_, mean_, speed_, trials_, left_}) figure.value->setText(QStringLiteral("–"));
+    for (const Figure& figure : {bestShown_, mean_, speed_, trialsShown_, left_})
+      figure.value->setText(QStringLiteral("–"));
     return;
   }
   face_ = faceOf(run_, active_);
@@ -212,20 +228,22 @@ void RunPanel::refresh() {
     within_->setValue(progress_.stageDone);
   }
 
-  best_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
+  bestShown_.caption->setText(adapting ? tr("Smallest error") : tr("Best"));
   mean_.caption->setText(adapting ? tr("Mean error") : tr("Mean"));
   const bool known = adapting ? !isOld : generation_.number > 0;
   const auto said = [&](double value) {
     if (blind_ && !adapting) return tr("hidden");
     return known ? withUnit(value, unit_) : QStringLiteral("–");
   };
-  best_.value->setText(said(adapting ? progress_.best : generation_.best));
+  bestShown_.value->setText(said(adapting ? progress_.best : best_.best));
   mean_.value->setText(said(adapting ? progress_.mean : generation_.mean));
   speed_.value->setText(active_ && progress_.trialsPerSecond > 0
                             ? tr("%1 trials/s").arg(shortNumber(progress_.trialsPerSecond))
                             : QStringLiteral("–"));
-  trials_.value->setText(progress_.trials > 0 ? QLocale::c().toString(qlonglong(progress_.trials))
-                                              : QStringLiteral("–"));
+  trialsShown_.value->setText(trials_ > 0 ? QLocale::c().toString(qlonglong(trials_)) : QStringLiteral("–"));
+  bestShown_.value->setToolTip(adapting || !known || blind_
+                                   ? tr("Best fitness of all generations")
+                                   : tr("Best fitness of all generations: of generation %1").arg(best_.number));
   left_.value->setText(active_ ? duration(progress_.secondsLeft) : QStringLiteral("–"));
 
   QString message = QString::fromStdString(run_.message);

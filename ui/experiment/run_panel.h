@@ -1,5 +1,6 @@
 #pragma once
 #include <QWidget>
+#include <vector>
 
 #include "ui/experiment/run_text.h"
 
@@ -17,8 +18,9 @@ class RunPanel : public QWidget {
  public:
   explicit RunPanel(QWidget* parent = nullptr);
   void showRun(const RunRecord& run, const RunProgress& progress, bool active);
-  /// The last generation of L1; while L3 works, its errors stand in these places.
-  void setGeneration(const GenerationRecord& generation);
+  /// Those of L1 that are stored; while L3 works, its errors stand in the places of best and mean.
+  void setGenerations(const std::vector<GenerationRecord>& all);
+  void addGenerations(const std::vector<GenerationRecord>& added);
   void setMeasuring(const MeasuringCount& measuring);
   /// Best and mean stay unsaid while somebody measures blind: the best are those who are measured.
   void setBlind(bool blind);
@@ -46,7 +48,9 @@ class RunPanel : public QWidget {
   RunRecord run_;
   RunProgress progress_;
   MeasuringCount measuring_;
-  GenerationRecord generation_;
+  GenerationRecord generation_;  ///< the last one
+  GenerationRecord best_;        ///< with the best fitness of all
+  long trials_ = 0;              ///< of all stored generations
   bool active_ = false, empty_ = true, blind_ = false;
   RunFace face_ = RunFace::ready;
   QString unit_;
@@ -54,7 +58,7 @@ class RunPanel : public QWidget {
   QProgressBar *overall_, *within_;
   QPushButton *go_, *stop_;
   QSpinBox* jobs_;
-  Figure best_, mean_, speed_, trials_, left_;
+  Figure bestShown_, mean_, speed_, trialsShown_, left_;
 };
 
 }  // namespace btr::ui

@@ -2,13 +2,14 @@
 #include <QApplication>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QUndoStack>
 
 #include "ui/experiment/experiment_form.h"
-#include "ui/main_window.h"
 #include "ui/measure/measurement_sheet.h"
+#include "ui/window/window_menus.h"
 
 namespace btr::ui {
 namespace {
@@ -33,17 +34,18 @@ void press(QWidget* widget, QKeySequence::StandardKey key) {
 
 }  // namespace
 
-void MainWindow::makeEditMenu() {
-  QMenu* menu = menuBar()->addMenu(tr("&Edit"));
+void makeEditMenu(QMainWindow& window) {
+  const auto tr = [](const char* text) { return QCoreApplication::translate("EditMenu", text); };
+  QMenu* menu = window.menuBar()->addMenu(tr("&Edit"));
   // The pages answer the keys themselves, wherever the focus is; here they are only shown. As shortcuts of the whole
   // window they would compete with them.
-  const auto add = [menu, this](const QString& name, const QString& icon, const QString& text,
-                                QKeySequence::StandardKey key, auto slot) {
+  const auto add = [menu, &window](const QString& name, const QString& icon, const QString& text,
+                                   QKeySequence::StandardKey key, auto slot) {
     QAction* action = menu->addAction(themeIcon(icon), text);
     action->setObjectName("edit." + name);
     action->setShortcutContext(Qt::WidgetShortcut);
     action->setShortcut(key);
-    connect(action, &QAction::triggered, this, slot);
+    QObject::connect(action, &QAction::triggered, &window, slot);
     return action;
   };
   QAction* undo = add("undo", "edit-undo", tr("&Undo"), QKeySequence::Undo, [] {
@@ -63,7 +65,7 @@ void MainWindow::makeEditMenu() {
         std::tuple{"selectAll", "edit-select-all", tr("Select &all"), QKeySequence::SelectAll}})
     others << add(name, icon, text, key, [key = key] { press(QApplication::focusWidget(), key); });
 
-  connect(menu, &QMenu::aboutToShow, this, [undo, redo, others] {
+  QObject::connect(menu, &QMenu::aboutToShow, &window, [undo, redo, others] {
     QWidget* focus = QApplication::focusWidget();
     const QUndoStack* stack = stackOf(focus);
     const auto* line = qobject_cast<QLineEdit*>(focus);
@@ -72,7 +74,7 @@ void MainWindow::makeEditMenu() {
     for (QAction* action : others) action->setEnabled(focus);
   });
   // Closed, they can always be triggered: what does not fit does nothing.
-  connect(menu, &QMenu::aboutToHide, this, [undo, redo, others] {
+  QObject::connect(menu, &QMenu::aboutToHide, &window, [undo, redo, others] {
     for (QAction* action : others + QList<QAction*>{undo, redo}) action->setEnabled(true);
   });
 }

@@ -1,0 +1,304 @@
+// Coming in: the start page, files given to the window, names that are mistyped, and what is not saved yet.
+#include <QAbstractProxyModel>
+#include <QAction>
+#include <QApplication>
+#include <QDir>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileSystemModel>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTest>
+#include <QTimer>
+
+#include "tests/ui/stored_run.h"
+#include "ui/common/file_choice.h"
+#include "ui/common/message_banner.h"
+#include "ui/controllers/draft_controller.h"
+#include "ui/controllers/run_controller.h"
+#include "ui/experiment/experiment_form.h"
+#include "ui/gap/analysis_setup.h"
+#include "ui/gap/gap_page.h"
+#include "ui/main_window.h"
+#include "ui/window/shortcuts_dialog.h"
+#include "ui/window/start_page.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+struct Desk {
+  Desk() : theme(*qApp) {
+    options.settingsFile = folder.filePath("settings.ini");
+    options.program = "/bin/true";
+    options.isActive = [](const std::string&, Id) { return false; };
+  }
+  std::unique_ptr<MainWindow> open(const QString& database) {
+    auto window = std::make_unique<MainWindow>(host, theme, options);
+    window->show();
+    window->openDatabase(database);
+    return window;
+  }
+  QString file(const QString& name, const QByteArray& content) const {
+    QFile file(folder.filePath(name));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+    file.write(content);
+    return file.fileName();
+  }
+  QTemporaryDir folder;
+  std::shared_ptr<const PluginHost> host = std::make_shared<const PluginHost>(PLUGIN_DIR);
+  Theme theme;
+  WindowOptions options;
+};
+
+/// Presses a button of the question that comes next; its name is kept.
+void answer(const char* question, const char* button, int& asked) {
+  QTimer::singleShot(0, qApp, [=, &asked] {
+    QWidget* box = QApplication::activeModalWidget();
+    QVERIFY(box);
+    QCOMPARE(box->objectName(), QString(question));
+    ++asked;
+    auto* wanted = box->findChild<QPushButton*>(button);
+    QVERIFY(wanted);
+    QTest::mouseClick(wanted, Qt::LeftButton);
+  });
+}
+
+QAction* action(MainWindow& window, const char* name) {
+  auto* found = window.findChild<QAction*>(name);
+  if (!found) qFatal("no action %s", name);
+  return found;
+}
+
+void drop(MainWindow& window, const QStringList& files) {
+  QMimeData data;
+  QList<QUrl> urls;
+  for (const QString& file : files) urls << QUrl::fromLocalFile(file);
+  data.setUrls(urls);
+  QDropEvent event(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&window, &event);
+}
+
+void typeName(MainWindow& window, const QString& name) {
+  auto* field = window.draft().findChild<QLineEdit*>("name");
+  field->setFocus();
+  field->selectAll();
+  QTest::keyClicks(field, name);
+}
+
+}  // namespace
+
+class TestWindowEntry : public QObject {
+  Q_OBJECT
+ private slots:
+  void initTestCase() { qputenv("UCHILSIM_RESOURCES", SOURCE_DIR "/resources"); }
+
+  void aMistypedDatabaseIsNotMadeInSilence() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const QString typo = desk.folder.filePath("expermients.db");
+    int asked = 0;
+    answer("makeDatabase", "cancel", asked);
+    QVERIFY(!window->openDatabase(typo));
+    QCOMPARE(asked, 1);
+    QVERIFY(!QFile::exists(typo));
+    QCOMPARE(window->bench().path(), stored.qpath());
+    answer("makeDatabase", "make", asked);
+    QVERIFY(window->openDatabase(typo));
+    QVERIFY(QFile::exists(typo));
+  }
+
+  void aReadOnlyDatabaseIsMarked() {
+    StoredRun stored;
+    stored.addRun(stored.addExperiment());
+    Desk desk;
+    desk.options.isWritable = [](const QString&) { return false; };
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(window->windowTitle().startsWith("test.db (read only)"));
+    QVERIFY(window->findChild<QLabel*>("database")->text().contains("read only"));
+    QVERIFY(window->banner().text().contains("may only be read"));
+  }
+
+  void aFilledFormIsNotReplacedWithoutAQuestion() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    typeName(*window, "Mine");
+    int asked = 0;
+    answer("replaceDraft", "cancel", asked);
+    action(*window, "newExperiment")->trigger();
+    QCOMPARE(asked, 1);
+    QCOMPARE(window->draft().spec().name, std::string("Mine"));
+    QVERIFY(window->draft().undoStack().canUndo());
+    answer("replaceDraft", "cancel", asked);
+    QVERIFY(!window->drafts().open(SOURCE_DIR "/resources/experiments/walk.json"));
+    QCOMPARE(asked, 2);
+    answer("replaceDraft", "replace", asked);
+    action(*window, "newExperiment")->trigger();
+    QCOMPARE(asked, 3);
+    QCOMPARE(window->draft().spec().name, std::string("Experiment"));
+    // Nothing to lose: no question.
+    action(*window, "newExperiment")->trigger();
+    QCOMPARE(asked, 3);
+  }
+
+  void anUnsavedDraftIsStillUnsavedAfterARestart() {
+    StoredRun stored;
+    Desk desk;
+    {
+      const auto window = desk.open(stored.qpath());
+      typeName(*window, "Mine");
+      QVERIFY(window->close());
+    }
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(window->drafts().isUnsaved());
+    int asked = 0;
+    answer("replaceDraft", "cancel", asked);
+    action(*window, "newExperiment")->trigger();
+    QCOMPARE(asked, 1);
+  }
+
+  void theKeyboardBeginsInTheNewForm() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->activateWindow();
+    QVERIFY(QTest::qWaitForWindowActive(window.get()));
+    action(*window, "newExperiment")->trigger();
+    QCOMPARE(window->focusWidget(), window->draft().findChild<QLineEdit*>("name"));
+  }
+
+  void droppedFilesGoWhereTheirContentBelongs() {
+    StoredRun stored, other;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    drop(*window, {SOURCE_DIR "/resources/experiments/walk.json"});
+    QCOMPARE(window->draft().spec().controller.name, std::string("walk"));
+    drop(*window, {SOURCE_DIR "/resources/scenes/kick_fine.json"});
+    QVERIFY(QString::fromStdString(window->draft().spec().scene).endsWith("kick_fine.json"));
+    drop(*window, {other.qpath()});
+    QCOMPARE(window->bench().path(), other.qpath());
+    const QString table = desk.file("swing.csv", "time_s,leg.knee.position_rad\n0,0.1\n0.01,0.2\n");
+    drop(*window, {table});
+    QCOMPARE(window->gapPage().setup().recordings().rowCount(), 1);
+    drop(*window, {SOURCE_DIR "/resources/scenes/emps.json"});
+    QVERIFY(window->gapPage().setup().scene().endsWith("emps.json"));
+    const QString text = desk.file("letter.txt", "Dear all,\nnothing.\n");
+    drop(*window, {text});
+    QVERIFY2(window->banner().text().contains("letter.txt is a text file"), qPrintable(window->banner().text()));
+    QSignalSpy checked(&window->bench().launcher(), &RunLauncher::modelChecked);
+    drop(*window, {SOURCE_DIR "/resources/robots/emps.urdf"});
+    QTRY_COMPARE(checked.count(), 1);
+    QVERIFY(window->findChild<QMessageBox*>("robotModel")->text().contains("robot model"));
+  }
+
+  void aWrongFileIsCalledWhatItIs() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(!window->drafts().open(desk.file("letter.txt", "Dear all,\nnothing.\n")));
+    QVERIFY2(window->banner().text().contains("is a text file; expected: an experiment"),
+             qPrintable(window->banner().text()));
+    ExperimentSpec spec = StoredRun::spec();
+    spec.directory = SOURCE_DIR "/resources/experiments";
+    spec.scene = "../robots/ers7.wrl";
+    window->draft().setSpec(spec);
+    QVERIFY2(window->draft().problems().join('\n').contains("is a robot model (VRML97); expected: a scene"),
+             qPrintable(window->draft().problems().join('\n')));
+  }
+
+  void fewerGenerationsThanTheFirstStageAreFlagged() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    ExperimentSpec spec = StoredRun::spec();
+    spec.directory = SOURCE_DIR "/resources/experiments";
+    spec.stages["first_generations"] = 50;
+    spec.stages["total_generations"] = 20;
+    window->draft().setSpec(spec);
+    QCOMPARE(window->draft().problems(), QStringList("Total generations: at least the 50 first generations"));
+  }
+
+  void theChooserOfScenesListsScenesOnly() {
+    const auto dialog = fileDialog(nullptr, "Scenes", SOURCE_DIR "/resources/scenes", FileKind::scene);
+    dialog->show();
+    auto* model = dialog->findChild<QFileSystemModel*>();
+    const QModelIndex folder = model->index(SOURCE_DIR "/resources/scenes");
+    const auto* shown = dialog->proxyModel();
+    const QModelIndex root = dialog->proxyModel()->mapFromSource(folder);
+    const int scenes = int(QDir(SOURCE_DIR "/resources/scenes").entryList({"*.json"}, QDir::Files).size()) -
+                       int(QDir(SOURCE_DIR "/resources/scenes").entryList({"*.mapping.json"}, QDir::Files).size());
+    QTRY_COMPARE(shown->rowCount(root), scenes);
+    for (int row = 0; row < scenes; ++row) QVERIFY(!shown->index(row, 0, root).data().toString().contains("mapping"));
+  }
+
+  void continuingARunThatWaitsSaysWhatItWaitsFor() {
+    StoredRun stored;
+    const Id run = stored.addWaitingRun(stored.addExperiment());
+    stored.measure(run, stored.database.measurementTasks(run).front().individual, 0.5);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->runs().resume(run);
+    QVERIFY2(window->banner().text().contains("1 of 2 are measured"), qPrintable(window->banner().text()));
+    QVERIFY(DockLayout::isInFront(window->findChild<QDockWidget*>("dock.sheet")));
+  }
+
+  void theStartPageOpensWhenNothingWaits() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    Desk desk;
+    {
+      const auto window = desk.open(stored.qpath());
+      window->showStartIfIdle();
+      QVERIFY(!window->findChild<StartPage*>()->isVisible());
+    }
+    stored.database.setRunState(run, RunState::finished, "");
+    const auto window = desk.open(stored.qpath());
+    auto* start = window->findChild<StartPage*>();
+    window->showStartIfIdle();
+    QVERIFY(start->isVisible());
+    // The first door leads to the finished run.
+    QTest::mouseClick(start->findChild<QPushButton*>(QString("run%1").arg(run)), Qt::LeftButton);
+    QVERIFY(!start->isVisible());
+    QCOMPARE(window->bench().run().id, run);
+    action(*window, "showStartPage")->trigger();
+    QTest::mouseClick(start->findChild<QPushButton*>("newExperiment"), Qt::LeftButton);
+    QVERIFY(DockLayout::isInFront(window->findChild<QDockWidget*>("dock.draft")));
+    action(*window, "showStartPage")->trigger();
+    QTest::mouseClick(start->findChild<QPushButton*>("analyse"), Qt::LeftButton);
+    QVERIFY(window->gapPage().isVisible());
+    QVERIFY(!start->isVisible());
+    // Once turned off it stays away.
+    action(*window, "showStartPage")->trigger();
+    start->findChild<QAbstractButton*>("atStart")->click();
+    window->showPage({});
+    window->showStartIfIdle();
+    QVERIFY(!start->isVisible());
+  }
+
+  void theListOfKeysIsReadFromTheActions() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const ShortcutsDialog dialog(*window);
+    const auto* table = dialog.findChild<QTableWidget*>();
+    QMap<QString, QString> keys;
+    for (int row = 0; row < table->rowCount(); ++row) keys[table->item(row, 1)->text()] = table->item(row, 2)->text();
+    QCOMPARE(keys["Gap analysis"], QString("F8"));
+    QCOMPARE(keys["The whole kick"], QString("F9"));
+    QCOMPARE(keys["New experiment"], QString("Ctrl+N"));
+    QVERIFY(keys.contains("Rename, or edit note…"));  // of a page
+  }
+};
+
+QTEST_MAIN(TestWindowEntry)
+#include "test_window_entry.moc"

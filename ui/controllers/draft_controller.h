@@ -1,0 +1,40 @@
+#pragma once
+#include <QObject>
+
+#include "ui/controllers/workbench.h"
+
+namespace btr::ui {
+class ExperimentForm;
+
+/// The experiment that is being described: from files, into files, kept between two starts, started as a run.
+class DraftController : public QObject {
+  Q_OBJECT
+ public:
+  /// `spec` shows the settings of a stored run, which can be copied.
+  DraftController(Workbench& bench, ExperimentForm& draft, ExperimentForm& spec);
+
+  /// These replace what is in the form, after a question if it was not saved. False, the form unchanged, if the user
+  /// declined or (with a message) if the file is wrong.
+  bool begin();
+  bool open(const QString& file);
+  bool copyStored();
+  void openWithDialog();
+  bool save();  ///< False if the user gave no name or, with a message, if it cannot be written.
+  void start();
+  /// The form holds something that is in no file and no database.
+  bool isUnsaved() const;
+
+  void keep();     ///< for the next start; also what is not finished, as far as it can be read again
+  void restore();  ///< the draft of last time; on the first start an example
+
+ private:
+  bool mayReplace();
+  void show(const ExperimentSpec& spec);
+  bool fresh();
+
+  Workbench& bench_;
+  ExperimentForm &draft_, &spec_;
+  bool keptUnsaved_ = false;  ///< restored from the last start, where it was not saved
+};
+
+}  // namespace btr::ui

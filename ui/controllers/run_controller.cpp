@@ -1,0 +1,252 @@
+#include "ui/controllers/run_controller.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QMessageBox>
+#include <QPushButton>
+#include <utility>
+
+#include "ui/experiment/run_text.h"
+#include "ui/gap/program_process.h"
+
+namespace btr::ui {
+
+RunController::RunController(Workbench& bench) : QObject(&bench), bench_(bench) {
+  processes_.setInterval(500);
+  connect(&processes_, &QTimer::timeout, this, &RunController::checkLaunched);
+  connect(&bench_.watcher(), &DatabaseWatcher::activeChanged, this, &RunController::checkLaunched);
+  connect(&bench_, &Workbench::databaseOpened, this, [this] { launched_.clear(); });
+
+  RunLauncher& launcher = bench_.launcher();
+  connect(&launcher, &RunLauncher::failed, this, [this](const QString& why) {
+    bench_.inform({});
+    bench_.report(why);
+  });
+  connect(&launcher, &RunLauncher::exported, this,
+          [this](const QString& file) { bench_.inform(tr("Written: %1").arg(file)); });
+  // Shown until the next message: in what the started run differs from the one whose experiment was edited.
+  connect(&launcher, &RunLauncher::edited, &bench_, &Workbench::inform, Qt::QueuedConnection);
+  connect(&launcher, &RunLauncher::backedUp, this,
+          [this](const QString& file) { bench_.inform(tr("A checked copy of the database is in %1").arg(file)); });
+  connect(&launcher, &RunLauncher::imported, this, [this](const QString& file) {
+    bench_.watcher().poll();
+    bench_.inform(tr("Imported: %1").arg(file));
+  });
+  connect(&launcher, &RunLauncher::stored, this, [this](Id run) {
+    bench_.watcher().poll();
+    bench_.inform({});
+    bench_.selectRun(run);
+    resume(run);
+  });
+
+  merging_ = new ProgramProcess(launcher.program(), this);
+  connect(merging_, &ProgramProcess::failed, &bench_, &Workbench::report);
+  connect(merging_, &ProgramProcess::done, this, [this](const QByteArray& output) {
+    const QJsonObject copied = QJsonDocument::fromJson(output).object();
+    bench_.note(tr("%1 runs with %2 individuals were copied from %3.")
+                    .arg(copied["runs"].toInt())
+                    .arg(copied["individuals"].toInt())
+                    .arg(QFileInfo(mergedFrom_).fileName()));
+  });
+}
+
+void RunController::resume(Id run) {
+  if (run == 0 || bench_.watcher().activeRuns().count(run)) return;
+  bench_.guard([&] {
+    const RunRecord record = bench_.watcher().database().run(run);
+    if (record.state == RunState::finished)
+      return bench_.inform(tr("%1 is finished: the same experiment and seed give the same bits.").arg(runName(record)));
+    if (record.stopRequested) bench_.writer().requestStop(run, false);
+    launch(run);
+    if (record.state == RunState::waiting && !isStandIn(record)) sayWhatItWaitsFor(record);
+  });
+}
+
+// Its process may find nothing to do and end at once, which nobody would see.
+void RunController::sayWhatItWaitsFor(const RunRecord& run) {
+  const Database& db = bench_.watcher().database();
+  const MeasuringCount count = countMeasured(run, db.measurementTasks(run.id), db.measurements(run.id));
+  if (count.settled >= count.wanted) return;
+  bench_.note(
+      tr("%1 waits for real fitness: %2 of %3 are measured. Enter the other values in the measurement sheet; the run "
+         "goes on then.")
+          .arg(runName(run))
+          .arg(count.settled)
+          .arg(count.wanted));
+  if (run.id == bench_.run().id) emit bench_.dockWanted("sheet");
+}
+
+void RunController::resumeMeasured(Id run) {
+  if (bench_.watcher().activeRuns().count(run) > 0) measuredMeanwhile_.insert(run);
+  resume(run);
+}
+
+void RunController::launch(Id run) {
+  if (!bench_.launcher().work(bench_.path(), run, jobs_)) return;
+  emit bench_.messagesOver();
+  launched_.insert(run);
+  processes_.start();
+  bench_.watcher().poll();
+}
+
+void RunController::checkMeasured() {
+  for (const Id run : std::exchange(measuredMeanwhile_, {})) {
+    if (bench_.watcher().activeRuns().count(run) > 0)
+      measuredMeanwhile_.insert(run);
+    else
+      bench_.guard([&] {
+        const Database& db = bench_.watcher().database();
+        const RunRecord record = db.run(run);
+        const MeasuringCount count = countMeasured(record, db.measurementTasks(run), db.measurements(run));
+        if (record.state == RunState::waiting && count.settled >= count.wanted) resume(run);
+      });
+  }
+}
+
+// A process that ends without leaving its run waiting, stopped or finished has something to say. One may end before it
+// has locked anything.
+void RunController::checkLaunched() {
+  checkMeasured();
+  const RunLauncher& launcher = bench_.launcher();
+  for (auto run = launched_.begin(); run != launched_.end();) {
+    if (launcher.isAlive(*run)) {
+      ++run;
+      continue;
+    }
+    bench_.guard([&] {
+      const RunRecord record = bench_.watcher().database().run(*run);
+      const QString words = launcher.lastWords(*run);
+      const bool fine =
+          record.state == RunState::waiting || record.state == RunState::stopped || record.state == RunState::finished;
+      if (!fine)
+        bench_.report(
+            tr("%1 ended: %2").arg(runName(record), words.isEmpty() ? tr("its process said nothing.") : words));
+    });
+    run = launched_.erase(run);
+  }
+  if (launched_.empty()) processes_.stop();
+}
+
+void RunController::stop(Id run) {
+  if (run == 0) return;
+  bench_.guard([&] {
+    bench_.writer().requestStop(run, true);
+    bench_.watcher().poll();
+    bench_.inform(tr("Asked run %1 to stop; what it has done is kept.").arg(run));
+  });
+}
+
+void RunController::duplicate(Id run) {
+  bench_.guard([&] {
+    const RunRecord record = bench_.watcher().database().run(run);
+    bool ok = false;
+    const QString typed = QInputDialog::getText(bench_.window(), tr("Duplicate with another seed"),
+                                                tr("Seed (a whole number from 0 to 9007199254740991):"),
+                                                QLineEdit::Normal, QString::number(record.seed + 1), &ok);
+    if (!ok) return;
+    const quint64 seed = typed.trimmed().toULongLong(&ok);
+    if (!ok || seed > 9007199254740991ULL)
+      return bench_.report(tr("Seed: %1 is not allowed; a whole number from 0 to 9007199254740991").arg(typed));
+    bench_.launcher().duplicate(bench_.path(), run, seed);
+  });
+}
+
+void RunController::editRunNote(Id run) {
+  bench_.guard([&] {
+    bool ok = false;
+    const RunRecord record = bench_.watcher().database().run(run);
+    const QString note = QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(runName(record)),
+                                               QLineEdit::Normal, QString::fromStdString(record.note), &ok);
+    if (!ok) return;
+    bench_.writer().setRunNote(run, note.trimmed().toStdString());
+    bench_.watcher().poll();
+  });
+}
+
+void RunController::editExperimentNote(Id experiment) {
+  bench_.guard([&] {
+    bool ok = false;
+    const ExperimentRecord record = bench_.watcher().database().experiment(experiment);
+    const QString note =
+        QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(QString::fromStdString(record.name)),
+                              QLineEdit::Normal, QString::fromStdString(record.note), &ok);
+    if (!ok) return;
+    bench_.writer().setExperimentNote(experiment, note.trimmed().toStdString());
+    bench_.watcher().poll();
+  });
+}
+
+void RunController::renameExperiment(Id experiment) {
+  bench_.guard([&] {
+    bool ok = false;
+    const ExperimentRecord record = bench_.watcher().database().experiment(experiment);
+    const QString before = QString::fromStdString(record.name);
+    const QString name = QInputDialog::getText(bench_.window(), tr("Rename"), tr("Name of the experiment:"),
+                                               QLineEdit::Normal, before, &ok)
+                             .trimmed();
+    if (!ok || name == before) return;
+    bench_.writer().renameExperiment(experiment, name.toStdString());
+    bench_.watcher().poll();
+  });
+}
+
+void RunController::exportTable(Id run, const QString& what) {
+  if (run == 0) return;
+  const QString suggestion = QFileInfo(bench_.path()).dir().filePath(QStringLiteral("run%1-%2.csv").arg(run).arg(what));
+  const QString file = QFileDialog::getSaveFileName(bench_.window(), tr("Export"), suggestion, tr("Tables (*.csv)"));
+  if (!file.isEmpty()) bench_.launcher().exportCsv(bench_.path(), run, what, file);
+}
+
+void RunController::mergeWithDialog() {
+  const QString path = QFileDialog::getOpenFileName(bench_.window(), tr("Add the runs of another database"),
+                                                    bench_.path(), tr("Experiment databases (*.db);;All files (*)"));
+  if (!path.isEmpty()) merge(path);
+}
+
+void RunController::backUpWithDialog() {
+  const QString path = QFileDialog::getSaveFileName(bench_.window(), tr("Back up the database"),
+                                                    bench_.path() + ".backup.db", tr("Experiment databases (*.db)"));
+  if (!path.isEmpty())
+    bench_.launcher().backUp(bench_.path(), QFileInfo(path).suffix().isEmpty() ? path + ".db" : path);
+}
+
+void RunController::merge(const QString& from) {
+  if (!bench_.watcher().isOpen())
+    return bench_.report(tr("No database is open that could take the runs: open or make one first"));
+  if (merging_->isRunning()) return bench_.report(tr("Runs of %1 are still being copied").arg(mergedFrom_));
+  mergedFrom_ = from;
+  merging_->start({"--json", "merge", from, "--db", bench_.path()});
+}
+
+bool RunController::mayClose() {
+  bench_.watcher().poll();
+  const std::set<Id> active = bench_.watcher().activeRuns();
+  if (active.empty()) return true;
+  QMessageBox box(bench_.window());
+  box.setObjectName("closeQuestion");
+  box.setIcon(QMessageBox::Question);
+  box.setWindowTitle(tr("A run is working"));
+  box.setText(active.size() == 1 ? tr("Run %1 is still learning.").arg(*active.begin())
+                                 : tr("%1 runs are still learning.").arg(active.size()));
+  box.setInformativeText(
+      tr("It can go on without the window and will be found here again. If it is stopped, it can be continued with the "
+         "same bits."));
+  auto* leave = box.addButton(tr("Leave it running"), QMessageBox::AcceptRole);
+  auto* stopping = box.addButton(tr("Stop it"), QMessageBox::DestructiveRole);
+  auto* cancel = box.addButton(tr("Cancel"), QMessageBox::RejectRole);
+  leave->setObjectName("leave");
+  stopping->setObjectName("stop");
+  cancel->setObjectName("cancel");
+  box.setDefaultButton(leave);
+  box.setEscapeButton(cancel);
+  box.exec();
+  if (box.clickedButton() == stopping)
+    for (const Id run : active) stop(run);
+  return box.clickedButton() == stopping || box.clickedButton() == leave;
+}
+
+}  // namespace btr::ui

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace btr::ui {
+class Alarm;
+class ComparePage;
+class ExperimentForm;
+class ExperimentTree;
+class FitnessChart;
+class GapChart;
+class GapPage;
+class GridPage;
+class IndividualsTable;
+class MeasurementSheet;
+class PolicyPage;
+class ReplayPanel;
+class RunPanel;
+class SimulatorsPage;
+class StartPage;
+
+/// What stands in the window's docks; owned by them.
+struct WindowPages {
+  ExperimentTree* tree = nullptr;
+  ExperimentForm *draft = nullptr, *spec = nullptr;
+  RunPanel* panel = nullptr;
+  FitnessChart* fitness = nullptr;
+  GapChart* gap = nullptr;
+  SimulatorsPage* versions = nullptr;
+  IndividualsTable* individuals = nullptr;
+  MeasurementSheet* sheet = nullptr;
+  PolicyPage* policies = nullptr;
+  ReplayPanel* replay = nullptr;
+  GapPage* gapPage = nullptr;
+  GridPage* gridPage = nullptr;
+  ComparePage* comparePage = nullptr;
+  StartPage* start = nullptr;
+  Alarm* alarm = nullptr;
+};
+
+}  // namespace btr::ui

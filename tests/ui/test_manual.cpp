@@ -70,7 +70,7 @@ class TestManual : public QObject {
     QCOMPARE(browser.shown.size(), 1);
     QCOMPARE(browser.shown[0].toLocalFile(), Manual::standardFolder() + "/first-run.html");
 
-    window.showGapPage(true);
+    window.showPage("analysis");
     QWidget* dock = window.findChild<QDockWidget*>("dock.analysis");
     QTRY_VERIFY(dock->isVisible());
     QWidget* field = nullptr;

@@ -83,6 +83,8 @@ void drop(MainWindow& window, const QStringList& files) {
   QList<QUrl> urls;
   for (const QString& file : files) urls << QUrl::fromLocalFile(file);
   data.setUrls(urls);
+  QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&window, &enter);
   QDropEvent event(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&window, &event);
 }
@@ -180,6 +182,7 @@ class TestWindowEntry : public QObject {
   void droppedFilesGoWhereTheirContentBelongs() {
     StoredRun stored, other;
     Desk desk;
+    desk.options.program = BTR_PROGRAM;
     const auto window = desk.open(stored.qpath());
     drop(*window, {SOURCE_DIR "/resources/experiments/walk.json"});
     QCOMPARE(window->draft().spec().controller.name, std::string("walk"));

@@ -34,6 +34,34 @@ check() {  # file, layer
 for layer in "${!may[@]}"; do
   while IFS= read -r file; do check "$file" "$layer"; done < <(find "$layer" -name '*.cpp' -o -name '*.h' 2>/dev/null)
 done
+# Of core the window sees what the user asked for (spec), the public headers of runs, store and plugins, and what it
+# draws: models, trials, recordings and reports. A header that is not here is an inner part: add it only if it is not.
+declare -A public=(
+  [store]="database records"
+  [plugin]="plugin_host reality"
+  [run]="adoption back_to_reality comparison fitness_clues grid grid_cells grid_kicks grid_losses grid_table
+    measured_import plausibility prepared_experiment reality_gap reality_report replay resting_simulator rig spread
+    stored_recordings"
+  [model]="kinematics robot_model"
+  [sim]="scene trace trial"
+  [gap/recordings]="channel_name doctor mapping objection recording recording_health"
+  [gap/replay]="number_table residual trial_scenes"
+  [gap/search]="gap_report report_words"
+  [gap/report]="report_figures report_files report_html report_json report_text"
+  [gap/proof]="proof_marks"
+)
+seen=" "
+for folder in "${!public[@]}"; do
+  for header in ${public[$folder]}; do
+    seen+="core/$folder/$header.h "
+    [ -f "core/$folder/$header.h" ] || { echo "core/$folder/$header.h is listed for the window and is not there"; bad=1; }
+  done
+done
+while IFS=: read -r file target; do
+  [[ $target == core/spec/* || $seen == *" $target "* ]] ||
+    { echo "$file includes \"$target\": no public header of core for the window"; bad=1; }
+done < <(grep -rE '^[[:space:]]*#include "core/' ui --include=*.cpp --include=*.h |
+           sed -nE 's/^([^:]+):[[:space:]]*#include "([^"]+)".*/\1:\2/p')
 # core never names a widget toolkit, and a plugin sees plugin.h alone.
 grep -rnE '#include <(Q|osg)' core app/btr*.cpp plugins --include=*.cpp --include=*.h && { echo "Qt or OSG outside ui/"; bad=1; }
 grep -rnP '#include "core/plugin/(?!plugin\.h)' plugins --include=*.cpp && { echo "a plugin may include core/plugin/plugin.h alone"; bad=1; }

@@ -56,7 +56,6 @@ class Database {
   std::vector<ExperimentRecord> experiments() const;
   std::optional<Id> findExperiment(const std::string& specJson) const;  ///< the latest with exactly this text
   ExperimentRecord experiment(Id id) const;
-  void renameExperiment(Id id, const std::string& name);  ///< refuses an empty name; its specification stays
   void setExperimentNote(Id id, const std::string& note);
   /// Stores run, files and its first simulator version (number 0) together. An absent programVersion, startedAt or
   /// createdAt is filled in. Files are shared by content between runs.

@@ -76,15 +76,6 @@ ExperimentRecord Database::experiment(Id id) const {
   });
 }
 
-void Database::renameExperiment(Id id, const std::string& name) {
-  if (name.empty())
-    throw InputError("name of experiment " + std::to_string(id), "an empty text", "at least one letter");
-  connection_->write([&] {
-    if (Query(*connection_, "UPDATE experiment SET name = ? WHERE id = ?").run(name, id) == 0)
-      refuseUnknown(*connection_, "experiment", id);
-  });
-}
-
 void Database::setExperimentNote(Id id, const std::string& note) {
   connection_->write([&] {
     if (Query(*connection_, "UPDATE experiment SET note = ? WHERE id = ?").run(note, id) == 0)

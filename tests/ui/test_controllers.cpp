@@ -67,6 +67,32 @@ class TestControllers : public QObject {
     QCOMPARE(selected.count(), 1);
   }
 
+  void anExperimentsNameIsTheUsersAndTheStoredOneStays() {
+    Desk desk;
+    const Id experiment = desk.stored.addExperiment("Kick");
+    QStringList names;
+    const auto follow = [&](Workbench& bench) {
+      connect(&bench.watcher(), &DatabaseWatcher::runsChanged, this,
+              [&](const std::vector<ExperimentRecord>& all) { names << QString::fromStdString(all.front().name); });
+    };
+    {
+      Workbench bench(desk.host, desk.options, desk.window);
+      follow(bench);
+      QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+      bench.nameExperiment(experiment, "Kick, worn knee");
+      QCOMPARE(names.last(), QString("Kick, worn knee"));
+      QCOMPARE(bench.nameOfExperiment(experiment), QString("Kick, worn knee"));
+    }
+    QCOMPARE(desk.stored.database.experiment(experiment).name, std::string("Kick"));
+    names.clear();
+    Workbench bench(desk.host, desk.options, desk.window);
+    follow(bench);
+    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    QCOMPARE(names.last(), QString("Kick, worn knee"));
+    bench.nameExperiment(experiment, "");
+    QCOMPARE(names.last(), QString("Kick"));
+  }
+
   void aRunThatIsFinishedIsNotStartedAgain() {
     Desk desk;
     const Id run = desk.stored.addRun(desk.stored.addExperiment());

@@ -219,7 +219,7 @@ class TestRunPanel : public QObject {
     generation.number = 50;
     generation.best = 1.117;
     generation.mean = 0.619;
-    panel.setGeneration(generation);
+    panel.addGenerations({generation});
     panel.setBlind(true);
     for (const auto* label : panel.findChildren<QLabel*>())
       QVERIFY2(!label->text().contains("1.117") && !label->text().contains("0.619"), qPrintable(label->text()));

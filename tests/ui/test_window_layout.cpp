@@ -100,6 +100,29 @@ class TestWindowLayout : public QObject {
     }
   }
 
+  // A page that is there from the start: the docks get their sizes when they are first seen.
+  void aWindowThatOpensWithAPageHasTheSameDocksBehindIt() {
+    Desk desk;
+    const auto widthsOf = [](MainWindow& window) {
+      QList<int> widths;
+      for (const char* name : {"dock.tree", "dock.run", "dock.spec"})
+        widths << window.findChild<QDockWidget*>(name)->width();
+      return widths;
+    };
+    MainWindow plain(desk.host, desk.theme, desk.options), paged(desk.host, desk.theme, desk.options);
+    for (MainWindow* window : {&plain, &paged}) {
+      window->resize(1264, 676);
+      window->show();
+    }
+    paged.showPage("start");
+    Desk::settle();
+    paged.showPage({});
+    Desk::settle();
+    const QList<int> wanted = widthsOf(plain), found = widthsOf(paged);
+    for (int i = 0; i < wanted.size(); ++i)
+      QVERIFY2(qAbs(wanted[i] - found[i]) <= 8, qPrintable(QString("%1, %2").arg(wanted[i]).arg(found[i])));
+  }
+
   void aGrownWindowIsPutBackByResetLayout() {
     Desk desk;
     const auto window = desk.open();

@@ -31,9 +31,10 @@ DatabaseWatcher::DatabaseWatcher(ActiveTest isActive, int interval_ms, QObject* 
   connect(&timer_, &QTimer::timeout, this, &DatabaseWatcher::poll);
 }
 
-void DatabaseWatcher::open(const QString& path) {
+void DatabaseWatcher::open(const QString& path, const Names& names) {
   Database opened = Database::open(path.toStdString(), Database::Mode::readOnly);
   database_ = std::move(opened);
+  names_ = names;
   version_ = -1;
   run_ = 0;
   runs_.clear();
@@ -44,6 +45,12 @@ void DatabaseWatcher::open(const QString& path) {
   activeGrids_.clear();
   timer_.start();
   emit this->opened(path);
+  poll();
+}
+
+void DatabaseWatcher::setNames(const Names& names) {
+  names_ = names;
+  version_ = -1;
   poll();
 }
 
@@ -118,7 +125,10 @@ bool DatabaseWatcher::readActive() {
 }
 
 void DatabaseWatcher::readAll() {
-  emit runsChanged(database_->experiments(), runs_);
+  std::vector<ExperimentRecord> experiments = database_->experiments();
+  for (ExperimentRecord& experiment : experiments)
+    if (const auto given = names_.find(experiment.id); given != names_.end()) experiment.name = given->second;
+  emit runsChanged(experiments, runs_);
   if (const auto rigs = database_->rigSimulators(0); rigVersions_ != rigs.size()) {
     rigVersions_ = rigs.size();
     emit rigsChanged(rigs);

@@ -22,8 +22,11 @@ class DatabaseWatcher : public QObject {
   /// `isActive` is isRunActive() but in tests.
   explicit DatabaseWatcher(ActiveTest isActive, int interval_ms = 250, QObject* parent = nullptr);
 
-  /// Opens another database and tells everything anew. Throws InputError and keeps the old one.
-  void open(const QString& path);
+  using Names = std::map<Id, std::string>;
+  /// Opens another database and tells everything anew; `names` stand in for those of the stored experiments. Throws
+  /// InputError and keeps the old one.
+  void open(const QString& path, const Names& names = {});
+  void setNames(const Names& names);
   bool isOpen() const { return database_.has_value(); }
   QString path() const;
   const Database& database() const { return *database_; }  ///< only while isOpen(); of the window's thread
@@ -74,6 +77,7 @@ class DatabaseWatcher : public QObject {
   std::optional<Database> database_;
   std::int64_t version_ = -1;
   std::vector<RunRecord> runs_;
+  Names names_;
   std::vector<Grid> grids_;
   std::map<Id, int> stages_;  ///< of each run, when its simulators were told
   std::set<Id> active_, activeGrids_;

@@ -2,6 +2,7 @@
 
 #include <QCryptographicHash>
 #include <QFileInfo>
+#include <QVariant>
 
 namespace btr::ui {
 namespace {
@@ -59,6 +60,23 @@ void Settings::addRecentDatabase(const QString& path) {
 
 qint64 Settings::selectedRun(const QString& database) const { return store_.value(runKey(database)).toLongLong(); }
 void Settings::setSelectedRun(const QString& database, qint64 run) { store_.setValue(runKey(database), run); }
+
+std::map<qint64, QString> Settings::experimentNames(const QString& database) const {
+  std::map<qint64, QString> names;
+  const QVariantMap stored = store_.value("experimentNames/" + keyOf(database)).toMap();
+  for (const auto& [id, name] : stored.asKeyValueRange()) names[id.toLongLong()] = name.toString();
+  return names;
+}
+
+void Settings::setExperimentName(const QString& database, qint64 experiment, const QString& name) {
+  const QString key = "experimentNames/" + keyOf(database);
+  QVariantMap names = store_.value(key).toMap();
+  if (name.isEmpty())
+    names.remove(QString::number(experiment));
+  else
+    names[QString::number(experiment)] = name;
+  store_.setValue(key, names);
+}
 
 std::set<qint64> Settings::archived(const QString& database) const {
   std::set<qint64> ids;

@@ -3,6 +3,7 @@
 #include <QSettings>
 #include <QString>
 #include <QStringList>
+#include <map>
 #include <set>
 
 #include "ui/common/theme.h"
@@ -30,6 +31,9 @@ class Settings {
   qint64 selectedRun(const QString& database) const;
   void setSelectedRun(const QString& database, qint64 run);
 
+  /// Names that the user gave to experiments of this database; a stored experiment itself never changes.
+  std::map<qint64, QString> experimentNames(const QString& database) const;
+  void setExperimentName(const QString& database, qint64 experiment, const QString& name);  ///< empty: its own again
   /// Experiments of this database that the tree puts away.
   std::set<qint64> archived(const QString& database) const;
   void setArchived(const QString& database, const std::set<qint64>& experiments);

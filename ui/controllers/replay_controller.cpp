@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/run/grid_cells.h"
 #include "core/run/grid_kicks.h"
 #include "core/run/replay.h"
 #include "core/spec/scene_spec.h"

@@ -172,7 +172,7 @@ void RunController::editExperimentNote(Id experiment) {
     bool ok = false;
     const ExperimentRecord record = bench_.watcher().database().experiment(experiment);
     const QString note =
-        QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(QString::fromStdString(record.name)),
+        QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(bench_.nameOfExperiment(experiment)),
                               QLineEdit::Normal, QString::fromStdString(record.note), &ok);
     if (!ok) return;
     bench_.writer().setExperimentNote(experiment, note.trimmed().toStdString());
@@ -183,14 +183,12 @@ void RunController::editExperimentNote(Id experiment) {
 void RunController::renameExperiment(Id experiment) {
   bench_.guard([&] {
     bool ok = false;
-    const ExperimentRecord record = bench_.watcher().database().experiment(experiment);
-    const QString before = QString::fromStdString(record.name);
-    const QString name = QInputDialog::getText(bench_.window(), tr("Rename"), tr("Name of the experiment:"),
+    const QString before = bench_.nameOfExperiment(experiment);
+    const QString name = QInputDialog::getText(bench_.window(), tr("Rename"),
+                                               tr("Name of the experiment in this program (empty: as it is stored):"),
                                                QLineEdit::Normal, before, &ok)
                              .trimmed();
-    if (!ok || name == before) return;
-    bench_.writer().renameExperiment(experiment, name.toStdString());
-    bench_.watcher().poll();
+    if (ok && name != before) bench_.nameExperiment(experiment, name);
   });
 }
 

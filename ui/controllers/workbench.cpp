@@ -9,7 +9,8 @@
 namespace btr::ui {
 
 Workbench::Workbench(std::shared_ptr<const PluginHost> host, const WindowOptions& options, QWidget& window)
-    : host_(std::move(host)),
+    : QObject(&window),
+      host_(std::move(host)),
       options_(options),
       window_(window),
       settings_(options.settingsFile),
@@ -52,7 +53,7 @@ bool Workbench::open(const QString& path, Absent absent) {
     std::optional<Database> writer;
     const bool readOnly = QFileInfo::exists(absolute) && !options_.isWritable(absolute);
     if (!readOnly) writer = Database::open(absolute.toStdString(), Database::Mode::create);
-    watcher_.open(absolute);
+    watcher_.open(absolute, namesIn(absolute));
     writer_ = std::move(writer);
     readOnly_ = readOnly;
   });
@@ -67,6 +68,23 @@ bool Workbench::open(const QString& path, Absent absent) {
   const bool known = std::ranges::any_of(runs, [&](const auto& run) { return run.id == wanted; });
   selectRun(known ? wanted : runs.empty() ? 0 : runs.back().id);
   return true;
+}
+
+DatabaseWatcher::Names Workbench::namesIn(const QString& database) const {
+  DatabaseWatcher::Names names;
+  for (const auto& [experiment, name] : settings_.experimentNames(database)) names[experiment] = name.toStdString();
+  return names;
+}
+
+void Workbench::nameExperiment(Id experiment, const QString& name) {
+  settings_.setExperimentName(path(), experiment, name);
+  watcher_.setNames(namesIn(path()));
+}
+
+QString Workbench::nameOfExperiment(Id experiment) const {
+  const auto names = settings_.experimentNames(path());
+  const auto given = names.find(experiment);
+  return given != names.end() ? given->second : QString::fromStdString(watcher_.database().experiment(experiment).name);
 }
 
 Database& Workbench::writer() {

@@ -24,7 +24,7 @@ struct WindowOptions {
 class Workbench : public QObject {
   Q_OBJECT
  public:
-  /// `window` is the parent of dialogs.
+  /// `window` is the parent, also of dialogs.
   Workbench(std::shared_ptr<const PluginHost> host, const WindowOptions& options, QWidget& window);
 
   const std::shared_ptr<const PluginHost>& host() const { return host_; }
@@ -39,6 +39,9 @@ class Workbench : public QObject {
   bool open(const QString& path, Absent absent);
   bool isReadOnly() const { return readOnly_; }
   QString path() const { return watcher_.path(); }
+  /// A name of the user's own for a stored experiment; empty: its own again.
+  void nameExperiment(Id experiment, const QString& name);
+  QString nameOfExperiment(Id experiment) const;
   /// The connection for the user's own words, opened when it is first needed.
   Database& writer();
 
@@ -65,6 +68,7 @@ class Workbench : public QObject {
   void replayWanted(btr::Id individual);
 
  private:
+  DatabaseWatcher::Names namesIn(const QString& database) const;
   bool mayMake(const QString& path);
 
   std::shared_ptr<const PluginHost> host_;

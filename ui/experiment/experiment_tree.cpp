@@ -79,9 +79,10 @@ ExperimentTree::ExperimentTree(QWidget* parent)
 
 QWidget* ExperimentTree::makeBar() {
   auto* bar = new QWidget(this);
-  auto* row = new QHBoxLayout(bar);
-  row->setContentsMargins(4, 2, 4, 4);
-  row->setSpacing(4);
+  auto* column = new QVBoxLayout(bar);
+  column->setContentsMargins(4, 2, 4, 4);
+  column->setSpacing(4);
+  auto* row = new QHBoxLayout;
   search_->setObjectName("searchExperiments");
   search_->setPlaceholderText(tr("Search"));
   search_->setAccessibleName(tr("Search experiments and runs"));
@@ -94,13 +95,14 @@ QWidget* ExperimentTree::makeBar() {
   order_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   order_->setMinimumContentsLength(6);
   archive_->setObjectName("showArchive");
-  archive_->setIcon(themeIcon("folder-tar"));
+  archive_->setIcon(themeIcon("view-hidden"));
   archive_->setCheckable(true);
   archive_->setAutoRaise(true);
   archive_->setToolTip(tr("Also show archived experiments"));
   archive_->setAccessibleName(tr("Show archived experiments"));
-  row->addWidget(search_, 1);
-  row->addWidget(order_);
+  column->addWidget(search_);
+  column->addLayout(row);
+  row->addWidget(order_, 1);
   row->addWidget(archive_);
   connect(search_, &QLineEdit::textChanged, this, &ExperimentTree::filter);
   connect(archive_, &QToolButton::toggled, this, &ExperimentTree::filter);
@@ -443,7 +445,7 @@ void ExperimentTree::fillExperimentsMenu(QMenu& menu, const std::vector<Id>& exp
                    experiments.size() == 1 ? tr("Compare its runs") : tr("Compare their runs"), this,
                    [this, runs] { emit compareRequested(runs); });
   const bool away = std::ranges::all_of(experiments, [&](Id id) { return archived_.count(id) > 0; });
-  menu.addAction(themeIcon("folder-tar"), away ? tr("Take out of the archive") : tr("Archive"), this,
+  menu.addAction(themeIcon("archive-insert"), away ? tr("Take out of the archive") : tr("Archive"), this,
                  [this, experiments, away] { archive(experiments, !away); });
 }
 

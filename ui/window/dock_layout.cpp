@@ -118,8 +118,26 @@ void DockLayout::size() {
   window_.resizeDocks({dock("fitness"), dock("gap")}, {middle * 54 / 100, middle * 46 / 100}, Qt::Horizontal);
 }
 
+// The runs' docks get their sizes when they are seen: behind a page they have none.
 void DockLayout::sizeOnce() {
+  if (!page_.isEmpty()) return sizePage();
   if (!sized_) size();
+}
+
+void DockLayout::sizePage() {
+  const QStringList shown = shownWith(page_);
+  QList<QDockWidget*> docks;
+  for (const QString& each : shown) docks << dock(each);
+  const int width = window_.width(), left = width * 15 / 100, right = docks.size() > 2 ? width * 27 / 100 : 0;
+  const QList<int> widths{left, width - left - right, right};
+  window_.resizeDocks(docks, widths.mid(0, docks.size()), Qt::Horizontal);
+}
+
+// The page stands behind the first of those that are beside it.
+QStringList DockLayout::shownWith(const QString& page) const {
+  QStringList shown = pages_[page];
+  shown.insert(shown.isEmpty() ? 0 : 1, page);
+  return shown;
 }
 
 void DockLayout::showPage(const QString& name) {
@@ -132,25 +150,20 @@ void DockLayout::showPage(const QString& name) {
     // The pages have no place in that layout.
     for (QDockWidget* other : all())
       if (isPage(other)) other->hide();
+    if (!sized_) size();
     emit pageChanged(name);
     return;
   }
   if (last.isEmpty()) before_ = window_.saveState(Settings::layoutVersion);
   for (QDockWidget* other : all()) other->hide();
-  QStringList shown = pages_[name];
-  shown.insert(shown.isEmpty() ? 0 : 1, name);
-  QList<QDockWidget*> docks;
-  for (const QString& each : shown) {
+  for (const QString& each : shownWith(name)) {
     QDockWidget* one = dock(each);
     window_.removeDockWidget(one);
     one->setFloating(false);
     window_.addDockWidget(Qt::LeftDockWidgetArea, one, Qt::Horizontal);
     one->show();
-    docks << one;
   }
-  const int width = window_.width(), left = width * 15 / 100, right = docks.size() > 2 ? width * 27 / 100 : 0;
-  QList<int> widths{left, width - left - right, right};
-  window_.resizeDocks(docks, widths.mid(0, docks.size()), Qt::Horizontal);
+  sizePage();
   emit pageChanged(name);
 }
 

@@ -44,6 +44,8 @@ class DockLayout : public QObject {
   void place();
   void placeCompact();
   void size();
+  void sizePage();
+  QStringList shownWith(const QString& page) const;
   bool isCompact() const;
 
   QMainWindow& window_;

@@ -7,6 +7,7 @@
 #include <QMenuBar>
 #include <QUndoStack>
 
+#include "ui/common/theme.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/window/window_menus.h"

@@ -136,7 +136,7 @@ void MainWindow::makeDocks() {
   p.spec->setReadOnly(tr("A stored run never changes."));
   p.start = new StartPage(this);
   layout_.addPage("start", tr("Start"), "go-home", p.start, {"tree"});
-  // Tab leads out of a table; cells that are typed into are moved through by Tab and left by Ctrl+Tab.
+  // Tab leads out of a table that is only read; in one that is typed into it moves through the cells.
   for (QTableView* table : findChildren<QTableView*>())
     if (table->editTriggers() == QAbstractItemView::NoEditTriggers) table->setTabKeyNavigation(false);
 }

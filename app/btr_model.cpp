@@ -21,11 +21,16 @@ void checkModelFile(const std::string& path, const Shell& shell) {
   nlohmann::json links = nlohmann::json::array(), joints = nlohmann::json::array(), warnings = nlohmann::json::array();
   for (const Link& l : model.links)
     links.push_back({{"name", l.name}, {"mass_kg", l.inertial.mass_kg}, {"mass_group", l.massGroup}});
-  for (const Joint& j : model.joints)
+  for (const Joint& j : model.joints) {
     joints.push_back({{"name", j.name},
                       {"parent", model.links[static_cast<std::size_t>(j.parentLink)].name},
                       {"lower", j.lower},
                       {"upper", j.upper}});
+    if (j.mimic)
+      joints.back()["mimic"] = {{"joint", model.joints[static_cast<std::size_t>(j.mimic->leader)].name},
+                                {"multiplier", j.mimic->multiplier},
+                                {"offset", j.mimic->offset}};
+  }
   for (const Warning& w : model.warnings) warnings.push_back({{"line", w.line}, {"text", w.text}});
   const Inertial all = massProperties(model, std::vector<double>(model.joints.size(), 0.0));
   printJson({{"name", model.name},

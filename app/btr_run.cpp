@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "core/run/back_to_reality.h"
+#include "core/run/prepared_experiment.h"
 #include "core/run/reality_gap.h"
 #include "core/run/stand_in.h"
 #include "core/run/waiting.h"
@@ -124,6 +125,8 @@ void run(const RunArguments& arguments, Shell& shell) {
                   &edited);
     if (!edited.empty()) std::fprintf(stderr, "btr: %s: %s\n", arguments.spec.c_str(), edited.c_str());
   }
+  for (const std::string& loss : runLosses(db.run(id), shell.plugins()))
+    std::fprintf(stderr, "btr: note: %s\n", loss.c_str());
   shell.goesOn = true;
   RunOptions options;
   options.jobs = arguments.jobs;

@@ -5,6 +5,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/model/load_model.h"
+#include "core/spec/parameter.h"
 
 namespace btr {
 namespace {
@@ -73,6 +74,13 @@ std::string limitsOf(const Joint& joint) {
          " to" + fixed(joint.upper * degrees, 1, 6) + " deg)";
 }
 
+/// ", follows left_finger: -0.5 times it plus 0.002", "" for a joint that follows none.
+std::string followed(const RobotModel& model, const Joint& joint) {
+  if (!joint.mimic) return "";
+  return ", follows " + model.joints[static_cast<std::size_t>(joint.mimic->leader)].name + ": " +
+         toText(joint.mimic->multiplier) + " times it plus " + toText(joint.mimic->offset);
+}
+
 std::string servoOf(const Joint& joint) {
   const ServoData& servo = joint.servo;
   std::string text;
@@ -115,7 +123,7 @@ std::string describeModel(const RobotModel& model) {
     text += column(link.name, width) + column(parent, width) + fixed(link.inertial.mass_kg, 4, 8) + "  " +
             fixed(com.x(), 4, 8) + fixed(com.y(), 4, 9) + fixed(com.z(), 4, 9) + "    " + link.massGroup + "\n";
     for (const Shape& shape : link.shapes) {
-      triangles += shape.triangles.size();
+      if (shape.surface) triangles += shape.surface->triangles.size();
       colliding += shape.collides;
     }
   }
@@ -127,7 +135,7 @@ std::string describeModel(const RobotModel& model) {
     if (joint.type != Joint::Type::fixed)
       axis = fixed(joint.axis.x(), 3, 6) + fixed(joint.axis.y(), 3, 7) + fixed(joint.axis.z(), 3, 7);
     text += column(joint.name, width) + column(model.links[i + 1].name, width) + column(typeName(joint.type), 8) +
-            column(axis, 22) + limitsOf(joint) + "\n";
+            column(axis, 22) + limitsOf(joint) + followed(model, joint) + "\n";
   }
   bool head = false;
   for (const Joint& joint : model.joints) {

@@ -5,6 +5,7 @@
 #include "core/model/vrml_parser.h"
 #include "core/model/vrml_robot.h"
 #include "core/spec/error.h"
+#include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"
 
 namespace btr {
@@ -20,13 +21,6 @@ RobotModel readVrml(const std::string& text, const std::string& place, const std
   return model;
 }
 
-std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
-}
-
 }  // namespace
 
 RobotModel parseVrml(const std::string& text, const std::string& place, const ModelBudget& budget) {
@@ -34,11 +28,13 @@ RobotModel parseVrml(const std::string& text, const std::string& place, const Mo
 }
 
 RobotModel loadModel(const std::string& path, const ModelBudget& budget) {
-  const std::string ending = endingOf(path);
+  const std::string ending = fileEnding(path);
+  if (ending == ".xacro")
+    throw InputError(path + ": a xacro file must be expanded first (xacro robot.urdf.xacro > robot.urdf)");
   if (ending != ".wrl" && ending != ".urdf")
     throw InputError(path, "a file ending in \"" + ending + "\"", "robots are .wrl (VRML97) or .urdf files");
   const std::string text = readFile(path, budget.bytes);
-  if (ending == ".urdf") return parseUrdf(text, path, budget);
+  if (ending == ".urdf") return parseUrdf(text, path, budget, meshesBeside(path, budget));
   const vrml::InlineFolder folder(path);
   return readVrml(text, path, vrml::canonicalPath(path), &folder, budget);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "core/model/robot_model.h"
@@ -19,14 +20,28 @@ struct ModelBudget {
   std::size_t inlineFiles = 64;
 };
 
+/// A mesh file that a URDF file names: where it was found, for messages, and its bytes.
+struct MeshFile {
+  std::string path;
+  std::string bytes;
+};
+/// Gives the mesh file of that name, as it stands in the URDF file; throws InputError if there is none.
+using MeshSource = std::function<MeshFile(const std::string& name)>;
+/// Mesh files as the URDF file `robot` means them. Relative names and file:// lead from the robot's folder;
+/// package://NAME/… and model://NAME/… lead to a folder NAME above or beside the robot's folder, one of ROS_PACKAGE_PATH
+/// or AMENT_PREFIX_PATH, or, where the robot was taken out of its package, to the robot's folder or the one above it.
+MeshSource meshesBeside(const std::string& robot, const ModelBudget& budget = {});
+
 /// Reads .wrl (VRML97, OpenHRP/Choreonoid vocabulary) or .urdf by the file's ending, then runs checkModel. Inline files
-/// are opened only below the file's own folder. Throws InputError "FILE:LINE: …"; what was merely ignored becomes a
-/// warning.
+/// are opened only below the file's own folder; meshes as meshesBeside() finds them. Throws InputError
+/// "FILE:LINE: …"; what was merely ignored becomes a warning.
 RobotModel loadModel(const std::string& path, const ModelBudget& budget = {});
 
-/// The same from memory; `place` begins messages; Inline nodes are refused.
+/// The same from memory; `place` begins messages; Inline nodes are refused; without a source, mesh
+/// files are not read.
 RobotModel parseVrml(const std::string& text, const std::string& place, const ModelBudget& budget = {});
-RobotModel parseUrdf(const std::string& text, const std::string& place, const ModelBudget& budget = {});
+RobotModel parseUrdf(const std::string& text, const std::string& place, const ModelBudget& budget = {},
+                     const MeshSource& meshes = {});
 
 /// Semantic checks: mass > 0, inertia symmetric, positive definite and within the triangle inequality, limits in order,
 /// unit axes, unique names, one root. Throws InputError at the first violation.

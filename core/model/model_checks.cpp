@@ -25,7 +25,8 @@ void checkSizes(const Link& link, const std::string& place) {
   for (const Shape& shape : link.shapes) {
     checkLargest(shape.size_m.cwiseAbs().maxCoeff(), name + "the size of a shape", link.line, place);
     checkLargest(shape.pose.translation().cwiseAbs().maxCoeff(), name + "the place of a shape", link.line, place);
-    for (const Eigen::Vector3f& vertex : shape.vertices)
+    if (!shape.surface) continue;
+    for (const Eigen::Vector3f& vertex : shape.surface->vertices)
       checkLargest(vertex.cwiseAbs().maxCoeff(), name + "a corner of a mesh", link.line, place);
   }
 }
@@ -97,6 +98,10 @@ void checkJoint(const Joint& joint, std::size_t number, const std::string& place
     throw InputError(place, joint.line,
                      name + "axis " + toText(joint.axis.x()) + " " + toText(joint.axis.y()) + " " +
                          toText(joint.axis.z()) + " is not allowed; a unit vector is expected");
+  if (joint.mimic) {
+    checkLargest(joint.mimic->multiplier, name + "the multiplier of its mimic", joint.line, place);
+    checkLargest(joint.mimic->offset, name + "the offset of its mimic", joint.line, place);
+  }
   if (!(joint.lower < joint.upper))
     throw InputError(place, joint.line,
                      name + "limits " + toText(joint.lower) + " and " + toText(joint.upper) +

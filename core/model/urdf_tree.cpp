@@ -1,5 +1,6 @@
 #include "core/model/urdf_tree.h"
 
+#include <algorithm>
 #include <unordered_set>
 
 #include "core/model/kinematics.h"
@@ -30,6 +31,9 @@ class TreeMaker {
     if (reached_.size() != tree_.links.size())
       throw InputError(place_, lineOfCycle(), "the joints form a cycle; a tree is expected");
     model_.freeBase = model_.links.front().inertial.mass_kg > 0;
+    model_.meshesReplacePrimitives = false;
+    couple();
+    std::ranges::stable_sort(model_.warnings, {}, &Warning::line);
     return std::move(model_);
   }
 
@@ -128,11 +132,36 @@ class TreeMaker {
                                                         ": a fixed part without mass of its own"});
       return push(number, step.parent, origin, open);
     }
+    jointNumber_[source.joint.name] = static_cast<int>(model_.joints.size());
+    sourceOf_.push_back(step.joint);
     source.joint.parentLink = step.parent;
     source.joint.origin = origin;
     model_.joints.push_back(source.joint);
     model_.links.push_back(std::move(child.link));
     push(number, static_cast<int>(model_.links.size()) - 1, Eigen::Isometry3d::Identity(), open);
+  }
+
+  /// Mimic joints get the joint that really leads them.
+  void couple() {
+    for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+      const UrdfJoint* at = &tree_.joints[sourceOf_[i]];
+      if (!at->mimic) continue;
+      Mimic all{0, 1, 0};
+      for (std::size_t steps = 0; at->mimic; ++steps) {
+        const UrdfMimic& mimic = *at->mimic;
+        const auto fail = [&](const std::string& why) {
+          throw InputError(place_, mimic.line, "joint " + at->joint.name.substr(0, 40) + " mimics " + why);
+        };
+        const auto leader = jointNumber_.find(mimic.joint);
+        if (leader == jointNumber_.end()) fail("\"" + mimic.joint.substr(0, 40) + "\", which is no joint");
+        if (model_.joints[static_cast<std::size_t>(leader->second)].type == Joint::Type::fixed)
+          fail("\"" + mimic.joint.substr(0, 40) + "\", which does not move");
+        if (steps == tree_.joints.size()) fail("itself, through others");
+        all = {leader->second, all.multiplier * mimic.multiplier, all.multiplier * mimic.offset + all.offset};
+        at = &tree_.joints[sourceOf_[static_cast<std::size_t>(leader->second)]];
+      }
+      model_.joints[i].mimic = all;
+    }
   }
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -142,6 +171,8 @@ class TreeMaker {
   std::vector<std::vector<std::size_t>> below_;  // joints by parent link
   std::vector<std::size_t> parentJoint_;         // by link
   std::unordered_set<std::size_t> reached_;
+  std::unordered_map<std::string, int> jointNumber_;  // in the model, by name
+  std::vector<std::size_t> sourceOf_;                 // in the file, by joint of the model
   bool rootIsWorld_ = false;
 };
 

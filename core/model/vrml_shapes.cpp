@@ -139,9 +139,8 @@ void ShapeReader::emit(const Polygons& polygons, const std::vector<std::array<fl
     }
     if (mirrored)
       for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-    shape.vertices = std::move(mesh.vertices);
-    shape.normals = std::move(mesh.normals);
-    shape.triangles = std::move(mesh.triangles);
+    shape.surface = std::make_shared<const Surface>(
+        Surface{std::move(mesh.vertices), std::move(mesh.triangles), std::move(mesh.normals)});
     shapes.push_back(std::move(shape));
   }
   if (effort_.wasShort && !wasShort)

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <locale>
 #include <sstream>
 
 #include "core/model/load_model.h"
 #include "core/run/robot.h"
+#include "core/sim/model_losses.h"
+#include "core/sim/scene_build.h"
 #include "core/spec/error.h"
+#include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 #include "core/store/database.h"
@@ -24,11 +28,54 @@ void settle(PluginChoice& choice, const std::vector<Parameter>& declared) {
   resolve(declared, choice.settings, place);
 }
 
-RobotModel parseModel(const StoredFile& file) {
-  const std::string ending = std::filesystem::path(file.name).extension().string();
+/// A mesh of a robot is stored beside it, under the robot's name and the name that the robot gives it.
+std::string nameOfMesh(const std::string& robot, const std::string& mesh) { return robot + ": " + mesh; }
+
+StoredFile fileOf(const std::string& name, std::string content) {
+  StoredFile file;
+  file.name = name;
+  file.sha256 = sha256(content);
+  file.content = std::move(content);
+  return file;
+}
+
+/// The mesh files of a robot that lies at `path`, as far as they are there.
+std::vector<StoredFile> meshesOf(const StoredFile& robot, const std::string& path) {
+  std::vector<StoredFile> meshes;
+  if (fileEnding(robot.name) != ".urdf") return meshes;
+  parseUrdf(robot.content, path, {}, [&, find = meshesBeside(path)](const std::string& mesh) {
+    MeshFile found = find(mesh);
+    const std::string name = nameOfMesh(robot.name, mesh);
+    if (std::ranges::find(meshes, name, &StoredFile::name) == meshes.end()) meshes.push_back(fileOf(name, found.bytes));
+    return found;
+  });
+  return meshes;
+}
+
+RobotModel parseModel(const StoredFile& file, const MeshSource& meshes) {
+  const std::string ending = fileEnding(file.name);
   if (ending == ".wrl") return parseVrml(file.content, file.name);
-  if (ending == ".urdf") return parseUrdf(file.content, file.name);
+  if (ending == ".urdf") return parseUrdf(file.content, file.name, {}, meshes);
   throw InputError("robot model", file.name, "a file that ends in .wrl or .urdf");
+}
+
+/// The robots of a scene from what is stored.
+ModelSet parseModels(const SceneSpec& scene, const std::vector<StoredFile>& files) {
+  const auto stored = [&](const std::string& name) -> const StoredFile& {
+    const auto file = std::ranges::find(files, name, &StoredFile::name);
+    if (file == files.end()) throw InputError("\"" + name + "\" is not stored with the run");
+    return *file;
+  };
+  ModelSet models;
+  for (const auto& robot : scene.robots) {
+    if (models.contains(robot.model)) continue;
+    RobotModel model = parseModel(stored(robot.model), [&](const std::string& mesh) -> MeshFile {
+      return {mesh, stored(nameOfMesh(robot.model, mesh)).content};
+    });
+    makeHulls(model, robot.model, scene);
+    models[robot.model] = std::make_shared<const RobotModel>(std::move(model));
+  }
+  return models;
 }
 
 /// Everything but reading files: plugins, settings, models and a first scene.
@@ -80,8 +127,7 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   adaptation->start(prepared.adapted, prepared.spec.adaptation.settings, unused);
   if (inReality) realityLearner->start(prepared.genotype, prepared.spec.realityLearner.settings, unused);
 
-  for (const StoredFile& file : prepared.files)
-    prepared.models[file.name] = std::make_shared<const RobotModel>(parseModel(file));
+  prepared.models = parseModels(prepared.sceneSpec, prepared.files);
   if (prepared.sceneSpec.robots.empty()) throw InputError(spec.scene, "no robot", "a scene with at least one robot");
   prepared.scene(spec.simulator);
   return prepared;
@@ -168,9 +214,11 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
     bool known = false;
     for (const StoredFile& file : files) known = known || file.name == robot.model;
     if (known) continue;
-    std::string content = readFile((fs::path(scene.directory) / robot.model).string());
-    std::string hash = sha256(content);
-    files.push_back({robot.model, std::move(hash), std::move(content)});
+    const std::string path = (fs::path(scene.directory) / robot.model).string();
+    StoredFile file = fileOf(robot.model, readFile(path));
+    std::vector<StoredFile> meshes = meshesOf(file, path);
+    files.push_back(std::move(file));
+    std::ranges::move(meshes, std::back_inserter(files));
   }
   PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host, true);
   const Scene arranged = prepared.scene(spec.simulator);
@@ -183,6 +231,11 @@ PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) 
   const std::string place = "run " + std::to_string(run.id);
   return prepare(experimentFromJson(run.specJson, place, ""), sceneFromJson(run.sceneJson, place, ""), run.files, host,
                  false);
+}
+
+std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host) {
+  const PreparedExperiment prepared = prepareFromRun(run, host);
+  return modelLosses(prepared.sceneSpec, prepared.models);
 }
 
 SimulatorRecord firstSimulator(const ExperimentSpec& spec) {

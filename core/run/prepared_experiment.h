@@ -54,6 +54,9 @@ struct PreparedExperiment {
 PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost& host);
 PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
 
+/// What the run's robots lack of what their files say; see modelLosses().
+std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host);
+
 /// The simulator version 0 of a run: what the experiment says, start values for the rest.
 SimulatorRecord firstSimulator(const ExperimentSpec& spec);
 

@@ -25,6 +25,18 @@ void setMass(dBodyID body, double mass, const Matrix3d& inertia) {
   dBodySetMass(body, &m);
 }
 
+/// Joints that follow another one are where it puts them.
+void followLeaders(const RobotModel& model, std::vector<double>& positions, std::vector<double>& rates) {
+  positions.resize(model.joints.size(), 0);
+  rates.resize(model.joints.size(), 0);
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (const auto& mimic = model.joints[i].mimic) {
+      const auto leader = static_cast<std::size_t>(mimic->leader);
+      positions[i] = mimic->multiplier * positions[leader] + mimic->offset;
+      rates[i] = mimic->multiplier * rates[leader];
+    }
+}
+
 }  // namespace
 
 Articulation::Articulation(dWorldID world, const SceneRobot& robot)
@@ -105,18 +117,10 @@ void Articulation::makeBodies() {
 void Articulation::makeColliders() {
   if (robot_.collision == "none") return;
   const auto& links = robot_.model.links;
-  std::size_t mesh = 0;
   for (int link = 0; link < static_cast<int>(links.size()); ++link) {
-    const bool useMesh = collidesAsMesh(links[link], robot_.collision);
     for (const auto& shape : links[link].shapes) {
-      if (!shape.collides) continue;
-      const bool isMesh = shape.kind == Shape::Kind::mesh;
-      const std::size_t index = isMesh ? mesh++ : 0;
+      if (!collidesIn(robot_.model, links[link], shape, robot_.collision)) continue;
       const int body = bodyOfLink_[link];
-      if (isMesh != useMesh) continue;
-      std::shared_ptr<const Hull> hull;
-      if (isMesh && index < robot_.hulls.size()) hull = robot_.hulls[index];
-      if (isMesh && !hull) hull = convexHull(shape.vertices);
       // Fixed parts keep their place in the body; a swallowed part is round about its joint: it stays as at position 0.
       Isometry3d place = linkInGroup_[link];
       const int group = groupOfLink_[link];
@@ -125,11 +129,11 @@ void Articulation::makeColliders() {
         place = linkInGroup_[joint.parentLink] * joint.origin * place;
       }
       if (body < 0) {
-        baseColliders.push_back(makeCollider(shape, place, link, hull));
+        baseColliders.push_back(makeCollider(shape, place, link));
         continue;
       }
       place = Eigen::Translation3d(-bodies[body].centre_m) * place;
-      bodies[body].colliders.push_back(makeCollider(shape, place, link, hull));
+      bodies[body].colliders.push_back(makeCollider(shape, place, link));
       const Collider& made = bodies[body].colliders.back();
       bodies[body].reach_m = std::max(bodies[body].reach_m, made.pose.translation().norm() + made.bound_m);
     }
@@ -172,7 +176,10 @@ void Articulation::placeBodies(const std::vector<LinkState>& links) {
 }
 
 void Articulation::set(const Isometry3d& base, const Vector3d& velocity, const Vector3d& spin,
-                       std::span<const double> positions, std::span<const double> rates) {
+                       std::span<const double> givenPositions, std::span<const double> givenRates) {
+  std::vector<double> positions(givenPositions.begin(), givenPositions.end());
+  std::vector<double> rates(givenRates.begin(), givenRates.end());
+  followLeaders(robot_.model, positions, rates);
   if (fixedBase() && !base.isApprox(basePose_, 0)) aimJoints(base);
   placeBodies(fixedBase() ? kinematics(base, Vector3d::Zero(), Vector3d::Zero(), positions, rates)
                           : kinematics(base, velocity, spin, positions, rates));

@@ -48,6 +48,8 @@ struct RobotJoint {
   Eigen::Vector3d anchorInParent = Eigen::Vector3d::Zero(), anchorInChild = Eigen::Vector3d::Zero();
   Eigen::Vector3d u, w, x;  ///< u, w in the parent's frame and x in the child's; axisFollowsChild: the reverse
   double lowStop = -1e9, highStop = 1e9, heldInertia = 0;
+  int leader = -1;  ///< joint that it follows: position = multiplier·leader's + offset, rate = multiplier·leader's
+  double multiplier = 1, offset = 0;
   double position = 0, rate = 0;
   double solvedRate = 0;  ///< rate about the axis at the beginning of the last step: the one that ODE's rows made
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< in the world, now
@@ -71,6 +73,7 @@ class Articulation {
   bool fixedBase() const { return !robot_.freeBase; }
   /// False if JointSpace moves the robot: its bodies are in ODE then only to be read and placed.
   bool movesInOde() const { return movesInOde_; }
+  /// `positions` and `rates` by joint of the model; those of joints that follow another one are computed instead.
   void set(const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin,
            std::span<const double> positions, std::span<const double> rates);
   /// Reads poses, velocities, joint positions and rates from ODE.
@@ -114,6 +117,7 @@ class Articulation {
   void makeUniversal(int first, int second, const std::vector<LinkState>& zero);
   void makeSingle(int modelJoint, const std::vector<LinkState>& zero);
   void finishJoint(RobotJoint& joint, const std::vector<LinkState>& zero);
+  void coupleJoints();
   void aimJoints(const Eigen::Isometry3d& base);
   double inertiaHeldBy(const RobotJoint& joint, const std::vector<LinkState>& zero) const;
 

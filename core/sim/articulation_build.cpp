@@ -82,6 +82,7 @@ void Articulation::findUniversals() {
         ++children;
       }
     if (children != 1 || joints_[next].type != Joint::Type::rotate) continue;
+    if (joints_[first].mimic || joints_[next].mimic) continue;
     // Axes at a right angle that meet.
     const Isometry3d place = linkInGroup_[joints_[next].parentLink] * joints_[next].origin;
     const Vector3d a = joints_[first].axis, b = place.linear() * joints_[next].axis;
@@ -112,11 +113,25 @@ void Articulation::makeJoints() {
     else
       makeSingle(i, zero);
   }
+  coupleJoints();
   for (auto& body : bodies)
     if (body.ringInertia_kg_m2 > 0)
       for (std::size_t j = 0; j < joints.size(); ++j)
         if (joints[j].child == static_cast<int>(&body - bodies.data()) && universal_[joints[j].modelJoint] >= 0)
           body.ringJoint = static_cast<int>(j);
+}
+
+/// A joint that leads others moves what they hold too.
+void Articulation::coupleJoints() {
+  for (RobotJoint& joint : joints) {
+    const auto& mimic = robot_.model.joints[static_cast<std::size_t>(joint.modelJoint)].mimic;
+    if (!mimic) continue;
+    joint.leader = jointOfModel[static_cast<std::size_t>(mimic->leader)];
+    joint.multiplier = mimic->multiplier;
+    joint.offset = mimic->offset;
+    joints[static_cast<std::size_t>(joint.leader)].heldInertia +=
+        mimic->multiplier * mimic->multiplier * joint.heldInertia;
+  }
 }
 
 void Articulation::makeSingle(int modelJoint, const std::vector<LinkState>& zero) {

@@ -133,6 +133,25 @@ Nearest nearestOnHull(const Hull& hull, const Vector3d& c) {
   return result;
 }
 
+Nearest nearestOnCapsule(double radius, double half, const Vector3d& c) {
+  const Vector3d middle(0, std::clamp(c.y(), -half, half), 0);
+  const double away = (c - middle).norm();
+  Nearest result;
+  result.normal = away > 1e-12 ? Vector3d((c - middle) / away) : Vector3d(Vector3d::UnitX());
+  result.point = middle + radius * result.normal;
+  result.distance = away - radius;
+  return result;
+}
+
+/// `c` in the collider's frame.
+Nearest nearestOn(const Collider& collider, const Vector3d& c) {
+  const double half = collider.size_m.y() / 2;
+  if (collider.kind == Shape::Kind::box) return nearestOnBox(collider.size_m / 2, c);
+  if (collider.kind == Shape::Kind::cylinder) return nearestOnCylinder(collider.size_m.x(), half, c);
+  if (collider.kind == Shape::Kind::capsule) return nearestOnCapsule(collider.size_m.x(), half, c);
+  return nearestOnHull(*collider.hull, c);
+}
+
 }  // namespace
 
 std::shared_ptr<const Hull> convexHull(const std::vector<Eigen::Vector3f>& vertices) {
@@ -178,15 +197,18 @@ std::shared_ptr<const Hull> convexHull(const std::vector<Eigen::Vector3f>& verti
   return hull;
 }
 
-bool collidesAsMesh(const Link& link, const std::string& collision) {
+bool collidesIn(const RobotModel& model, const Link& link, const Shape& which, const std::string& collision) {
+  if (!which.collides || collision == "none") return false;
+  if (!model.meshesReplacePrimitives) return true;
   bool hasMesh = false, hasPrimitive = false;
   for (const Shape& shape : link.shapes)
     if (shape.collides) (shape.kind == Shape::Kind::mesh ? hasMesh : hasPrimitive) = true;
-  return hasMesh && (collision == "mesh" || !hasPrimitive);
+  return (which.kind == Shape::Kind::mesh) == (hasMesh && (collision == "mesh" || !hasPrimitive));
 }
 
-Collider makeCollider(const Shape& shape, const Isometry3d& linkInBody, int link, std::shared_ptr<const Hull> hull) {
-  Collider collider{shape.kind, linkInBody * shape.pose, shape.size_m, 0, std::move(hull), link};
+Collider makeCollider(const Shape& shape, const Isometry3d& linkInBody, int link) {
+  Collider collider{shape.kind, linkInBody * shape.pose, shape.size_m, 0, shape.hull, link};
+  if (shape.kind == Shape::Kind::mesh && !collider.hull) collider.hull = convexHull(shape.surface->vertices);
   switch (shape.kind) {
     case Shape::Kind::sphere:
       collider.bound_m = shape.size_m.x();
@@ -196,6 +218,9 @@ Collider makeCollider(const Shape& shape, const Isometry3d& linkInBody, int link
       break;
     case Shape::Kind::cylinder:
       collider.bound_m = std::hypot(shape.size_m.x(), shape.size_m.y() / 2);
+      break;
+    case Shape::Kind::capsule:
+      collider.bound_m = shape.size_m.x() + shape.size_m.y() / 2;
       break;
     case Shape::Kind::mesh:
       for (const auto& point : collider.hull->points) collider.bound_m = std::max(collider.bound_m, point.norm());
@@ -222,6 +247,10 @@ void floorContacts(const Collider& collider, const Isometry3d& body, double marg
     }
     case Shape::Kind::cylinder:
       cylinderOnFloor(pose, collider.size_m.x(), collider.size_m.y() / 2, margin, contacts);
+      break;
+    case Shape::Kind::capsule:
+      for (const double end : {-0.5, 0.5})
+        add(contacts, margin, pose * Vector3d(0, end * collider.size_m.y(), 0) - Vector3d(0, 0, collider.size_m.x()));
       break;
     default: {
       for (const auto& point : collider.hull->points) add(contacts, margin, pose * point);
@@ -250,10 +279,7 @@ bool sphereContact(const Collider& collider, const Isometry3d& body, const Vecto
   }
   const Isometry3d pose = body * collider.pose;
   const Vector3d local = pose.inverse() * centre;
-  const Nearest nearest = collider.kind == Shape::Kind::box ? nearestOnBox(collider.size_m / 2, local)
-                          : collider.kind == Shape::Kind::cylinder
-                              ? nearestOnCylinder(collider.size_m.x(), collider.size_m.y() / 2, local)
-                              : nearestOnHull(*collider.hull, local);
+  const Nearest nearest = nearestOn(collider, local);
   if (nearest.distance >= radius + margin) return false;
   contact.normal = pose.linear() * nearest.normal;
   contact.depth_m = radius - nearest.distance;

@@ -17,22 +17,22 @@ struct Hull {
 };
 std::shared_ptr<const Hull> convexHull(const std::vector<Eigen::Vector3f>& vertices);
 
-/// Whether a link's meshes collide, not its primitives: as `collision` says ("mesh", "primitives"), but a link that lacks
-/// the kind that was asked for collides with the other one.
-bool collidesAsMesh(const Link& link, const std::string& collision);
+/// Whether a link's shape can touch something in a scene whose `collision` is "mesh", "primitives" or "none". Where the
+/// model's meshes replace primitives, only those of the kind that was asked for do, but a link that lacks that kind
+/// collides with the other one.
+bool collidesIn(const RobotModel& model, const Link& link, const Shape& shape, const std::string& collision);
 
 /// A solid that can touch floor or ball. Poses are in its body's frame.
 struct Collider {
   Shape::Kind kind = Shape::Kind::sphere;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< a cylinder lies along its y axis
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< cylinder and capsule lie along their y axis
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();        ///< as in Shape
   double bound_m = 0;                                      ///< radius of a sphere about the pose's origin that holds it
   std::shared_ptr<const Hull> hull;                        ///< Kind::mesh
   int link = -1;                                           ///< of the model
 };
-/// The collider of a shape whose frame is placed at `linkInBody`.
-Collider makeCollider(const Shape& shape, const Eigen::Isometry3d& linkInBody, int link,
-                      std::shared_ptr<const Hull> hull);
+/// The collider of a shape whose frame is placed at `linkInBody`; a mesh's hull is made if it has none yet.
+Collider makeCollider(const Shape& shape, const Eigen::Isometry3d& linkInBody, int link);
 
 struct ContactPoint {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();

@@ -38,6 +38,10 @@ void JointSpace::begin(const Articulation& robot) {
                        inParent * inChild.transpose()});
     rate_[static_cast<Eigen::Index>(j)] = joint.rate;
   }
+  coupled_.clear();
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (const RobotJoint& joint = robot.joints[j]; joint.leader >= 0)
+      coupled_.push_back({static_cast<Eigen::Index>(j), joint.leader, joint.multiplier});
   beginRate_ = rate_;
   weight_ = bias_ = right_ = next_ = Eigen::VectorXd::Zero(count);
   mass_ = matrix_ = inverse_ = Eigen::MatrixXd::Zero(count, count);
@@ -108,6 +112,23 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
   massKnown_ = !several;
 }
 
+// T has a column for each joint that follows none, with the multipliers of those that follow it. The others' equations
+// are left as "nothing moves", so that the sizes stay.
+void JointSpace::coupleEquations() {
+  matrix_.triangularView<Eigen::StrictlyUpper>() = matrix_.transpose();
+  for (const Coupled& c : coupled_) {
+    right_[c.leader] += c.multiplier * right_[c.joint];
+    matrix_.row(c.leader) += c.multiplier * matrix_.row(c.joint);
+    matrix_.col(c.leader) += c.multiplier * matrix_.col(c.joint);
+    right_[c.joint] = 0;
+    matrix_.row(c.joint).setZero();
+    matrix_.col(c.joint).setZero();
+    matrix_(c.joint, c.joint) = 1;
+    for (Bounded& row : bounded_)
+      if (row.joint == c.joint) row.joint = c.leader, row.factor = c.multiplier;
+  }
+}
+
 bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
   bounded_.clear();
   for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -123,9 +144,10 @@ bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
     else if (drive.d <= noDamping)
       add(drive.torqueAt(0), 0);
     else
-      bounded_.push_back({i, drive.p / drive.d, 1 / drive.d, drive.limit});
-    if (rows[j].dry > 0) bounded_.push_back({i, 0, 0, rows[j].dry});
+      bounded_.push_back({i, 1, drive.p / drive.d, 1 / drive.d, drive.limit});
+    if (rows[j].dry > 0) bounded_.push_back({i, 1, 0, 0, rows[j].dry});
   }
+  if (!coupled_.empty()) coupleEquations();
   const Eigen::Index joints = right_.size();
   if (joints == 1) {
     inverse_(0, 0) = 1 / matrix_(0, 0);
@@ -144,16 +166,18 @@ bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
   loHi_.resize(2 * count);
   for (std::size_t r = 0; r < count; ++r) {
     const Bounded& row = bounded_[r];
-    for (std::size_t c = 0; c <= r; ++c) a_[r * count + c] = h * inverse_(row.joint, bounded_[c].joint);
+    for (std::size_t c = 0; c <= r; ++c)
+      a_[r * count + c] = h * row.factor * bounded_[c].factor * inverse_(row.joint, bounded_[c].joint);
     a_[r * count + r] += row.softness;
-    bx_[2 * r] = row.target - next_[row.joint];
+    bx_[2 * r] = row.target - row.factor * next_[row.joint];
     loHi_[2 * r] = -row.limit;
     loHi_[2 * r + 1] = row.limit;
   }
   const auto n = static_cast<unsigned>(count);
   if (!box_.solve({n, n, a_.data(), bx_.data(), loHi_.data(), nullptr}, true)) return false;
   for (std::size_t r = 0; r < count; ++r)
-    for (Eigen::Index i = 0; i < joints; ++i) next_[i] += h * bx_[2 * r + 1] * inverse_(i, bounded_[r].joint);
+    for (Eigen::Index i = 0; i < joints; ++i)
+      next_[i] += h * bx_[2 * r + 1] * bounded_[r].factor * inverse_(i, bounded_[r].joint);
   return next_.allFinite();
 }
 
@@ -166,6 +190,7 @@ bool JointSpace::step(Articulation& robot, const std::vector<JointRows>& rows, d
     right_ = mass_.selfadjointView<Eigen::Lower>() * rate_ + h * kick * (weight_ - bias_);
   }
   if (!solve(rows, h)) return false;
+  for (const Coupled& c : coupled_) next_[c.joint] = c.multiplier * next_[c.leader];
   beginRate_ = next_ + (next_ - rate_) / (2 * kick);
   rate_ = next_;
   for (std::size_t j = 0; j < moving_.size(); ++j) {

@@ -20,6 +20,7 @@ struct JointRows {
 /// joints, no joint that could drift, a fraction of the time that ODE takes. The same leapfrog and the same rows as
 /// there, so that the drive laws do not know the difference:
 ///   M(q)·(v' − v)/h = kick·(weight(q) − bias(q, v)) + Σ rows(v')
+/// Joints that follow another one are no unknowns: with v = T·u the equations become TᵀMT·u' and so on.
 /// M by composite rigid bodies, weight and bias (centrifugal, Coriolis and gyroscopic moments) by recursive
 /// Newton–Euler (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6), all in world axes about the
 /// world's origin. The bias is taken at the rates of the step's beginning, from those of the last two middles; limits
@@ -55,15 +56,23 @@ class JointSpace {
     Eigen::Vector3d spinChange, velocityChange;  ///< at zero joint accelerations
     Eigen::Vector3d force, turning;              ///< that these take; turning about the world's origin
   };
-  /// A torque within ±limit, and within it such that rate + softness·torque = target.
+  /// rate of `joint` = multiplier · rate of `leader`
+  struct Coupled {
+    Eigen::Index joint, leader;
+    double multiplier;
+  };
+  /// A torque within ±limit, and within it such that factor·rate + softness·torque = target. `factor` is 1 but for a
+  /// joint that follows `joint`.
   struct Bounded {
     Eigen::Index joint;
-    double target, softness, limit;
+    double factor, target, softness, limit;
   };
   bool solve(const std::vector<JointRows>& rows, double h);
+  void coupleEquations();
   void place(Articulation& robot) const;
 
   std::vector<Moving> moving_;        ///< by moving joint; what carries stands before what it carries
+  std::vector<Coupled> coupled_;      ///< joints that follow another one
   Eigen::VectorXd rate_, beginRate_;  ///< of the last step's middle; and at its end
   Eigen::VectorXd weight_, bias_;
   Eigen::MatrixXd mass_;    ///< lower triangle

@@ -14,8 +14,6 @@
 
 namespace btr {
 
-struct Hull;
-
 /// How one joint is driven, all numbers known. SI units.
 struct Drive {
   /// torque also means force on a slide joint. motion: the joint is where its command says at the end of each
@@ -47,9 +45,6 @@ struct SceneRobot {
   std::vector<Drive> drives;           ///< by joint of the model; fixed joints: Kind::none
   std::string collision = "primitives";
   bool mergeFixed = true;
-  /// Simplified meshes of the model's colliding mesh shapes, in the order of links and shapes; makeScene fills in those
-  /// that `collision` asks for, so that a world needs not. May be empty.
-  std::vector<std::shared_ptr<const Hull>> hulls;
 };
 
 struct SceneEffect {
@@ -71,7 +66,7 @@ struct Scene {
   std::vector<SceneEffect> effects;
 };
 
-/// Robot models by the path that the scene names, loaded once and shared.
+/// Robot models by the path that the scene names, loaded once and shared, with the hulls of the meshes that collide.
 using ModelSet = std::map<std::string, std::shared_ptr<const RobotModel>>;
 ModelSet loadModels(const SceneSpec& spec);
 

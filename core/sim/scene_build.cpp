@@ -12,15 +12,13 @@ namespace {
 
 Drive driveFromModel(const Joint& joint) {
   Drive drive;
-  if (joint.type == Joint::Type::fixed) {
-    drive.kind = Drive::Kind::none;
-    return drive;
-  }
+  drive.kind = joint.type == Joint::Type::fixed || joint.mimic ? Drive::Kind::none : Drive::Kind::servo;
+  if (joint.type == Joint::Type::fixed) return drive;
   const ServoData& servo = joint.servo;
   drive.p = servo.p_nm_rad.value_or(7.5);
   drive.i = servo.i_nm_rad_s.value_or(0);
   drive.d = servo.d_nm_s_rad.value_or(0.05);
-  drive.maxTorque = servo.maxTorque_nm.value_or(joint.type == Joint::Type::slide ? 10 : 0.85);
+  drive.maxTorque = servo.maxTorque_nm.value_or(defaultServoLimit(joint.type));
   drive.noLoadSpeed_rad_s = servo.noLoadSpeed_rad_s.value_or(0);
   drive.coulombFriction = servo.coulombFriction_nm.value_or(0);
   drive.viscousFriction = servo.viscousFriction_nm_s_rad.value_or(0);
@@ -46,6 +44,11 @@ int jointOf(const SceneRobot& robot, const std::string& name, const std::string&
   if (joint < 0 || robot.model.joints[static_cast<std::size_t>(joint)].type == Joint::Type::fixed)
     throw InputError(place, name, "a moving joint of the model " + robot.model.name);
   return joint;
+}
+
+/// "follows left_finger"
+std::string followsOf(const RobotModel& model, std::size_t joint) {
+  return "follows " + model.joints[static_cast<std::size_t>(model.joints[joint].mimic->leader)].name;
 }
 
 /// A body that nothing carries needs a mass: the root's, with what is rigidly fixed to it.
@@ -77,18 +80,24 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   robot.jointStart.assign(model.joints.size(), 0);
   robot.jointStartRate.assign(model.joints.size(), 0);
   for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
-  for (const auto& link : model.links)
-    for (const auto& shape : link.shapes)
-      if (shape.collides && shape.kind == Shape::Kind::mesh)
-        robot.hulls.push_back(collidesAsMesh(link, spec.collision) ? convexHull(shape.vertices) : nullptr);
 
   const std::string place = "scene robots." + spec.name;
   for (const auto& [name, start] : spec.jointStart)
     robot.jointStart[static_cast<std::size_t>(jointOf(robot, name, place + ".joint_start"))] = start;
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (const auto& mimic = model.joints[i].mimic) {
+      robot.jointStart[i] =
+          mimic->multiplier * robot.jointStart[static_cast<std::size_t>(mimic->leader)] + mimic->offset;
+      if (spec.jointStart.contains(model.joints[i].name))
+        throw InputError(place + ".joint_start", model.joints[i].name, "no joint that " + followsOf(model, i));
+    }
   for (const auto& [name, servo] : spec.servos) {
     const auto joint = static_cast<std::size_t>(jointOf(robot, name, place + ".servos"));
     Drive& drive = robot.drives[joint];
     drive.kind = kindOf(servo, model.joints[joint], place + ".servos." + name);
+    if (model.joints[joint].mimic && drive.kind != Drive::Kind::none)
+      throw InputError(place + ".servos." + name + ".drive", servo.drive,
+                       "none for a joint that " + followsOf(model, joint));
     // What a kind of drive does not have stays out of it: only a servo's numbers come from the model.
     if (drive.kind != Drive::Kind::servo) drive.maxTorque = 1e9, drive.noLoadSpeed_rad_s = 0;
     if (drive.kind == Drive::Kind::dcMotor)
@@ -138,13 +147,25 @@ void scaleMass(Link& link, double factor) {
   link.inertial.inertia_kg_m2 *= factor;
 }
 
+void makeHulls(RobotModel& model, const std::string& path, const SceneSpec& scene) {
+  for (const RobotSpec& robot : scene.robots) {
+    if (robot.model != path) continue;
+    for (Link& link : model.links)
+      for (Shape& shape : link.shapes)
+        if (shape.kind == Shape::Kind::mesh && !shape.hull && collidesIn(model, link, shape, robot.collision))
+          shape.hull = convexHull(shape.surface->vertices);
+  }
+}
+
 ModelSet loadModels(const SceneSpec& spec) {
   ModelSet models;
   for (const auto& robot : spec.robots) {
     if (models.contains(robot.model)) continue;
     const std::filesystem::path path(robot.model);
     const auto full = path.is_absolute() ? path : std::filesystem::path(spec.directory) / path;
-    models[robot.model] = std::make_shared<const RobotModel>(loadModel(full.string()));
+    RobotModel model = loadModel(full.string());
+    makeHulls(model, robot.model, spec);
+    models[robot.model] = std::make_shared<const RobotModel>(std::move(model));
   }
   return models;
 }

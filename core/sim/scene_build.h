@@ -25,6 +25,10 @@ void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number,
 /// The number itself, or nullptr if this kind of joint does not have it.
 double* driveNumber(Drive& drive, const Joint& joint, const std::string& number);
 
+/// Gives the meshes that collide in the scene their hulls, once for all of its trials. `path` as the scene names the
+/// model.
+void makeHulls(RobotModel& model, const std::string& path, const SceneSpec& scene);
+
 /// Mass and inertia together.
 void scaleMass(Link& link, double factor);
 

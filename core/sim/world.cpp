@@ -17,6 +17,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     robot.scene = &sceneRobot;
     robot.body = std::make_unique<Articulation>(world, sceneRobot);
     robot.drives.resize(robot.body->joints.size());
+    robot.couples = std::ranges::any_of(robot.body->joints, [](const RobotJoint& joint) { return joint.leader >= 0; });
     if (!robot.body->movesInOde()) {
       robot.alone = std::make_unique<JointSpace>();
       robot.alone->begin(*robot.body);
@@ -152,6 +153,9 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
       drive.torque = drive.row.torqueAt(joint.solvedRate);
       if (drive.gear.elastic()) drive.torque = drive.gear.turn(drive.motorAhead, drive.motorRate, joint.solvedRate);
       robot.allDrives += std::abs(drive.torque);
+      if (joint.leader >= 0)
+        drive.couplingLoad =
+            drive.coupling.torqueAt(joint.solvedRate) - joint.heldInertia * (joint.solvedRate - drive.rateBefore) / h;
       drive.rate = joint.rate;
       if (!robot.body->fixedBase()) continue;
       // From the step's middle to its end, unless that would turn the motion round.
@@ -193,7 +197,7 @@ void World::setRobot(std::size_t index, const Eigen::Isometry3d& base, const Eig
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
     drive.effects.reset();
-    drive.integral = drive.torque = drive.motorAhead = 0;
+    drive.integral = drive.torque = drive.motorAhead = drive.couplingLoad = 0;
     drive.dryRow = drive.passiveRow = robot.body->joints[j].extra != nullptr;
     drive.command = robot.body->joints[j].position;
     drive.rate = drive.motorRate = robot.body->joints[j].rate;

@@ -26,7 +26,9 @@ struct JointDrive {
   double load = 0;        ///< moment of the carried weight, where effects ask
   double motorAhead = 0;  ///< rotor behind an elastic gear: its angle relative to the joint, and its rate
   double motorRate = 0;
-  GearRow gear;  ///< of the last step
+  DriveRow coupling;        ///< of a joint in ODE that follows another one: what made it do so in the last step
+  double couplingLoad = 0;  ///< of that, what did not accelerate the joint [N·m or N]
+  GearRow gear;             ///< of the last step
 };
 
 struct WorldRobot {
@@ -40,6 +42,7 @@ struct WorldRobot {
   bool first = true;                  ///< no step since its state was set
   bool touches = false;               ///< anything, in the last step
   bool hasEffects = false;            ///< at any joint
+  bool couples = false;               ///< a joint follows another one
   double allDrives = 0;               ///< sum of |torque| of all drives in the last step
   int accelerometerLink = -1;
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
@@ -83,7 +86,10 @@ struct World::Impl {
   // world_joints.cpp
   void driveJoint(WorldRobot& robot, std::size_t joint, const JointInput& input, double now, double h);
   void weighLoads(WorldRobot& robot) const;
+  void weighOwnLoads(WorldRobot& robot) const;
   void setRows(WorldRobot& robot, std::size_t joint, const JointRows& rows);
+  DriveRow followLeader(WorldRobot& robot, std::size_t joint, double h);
+  void leadOthers(DriveRow& passive, const WorldRobot& robot, std::size_t joint, double h) const;
   void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
   // world_contacts.cpp
   void makeContacts(double h);

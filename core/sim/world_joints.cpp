@@ -45,6 +45,13 @@ JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, doub
 
 // What each joint carries is the tree of bodies beyond it: a body comes after the one that carries it.
 void World::Impl::weighLoads(WorldRobot& robot) const {
+  weighOwnLoads(robot);
+  for (std::size_t j = 0; j < robot.drives.size(); ++j)
+    if (const RobotJoint& joint = robot.body->joints[j]; joint.leader >= 0)
+      robot.drives[static_cast<std::size_t>(joint.leader)].load += joint.multiplier * robot.drives[j].load;
+}
+
+void World::Impl::weighOwnLoads(WorldRobot& robot) const {
   if (robot.alone) {
     robot.alone->prepare(*robot.body, scene.gravity_m_s2);
     for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].load = robot.alone->weight(j);
@@ -155,10 +162,39 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }
 
+  if (robot.couples && !robot.alone) {
+    leadOthers(passive, robot, index, h);
+    if (joint.leader >= 0) row = followLeader(robot, index, h);
+  }
   if (robot.alone)
     robot.rows[index] = {row, passive, dry};
   else
     setRows(robot, index, {row, passive, dry});
+}
+
+// ODE has no rows between more than two bodies. A joint that follows another one is moved there by a row of its own,
+// where its leader will be at its present rate; the leader feels what that took in the step before, and, in this step,
+// the inertia that hangs at it.
+DriveRow World::Impl::followLeader(WorldRobot& robot, std::size_t index, double h) {
+  const RobotJoint& joint = robot.body->joints[index];
+  const RobotJoint& leader = robot.body->joints[static_cast<std::size_t>(joint.leader)];
+  const StepOf step{h, joint.heldInertia, h};
+  JointState state = stateOf(robot, index, 0);
+  state.command = joint.multiplier * (leader.position + h * leader.rate) + joint.offset;
+  Drive motion;
+  motion.kind = Drive::Kind::motion;
+  return robot.drives[index].coupling = driveRow(motion, state, 0, {}, step);
+}
+
+void World::Impl::leadOthers(DriveRow& passive, const WorldRobot& robot, std::size_t index, double h) const {
+  const RobotJoint& leader = robot.body->joints[index];
+  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
+    const RobotJoint& joint = robot.body->joints[j];
+    if (joint.leader != static_cast<int>(index)) continue;
+    const double inertia = joint.multiplier * joint.multiplier * joint.heldInertia;
+    passive.d += inertia / h;
+    passive.p += inertia / h * leader.rate - joint.multiplier * robot.drives[j].couplingLoad;
+  }
 }
 
 /// As rows of ODE's solver. A limited servo and passive terms do not fit into one.

@@ -47,8 +47,8 @@ Measured measure(const std::string& shape) {
   Measured result;
   for (const Shape& each : shapesOf(shape)) {
     EXPECT_EQ(Shape::Kind::mesh, each.kind);
-    EXPECT_EQ(each.vertices.size(), each.normals.size());
-    const Measured part = measure(each.vertices, each.triangles);
+    EXPECT_EQ(each.surface->vertices.size(), each.surface->normals.size());
+    const Measured part = measure(each.surface->vertices, each.surface->triangles);
     result = {result.area + part.area, result.volume + part.volume, result.triangles + part.triangles};
   }
   return result;
@@ -95,9 +95,9 @@ TEST(Mesh, ExtrusionFollowsScaleTurnAndADirectionAlongX) {
 TEST(Mesh, ElevationGridFacesUp) {
   const auto shapes = shapesOf(
       "Shape { geometry ElevationGrid { xDimension 3 zDimension 2 xSpacing 2 zSpacing 5 height [ 0 0 0 0 0 0 ] } }");
-  const Measured flat = measure(shapes.at(0).vertices, shapes[0].triangles);
+  const Measured flat = measure(shapes.at(0).surface->vertices, shapes[0].surface->triangles);
   EXPECT_NEAR(4 * 5, flat.area, 1e-6);
-  for (const Vector3f& normal : shapes[0].normals) EXPECT_TRUE(normal.isApprox(Vector3f(0, 1, 0)));
+  for (const Vector3f& normal : shapes[0].surface->normals) EXPECT_TRUE(normal.isApprox(Vector3f(0, 1, 0)));
 }
 
 TEST(Mesh, ConcavePolygonsKeepTheirArea) {
@@ -122,7 +122,7 @@ TEST(Mesh, ConvexPolygonsOfNCornersGiveNMinusTwoTriangles) {
 
 TEST(Mesh, ClockwiseFacesAreTurnedRound) {
   const auto normalOf = [](const std::string& more) {
-    return shapesOf(faceSet("0 0 0, 1 0 0, 0 1 0", "0 1 2", more)).at(0).normals.at(0);
+    return shapesOf(faceSet("0 0 0, 1 0 0, 0 1 0", "0 1 2", more)).at(0).surface->normals.at(0);
   };
   EXPECT_TRUE(normalOf("").isApprox(Vector3f(0, 0, 1)));
   EXPECT_TRUE(normalOf("ccw FALSE").isApprox(Vector3f(0, 0, -1)));
@@ -131,21 +131,21 @@ TEST(Mesh, ClockwiseFacesAreTurnedRound) {
 TEST(Mesh, CreaseAngleDecidesWhichEdgesAreSmooth) {
   // Two faces that meet at 90 degrees: four vertices if the edge is smooth, six if it is sharp.
   const std::string points = "0 0 0, 1 0 0, 0 1 0, 0 0 1", faces = "0 1 2 -1 0 3 1 -1";
-  EXPECT_EQ(6u, shapesOf(faceSet(points, faces)).at(0).vertices.size());
-  EXPECT_EQ(6u, shapesOf(faceSet(points, faces, "creaseAngle 1.5")).at(0).vertices.size());
+  EXPECT_EQ(6u, shapesOf(faceSet(points, faces)).at(0).surface->vertices.size());
+  EXPECT_EQ(6u, shapesOf(faceSet(points, faces, "creaseAngle 1.5")).at(0).surface->vertices.size());
   const auto smooth = shapesOf(faceSet(points, faces, "creaseAngle 1.6")).at(0);
-  EXPECT_EQ(4u, smooth.vertices.size());
+  EXPECT_EQ(4u, smooth.surface->vertices.size());
   // Both faces have the same area: the shared edge looks half way between +z and +y.
-  EXPECT_TRUE(smooth.normals.at(0).isApprox(Vector3f(0, 1, 1).normalized(), 1e-5f));
+  EXPECT_TRUE(smooth.surface->normals.at(0).isApprox(Vector3f(0, 1, 1).normalized(), 1e-5f));
 }
 
 TEST(Mesh, GivenNormalsAreKept) {
   const auto shape = shapesOf(faceSet("0 0 0, 1 0 0, 0 1 0", "0 1 2",
                                       "normal Normal { vector [ 0 0 2, 1 0 0 ] } normalIndex [ 0 1 0 ]"))
                          .at(0);
-  ASSERT_EQ(3u, shape.normals.size());
-  EXPECT_TRUE(shape.normals[0].isApprox(Vector3f(0, 0, 1)));
-  EXPECT_TRUE(shape.normals[1].isApprox(Vector3f(1, 0, 0)));
+  ASSERT_EQ(3u, shape.surface->normals.size());
+  EXPECT_TRUE(shape.surface->normals[0].isApprox(Vector3f(0, 0, 1)));
+  EXPECT_TRUE(shape.surface->normals[1].isApprox(Vector3f(1, 0, 0)));
 }
 
 TEST(Mesh, FacesOfSeveralColoursBecomeShapesOfOneColour) {
@@ -154,7 +154,7 @@ TEST(Mesh, FacesOfSeveralColoursBecomeShapesOfOneColour) {
                        "colorPerVertex FALSE color Color { color [ 1 0 0, 0 0 1 ] } colorIndex [ 0 1 0 ]"));
   ASSERT_EQ(2u, shapes.size());
   EXPECT_EQ(1.f, shapes[0].colour[0]);
-  EXPECT_EQ(2u, shapes[0].triangles.size());
+  EXPECT_EQ(2u, shapes[0].surface->triangles.size());
   EXPECT_EQ(1.f, shapes[1].colour[2]);
 }
 
@@ -168,7 +168,7 @@ TEST(Mesh, ScaledPrimitivesStayPrimitivesWhereTheyCan) {
   EXPECT_EQ(Shape::Kind::mesh, scaled("1 2 3", "Sphere { }").kind);
   EXPECT_EQ(Shape::Kind::mesh, scaled("1 1 2", "Cylinder { }").kind);
   const Shape egg = scaled("1 2 3", "Sphere { }");
-  EXPECT_NEAR(6, measure(egg.vertices, egg.triangles).volume / measure(vrml::spherePolygons(1)).volume, 1e-4);
+  EXPECT_NEAR(6, measure(egg.surface->vertices, egg.surface->triangles).volume / measure(vrml::spherePolygons(1)).volume, 1e-4);
 }
 
 TEST(Mesh, AMirrorTurnsTheTrianglesSoThatTheyStillFaceOutwards) {

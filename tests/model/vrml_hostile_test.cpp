@@ -109,7 +109,7 @@ TEST(HostileVrml, FacesWithIndicesOutOfRangeAreDropped) {
     coordIndex [ 0 1 2 -1 0 1 3 -1 0 1 2147483647 -1 0 1 -2147483648 -1 0 1 ] } })"),
                 "robot.wrl");
   ASSERT_EQ(1u, model.links.at(0).shapes.size());
-  EXPECT_EQ(1u, model.links[0].shapes[0].triangles.size());
+  EXPECT_EQ(1u, model.links[0].shapes[0].surface->triangles.size());
   EXPECT_THAT(model.warnings.at(0).text, HasSubstr("3 faces were dropped"));
 }
 
@@ -147,7 +147,7 @@ TEST(HostileVrml, NotANumberInNormalsIsAWarning) {
                 "robot.wrl");
   EXPECT_THAT(model.warnings.at(0).text, HasSubstr("a normal is not a direction"));
   const Shape& shape = model.links.at(0).shapes.at(0);
-  for (const auto& normal : shape.normals) EXPECT_TRUE(normal.isApprox(Eigen::Vector3f(0, 0, 1)));
+  for (const auto& normal : shape.surface->normals) EXPECT_TRUE(normal.isApprox(Eigen::Vector3f(0, 0, 1)));
 }
 
 TEST(HostileVrml, ManyPointsAreReadWithinTheBudget) {

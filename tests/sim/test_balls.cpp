@@ -241,9 +241,11 @@ TEST(Ball, RollingResistanceHoldsItOnAGentleSlopeOnly) {
 TEST(Collision, MeshAsHullTouchesLikeTheBoxItIs) {
   Shape cube;
   cube.kind = Shape::Kind::mesh;
+  Surface corners;
   for (int i = 0; i < 8; ++i)
-    cube.vertices.emplace_back(i & 1 ? 0.05f : -0.05f, i & 2 ? 0.05f : -0.05f, i & 4 ? 0.05f : -0.05f);
-  cube.triangles = {{0, 1, 2}, {1, 3, 2}};
+    corners.vertices.emplace_back(i & 1 ? 0.05f : -0.05f, i & 2 ? 0.05f : -0.05f, i & 4 ? 0.05f : -0.05f);
+  corners.triangles = {{0, 1, 2}, {1, 3, 2}};
+  cube.surface = std::make_shared<const Surface>(corners);
   double heights[2], pushed[2];
   for (const bool mesh : {false, true}) {
     Scene scene =

@@ -60,13 +60,13 @@ class TestRunLauncher : public QObject {
   void anEditedExperimentIsNamedWithWhatWasChanged() {
     Bench bench;
     bench.stored(3);
-    QSignalSpy edited(&bench.launcher, &RunLauncher::edited), stored(&bench.launcher, &RunLauncher::stored);
+    QSignalSpy remarked(&bench.launcher, &RunLauncher::remarked), stored(&bench.launcher, &RunLauncher::stored);
     ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
     spec.learner.settings["population"] = 12;
     bench.launcher.store(bench.path, spec, 3, false);
     QVERIFY(stored.wait(longest_ms));
-    QCOMPARE(edited.size(), 1);
-    QVERIFY(edited.first().first().toString().contains("learner.settings.population (30, now 12)"));
+    QCOMPARE(remarked.size(), 1);
+    QVERIFY(remarked.first().first().toString().contains("learner.settings.population (30, now 12)"));
   }
 
   void aBackupHoldsWhatTheDatabaseHolds() {

@@ -161,13 +161,14 @@ void TestScene3d::meshesTurnTheirTrianglesOutwards() {
   // A closed body around the origin: every face and every normal looks away from it, and Gauss gives the volume.
   Shape tetrahedron;
   tetrahedron.kind = Shape::Kind::mesh;
-  tetrahedron.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  tetrahedron.surface = std::make_shared<const Surface>(Surface{
+      {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}});
   const double pi = std::numbers::pi;
   const std::tuple<Shape, double, double> bodies[] = {
       {test::makeShape(Shape::Kind::box, {0, 0, 0}, {1, 2, 3}, {}), 6, 1e-5},
       {test::makeShape(Shape::Kind::sphere, {0, 0, 0}, {1, 0, 0}, {}), 4 * pi / 3, 0.02},
       {test::makeShape(Shape::Kind::cylinder, {0, 0, 0}, {1, 2, 0}, {}), 2 * pi, 0.02},
+      {test::makeShape(Shape::Kind::capsule, {0, 0, 0}, {1, 2, 0}, {}), 2 * pi + 4 * pi / 3, 0.02},
       {tetrahedron, 8.0 / 3, 1e-5}};
   for (const auto& [shape, volume, tolerance] : bodies) {
     TriangleMesh mesh;

@@ -29,7 +29,7 @@ RunController::RunController(Workbench& bench) : QObject(&bench), bench_(bench) 
   connect(&launcher, &RunLauncher::exported, this,
           [this](const QString& file) { bench_.inform(tr("Written: %1").arg(file)); });
   // Shown until the next message: in what the started run differs from the one whose experiment was edited.
-  connect(&launcher, &RunLauncher::edited, &bench_, &Workbench::inform, Qt::QueuedConnection);
+  connect(&launcher, &RunLauncher::remarked, &bench_, &Workbench::inform, Qt::QueuedConnection);
   connect(&launcher, &RunLauncher::backedUp, this,
           [this](const QString& file) { bench_.inform(tr("A checked copy of the database is in %1").arg(file)); });
   connect(&launcher, &RunLauncher::imported, this, [this](const QString& file) {

@@ -37,8 +37,11 @@ void RunLauncher::store(const QString& database, const ExperimentSpec& spec, qui
     Database db = Database::open(path, Database::Mode::readWrite);
     std::string differs;
     const Id run = startRun(db, *host, spec, seed, again, &differs);
-    if (!differs.empty())
-      QMetaObject::invokeMethod(this, [this, text = QString::fromStdString(differs)] { emit edited(text); });
+    QStringList remarks;
+    if (!differs.empty()) remarks << QString::fromStdString(differs);
+    for (const std::string& loss : runLosses(db.run(run), *host)) remarks << QString::fromStdString(loss);
+    if (!remarks.isEmpty())
+      QMetaObject::invokeMethod(this, [this, text = remarks.join('\n')] { emit remarked(text); });
     return run;
   });
 }

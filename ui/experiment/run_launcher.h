@@ -59,8 +59,9 @@ class RunLauncher : public QObject {
 
  signals:
   void stored(btr::Id run);
-  /// The run that is being stored is one that was edited: in what it differs from which.
-  void edited(const QString& differences);
+  /// Of the run that is being stored: in what it differs from one that it was edited from, and what its robots lack of
+  /// their files. A line each.
+  void remarked(const QString& remarks);
   void exported(const QString& file);
   void backedUp(const QString& file);
   void imported(const QString& file);

@@ -32,32 +32,34 @@ Vector3d onSphere(int ring, int segment) {
 /// For each corner of each triangle the area-weighted mean of the neighbouring faces that bend less than 40°.
 void addSmoothed(TriangleMesh& mesh, const Shape& shape, const Isometry3d& pose, const Colour& colour) {
   std::vector<Vector3d> faces;
-  std::vector<std::vector<int>> around(shape.vertices.size());
-  for (const auto& triangle : shape.triangles) {
-    const Vector3d a = shape.vertices[triangle[0]].cast<double>(), b = shape.vertices[triangle[1]].cast<double>(),
-                   c = shape.vertices[triangle[2]].cast<double>();
+  std::vector<std::vector<int>> around(shape.surface->vertices.size());
+  for (const auto& triangle : shape.surface->triangles) {
+    const Vector3d a = shape.surface->vertices[triangle[0]].cast<double>(),
+                   b = shape.surface->vertices[triangle[1]].cast<double>(),
+                   c = shape.surface->vertices[triangle[2]].cast<double>();
     for (int corner : triangle) around[corner].push_back(static_cast<int>(faces.size()));
     faces.push_back((b - a).cross(c - a));
   }
   const double sharpest = std::cos(40 * std::numbers::pi / 180);
   for (std::size_t face = 0; face < faces.size(); ++face) {
     const Vector3d own = faces[face].normalized();
-    for (int corner : shape.triangles[face]) {
+    for (int corner : shape.surface->triangles[face]) {
       Vector3d sum = Vector3d::Zero();
       for (int other : around[corner])
         if (own.dot(faces[other].normalized()) > sharpest) sum += faces[other];
       const Vector3d normal = sum.squaredNorm() > 0 ? Vector3d(sum.normalized()) : own;
-      mesh.indices.push_back(addVertex(mesh, pose, shape.vertices[corner].cast<double>(), normal, colour));
+      mesh.indices.push_back(addVertex(mesh, pose, shape.surface->vertices[corner].cast<double>(), normal, colour));
     }
   }
 }
 
 void addMesh(TriangleMesh& mesh, const Shape& shape, const Isometry3d& pose, const Colour& colour) {
-  if (shape.normals.size() != shape.vertices.size()) return addSmoothed(mesh, shape, pose, colour);
+  if (!shape.surface) return;
+  if (shape.surface->normals.size() != shape.surface->vertices.size()) return addSmoothed(mesh, shape, pose, colour);
   const auto first = static_cast<unsigned>(mesh.positions.size());
-  for (std::size_t i = 0; i < shape.vertices.size(); ++i)
-    addVertex(mesh, pose, shape.vertices[i].cast<double>(), shape.normals[i].cast<double>(), colour);
-  for (const auto& triangle : shape.triangles)
+  for (std::size_t i = 0; i < shape.surface->vertices.size(); ++i)
+    addVertex(mesh, pose, shape.surface->vertices[i].cast<double>(), shape.surface->normals[i].cast<double>(), colour);
+  for (const auto& triangle : shape.surface->triangles)
     for (int corner : triangle) mesh.indices.push_back(first + static_cast<unsigned>(corner));
 }
 
@@ -153,6 +155,26 @@ void TriangleMesh::addCylinder(const Isometry3d& pose, double radius_m, double h
   }
 }
 
+// A sphere whose halves stand apart: one more ring of faces joins them.
+void TriangleMesh::addCapsule(const Isometry3d& pose, double radius_m, double length_m, const Colour& colour) {
+  const Isometry3d upright = pose * Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitX());  // z along its y axis
+  const auto first = static_cast<unsigned>(positions.size());
+  const unsigned row = kAround + 1, rings = kUp + 1;
+  for (unsigned ring = 0; ring <= rings; ++ring) {
+    const bool upper = ring > kUp / 2;
+    for (int segment = 0; segment <= kAround; ++segment) {
+      const Vector3d normal = onSphere(static_cast<int>(upper ? ring - 1 : ring), segment);
+      const Vector3d middle(0, 0, (upper ? 0.5 : -0.5) * length_m);
+      addVertex(*this, upright, middle + radius_m * normal, normal, colour);
+    }
+  }
+  for (unsigned ring = 0; ring < rings; ++ring)
+    for (unsigned segment = 0; segment < kAround; ++segment) {
+      const unsigned a = first + ring * row + segment;
+      for (unsigned corner : {a, a + 1, a + row + 1, a, a + row + 1, a + row}) indices.push_back(corner);
+    }
+}
+
 void TriangleMesh::addRing(double inner_m, double outer_m, double z_m, const Colour& colour) {
   constexpr int steps = 96;
   const auto point = [&](double radius, int step) {
@@ -172,6 +194,8 @@ void TriangleMesh::addShape(const Shape& shape, const Isometry3d& pose, const Co
       return addSphere(pose, shape.size_m.x(), colour);
     case Shape::Kind::cylinder:
       return addCylinder(pose, shape.size_m.x(), shape.size_m.y(), colour);
+    case Shape::Kind::capsule:
+      return addCapsule(pose, shape.size_m.x(), shape.size_m.y(), colour);
     case Shape::Kind::mesh:
       return addMesh(*this, shape, pose, colour);
   }
@@ -210,10 +234,22 @@ void addOutline(LineSegments& lines, const Shape& shape, const Isometry3d& pose)
         }
       }
       return;
+    case Shape::Kind::capsule:
+      for (double side : {-1.0, 1.0}) {
+        const Isometry3d end = pose * Eigen::Translation3d(0, side * half.y(), 0);
+        for (int axis = 0; axis < 3; ++axis) addCircle(lines, end, axis, shape.size_m.x(), 0);
+        for (int axis : {0, 2}) {
+          Vector3d rim = Vector3d::Zero();
+          rim[axis] = side * shape.size_m.x();
+          for (double other : {-half.y(), half.y()})
+            lines.push_back((pose * (rim + Vector3d(0, other, 0))).cast<float>());
+        }
+      }
+      return;
     case Shape::Kind::mesh:
-      if (shape.vertices.empty()) return;
-      Vector3f low = shape.vertices.front(), high = low;
-      for (const auto& vertex : shape.vertices) {
+      if (!shape.surface || shape.surface->vertices.empty()) return;
+      Vector3f low = shape.surface->vertices.front(), high = low;
+      for (const auto& vertex : shape.surface->vertices) {
         low = low.cwiseMin(vertex);
         high = high.cwiseMax(vertex);
       }

@@ -24,6 +24,8 @@ struct TriangleMesh {
   void addSphere(const Eigen::Isometry3d& pose, double radius_m, const Colour& colour);
   /// Along the pose's y axis, as in VRML.
   void addCylinder(const Eigen::Isometry3d& pose, double radius_m, double height_m, const Colour& colour);
+  /// The same with half spheres on both ends, which `length_m` leaves out.
+  void addCapsule(const Eigen::Isometry3d& pose, double radius_m, double length_m, const Colour& colour);
   /// A flat ring at height z about the z axis, seen from above.
   void addRing(double inner_m, double outer_m, double z_m, const Colour& colour);
   /// Any shape of a robot model. A mesh without normals is smoothed, but keeps edges sharper than 40°.

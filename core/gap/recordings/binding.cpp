@@ -120,6 +120,11 @@ class Binder {
 
     // What drives the joint: depends on the kind of its drive.
     const auto command = take(columns, "command_rad", "command_m", slides);
+    if (description.mimic && command)
+      binding_.notes.push_back(
+          recording_.channels[*command] + ": the joint follows " +
+          scene_.robots[robot].model.joints[static_cast<std::size_t>(description.mimic->leader)].name +
+          "; its own commands are not used");
     const auto forceCommand = take(columns, "command_nm", "command_n", slides);
     auto torque = take(columns, "torque_nm", "torque_n", slides);
     if (const auto force = take(columns, "force_n", "force_n", slides)) {

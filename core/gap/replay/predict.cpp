@@ -10,6 +10,7 @@
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/start_state.h"
 #include "core/gap/replay/trial_scenes.h"
+#include "core/sim/model_losses.h"
 #include "core/sim/scene_build.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/output_path.h"
@@ -81,6 +82,8 @@ std::vector<Recording> runPredict(const PredictRequest& request, const EffectFac
     checkOutputFile(out.string(), inputs);
     written.push_back(predict(scenes.of(trials[i], effects), trials[i], goesOn));
     written.back().source = out.string();
+    const std::vector<std::string> losses = modelLosses(scenes.spec, scenes.models);
+    written.back().notes.insert(written.back().notes.begin(), losses.begin(), losses.end());
   }
   for (const Recording& predicted : written)
     writeFile(predicted.source, toCsv(NumberTable{predicted.channels, predicted.columns}));

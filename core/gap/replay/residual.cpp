@@ -82,12 +82,14 @@ ResidualReport residual(const Scene& scene, const std::vector<Recording>& record
 ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& effects,
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
   ResidualReport report;
-  const bool all =
-      forEachTrial(request, effects, progress, [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
-        addRecording(scene, trial, request.asRecorded, report, goesOn);
-      });
+  std::vector<std::string> losses;
+  const bool all = forEachTrial(request, effects, progress, losses,
+                                [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
+                                  addRecording(scene, trial, request.asRecorded, report, goesOn);
+                                });
   if (!all) return report;
   joinNotes(report.notes);
+  report.notes.insert(report.notes.begin(), losses.begin(), losses.end());
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;
 
   if (!request.out.empty()) {

@@ -1,8 +1,12 @@
 #include "core/gap/replay/trial_scenes.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual.h"
+#include "core/sim/model_losses.h"
 #include "core/spec/cancelled.h"
 
 namespace btr {
@@ -25,9 +29,10 @@ TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulat
 }
 
 bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
-                  const std::function<bool(std::size_t, std::size_t)>& progress,
+                  const std::function<bool(std::size_t, std::size_t)>& progress, std::vector<std::string>& losses,
                   const std::function<void(const Scene&, const Recording&, const std::function<bool()>&)>& use) try {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
+  std::ranges::move(modelLosses(scenes.spec, scenes.models), std::back_inserter(losses));
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
     const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
     if (!goesOn()) return false;

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
@@ -25,9 +26,10 @@ TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulat
 
 /// Loads what is asked for and gives each trial with its scene to `use`, in the order of the files. `progress(done,
 /// all)` counts files before each one; when it returns false, so does this, and the rest is left. `use`
-/// may ask goesOn() meanwhile, and throw Cancelled for the same end. Throws InputError.
+/// may ask goesOn() meanwhile, and throw Cancelled for the same end. What the scene's robots lack of their files is
+/// appended to `losses`. Throws InputError.
 bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
-                  const std::function<bool(std::size_t, std::size_t)>& progress,
+                  const std::function<bool(std::size_t, std::size_t)>& progress, std::vector<std::string>& losses,
                   const std::function<void(const Scene&, const Recording&, const std::function<bool()>& goesOn)>& use);
 
 }  // namespace btr

@@ -11,6 +11,7 @@
 #include "core/gap/recordings/recording_health.h"
 #include "core/gap/replay/residual_parts.h"
 #include "core/gap/replay/trial_scenes.h"
+#include "core/sim/model_losses.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -42,6 +43,13 @@ void addGrave(std::vector<Grave>& grave, const std::string& channel, const std::
   }
   ++known->recordings;
   known->last = name;
+}
+
+/// "The robot is not simulated as its file says: A; and 2 more (see the notes). ", "" for none.
+std::string lossCaveat(const std::vector<std::string>& losses) {
+  if (losses.empty()) return "";
+  return "The robot is not simulated as its file says: " + losses[0] +
+         (losses.size() > 1 ? "; and " + std::to_string(losses.size() - 1) + " more (see the notes)" : "") + ". ";
 }
 
 /// "The recordings themselves come first: A; B; and 2 more findings (see the notes). …", "" for none.
@@ -84,9 +92,11 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
   if (const auto text = objection.text(); text && !asRecorded)
     throw InputError(*text + "; --as-recorded analyses it regardless");
   joinNotes(notes);
+  const std::vector<std::string> losses = modelLosses(problem.scene, problem.models);
+  notes.insert(notes.begin(), losses.begin(), losses.end());
   joinNotes(others);
   notes.insert(notes.end(), others.begin(), others.end());
-  return {notes, caveatOf(grave)};
+  return {notes, lossCaveat(losses) + caveatOf(grave)};
 }
 
 }  // namespace btr

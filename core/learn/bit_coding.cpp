@@ -1,8 +1,9 @@
 #include "core/learn/bit_coding.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "core/spec/require.h"
 
 namespace btr {
 
@@ -20,7 +21,7 @@ std::uint32_t geneNumber(std::string_view gene, BitCoding::Kind kind) {
 
 BitCoding::BitCoding(std::vector<Parameter> genotype, int bits, Kind kind)
     : genotype_(std::move(genotype)), bits_(static_cast<std::size_t>(bits)), kind_(kind) {
-  assert(bits >= 1 && bits <= 32);
+  require(bits >= 1 && bits <= 32, "1 to 32 bits a gene");
 }
 
 bool BitCoding::fits(std::string_view text) const {
@@ -28,7 +29,7 @@ bool BitCoding::fits(std::string_view text) const {
 }
 
 std::vector<double> BitCoding::decode(std::string_view chromosome) const {
-  assert(fits(chromosome));
+  require(fits(chromosome), "a chromosome of the genotype's length");
   const double largest = std::exp2(static_cast<double>(bits_)) - 1;
   std::vector<double> parameters;
   parameters.reserve(genotype_.size());
@@ -43,7 +44,7 @@ std::vector<double> BitCoding::decode(std::string_view chromosome) const {
 }
 
 std::string BitCoding::encode(std::span<const double> parameters) const {
-  assert(parameters.size() == genotype_.size());
+  require(parameters.size() == genotype_.size(), "a value for each gene");
   const double largest = std::exp2(static_cast<double>(bits_)) - 1;
   std::string chromosome;
   chromosome.reserve(length());

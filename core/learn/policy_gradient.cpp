@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
-#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -61,7 +62,7 @@ void decide(ParameterGradient& g, bool low, bool high) {
 }  // namespace
 
 std::vector<double> feasible(std::span<const Parameter> genotype, std::span<const double> at) {
-  assert(at.size() == genotype.size());
+  require(at.size() == genotype.size(), "a value for each gene");
   std::vector<double> values;
   for (std::size_t n = 0; n < genotype.size(); ++n) values.push_back(feasibleValue(genotype[n], at[n]));
   return values;
@@ -82,7 +83,7 @@ std::vector<std::vector<double>> drawPolicies(std::span<const Parameter> genotyp
 PolicyGradient policyGradient(std::span<const Parameter> genotype, std::span<const double> centre,
                               std::span<const double> epsilons, double eta,
                               std::span<const std::vector<double>> policies, std::span<const double> fitness) {
-  assert(policies.size() == fitness.size());
+  require(policies.size() == fitness.size(), "a fitness for each policy");
   const std::vector<double> origin = feasible(genotype, centre);
   PolicyGradient result;
   double squares = 0;

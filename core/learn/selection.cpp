@@ -1,8 +1,9 @@
 #include "core/learn/selection.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "core/spec/require.h"
 
 namespace btr {
 
@@ -21,7 +22,7 @@ std::vector<double> finiteFitness(std::span<const double> fitness) {
 }
 
 std::vector<double> linearScaling(std::span<const double> fitness, double largestCopies) {
-  assert(largestCopies > 1);
+  require(largestCopies > 1, "more than one copy of the best");
   std::vector<double> weights = finiteFitness(fitness);
   if (weights.empty()) return weights;
 
@@ -54,10 +55,10 @@ Roulette::Roulette(std::span<const double> weights) {
   double sum = 0;
   cumulative_.reserve(weights.size());
   for (const double weight : weights) {
-    assert(weight >= 0);
+    require(weight >= 0, "weights of 0 or more");
     cumulative_.push_back(sum += weight);
   }
-  assert(sum > 0);
+  require(sum > 0, "a weight above 0");
 }
 
 std::size_t Roulette::spin(Random& random) const {

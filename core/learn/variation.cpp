@@ -1,12 +1,13 @@
 #include "core/learn/variation.h"
 
 #include <algorithm>
-#include <cassert>
+
+#include "core/spec/require.h"
 
 namespace btr {
 
 Cuts drawCuts(std::size_t length, Random& random) {
-  assert(length >= 3);
+  require(length >= 3, "cuts of at least 3 bits");
   const std::size_t first = 1 + random.below(length - 1);
   std::size_t second = 1 + random.below(length - 2);
   if (second >= first) ++second;  // never the same place
@@ -14,7 +15,8 @@ Cuts drawCuts(std::size_t length, Random& random) {
 }
 
 void exchange(std::string& one, std::string& other, const Cuts& cuts) {
-  assert(one.size() == other.size() && cuts.first <= cuts.second && cuts.second <= one.size());
+  require(one.size() == other.size() && cuts.first <= cuts.second && cuts.second <= one.size(),
+          "parents of one length, and cuts within it");
   const auto at = [](std::string& text, std::size_t place) {
     return text.begin() + static_cast<std::ptrdiff_t>(place);
   };

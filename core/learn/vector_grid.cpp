@@ -1,10 +1,10 @@
 #include "core/learn/vector_grid.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/spec/error.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -30,7 +30,8 @@ Place placeOn(const std::vector<double>& axis, double value, const char* name) {
 VectorGrid::VectorGrid(std::array<std::vector<double>, 3> axes, std::vector<Parameter> genotype,
                        std::vector<std::vector<double>> vectors)
     : axes_(std::move(axes)), genotype_(std::move(genotype)), vectors_(std::move(vectors)) {
-  assert(vectors_.size() == axes_[0].size() * axes_[1].size() * axes_[2].size());
+  require(vectors_.size() == axes_[0].size() * axes_[1].size() * axes_[2].size(),
+          "a vector for each point of the grid");
 }
 
 std::vector<double> VectorGrid::at(const Point& point, std::span<const char* const, 3> names) const {
@@ -56,7 +57,7 @@ std::vector<double> VectorGrid::at(const Point& point, std::span<const char* con
 }
 
 double similarity(std::span<const Parameter> genotype, std::span<const double> a, std::span<const double> b) {
-  assert(a.size() == genotype.size() && b.size() == genotype.size());
+  require(a.size() == genotype.size() && b.size() == genotype.size(), "a value for each gene");
   double squares = 0;
   int counted = 0;
   for (std::size_t i = 0; i < genotype.size(); ++i) {

@@ -1,6 +1,6 @@
 #include "core/model/kinematics.h"
 
-#include <cassert>
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -21,7 +21,7 @@ Eigen::Isometry3d motion(const Joint& joint, double position) {
 
 std::vector<Eigen::Isometry3d> forwardKinematics(const RobotModel& model, const Eigen::Isometry3d& root,
                                                  std::span<const double> positions) {
-  assert(positions.size() == model.joints.size());
+  require(positions.size() == model.joints.size(), "a position for each joint");
   std::vector<Eigen::Isometry3d> poses;
   poses.reserve(model.links.size());
   poses.push_back(root);

@@ -10,6 +10,7 @@
 #include "core/model/load_model.h"
 #include "core/run/robot.h"
 #include "core/sim/model_losses.h"
+#include "core/sim/ode_session.h"
 #include "core/sim/scene_build.h"
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
@@ -81,6 +82,7 @@ ModelSet parseModels(const SceneSpec& scene, const std::vector<StoredFile>& file
 /// Everything but reading files: plugins, settings, models and a first scene.
 PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std::vector<StoredFile> files,
                            const PluginHost& host, bool fromFiles) {
+  requireOde();
   PreparedExperiment prepared;
   prepared.spec = spec;
   prepared.spec.plugins = pluginFolders(spec);  // what is stored does not know the experiment's folder

@@ -1,10 +1,10 @@
 #include "core/sim/gait.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/spec/error.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -41,7 +41,8 @@ Gait::Gait(const FourLegs& dog, const std::array<std::vector<FootPoint>, 4>& pat
     : frames_(static_cast<std::size_t>(period)) {
   for (std::size_t i = 0; i < 4; ++i) {
     const std::vector<FootPoint>& path = paths[i];
-    assert(!path.empty() && path.front().frame == 0 && path.back().frame < static_cast<double>(period));
+    require(!path.empty() && path.front().frame == 0 && path.back().frame < static_cast<double>(period),
+            "key frames from 0 to less than the period");
     // The second round begins where the first ended: the cycle closes in joint space too.
     std::vector<LegAngles> angles(path.size(), bent(dog.legs[i]));
     for (const bool counts : {false, true})

@@ -5,9 +5,11 @@
 #include "core/sim/lcp_hook.h"
 
 #include <dlfcn.h>
+#include <ode/ode.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/sim/lcp_box.h"
 #include "core/sim/lcp_solver.h"
@@ -22,6 +24,23 @@ LcpFunction* solverOfOde() {
   static const auto found =
       reinterpret_cast<LcpFunction*>(dlsym(RTLD_NEXT, "_Z10dxSolveLCPP22dxWorldProcessMemArenajPdS1_S1_jS1_Pi"));
   return found;
+}
+
+/// Problems that came here from one step of a wheel with a motor, or −1 where libode's own solver is not found.
+long problemsOfAStep() {
+  if (!solverOfOde()) return -1;
+  const LcpHook& hook = LcpHook::ofThisThread();
+  const long before = hook.reduced + hook.small + hook.whole;
+  const dWorldID world = dWorldCreate();
+  const dBodyID wheel = dBodyCreate(world);
+  const dJointID axle = dJointCreateHinge(world, nullptr);
+  dJointAttach(axle, wheel, nullptr);
+  dJointSetHingeAxis(axle, 0, 0, 1);
+  dJointSetHingeParam(axle, dParamVel, 1);
+  dJointSetHingeParam(axle, dParamFMax, 1);
+  dWorldStep(world, 0.001);
+  dWorldDestroy(world);
+  return hook.reduced + hook.small + hook.whole - before;
 }
 
 struct Memory {
@@ -71,6 +90,16 @@ void solve(dxWorldProcessMemArena* arena, unsigned n, double* a, double* bx, dou
 LcpHook& LcpHook::ofThisThread() {
   thread_local LcpHook hook;
   return hook;
+}
+
+void requireLcpHook() {
+  static const long problems = problemsOfAStep();
+  if (problems > 0) return;
+  throw std::runtime_error(
+      problems < 0
+          ? "this libode has no dxSolveLCP to fall back on; install Debian's libode8 (0.16.2)"
+          : "this libode does not call UCHILSIM's constraint solver (a libode that was preloaded, or linked statically?): "
+            "trials would not be the same, bit for bit, as on other machines");
 }
 
 }  // namespace btr

@@ -18,4 +18,9 @@ struct LcpHook {
   static LcpHook& ofThisThread();
 };
 
+/// Throws std::runtime_error if this process's libode calls another solver than ours, or lacks the one that ours falls
+/// back on: its trials would differ from those of other machines. Looks once, by a step of a world of its own; ODE must
+/// have been started in this thread.
+void requireLcpHook();
+
 }  // namespace btr

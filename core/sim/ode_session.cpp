@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <mutex>
 
+#include "core/sim/lcp_hook.h"
+
 namespace btr {
 namespace {
 
@@ -34,13 +36,16 @@ void startOde() {
   });
   thread_local const bool allocated = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   if (!allocated) throw std::runtime_error("ODE has no memory for this thread");
+  requireLcpHook();
 }
 
 }  // namespace
 
+void requireOde() { startOde(); }
+
 OdeSession::OdeSession(std::uint64_t seed) {
-  if (sessionLives().exchange(true)) throw std::logic_error("only one World may exist in a process at a time");
   startOde();
+  if (sessionLives().exchange(true)) throw std::logic_error("only one World may exist in a process at a time");
   dRandSetSeed(static_cast<unsigned long>(seed & 0xffffffffu));
   world_ = dWorldCreate();
   threading_ = dThreadingAllocateSelfThreadedImplementation();

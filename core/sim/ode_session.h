@@ -13,9 +13,13 @@ class OdeFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Starts ODE in this thread. Throws std::runtime_error where its results would not be ours; see requireLcpHook().
+void requireOde();
+
 /// Owns one dWorld and what surrounds it: ODE's start (once a process and thread), its random seed, its threading
 /// object (ODE's default one is shared, and a step that was left by an error would spoil it for the next world) and its
-/// contacts. Throws std::logic_error if another session lives in this process.
+/// contacts. Throws std::logic_error if another session lives in this process, and what
+/// requireOde() does.
 class OdeSession {
  public:
   explicit OdeSession(std::uint64_t seed);

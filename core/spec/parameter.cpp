@@ -1,11 +1,11 @@
 #include "core/spec/parameter.h"
 
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 
 #include "core/spec/error.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -30,7 +30,7 @@ const Parameter* find(std::span<const Parameter> declared, const std::string& na
 
 double valueOf(std::span<const Parameter> declared, const Values& values, const std::string& name) {
   const Parameter* parameter = find(declared, name);
-  assert(parameter && "a parameter must be declared before its value is asked for");
+  require(parameter != nullptr, "a parameter is declared before its value is asked for");
   const auto given = values.find(name);
   return given != values.end() ? given->second : parameter->byDefault;
 }

@@ -1,11 +1,11 @@
 #include "core/spec/random.h"
 
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "core/spec/error.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -48,7 +48,7 @@ double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 double Random::uniform(double low, double high) { return low + (high - low) * uniform(); }
 
 std::uint64_t Random::below(std::uint64_t count) {
-  assert(count > 0);
+  require(count > 0, "Random::below() of more than 0");
   // The first 2^64 mod count numbers would make small results likelier: draw again.
   const std::uint64_t rejected = (0 - count) % count;
   std::uint64_t bits = next();

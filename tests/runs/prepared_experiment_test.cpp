@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "core/sim/collision.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
@@ -69,6 +72,51 @@ TEST(PreparedExperiment, FromItsRunIsTheSameToTheLastBit) {
   const TrialResult one = result(first), two = result(again);
   EXPECT_EQ(one.trace.values, two.trace.values);
   EXPECT_EQ(first.fitnessOf(one), again.fitnessOf(two));
+}
+
+// A goal of a mesh stands in the kick's way: what the ball meets must not hang on a file that somebody moves.
+TEST(PreparedExperiment, KeepsTheMeshesOfItsRobots) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("uchilsim-goal-" + std::to_string(getpid()));
+  fs::create_directories(folder / "meshes");
+  writeFile((folder / "meshes/wall.obj").string(),
+            "v 0 -1 0\nv 0 1 0\nv 0 1 1\nv 0 -1 1\nv 0.1 -1 0\nv 0.1 1 0\nv 0.1 1 1\nv 0.1 -1 1\n"
+            "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
+  writeFile((folder / "goal.urdf").string(),
+            "<robot name='goal'><link name='wall'><collision><geometry><mesh filename='meshes/wall.obj'/></geometry>"
+            "</collision><visual><geometry><mesh filename='meshes/paint.dae'/></geometry></visual></link></robot>");
+  ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/kick-short.json");
+  SceneSpec scene = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
+  scene.robots[0].model = SOURCE_DIR "/resources/robots/ers7.wrl";
+  RobotSpec goal;
+  goal.name = "goal";
+  goal.model = "goal.urdf";
+  goal.base = "fixed";
+  goal.position_m = {0.6, 0, 0};
+  scene.robots.push_back(goal);
+  writeFile((folder / "scene.json").string(), toJsonText(scene));
+  spec.directory = folder.string();
+  spec.scene = "scene.json";
+
+  const PreparedExperiment first = prepareFromFiles(spec, host());
+  const RunRecord run = makeRunRecord(first, 1, 5);
+  fs::remove_all(folder);
+  ASSERT_EQ(run.files.size(), 3u);
+  EXPECT_EQ(run.files[2].name, "goal.urdf: meshes/wall.obj");
+  const PreparedExperiment again = prepareFromRun(run, host());
+  const std::vector<double> middle = test::middleOf(first.genotype);
+  const auto result = [&](const PreparedExperiment& prepared) {
+    return prepared.trial(prepared.scene(prepared.spec.simulator), middle, 11, true);
+  };
+  EXPECT_EQ(result(first).trace.values, result(again).trace.values);
+  for (const PreparedExperiment* prepared : {&first, &again}) {
+    const auto& wall = prepared->models.at("goal.urdf")->links[0].shapes;
+    ASSERT_EQ(wall.size(), 1u);
+    ASSERT_TRUE(wall[0].hull);
+    EXPECT_EQ(wall[0].hull->points.size(), 8u);
+  }
+  // The paint is only missed by the eye.
+  EXPECT_THAT(runLosses(run, host()), testing::IsEmpty());
 }
 
 // Every trial would finish with fitness 0, and hours would pass.

@@ -1,14 +1,16 @@
 #include "core/gap/recordings/lowpass.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "core/spec/require.h"
 
 namespace btr {
 
 LowPass::LowPass(int order, double cutoff_hz, double rate_hz)
     : padding_(static_cast<std::size_t>(std::ceil(3 * rate_hz / cutoff_hz))) {
-  assert(order > 0 && order % 2 == 0 && cutoff_hz > 0 && cutoff_hz < rate_hz / 2);
+  require(order > 0 && order % 2 == 0 && cutoff_hz > 0 && cutoff_hz < rate_hz / 2,
+          "a low-pass filter of even order that cuts off below half of the sampling rate");
   const double k = std::tan(M_PI * cutoff_hz / rate_hz);
   for (int i = 0; i < order / 2; ++i) {
     const double damping = 2 * std::cos((2 * i + 1) * M_PI / (2 * order));

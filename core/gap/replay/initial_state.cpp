@@ -1,11 +1,11 @@
 #include "core/gap/replay/initial_state.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <vector>
 
 #include "core/gap/recordings/noise_floor.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -28,7 +28,7 @@ std::vector<std::size_t> firstSamples(std::span<const double> time, std::span<co
 /// Least squares x = value + slope·t + acceleration·t²/2 with the acceleration given.
 Line lineThrough(std::span<const double> time, std::span<const double> values, double window, double acceleration) {
   const auto rows = firstSamples(time, values, window);
-  assert(!rows.empty());
+  require(!rows.empty(), "an initial state from at least one row");
   const auto count = static_cast<double>(rows.size());
   std::vector<double> t, x;
   double meanT = 0, meanX = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "core/sim/world.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/parameter.h"
+#include "core/spec/require.h"
 
 namespace btr {
 namespace {
@@ -221,7 +221,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
   constexpr std::size_t rowsBetweenQuestions = 256;
   const std::size_t rows = recording.rows();
   last = std::min(last, rows);
-  assert(first < last);
+  require(first < last, "a replay of at least one row");
   ReplayedRecording replayed;
   replayed.values.assign(binding.measured.size(), std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
 

@@ -7,6 +7,7 @@
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual.h"
 #include "core/sim/model_losses.h"
+#include "core/sim/ode_session.h"
 #include "core/spec/cancelled.h"
 
 namespace btr {
@@ -21,6 +22,7 @@ Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) cons
 }
 
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator) {
+  requireOde();
   TrialScenes loaded;
   loaded.spec = loadScene(scene);
   loaded.models = loadModels(loaded.spec);

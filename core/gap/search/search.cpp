@@ -18,13 +18,6 @@
 #include "core/spec/random.h"
 
 namespace btr {
-namespace {
-
-constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
-constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
-
-}  // namespace
-
 void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool accepted, const std::string& reason) {
   for (Attempt& attempt : attempts)
     if (attempt.candidate.text() == candidate) {
@@ -33,9 +26,9 @@ void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool
     }
 }
 
-bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
-  constexpr double least = 0.03;
-  return std::any_of(tried.begin(), tried.end(), [](const Tried& each) { return each.attempt.share > least; });
+bool SearchRun::promisesAPair(const std::vector<Tried>& tried) const {
+  const double least = limits().screening.pairPromise;
+  return std::any_of(tried.begin(), tried.end(), [&](const Tried& each) { return each.attempt.share > least; });
 }
 
 Scored SearchRun::calibrate() {
@@ -51,12 +44,14 @@ Scored SearchRun::calibrate() {
   for (std::size_t s = 1; s < starts.size(); ++s)
     for (std::size_t i = 0; i < given.values.size(); ++i) {
       const FitParameter& p = given.parameters[i];
-      starts[s].values[i] = std::clamp(p.given + 2 * p.scale * random.uniform(-1, 1), p.minimum, p.maximum);
+      starts[s].values[i] = std::clamp(p.given + limits().calibration.startSpread * p.scale * random.uniform(-1, 1),
+                                       p.minimum, p.maximum);
     }
-  std::vector<Fit> fits = fitAll({{given, {}}}, 15, "calibrating", 0.02, 0.05);
+  std::vector<Fit> fits = fitAll({{given, {}}}, limits().calibration.iterations, "calibrating", 0.02, 0.05);
   // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
-  if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
-    const std::vector<Fit> others = thoseOf(tryFits({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08));
+  if (fits[0].cost > limits().calibration.leastForStarts * static_cast<double>(problem_.residuals())) {
+    const std::vector<Fit> others = thoseOf(
+        tryFits({{starts[1], {}}, {starts[2], {}}}, limits().calibration.startIterations, "calibrating", 0.05, 0.08));
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
@@ -69,17 +64,16 @@ Scored SearchRun::calibrate() {
 
 /// Of a fit that ended where single trials stuck, all numbers once more.
 void SearchRun::startAnew(Fit& fit, const std::string& stage, double at) const {
-  constexpr int iterations = 15;
   const Fit anew = withStartsAnew(problem_, fit);
   if (anew.shifts == fit.shifts) return;
-  const Fit all = fitOn({anew}, iterations, stage, at, at)[0];
+  const Fit all = fitOn({anew}, limits().calibration.againIterations, stage, at, at)[0];
   fit = costsLess(all, anew) ? all : anew;
 }
 
 /// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
 Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
-  if (excessOf(scored) < leastToFitOn) return scored;
-  std::vector<Fit> fits = fitOn({scored.fit}, toTheEnd, stage, at, at);
+  if (excessOf(scored) < limits().calibration.leastToFitOn) return scored;
+  std::vector<Fit> fits = fitOn({scored.fit}, limits().calibration.toTheEnd, stage, at, at);
   startAnew(fits[0], stage, at);
   climbWholeNumbers(fits[0], stage, at);
   refineStep(fits, 1, stage, at);
@@ -127,13 +121,14 @@ void SearchRun::remember(std::vector<Attempt>& attempts, const Attempt& attempt)
 /// have bent them to take up what is missing.
 std::vector<Fit> SearchRun::basesOf(const SearchResult& result, bool first) const {
   std::vector<Fit> bases{result.final.fit};
-  if (!first || excessOf(result.final) < 1) return bases;
+  if (!first || excessOf(result.final) < limits().calibration.muchLeft) return bases;
   const FitModel& model = result.final.fit.model;
   FitModel given = model;
   bool far = false;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     given.values[i] = model.parameters[i].given;
-    far = far || std::abs(model.values[i] - given.values[i]) > 2 * model.parameters[i].scale;
+    far = far ||
+          std::abs(model.values[i] - given.values[i]) > limits().calibration.farFromGiven * model.parameters[i].scale;
   }
   if (far) bases.push_back({given, result.given.fit.shifts, 0});
   return bases;
@@ -161,8 +156,9 @@ SearchResult SearchRun::run() {
       fitted += block;
       ++blocks;
     }
-  if (problem_.window_s == 0 && blocks > 0 && result.calibrated.mean() > 1.5 * fitted / blocks &&
-      result.calibrated.mean() > 1.3) {
+  if (problem_.window_s == 0 && blocks > 0 &&
+      result.calibrated.mean() > limits().calibration.unstableRatio * fitted / blocks &&
+      result.calibrated.mean() > limits().calibration.unstableError) {
     result.unstable = true;
     return result;
   }
@@ -179,11 +175,11 @@ SearchResult SearchRun::run() {
   std::optional<Choice> choice;  // of the last effect, where it was accepted alone
   for (int stage = 0; stage < options_.maximumEffects; ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
-    if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
+    if (result.final.mean() < limits().screening.nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
     const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    auto tried =
-        tryCandidates(result.final, basesOf(result, stage == 0), stage == 0 ? &result.calibratedLinear : nullptr,
-                      candidatesToFit, stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
+    auto tried = tryCandidates(result.final, basesOf(result, stage == 0),
+                               stage == 0 ? &result.calibratedLinear : nullptr, limits().screening.fitted,
+                               stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
     if (stage == 0) firstStage_ = tried;
     std::size_t winner = tried.size();
     for (std::size_t k = 0; k < tried.size(); ++k) {
@@ -207,7 +203,7 @@ SearchResult SearchRun::run() {
       }
       result.ladder.push_back(step("+ " + tried[winner].attempt.candidate.text(), result.final));
     } else if (Scored pair; static_cast<int>(result.final.fit.model.effects.size()) + 2 <= options_.maximumEffects &&
-                            excessOf(result.final) > unexplainedExcess && promisesAPair(tried) &&
+                            excessOf(result.final) > limits().screening.lastChanceExcess && promisesAPair(tried) &&
                             tryPair(result.final, tried, pair)) {
       acceptPair(result, pair, "+ ");
       choice.reset();

@@ -13,13 +13,6 @@
 namespace btr {
 namespace {
 
-constexpr int firstIterations = 8;
-constexpr double hopeless = 4;
-constexpr double leastToScatter = 1.3;  // mean squared error that the best candidate leaves
-constexpr double inReach =
-    16;  // by cost, of the best: a wrong number of waves leaves many times what the right one does
-constexpr std::size_t candidatesInPairs = 4;
-
 /// Where the fit of a candidate may begin.
 struct FitStart {
   const Screened::Start* from;
@@ -76,6 +69,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
                                                        const Linearised* known, std::size_t toFit,
                                                        const std::string& stage, double from, double to,
                                                        bool lastChance) {
+  const SearchThresholds::Screening& limits = this->limits().screening;
   const double part = (to - from) / 3;
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(models[0]);
@@ -83,14 +77,16 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   for (const Fit& fit : models)
     bases.push_back(
         {fit, known && bases.empty() && problem_.scene.step_s == judged_s ? *known : linearise(problem_, fit)});
-  const std::vector<EffectCandidate> candidates = candidatesFor(problem_, bases[0].fit.model, options_.names);
+  const std::vector<EffectCandidate> candidates =
+      candidatesFor(problem_, bases[0].fit.model, options_.names, options_.thresholds.candidates);
   std::vector<std::vector<Screened>> screened;
   std::vector<double> totals;
   for (const Base& base : bases) {
     const double begin = from + part * static_cast<double>(screened.size()) / static_cast<double>(bases.size());
     screened.push_back(screen(
         problem_, base.fit, base.linear, candidates, options_.jobs,
-        reporter("screening" + stage, candidates.size(), begin, begin + part / static_cast<double>(bases.size()))));
+        reporter("screening" + stage, candidates.size(), begin, begin + part / static_cast<double>(bases.size())),
+        limits));
     totals.push_back(base.linear.profiled.squaredNorm());
   }
   const std::vector<Promise> promises = promisesOf(candidates, screened, totals);
@@ -131,7 +127,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
       jobs.push_back({model, base.fit.shifts, &base.linear});
       owner.push_back(k);
     }
-    const auto fits = tryFits(jobs, firstIterations, "fitting candidates" + stage, begin, end);
+    const auto fits = tryFits(jobs, limits.iterations, "fitting candidates" + stage, begin, end);
     for (std::size_t i = 0; i < fits.size(); ++i) {
       Tried& each = tried[owner[i]];
       if (!fits[i]) {
@@ -151,7 +147,8 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   std::vector<std::size_t> promising;
   for (std::size_t k = 0; k < tried.size() && promising.size() < toFit; ++k)
     if (!promises[tried[k].promise].starts.empty() &&
-        tried[k].attempt.share >= std::max(0.7 * leastGain, 0.1 * tried[0].attempt.share))
+        tried[k].attempt.share >= std::max(limits.leastOfGain * options_.thresholds.confirmation.leastGain,
+                                           limits.leastOfBest * tried[0].attempt.share))
       promising.push_back(k);
   fitStarts(promising, 0, from + part, from + 1.6 * part);
   std::stable_sort(promising.begin(), promising.end(), fitsBetter);
@@ -174,9 +171,9 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   };
   const double least = leastCost();
   for (const std::size_t k : promising)
-    if (tried[k].fit.cost <= inReach * least)
+    if (tried[k].fit.cost <= limits.inReach * least)
       fitFromWindows(tried[k].fit, bases[0].fit.model, "fitting candidates" + stage, from + 2 * part);
-  if (2 * leastCost() > leastToScatter * static_cast<double>(problem_.residuals()))
+  if (2 * leastCost() > options_.thresholds.drawnEffects.leastLeft * static_cast<double>(problem_.residuals()))
     fitFromScatter(tried, promising, models, "fitting candidates" + stage, from + 2 * part);
   std::stable_sort(tried.begin(), tried.end(), isBetter);
 
@@ -190,7 +187,7 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
   std::vector<std::size_t> best, next;
   for (std::size_t k = 0; k < tried.size() && tried[k].attempt.fitted; ++k)
     // What fits far worse than the best after the first iterations is no rival.
-    (best.size() < toFit / 2 && tried[k].fit.cost <= hopeless * tried[0].fit.cost ? best : next).push_back(k);
+    (best.size() < toFit / 2 && tried[k].fit.cost <= limits.hopeless * tried[0].fit.cost ? best : next).push_back(k);
   std::erase_if(next, [&](std::size_t k) {
     const bool contained = isContained(k, best);
     if (contained) best.push_back(k);
@@ -200,18 +197,16 @@ std::vector<SearchRun::Tried> SearchRun::tryCandidates(Scored& without, const st
              confirm(tried, next, without, judged_s, stage, to, to);
   // Screening is linear: far from the truth it may rank low what is missing. Before nothing is said to help, the others
   // are fitted too.
-  if (!any && lastChance && excessOf(without) > unexplainedExcess) {
-    constexpr std::size_t most = 16, confirmed = 4;
-    constexpr double leastPromise = 0.01;
+  if (!any && lastChance && excessOf(without) > limits.lastChanceExcess) {
     std::vector<std::size_t> rest;
     for (const Tried& each : tried)
-      if (!each.attempt.fitted && !promises[each.promise].starts.empty() && each.attempt.share >= leastPromise &&
-          rest.size() < most)
+      if (!each.attempt.fitted && !promises[each.promise].starts.empty() &&
+          each.attempt.share >= limits.lastChancePromise && rest.size() < limits.lastChance)
         rest.push_back(static_cast<std::size_t>(&each - tried.data()));
     for (const std::size_t start : {0, 1}) fitStarts(rest, start, to, to);
     std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
     std::stable_sort(rest.begin(), rest.end(), fitsBetter);
-    if (rest.size() > confirmed) rest.resize(confirmed);
+    if (rest.size() > limits.lastChanceConfirmed) rest.resize(limits.lastChanceConfirmed);
     any = confirm(tried, rest, without, judged_s, stage, to, to);
   }
   if (!any) problem_.scene.step_s = judged_s;
@@ -228,13 +223,15 @@ bool SearchRun::tryPair(const Scored& current, const std::vector<Tried>& singles
   bool found = false;
   const double step_s = problem_.scene.step_s;
   double pair_s = step_s;
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, singles.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(limits().screening.pairFirsts, singles.size()); ++k) {
     if (!singles[k].attempt.scored) continue;
     problem_.scene.step_s = step_s;
     Scored single = singles[k].scored, neither = current;
     bringToStep(single, "in pairs", 0.5);
-    const auto seconds = tryCandidates(single, {single.fit}, nullptr, candidatesInPairs, ", in pairs", 0.5, 0.6);
-    if (seconds.empty() || !seconds[0].attempt.scored || seconds[0].attempt.qValue > mostFalse) continue;
+    const auto seconds =
+        tryCandidates(single, {single.fit}, nullptr, limits().screening.fittedInPairs, ", in pairs", 0.5, 0.6);
+    if (seconds.empty() || !seconds[0].attempt.scored || seconds[0].attempt.qValue > limits().confirmation.mostFalse)
+      continue;
     PairedTest comparison;
     std::string reason;
     // Each of the two must be worth it beside the other, and both together.
@@ -264,15 +261,14 @@ void SearchRun::acceptPair(SearchResult& result, const Scored& pair, const std::
 // A flexible effect alone (a payload of any place beside a servo of any strength) takes up most of what two others do,
 // and bends the numbers so far that neither of them is found beside it any more.
 bool SearchRun::chooseTwoOthers(SearchResult& result, const Choice& choice) {
-  constexpr double muchForOne = 1;  // mean squared error above the noise at which one effect is doubtful
-  if (excessOf(result.final) < muchForOne || !promisesAPair(choice.others)) return false;
+  if (excessOf(result.final) < limits().screening.doubtfulExcess || !promisesAPair(choice.others)) return false;
   Scored pair;
   const double step_s = problem_.scene.step_s;
   if (!tryPair(choice.without, choice.others, pair)) return false;
   Scored single = result.final;
   bringToStep(single, "in pairs", 0.6);
   const PairedTest gained = compare(single.blocks, pair.blocks);
-  if (gained.t < leastT || gained.gain < leastGain) {
+  if (gained.t < limits().confirmation.leastT || gained.gain < limits().confirmation.leastGain) {
     problem_.scene.step_s = step_s;
     return false;
   }

@@ -15,13 +15,6 @@
 namespace btr {
 namespace {
 
-constexpr int lastIterations = 15;
-constexpr double worthMore = 1.5;                     // by cost, of the best: other whole numbers and sizes are tried
-constexpr double leastToLeap = 1.3, mostToLeap = 10;  // mean squared error: with more, a better start does not help
-constexpr double leastToScan = 1.03, mostToScan = 4;  // mean squared error: with less nothing is missed; with more, it
-                                                      // is not a valley's bottom
-constexpr double largeExcess = 1;                     // mean squared error above that of noise
-
 /// The last effect of a model `size` times as large.
 FitModel resized(FitModel model, double size) {
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
@@ -48,19 +41,19 @@ FitModel held(const FitProblem& problem, const FitModel& model) {
 }  // namespace
 
 bool SearchRun::isAtLeast(const Fit& fit) const {
-  constexpr double larger = 1.5, flat = 1e-3;
+  const SearchThresholds::Confirmation& limits = this->limits().confirmation;
   const auto costAt = [&](double size) {
     return residualsOf(problem_, resized(fit.model, size), fit.shifts).squaredNorm();
   };
   const double here = costAt(1);
-  return std::abs(costAt(larger) - here) < flat * (costAt(0) - here);
+  return std::abs(costAt(limits.largerSize) - here) < limits.flat * (costAt(0) - here);
 }
 
 /// Dry friction and play leave side minima along an effect's size: where another size fits better at once, the fit is
 /// taken up again from there.
 void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double at) const {
-  constexpr std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};
-  constexpr double better = 0.995;
+  const SearchThresholds::Restarts& limits = this->limits().restarts;
+  const auto& sizes = limits.sizes;
   const auto replays = parallel(options_.jobs, fits.size(), [&](std::size_t i) {
     std::vector<double> list;
     for (const double size : sizes)
@@ -73,12 +66,12 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
     if (!replays[i].ok()) continue;
     const std::vector<double>& errors = replays[i].numbers;
     const auto least = std::ranges::min_element(errors);
-    if (!(*least < better * errors[0])) continue;
+    if (!(*least < limits.better * errors[0])) continue;
     const double size = sizes[static_cast<std::size_t>(least - errors.begin())];
     jobs.push_back({resized(fits[i].model, size), fits[i].shifts});
     owner.push_back(i);
   }
-  const auto again = tryFits(jobs, lastIterations, stage, at, at);
+  const auto again = tryFits(jobs, limits.iterations, stage, at, at);
   for (std::size_t k = 0; k < again.size(); ++k)
     if (again[k] && again[k]->cost < fits[owner[k]].cost) fits[owner[k]] = *again[k];
 }
@@ -87,28 +80,26 @@ void SearchRun::shake(std::vector<Fit>& fits, const std::string& stage, double a
 /// it stops), a fit creeps along a rough valley and ends too soon. The effect's size is moved and held while the others
 /// follow, set free there, and moved on for as long as that helps.
 void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
-  constexpr std::array<double, 2> sizes{0.9, 1.1};
-  constexpr int iterations = 8, mostRounds = 4;
-  constexpr double better = 0.998, inReach = 1.02;
-  for (int round = 0; round < mostRounds; ++round) {
+  const SearchThresholds::Restarts& limits = this->limits().restarts;
+  for (int round = 0; round < limits.alongRounds; ++round) {
     std::vector<FitModel> moved;
     std::vector<FitJob> jobs;
-    for (const double size : sizes) {
+    for (const double size : limits.alongSizes) {
       const FitModel model = resized(fit.model, size);
       const FitModel others = held(problem_, model);
       if (model.values == fit.model.values || others.parameters.empty()) continue;
       moved.push_back(model);
       jobs.push_back({others, fit.shifts});
     }
-    const auto along = tryFits(jobs, iterations, stage, at, at);
+    const auto along = tryFits(jobs, limits.heldIterations, stage, at, at);
     std::vector<FitJob> free;
     for (std::size_t k = 0; k < along.size(); ++k)
-      if (along[k] && along[k]->cost < inReach * fit.cost)
+      if (along[k] && along[k]->cost < limits.alongInReach * fit.cost)
         free.push_back({following(moved[k], *along[k]), along[k]->shifts});
-    const std::vector<Fit> again = thoseOf(tryFits(free, lastIterations, stage, at, at));
+    const std::vector<Fit> again = thoseOf(tryFits(free, limits.iterations, stage, at, at));
     if (again.empty()) return;
     const Fit& best = *std::ranges::min_element(again, costsLess);
-    if (!(best.cost < better * fit.cost)) return;
+    if (!(best.cost < limits.alongBetter * fit.cost)) return;
     fit = best;
   }
 }
@@ -117,13 +108,11 @@ void SearchRun::scan(Fit& fit, const std::string& stage, double at) const {
 /// step by step leads out of it. The effect begins again far off, its other numbers where they usually are; calibrated
 /// numbers follow before it is set free.
 void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
-  constexpr std::array<double, 3> sizes{0.5, 2, 4};
-  constexpr int iterations = 8;
-  constexpr double better = 0.98;
+  const SearchThresholds::Restarts& limits = this->limits().restarts;
   const std::size_t last = fit.model.effects.size() - 1;
   std::vector<FitModel> moved;
   std::vector<FitJob> jobs;
-  for (const double size : sizes) {
+  for (const double size : limits.farSizes) {
     FitModel model = resized(fit.model, size);
     for (std::size_t i = 0; i < model.values.size(); ++i) {
       const FitParameter& p = model.parameters[i];
@@ -134,7 +123,7 @@ void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
   }
   // Where nothing follows, nothing need be held.
   std::vector<std::optional<Fit>> along;
-  if (!jobs[0].model.parameters.empty()) along = tryFits(jobs, iterations, stage, at, at);
+  if (!jobs[0].model.parameters.empty()) along = tryFits(jobs, limits.heldIterations, stage, at, at);
   std::vector<FitJob> free;
   for (std::size_t k = 0; k < moved.size(); ++k) {
     if (along.empty())
@@ -142,19 +131,21 @@ void SearchRun::leap(Fit& fit, const std::string& stage, double at) const {
     else if (along[k])
       free.push_back({following(moved[k], *along[k]), along[k]->shifts});
   }
-  const std::vector<Fit> again = thoseOf(tryFits(free, lastIterations, stage, at, at));
+  const std::vector<Fit> again = thoseOf(tryFits(free, limits.iterations, stage, at, at));
   if (again.empty()) return;
   const Fit& best = *std::ranges::min_element(again, costsLess);
-  if (best.cost < better * fit.cost) fit = best;
+  if (best.cost < limits.farBetter * fit.cost) fit = best;
 }
 
 bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t>& candidates, Scored& without,
                         double judged_s, const std::string& stage, double from, double to) {
+  const SearchThresholds::Confirmation& limits = this->limits().confirmation;
+  const SearchThresholds::Step& ofStep = this->limits().step;
   const std::string what = "confirming" + stage;
   const double half = (from + to) / 2, fitted_s = problem_.scene.step_s;
   std::vector<FitJob> jobs;
   for (const std::size_t k : candidates) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
-  const auto fittedOn = tryFits(jobs, lastIterations, what, from, half);
+  const auto fittedOn = tryFits(jobs, limits.iterations, what, from, half);
   std::vector<std::size_t> which;
   std::vector<Fit> fits;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -175,25 +166,26 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   std::vector<Fit> closeFits, farFits;
   const double least = std::min_element(fits.begin(), fits.end(), costsLess)->cost;
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    const bool isClose = fits[i].cost <= farWorse * least;
+    const bool isClose = fits[i].cost <= ofStep.farWorse * least;
     (isClose ? close : far).push_back(which[i]);
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
   for (Fit& fit : closeFits) {
     // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
-    if (fit.cost > (problem_.walks ? 1 : worthMore) * least) continue;
+    if (fit.cost > (problem_.walks ? limits.worthMoreOfWalks : limits.worthMore) * least) continue;
     climbWholeNumbers(fit, what, half);
     const double left = 2 * fit.cost / static_cast<double>(problem_.residuals());
-    if (left > leastToLeap && left < mostToLeap && fit.cost <= least) leap(fit, what, half);
+    if (left > limits.leastToLeap && left < limits.mostToLeap && fit.cost <= least) leap(fit, what, half);
     // What leaves no more than the noise may still stop behind a better one.
-    if ((left > leastToScan || fit.cost > leastToScan * least) && left < mostToScan) scan(fit, what, half);
+    if ((left > limits.leastToFollow || fit.cost > limits.leastToFollow * least) && left < limits.mostToFollow)
+      scan(fit, what, half);
   }
   auto scored = tryScores(farFits, what, half, half);
   if (judged_s < fitted_s) {
     problem_.scene.step_s = judged_s;
-    closeFits = fitOn(closeFits, againIterations, what, half, half);
+    closeFits = fitOn(closeFits, ofStep.iterations, what, half, half);
   }
-  refineStep(closeFits, 2, what, half);
+  refineStep(closeFits, limits.decideStep, what, half);
   const Scored before = without;
   if (problem_.scene.step_s < judged_s) without = scoreAll({without.fit}, what, half, half)[0];
   const auto ofClose = tryScores(closeFits, what, half, to);
@@ -225,14 +217,14 @@ bool SearchRun::confirm(std::vector<Tried>& tried, const std::vector<std::size_t
   return any;
 }
 
-void SearchRun::controlFalseDiscoveries(std::vector<Tried>& tried) {
+void SearchRun::controlFalseDiscoveries(std::vector<Tried>& tried) const {
   // What the screening left behind counts as tested and found to be nothing.
   std::vector<double> pValues;
   for (const Tried& each : tried) pValues.push_back(each.attempt.scored ? each.attempt.comparison.pValue : 1);
   const std::vector<double> rates = falseDiscoveryRates(pValues);
   for (std::size_t k = 0; k < tried.size(); ++k) {
     tried[k].attempt.qValue = rates[k];
-    if (!tried[k].passes || rates[k] <= mostFalse) continue;
+    if (!tried[k].passes || rates[k] <= limits().confirmation.mostFalse) continue;
     tried[k].passes = false;
     tried[k].attempt.reason =
         "among " + std::to_string(tried.size()) +
@@ -242,31 +234,32 @@ void SearchRun::controlFalseDiscoveries(std::vector<Tried>& tried) {
 
 bool SearchRun::passes(const Scored& without, const Scored& with, std::size_t newEffect, PairedTest& comparison,
                        std::string& reason) const {
+  const SearchThresholds::Confirmation& limits = this->limits().confirmation;
   comparison = compare(without.blocks, with.blocks);
   const double excess = excessOf(without);
   const double taken = without.mean() - with.mean();
-  if (comparison.t < leastT) {
+  if (comparison.t < limits.leastT) {
     reason = "not better on held-out blocks (t = " + toText(std::round(10 * comparison.t) / 10) + ")";
     return false;
   }
-  if (comparison.gain < leastGain) {
+  if (comparison.gain < limits.leastGain) {
     reason = "takes only " + percent(comparison.gain) + " of the held-out squared error";
     return false;
   }
-  if (excess <= 0 || taken < leastShareOfExcess * excess) {
+  if (excess <= 0 || taken < limits.leastShareOfExcess * excess) {
     reason = "takes only " + percent(excess > 0 ? taken / excess : 0) + " of the excess error";
     return false;
   }
   // Standard errors count on sensitivities: where bounces or reversals make them rough, what takes most of a large
   // error is not small for that.
-  const bool takesMost = excess > largeExcess && taken > 0.5 * excess;
+  const bool takesMost = excess > limits.largeExcess && taken > limits.mostOfExcess * excess;
   const double errors = with.sizes.at(newEffect);
-  if (errors < leastErrors && !takesMost && !isAtLeast(with.fit)) {
+  if (errors < limits.leastErrors && !takesMost && !isAtLeast(with.fit)) {
     reason = "its size is only " + toText(std::round(10 * errors) / 10) + " standard errors";
     return false;
   }
   // Of first order: half the step takes half of the error away. Where feet land it stays far above the noise's share.
-  const double ofIntegration = 4 * stepErrorOf(stepChange(with.fit));
+  const double ofIntegration = limits.timesIntegration * stepErrorOf(stepChange(with.fit));
   if (taken < ofIntegration) {
     reason = "takes " + digits(taken, 2) + " noise floors² where the integration itself is wrong by about " +
              digits(ofIntegration, 2);

@@ -13,15 +13,6 @@
 namespace btr {
 namespace {
 
-constexpr std::size_t mostHandedTo = 6;
-constexpr double leastShare = 0.25;  // of the best candidate's promise
-constexpr double inTheValley = 4;    // times the final cost, on the way
-constexpr double atItsEnd = 2;       // and where nothing is kept
-constexpr double small = 0.1;        // of a typical size: where the way begins, all is linear
-constexpr int iterationsOnTheWay = 18;
-constexpr double toleranceOnTheWay = 2e-3;  // what arrives is fitted on
-constexpr std::array<double, 3> kept{0.7, 0.35, 0};
-
 /// The numbers of an effect with its sizes reduced to a share of what they are above neutral.
 Values reduced(const Effect& effect, Values numbers, double share) {
   for (const Parameter& p : effect.parameters())
@@ -40,7 +31,9 @@ struct SearchRun::Way {
 
 /// Where the ways begin: what does best in the place of the part of effect `i` that is taken away first.
 std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const {
-  std::vector<EffectCandidate> candidates = candidatesFor(problem_, base.model, options_.names);
+  const SearchThresholds::Rivals& limits = this->limits().rivals;
+  std::vector<EffectCandidate> candidates =
+      candidatesFor(problem_, base.model, options_.names, options_.thresholds.candidates);
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(c, own); });
   // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
   // smaller friction but another motion.
@@ -48,9 +41,10 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
   const auto isSimpler = [&](const EffectCandidate& candidate) { return isRicher(whole, candidate.placed({})); };
   for (EffectCandidate& candidate : candidates)
     if (!isSimpler(candidate))
-      for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, small);
-  std::vector<Screened> promising = screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
-                                           reporter("screening, rivals", candidates.size(), 0.95, 0.95));
+      for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, limits.small);
+  std::vector<Screened> promising =
+      screen(problem_, base, linearise(problem_, base), candidates, options_.jobs,
+             reporter("screening, rivals", candidates.size(), 0.95, 0.95), options_.thresholds.screening);
   std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
   const auto promised = [](const Screened& each) { return each.starts[0].share; };
   std::ranges::stable_sort(promising, std::greater(), promised);
@@ -61,8 +55,8 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
   for (const Screened& each : promising) {
     const EffectCandidate& candidate = candidates[each.candidate];
     if (!isSimpler(candidate)) {
-      if (others == 0) leastPromise = leastShare * promised(each);
-      if (others == mostHandedTo || promised(each) < leastPromise) continue;
+      if (others == 0) leastPromise = limits.leastPromise * promised(each);
+      if (others == limits.handedTo || promised(each) < leastPromise) continue;
       ++others;
     }
     const Screened::Start& start = each.starts[0];
@@ -78,11 +72,10 @@ std::vector<SearchRun::Way> SearchRun::waysFrom(const Fit& base, const FitModel&
 /// A simpler form of what was taken away, beside the other numbers as they are now, in the size that does best there.
 /// Dry friction that stops a joint again and again is found by no fit from another size: its costs are full of steps.
 FitModel SearchRun::simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate) const {
-  constexpr double smallest = 0.02, largest = 50, ratio = 1.15;  // of a typical size
-  constexpr std::array<double, 4> closer{0.93, 0.97, 1.03, 1.07};
+  const SearchThresholds::Rivals& limits = this->limits().rivals;
   std::vector<Values> sizes;
   for (const Values& variant : candidate.variants)
-    for (double size = smallest; size < largest; size *= ratio)
+    for (double size = limits.smallestForm; size < limits.largestForm; size *= limits.formRatio)
       sizes.push_back(scaledVariant(candidate, variant, size));
   const auto best = [&](const std::vector<Values>& of) {
     const auto costs = parallel(options_.jobs, of.size(), [&](std::size_t k) {
@@ -97,11 +90,13 @@ FitModel SearchRun::simplerFormOf(const Fit& full, const FitModel& rest, const E
   };
   const Values found = best(sizes);
   std::vector<Values> around{found};
-  for (const double size : closer) around.push_back(scaledVariant(candidate, found, size));
+  for (const double size : limits.formCloser) around.push_back(scaledVariant(candidate, found, size));
   return rest.with(problem_, candidate.placed(best(around)));
 }
 
 void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<Tried>& others) {
+  const SearchThresholds::Rivals& limits = this->limits().rivals;
+  const auto& kept = limits.kept;
   const Fit& whole = result.final.fit;
   PlacedEffect own = whole.model.effects[i];
   own.parameters = whole.model.simulator(problem_).effects[problem_.given.effects.size() + i].parameters;
@@ -127,10 +122,10 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
         next.values[n] = std::clamp(here[n] + on * (here[n] - way.before[n]), next.parameters[n].minimum,
                                     next.parameters[n].maximum);
       if (k > 0) way.before = here;
-      jobs.push_back({next, way.fit.shifts, nullptr, toleranceOnTheWay});
+      jobs.push_back({next, way.fit.shifts, nullptr, limits.wayTolerance});
     }
-    const auto fits = tryFits(jobs, iterationsOnTheWay, "handing over", 0.95, 0.95);
-    const double most = (kept[k] > 0 ? inTheValley : atItsEnd) * finalCost;
+    const auto fits = tryFits(jobs, limits.wayIterations, "handing over", 0.95, 0.95);
+    const double most = (kept[k] > 0 ? limits.valley : limits.valleyEnd) * finalCost;
     std::vector<Way> goOn;
     for (std::size_t w = 0; w < ways.size(); ++w) {
       if (!fits[w] || fits[w]->cost > most) continue;
@@ -145,14 +140,15 @@ void SearchRun::handOver(std::size_t i, const SearchResult& result, std::vector<
     offered.push_back(way.candidate);
     jobs.push_back({way.fit.model, way.fit.shifts});
   }
-  for (const EffectCandidate& candidate : candidatesFor(problem_, rest, options_.names)) {
+  for (const EffectCandidate& candidate :
+       candidatesFor(problem_, rest, options_.names, options_.thresholds.candidates)) {
     if (!isRicher({own.effect, own.at, {}, {}}, candidate.placed({})) || candidate.variants.empty()) continue;
     offered.push_back(candidate);
     jobs.push_back({simplerFormOf(whole, rest, candidate), whole.shifts});
   }
   std::vector<Fit> arrived;
   std::vector<const EffectCandidate*> ofArrived;
-  const auto fits = tryFits(jobs, toTheEnd, "handing over", 0.95, 0.95);
+  const auto fits = tryFits(jobs, options_.thresholds.calibration.toTheEnd, "handing over", 0.95, 0.95);
   for (std::size_t w = 0; w < offered.size(); ++w) {
     if (!fits[w]) continue;
     arrived.push_back(*fits[w]);

@@ -86,7 +86,7 @@ std::vector<Fit> SearchRun::fitOn(const std::vector<Fit>& fits, int iterations, 
 
 void SearchRun::bringToStep(Scored& scored, const std::string& stage, double at) const {
   if (scored.step_s == problem_.scene.step_s) return;
-  scored = scoreAll(fitOn({scored.fit}, againIterations, stage, at, at), stage, at, at)[0];
+  scored = scoreAll(fitOn({scored.fit}, limits().step.iterations, stage, at, at), stage, at, at)[0];
 }
 
 std::vector<std::optional<Scored>> SearchRun::tryScores(const std::vector<Fit>& fits, const std::string& stage,
@@ -131,15 +131,14 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
 
 std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
                                            double from, double to) {
-  constexpr int iterations = 12;
   const double judged_s = problem_.scene.step_s;
   problem_.scene.step_s = stepToSearchWith(full);
-  const std::vector<Fit> fits = fitAll(jobs, iterations, stage, from, (from + to) / 2);
+  const std::vector<Fit> fits = fitAll(jobs, limits().step.withoutIterations, stage, from, (from + to) / 2);
   std::vector<Scored> scored = scoreAll(fits, stage, (from + to) / 2, to);
   const double cost = residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2;
   problem_.scene.step_s = judged_s;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    if (fits[i].cost <= farWorse * cost) bringToStep(scored[i], stage, to);
+    if (fits[i].cost <= limits().step.farWorse * cost) bringToStep(scored[i], stage, to);
   return scored;
 }
 
@@ -154,30 +153,30 @@ double stepErrorOf(const Eigen::VectorXd& stepChange) {
 }
 
 double SearchRun::stepToSearchWith(const Fit& fit) const {
-  constexpr double harmless = 0.3, ofError = 0.1;  // noise floors; of the error that there is to explain
-  constexpr double much = 5, ofMuch = 0.3;         // noise floors that stay unexplained; of those
+  const SearchThresholds::Step& limits = this->limits().step;
   const double judged_s = problem_.scene.step_s;
   if (search_s_ <= judged_s) return judged_s;
   const Eigen::VectorXd fine = residualsOf(problem_, fit.model, fit.shifts);
   const auto count = static_cast<double>(std::max<Eigen::Index>(1, fine.size()));
   const double error = fine.norm() / std::sqrt(count);
-  const double most = std::max(harmless, (error > much ? ofMuch : ofError) * error);
+  const double most =
+      std::max(limits.harmless, (error > limits.muchError ? limits.ofMuchError : limits.ofError) * error);
   FitProblem coarse = problem_;
-  for (coarse.scene.step_s = search_s_; coarse.scene.step_s > 1.01 * judged_s; coarse.scene.step_s /= 2)
+  for (coarse.scene.step_s = search_s_; coarse.scene.step_s > limits.coarser * judged_s; coarse.scene.step_s /= 2)
     if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return coarse.scene.step_s;
   return judged_s;
 }
 
 void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
-  constexpr double leastSettled = 0.7;  // of the change, at the finest step
+  const SearchThresholds::Step& limits = this->limits().step;
   /// What half the step changes, of what may hide in the noise.
   const auto coarsenessOf = [&](const Fit& fit) {
-    constexpr double hidden = 0.12, much = 5, most = 10;  // noise floors
-    constexpr double ofError = 0.05, ofMuch = 0.15;       // of the error: a four hundredth, a fiftieth of its square
     // Where much is unexplained anyway, the step is not what matters.
     const double error = std::sqrt(2 * fit.cost / static_cast<double>(std::max<std::size_t>(1, problem_.residuals())));
-    if (error > most && problem_.scene.step_s <= problem_.givenStep_s) return 0.0;
-    return std::sqrt(stepErrorOf(stepChange(fit))) / std::max(hidden, (error > much ? ofMuch : ofError) * error);
+    if (error > limits.mostError && problem_.scene.step_s <= problem_.givenStep_s) return 0.0;
+    return std::sqrt(stepErrorOf(stepChange(fit))) /
+           std::max(limits.hidden,
+                    (error > limits.muchError ? limits.hiddenOfMuchError : limits.hiddenOfError) * error);
   };
   judged = std::min(judged, fits.size());
   const auto coarseness = [&] {
@@ -195,9 +194,9 @@ void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std
       now = coarseness();
     }
     // Feet that land another way with each step do so at any.
-    if (now > std::max(1.0, leastSettled * before)) problem_.scene.step_s = before_s;
+    if (now > std::max(1.0, limits.settled * before)) problem_.scene.step_s = before_s;
     if (problem_.scene.step_s == before_s) return;
-    fits = fitOn(fits, againIterations, stage, at, at);
+    fits = fitOn(fits, limits.iterations, stage, at, at);
   }
 }
 

@@ -14,9 +14,9 @@ bool SearchRun::calibrateFrom(SearchResult& result) {
   constexpr double at = 0.3;
   const Fit& with = result.final.fit;
   Scored alone = fitAndScore({{with.model.without(0), with.shifts}}, with, stage, at, at)[0];
-  if (isMissed(alone, result.final)) return false;
+  if (isMissed(alone, result.final, limits().confirmation)) return false;
   bringToStep(alone, stage, at);
-  if (isMissed(alone, result.final)) return false;
+  if (isMissed(alone, result.final, limits().confirmation)) return false;
 
   // Numbers that are held belong to the calibrated simulator, too.
   Fit whole{givenModel(problem_), alone.fit.shifts, alone.fit.cost};

@@ -10,9 +10,6 @@
 namespace btr {
 namespace {
 
-constexpr std::size_t candidatesAsRivals = 6;  // half of them are fitted to the end and scored
-constexpr double mostOfEquals = 1.25;          // by squared error, where a paired test tells them not apart
-
 /// How many numbers an effect brings.
 std::size_t sizeOf(const FitModel& model, std::size_t effect) {
   return static_cast<std::size_t>(std::count_if(model.parameters.begin(), model.parameters.end(),
@@ -25,21 +22,21 @@ bool contains(const FitModel& model, const EffectCandidate& candidate) {
 }
 
 /// Of a comparison with the final model.
-bool isWorse(const PairedTest& lost) { return lost.t >= 2 && lost.gain > 0.01; }
+bool isWorse(const PairedTest& lost, const SearchThresholds::Rivals& limits) {
+  return lost.t >= limits.worseT && lost.gain > limits.worseGain;
+}
 
 /// The same where the other may explain all but the noise already: what takes a few percent of the noise itself
 /// (sensors of counts are no dice) does not refute it.
-bool isRefuted(const Scored& other, const Scored& by) {
-  constexpr double ofNoise = 0.05;
+bool isRefuted(const Scored& other, const Scored& by, const SearchThresholds::Rivals& limits) {
   const PairedTest lost = compare(other.blocks, by.blocks);
-  return isWorse(lost) && !(other.mean() <= 1 && lost.gain < ofNoise);
+  return isWorse(lost, limits) && !(other.mean() <= 1 && lost.gain < limits.gainOfNoise);
 }
 
 /// Predicts worse and fits worse. What fits as well and predicts worse only pays for a number more: recordings that it
 /// explains as well do not tell it from the final model.
-bool isToldFrom(const Scored& other, const Scored& final) {
-  constexpr double fitsWorse = 1.005;
-  return isRefuted(other, final) && other.fit.cost > fitsWorse * final.fit.cost;
+bool isDistinguished(const Scored& other, const Scored& final, const SearchThresholds::Rivals& limits) {
+  return isRefuted(other, final, limits) && other.fit.cost > limits.fitsWorse * final.fit.cost;
 }
 
 }  // namespace
@@ -52,9 +49,9 @@ void SearchRun::prune(SearchResult& result) {
       jobs.push_back({result.final.fit.model.without(i), result.final.fit.shifts});
     auto scored = fitAndScore(jobs, result.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
-      if (isMissed(scored[i], result.final)) continue;
+      if (isMissed(scored[i], result.final, limits().confirmation)) continue;
       bringToStep(scored[i], "dropping each in turn", 0.86);
-      if (isMissed(scored[i], result.final)) continue;
+      if (isMissed(scored[i], result.final, limits().confirmation)) continue;
       const PlacedEffect& dropped = result.final.fit.model.effects[i];
       result.ladder.push_back(step("− " + dropped.text(), scored[i]));
       conclude(result.attempts, dropped.text(), false, "useless once the others were there");
@@ -75,7 +72,7 @@ void SearchRun::takeApart(SearchResult& result) {
     const std::size_t others = parts.effects.size();
     std::vector<EffectCandidate> added;
     for (const std::string& name : names)
-      for (const EffectCandidate& candidate : candidatesFor(problem_, parts, {name}))
+      for (const EffectCandidate& candidate : candidatesFor(problem_, parts, {name}, options_.thresholds.candidates))
         if (candidate.at == own.at && isConsidered(name)) {
           parts = parts.with(problem_, candidate.placed({}));
           added.push_back(candidate);
@@ -85,9 +82,10 @@ void SearchRun::takeApart(SearchResult& result) {
       ++i;
       continue;
     }
-    const std::vector<Fit> fits = thoseOf(tryFits({{parts, result.final.fit.shifts}}, 25, "taking apart", 0.86, 0.86));
+    const std::vector<Fit> fits = thoseOf(
+        tryFits({{parts, result.final.fit.shifts}}, limits().rivals.apartIterations, "taking apart", 0.86, 0.86));
     const auto apart = tryScores(fits, "taking apart", 0.86, 0.86);
-    if (apart.empty() || !apart[0] || isWorse(compare(apart[0]->blocks, result.final.blocks))) {
+    if (apart.empty() || !apart[0] || isWorse(compare(apart[0]->blocks, result.final.blocks), limits().rivals)) {
       ++i;
       continue;
     }
@@ -126,7 +124,7 @@ std::vector<SearchRun::Tried> SearchRun::inPlaceOf(std::size_t i, const SearchRe
     return firstStage_;
   }
   without = fitAndScore({{model.without(i), result.final.fit.shifts}}, result.final.fit, "rivals", 0.86, 0.88)[0];
-  return tryCandidates(without, {without.fit}, nullptr, candidatesAsRivals, ", rivals", 0.88, 0.95);
+  return tryCandidates(without, {without.fit}, nullptr, limits().screening.fittedAsRivals, ", rivals", 0.88, 0.95);
 }
 
 /// True if another effect took the place of effect `i`: the simpler of equals, or simply a better one.
@@ -140,14 +138,16 @@ bool SearchRun::replace(std::size_t i, const std::vector<Tried>& others, SearchR
     if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
     if (chosen) {
       // A simpler one that does as well as the better one.
-      if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored)) chosen = &other;
+      if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored, limits().rivals))
+        chosen = &other;
       continue;
     }
     const PairedTest lost = compare(other.scored.blocks, result.final.blocks);
-    const bool clearlyBetter = lost.t <= -leastT && lost.gain < -0.01;
+    const bool clearlyBetter =
+        lost.t <= -limits().confirmation.leastT && lost.gain < -limits().rivals.clearlyBetterGain;
     // Where much is unexplained, few blocks tell little: equals leave about the same.
-    const bool equal =
-        !isRefuted(other.scored, result.final) && other.scored.mean() <= mostOfEquals * result.final.mean();
+    const bool equal = !isRefuted(other.scored, result.final, limits().rivals) &&
+                       other.scored.mean() <= limits().rivals.equals * result.final.mean();
     if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
   }
   if (!chosen) return false;
@@ -167,7 +167,7 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
   const std::vector<std::string> names = problem_.library.make(own.effect)->togetherWith();
   if (names.empty()) return;
   FitModel model = result.final.fit.model.without(i);
-  for (const EffectCandidate& candidate : candidatesFor(problem_, model, names)) {
+  for (const EffectCandidate& candidate : candidatesFor(problem_, model, names, options_.thresholds.candidates)) {
     if (candidate.at != own.at) continue;
     Values from;
     for (const Tried& other : others)
@@ -175,9 +175,10 @@ void SearchRun::addTogether(std::size_t i, const SearchResult& result, const std
     model = model.with(problem_, candidate.placed(from));
   }
   if (model.effects.size() + 1 != result.final.fit.model.effects.size() + names.size()) return;
-  const std::vector<Fit> fits = thoseOf(tryFits({{model, result.final.fit.shifts}}, 15, "rivals", 0.95, 0.95));
+  const std::vector<Fit> fits =
+      thoseOf(tryFits({{model, result.final.fit.shifts}}, limits().rivals.togetherIterations, "rivals", 0.95, 0.95));
   const auto scored = tryScores(fits, "rivals", 0.95, 0.95);
-  if (scored.empty() || !scored[0] || isWorse(compare(scored[0]->blocks, result.final.blocks))) return;
+  if (scored.empty() || !scored[0] || isWorse(compare(scored[0]->blocks, result.final.blocks), limits().rivals)) return;
   const double ratio = std::sqrt(scored[0]->mean() / std::max(1e-12, result.final.mean()));
   for (std::size_t k = 0; k < names.size(); ++k) {
     found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
@@ -200,9 +201,11 @@ double SearchRun::rateAmong(const std::vector<Tried>& others, const Found& found
 void SearchRun::compareAtOneStep(SearchResult& result, std::vector<Tried>& others) {
   settle(result, false, "rivals", 0.95);
   for (Tried& other : others) {
-    if (!other.attempt.scored || other.scored.mean() > farWorse * result.final.mean()) continue;
-    if (excessOf(result.final) >= leastToFitOn || isToldFrom(other.scored, result.final))
-      other.scored = scoreAll(fitOn({other.scored.fit}, toTheEnd, "rivals", 0.95, 0.95), "rivals", 0.95, 0.95)[0];
+    if (!other.attempt.scored || other.scored.mean() > limits().step.farWorse * result.final.mean()) continue;
+    if (excessOf(result.final) >= limits().calibration.leastToFitOn ||
+        isDistinguished(other.scored, result.final, limits().rivals))
+      other.scored = scoreAll(fitOn({other.scored.fit}, limits().calibration.toTheEnd, "rivals", 0.95, 0.95), "rivals",
+                              0.95, 0.95)[0];
     bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
   }
@@ -233,7 +236,7 @@ Found SearchRun::foundAt(std::size_t i, const Offered& offered, SearchResult& re
   for (const Tried& other : offered.others) {
     const EffectCandidate& candidate = other.attempt.candidate;
     if (!other.attempt.scored || contains(model, candidate) || isRicher(candidate, own)) continue;
-    if (isToldFrom(other.scored, result.final)) continue;
+    if (isDistinguished(other.scored, result.final, limits().rivals)) continue;
     found.rivals.push_back(
         {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, result.final.mean()))});
     found.rivalFits.push_back(other.fit);
@@ -248,14 +251,13 @@ Found SearchRun::foundAt(std::size_t i, const Offered& offered, SearchResult& re
 /// Rivals of each effect beside the others, the last found first: it is the least sure. Where one is replaced, all are
 /// asked beside what stands there now.
 void SearchRun::findRivals(SearchResult& result) {
-  constexpr int mostReplaced = 3;
   std::map<std::set<std::string>, Offered> known;
   int replaced = 0;
   result.effects.clear();
   for (std::size_t left = result.final.fit.model.effects.size(); left > 0;) {
     Offered& offered = offeredTo(left - 1, result, known);
     compareAtOneStep(result, offered.others);
-    if (replaced < mostReplaced && replace(left - 1, offered.others, result)) {
+    if (replaced < limits().rivals.replaced && replace(left - 1, offered.others, result)) {
       settle(result, true, "rivals", 0.95);
       ++replaced;
       left = result.final.fit.model.effects.size();

@@ -19,24 +19,10 @@
 
 namespace btr {
 
-// What counts as an effect. From the prototype's experience (1 % of everything, 8 % of the excess, t of 2.5, six
-// standard errors), kept: fewer conditions let false effects in.
-inline constexpr double leastT = 2.5, leastGain = 0.01, leastShareOfExcess = 0.08, leastErrors = 6;
-inline constexpr double mostFalse = 0.05;  // share of false ones among all that are accepted, on average
-
-inline constexpr double unexplainedExcess =
-    0.3;  // mean squared error above 1 at which more is tried than single effects
-
-inline constexpr int againIterations = 3;    // after the step was made finer
-inline constexpr int toTheEnd = 30;          // iterations of what was accepted, and of its rivals
-inline constexpr double felt = 0.5;          // noise floors, all residuals together, for a typical change of a number
-inline constexpr double farWorse = 2;        // by cost: no winner at any step
-inline constexpr double leastToFitOn = 0.1;  // mean squared error above 1 at which what was accepted is fitted on
-
 /// Whether a model without something predicts worse than the one with it.
-inline bool isMissed(const Scored& without, const Scored& with) {
+inline bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits) {
   const PairedTest comparison = compare(without.blocks, with.blocks);
-  return comparison.t >= 2 && comparison.gain >= leastGain;
+  return comparison.t >= limits.missedT && comparison.gain >= limits.leastGain;
 }
 
 inline bool costsLess(const Fit& a, const Fit& b) { return a.cost < b.cost; }
@@ -62,6 +48,7 @@ class SearchRun {
     const Linearised* inherited = nullptr;  ///< see FitOptions
     double tolerance = FitOptions{}.tolerance;
   };
+  const SearchThresholds& limits() const { return options_.thresholds; }
   bool isConsidered(const std::string& effect) const {
     return options_.names.empty() ||
            std::find(options_.names.begin(), options_.names.end(), effect) != options_.names.end();
@@ -149,11 +136,11 @@ class SearchRun {
   bool passes(const Scored& without, const Scored& with, std::size_t newEffect, PairedTest& comparison,
               std::string& reason) const;
   /// Adjusts the p-values of a round for all that it looked at; what passes only without that does not pass.
-  static void controlFalseDiscoveries(std::vector<Tried>& tried);
+  void controlFalseDiscoveries(std::vector<Tried>& tried) const;
   /// The p-value of an effect adjusted for all candidates of its place in the model.
   static double rateAmong(const std::vector<Tried>& others, const Found& found);
   /// Two effects that need each other still show a little alone.
-  static bool promisesAPair(const std::vector<Tried>& tried);
+  bool promisesAPair(const std::vector<Tried>& tried) const;
   bool tryPair(const Scored& current, const std::vector<Tried>& singles, Scored& pair);
   /// Marks the last two effects of the final model as accepted, with a rung of the ladder: `what` is done.
   void acceptPair(SearchResult& result, const Scored& pair, const std::string& what);

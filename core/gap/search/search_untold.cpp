@@ -73,7 +73,7 @@ void SearchRun::holdUntold(SearchResult& result) {
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    if (result.calibratedLinear.columns.col(column).norm() < felt) {
+    if (result.calibratedLinear.columns.col(column).norm() < limits().calibration.sensitive) {
       held_.push_back(model.parameters[i]);
       continue;
     }
@@ -104,7 +104,7 @@ void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, doubl
       const auto isFelt = [&](double by) {
         FitModel moved = with;
         moved.values.back() = std::clamp(p.given + by, p.minimum, p.maximum);
-        return (residualsOf(problem_, moved, fits[i].shifts) - here).norm() >= felt;
+        return (residualsOf(problem_, moved, fits[i].shifts) - here).norm() >= limits().calibration.sensitive;
       };
       if (isFelt(p.scale) || isFelt(-p.scale)) model = with;
     }
@@ -112,13 +112,12 @@ void SearchRun::giveBack(std::vector<Fit>& fits, const std::string& stage, doubl
     jobs.push_back({model, fits[i].shifts});
     owner.push_back(i);
   }
-  const auto again = tryFits(jobs, toTheEnd, stage, at, at);
+  const auto again = tryFits(jobs, limits().calibration.toTheEnd, stage, at, at);
   for (std::size_t k = 0; k < again.size(); ++k)
     if (again[k] && again[k]->cost < fits[owner[k]].cost) fits[owner[k]] = *again[k];
 }
 
 bool SearchRun::leaveUntold(SearchResult& result) const {
-  constexpr double chiSquared95 = 3.84;  // of one number
   const std::string stage = "what is not told";
   constexpr double at = 0.95;
   const FitModel whole = result.final.fit.model;
@@ -127,11 +126,12 @@ bool SearchRun::leaveUntold(SearchResult& result) const {
   for (const std::size_t number : strayed(whole, result.finalUncertainty)) {
     const FitModel model =
         asGiven(least.fit.model, placeIn(least.fit.model, whole.parameters[number]), whole, result.finalLinear);
-    const std::vector<Fit> fits = thoseOf(tryFits({{model, least.fit.shifts}}, toTheEnd, stage, at, at));
-    const double more = chiSquared95 / 2 * std::max(1.0, result.final.mean());
+    const std::vector<Fit> fits =
+        thoseOf(tryFits({{model, least.fit.shifts}}, limits().calibration.toTheEnd, stage, at, at));
+    const double more = limits().calibration.chiSquared95 / 2 * std::max(1.0, result.final.mean());
     if (fits.empty() || !(fits[0].cost <= allowed + more)) continue;
     const std::optional<Scored> scored = tryScores(fits, stage, at, at)[0];
-    if (!scored || isMissed(*scored, result.final)) continue;
+    if (!scored || isMissed(*scored, result.final, limits().confirmation)) continue;
     least = *scored;
     allowed += more;
   }

@@ -11,21 +11,19 @@
 namespace btr {
 namespace {
 
-constexpr int wholeIterations = 15;
-
 /// A motion that begins anew in each window stays near the recorded one, whatever is wrong. As many windows from all
-/// over the recordings as 8 s hold; in each of them the samples that there must be to know its beginning.
-FitProblem cutShort(const FitProblem& problem, double length_s) {
-  constexpr double samples = 8, replayed_s = 8;
+/// over the recordings as are replayed in a short time; in each of them the samples that there must be to know its
+/// beginning.
+FitProblem cutShort(const FitProblem& problem, double length_s, const SearchThresholds::Restarts& limits) {
   for (const FitTrial& trial : problem.trials) {
     const auto& time = trial.recording.columns[0];
     const double sample_s = (time[trial.rows() - 1] - time[0]) / static_cast<double>(trial.rows() - 1);
-    length_s = std::max(length_s, samples * sample_s);
+    length_s = std::max(length_s, limits.windowSamples * sample_s);
   }
   FitProblem windows = problem;
   cutSegments(windows, length_s);
   const double total_s = length_s * static_cast<double>(windows.segments.size());
-  const auto every = static_cast<std::size_t>(std::max(1.0, std::round(total_s / replayed_s)));
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::round(total_s / limits.windowsReplayed_s)));
   std::vector<Segment> kept;
   for (std::size_t i = 0; i < windows.segments.size(); i += every) kept.push_back(std::move(windows.segments[i]));
   windows.segments = std::move(kept);
@@ -35,7 +33,7 @@ FitProblem cutShort(const FitProblem& problem, double length_s) {
 }  // namespace
 
 SearchRun SearchRun::inWindows(double length_s) const {
-  SearchRun windows(cutShort(problem_, length_s), options_);
+  SearchRun windows(cutShort(problem_, length_s, limits().restarts), options_);
   windows.told_ = told_;
   windows.refused_ = refused_;
   return windows;
@@ -45,13 +43,13 @@ SearchRun SearchRun::inWindows(double length_s) const {
 std::vector<Fit> SearchRun::inLongerWindows(std::vector<Fit> fits, double length_s,
                                             const std::vector<std::vector<double>>& shifts, const std::string& stage,
                                             double at) const {
-  constexpr double longer = 4, longest_s = 3;
+  const SearchThresholds::Restarts& limits = options_.thresholds.restarts;
   const auto goOn = [&](const SearchRun& run, const std::vector<std::vector<double>>& from) {
     std::vector<FitJob> jobs;
     for (const Fit& each : fits) jobs.push_back({each.model, from});
-    fits = thoseOf(run.tryFits(jobs, wholeIterations, stage, at, at));
+    fits = thoseOf(run.tryFits(jobs, limits.wholeIterations, stage, at, at));
   };
-  while ((length_s *= longer) < longest_s) goOn(inWindows(length_s), {});
+  while ((length_s *= limits.longer) < limits.longestWindow_s) goOn(inWindows(length_s), {});
   goOn(*this, shifts);
   return fits;
 }
@@ -60,12 +58,9 @@ std::vector<Fit> SearchRun::inLongerWindows(std::vector<Fit> fits, double length
 /// right one. In windows of 0.4 s it is one hollow over all widths.
 void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std::size_t>& which,
                                const std::vector<Fit>& without, const std::string& stage, double at) const {
-  constexpr double window_s = 0.4, inReach = 1.5;
-  constexpr double mostLeft = 4;  // mean squared error of what may be the cause
-  constexpr double hopeless = 4;  // times as much in short windows: whole trials leave more
-  constexpr int nearby = 8;
+  const SearchThresholds::DrawnEffects& limits = options_.thresholds.drawnEffects;
   if (problem_.walks || problem_.impacts) return;
-  const SearchRun windows = inWindows(window_s);
+  const SearchRun windows = inWindows(limits.window_s);
   struct Begun {
     std::size_t tried;
     FitModel model;
@@ -93,20 +88,22 @@ void SearchRun::fitFromScatter(std::vector<Tried>& tried, const std::vector<std:
     begun.push_back(std::move(best));
   }
   for (const Begun& each : begun) {
-    if (!(each.error <= inReach * least)) continue;
-    std::vector<Fit> fits = thoseOf(windows.tryFits({{each.model, {}}}, nearby, stage, at, at));
+    if (!(each.error <= limits.inReach * least)) continue;
+    std::vector<Fit> fits =
+        thoseOf(windows.tryFits({{each.model, {}}}, options_.thresholds.restarts.windowIterations, stage, at, at));
     if (fits.empty()) continue;
     // Of a law that is not the cause a better fit says nothing: others were not begun as often.
     const auto leaves = [&](const FitProblem& problem) {
       return 2 * fits[0].cost / static_cast<double>(problem.residuals());
     };
-    if (!(leaves(windows.problem_) <= hopeless * mostLeft)) continue;
-    fits = inLongerWindows(std::move(fits), window_s, each.shifts, stage, at);
-    if (fits.empty() || !(leaves(problem_) <= mostLeft)) continue;
+    if (!(leaves(windows.problem_) <= limits.hopeless * limits.mostLeft)) continue;
+    fits = inLongerWindows(std::move(fits), limits.window_s, each.shifts, stage, at);
+    if (fits.empty() || !(leaves(problem_) <= limits.mostLeft)) continue;
     // What the candidate has so far was broken off after a few iterations; it is judged with as many.
     Fit& fit = tried[each.tried].fit;
     if (!costsLess(fits[0], fit)) continue;
-    const std::optional<Fit> goneOn = tryFits({{fit.model, fit.shifts}}, wholeIterations, stage, at, at)[0];
+    const std::optional<Fit> goneOn =
+        tryFits({{fit.model, fit.shifts}}, options_.thresholds.restarts.wholeIterations, stage, at, at)[0];
     if (!goneOn || costsLess(fits[0], *goneOn)) fit = fits[0];
   }
 }

@@ -128,7 +128,7 @@ GapReport::Number numberOf(const FitModel& model, const Uncertainty& uncertainty
           value,
           interval95(model, uncertainty, parameter),
           isAtBound(value, p),
-          isTold(p, uncertainty.half95(parameter))};
+          isIdentifiable(p, uncertainty.half95(parameter))};
 }
 
 /// Of an effect of the final simulator, or of the scene (−1), with what rivals would make of them.

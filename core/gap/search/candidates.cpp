@@ -208,6 +208,11 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
   return candidates;
 }
 
+bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect) {
+  const std::vector<std::string> simpler = library.make(candidate.effect)->contains();
+  return candidate.at == effect.at && std::find(simpler.begin(), simpler.end(), effect.effect) != simpler.end();
+}
+
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {
   Values values = variant;
   for (const Parameter& p : candidate.declared)

@@ -37,6 +37,9 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
                                            const std::vector<std::string>& names,
                                            const SearchThresholds::Candidates& thresholds = {});
 
+/// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
+bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect);
+
 /// The variant moved along its own direction: neutral + step·(variant − neutral), within the bounds.
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step);
 

@@ -286,7 +286,7 @@ std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel, const Sea
     for (std::size_t first = 0; first < time.size();) {
       std::size_t last = first;
       double sum = 0;
-      while (last < time.size() && time[last] < time[first] + limits.told_s) sum += channel.excess[t][last++];
+      while (last < time.size() && time[last] < time[first] + limits.stretch_s) sum += channel.excess[t][last++];
       all.push_back({sum, {channel.trials[t], {time[first], time[last - 1]}}});
       first = last;
     }
@@ -294,7 +294,7 @@ std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel, const Sea
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<GapReport::Window> windows;
   for (const auto& [sum, window] : all)
-    if (windows.size() < limits.toldMost && sum > 0) windows.push_back(window);
+    if (windows.size() < limits.stretches && sum > 0) windows.push_back(window);
   return windows;
 }
 

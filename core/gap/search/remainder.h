@@ -12,7 +12,7 @@ namespace btr {
 GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult& found, int jobs,
                                    const SearchThresholds& thresholds = {});
 
-/// True if such a curve alone predicts held-out blocks clearly better than the named effects that were found, which
+/// True if such a curve by itself predicts held-out blocks clearly better than the named effects that were found, which
 /// then are names for something else.
 bool aCurveDoesBetter(const FitProblem& problem, const SearchResult& found, int jobs,
                       const SearchThresholds& thresholds = {});

@@ -78,7 +78,7 @@ std::optional<Peak> ownPeak(const std::vector<double>& recorded, const std::vect
   return Peak{static_cast<double>(peak) / (static_cast<double>(recorded.size()) * period_s), power};
 }
 
-/// Column of the position that a joint's servo is told to take; 0 where it is told none.
+/// Column of the position that a joint's servo is commanded to; 0 where it has no command.
 std::size_t commandOf(const FitTrial& trial, const Binding::Measured& measured) {
   if (measured.what != Binding::Measured::What::position) return 0;
   const auto unit = [&](std::size_t column) { return unitOfChannel(trial.recording.channels[column]); };

@@ -148,7 +148,7 @@ struct SearchThresholds {
     double lastChancePromise = 0.01;      ///< least promise of those [hand]
     double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
-    double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little alone [hand]
+    double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]
     double doubtfulExcess = 1;  ///< left by one effect: two others in its place are tried [case: payload
                                 ///< beside a servo of any strength]
   };
@@ -204,7 +204,7 @@ struct SearchThresholds {
            formRatio = 1.15;                                   ///< of a typical size: simpler forms are tried in all
                                                                ///< these, as no fit finds them [case: dry friction]
     std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
-    double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is told [hand]
+    double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
   };
 
   /// Where the error lies that calibration leaves (locate.h): describes, decides nothing.
@@ -212,7 +212,7 @@ struct SearchThresholds {
     double window_s = 0.2, windowSamples = 20;  ///< windows from the recorded state: the longer of both [hand]
     double sensitive = 1.15;                    ///< error below which the windows are too short to see it [hand]
     double leastExcess = 0.1;                   ///< a residual: less is located nowhere [hand]
-    double leastOfChannels = 0.05;              ///< share of a channel that is told [hand]
+    double leastOfChannels = 0.05;              ///< share of a channel that is reported [hand]
     double leastP = 0.02;                       ///< p-value of a regime that stands out [hand: usual]
     double standsOut = 1.3;                     ///< its share of the excess over that of the time [hand]
     int turns = 199;          ///< of the same pattern of time, for p-values in steps of 1/200 [statistics]
@@ -226,9 +226,9 @@ struct SearchThresholds {
     double endShare = 0.2;                         ///< of the range: low and high positions [hand]
     double late = 2.0 / 3.0;                       ///< of the trial [hand]
     std::size_t bins = 8, samplesPerBin = 20;      ///< of a variable on which the error may depend [hand]
-    double dependence = 0.1;   ///< share of the error's variance that the bins explain: it depends on it [hand]
-    double told_s = 0.2;       ///< stretches that hold most of the excess [hand]
-    std::size_t toldMost = 5;  ///< of them
+    double dependence = 0.1;    ///< share of the error's variance that the bins explain: it depends on it [hand]
+    double stretch_s = 0.2;     ///< stretches that hold most of the excess [hand]
+    std::size_t stretches = 5;  ///< of them
   };
 
   /// A joint that swings by itself (self_excited.h): described, decides nothing. [case: seed 20261162]
@@ -254,15 +254,15 @@ struct SearchThresholds {
            ballForce = 0.01;  ///< a typical force, of the drive's strength, of the ball's weight [hand]
   };
 
-  /// The recording that would tell rivals apart (next_recording.h).
+  /// The recording that would distinguish rivals (next_recording.h).
   struct NextRecording {
     double length_s = 8, sample_s = 0.008,
            rest_s = 0.5;  ///< of the sequence, its samples, its beginning at rest [hand]
     double beyond = 0.1;  ///< of the range in which a pushed joint was seen: it may go so much farther [hand]
     double reach = 0.95;  ///< of the recorded commands' reach [hand]
     std::array<double, 4> pushes{1, 0.5, 0.25, 0.1};  ///< of the reach of a push [hand]
-    /// noise floors, RMS: what the 1000 samples of a designed recording tell, √1000 × 0.1 being three standard errors
-    /// of one number [statistics]
+    /// noise floors, RMS: what the 1000 samples of a designed recording distinguish, √1000 × 0.1 being three standard
+    /// errors of one number [statistics]
     double leastSeparation = 0.1;
   };
 

@@ -1,4 +1,5 @@
-// Whole numbers, as of teeth in a turn, are no parameters of a fit: they are looked for around it.
+#include "core/gap/search/whole_numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -6,7 +7,8 @@
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/parallel.h"
-#include "core/gap/search/search_run.h"
+#include "core/gap/search/fit_service.h"
+#include "core/gap/search/window_fits.h"
 
 namespace btr {
 namespace {
@@ -36,13 +38,13 @@ std::vector<FitModel> wavesLike(const FitModel& base, const Parameter& whole,
 
 /// A wave that pulls a joint hard catches it in another of its troughs than the recorded one, and no fit over whole
 /// trials comes back from there: the number of waves that was found is the one that hides it best.
-void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::string& stage, double at) const {
-  const SearchThresholds::WholeNumbers& limits = options_.thresholds.wholeNumbers;
-  const std::vector<Parameter> declared = parametersAt(problem_, fit.model.effects.back().effect,
-                                                       fit.model.effects.back().at, options_.thresholds.candidates);
+void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitModel& without, const std::string& stage,
+                                 double at) {
+  const SearchThresholds::WholeNumbers& limits = service.thresholds().wholeNumbers;
+  const std::vector<Parameter> declared = service.parametersOf(fit.model.effects.back());
   const auto whole = std::ranges::find_if(declared, &Parameter::integer);
-  if (whole == declared.end() || problem_.walks) return;
-  if (2 * fit.cost < limits.leastLeft * static_cast<double>(problem_.residuals())) return;
+  if (whole == declared.end() || service.problem().walks) return;
+  if (2 * fit.cost < limits.leastLeft * static_cast<double>(service.problem().residuals())) return;
   const auto numberOf = [&](const FitModel& model) { return model.effects.back().parameters.at(whole->name); };
 
   // All other numbers as they are, and as they were without the effect.
@@ -51,11 +53,11 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
   std::vector<FitModel> waves = wavesLike(fit.model, *whole, limits);
   std::ranges::copy(wavesLike(fresh, *whole, limits), std::back_inserter(waves));
 
-  SearchRun windows = inWindows(limits.window_s);
+  const FitService windows = service.inWindows(limits.window_s);
   const auto replays = parallel(
-      options_.jobs, waves.size(),
-      [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem_, waves[i], {}).squaredNorm()}; },
-      reporter(stage, waves.size(), at, at));
+      service.options().jobs, waves.size(),
+      [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem(), waves[i], {}).squaredNorm()}; },
+      service.reporter(stage, waves.size(), at, at));
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < waves.size(); ++i)
     if (replays[i].ok()) order.push_back(i);
@@ -67,21 +69,21 @@ void SearchRun::fitFromWindows(Fit& fit, const FitModel& without, const std::str
       starts.push_back({waves[i], {}});
 
   std::vector<Fit> fits =
-      thoseOf(windows.tryFits(starts, options_.thresholds.restarts.windowIterations, stage, at, at));
+      completed(windows.tryFits(starts, service.thresholds().restarts.windowIterations, stage, at, at));
   if (fits.empty()) return;
   std::ranges::sort(fits, costsLess);
-  windows.climbWholeNumbers(fits[0], stage, at);
-  fits = inLongerWindows(std::move(fits), limits.window_s, fit.shifts, stage, at);
+  climbWholeNumbers(windows, fits[0], stage, at);
+  fits = fitInLongerWindows(service, std::move(fits), limits.window_s, fit.shifts, stage, at);
   const auto least = std::ranges::min_element(fits, costsLess);
-  if (least != fits.end() && least->cost < options_.thresholds.restarts.better * fit.cost) fit = *least;
+  if (least != fits.end() && least->cost < service.thresholds().restarts.better * fit.cost) fit = *least;
 }
 
 /// Neighbours are tried as long as one fits better.
-void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at) const {
+void climbWholeNumbers(const FitService& service, Fit& fit, const std::string& stage, double at) {
   if (fit.model.effects.empty()) return;
-  const SearchThresholds::Restarts& limits = options_.thresholds.restarts;
+  const SearchThresholds::Restarts& limits = service.thresholds().restarts;
   const PlacedEffect last = fit.model.effects.back();
-  for (const Parameter& p : parametersAt(problem_, last.effect, last.at, options_.thresholds.candidates)) {
+  for (const Parameter& p : service.parametersOf(last)) {
     if (!p.integer) continue;
     for (int round = 0; round < limits.neighbourRounds; ++round) {
       const double here = fit.model.effects.back().parameters.at(p.name);
@@ -92,10 +94,10 @@ void SearchRun::climbWholeNumbers(Fit& fit, const std::string& stage, double at)
         model.effects.back().parameters[p.name] = here + by;
         jobs.push_back({model, fit.shifts});
       }
-      std::vector<Fit> fits = thoseOf(tryFits(jobs, limits.neighbourIterations, stage, at, at));
+      std::vector<Fit> fits = completed(service.tryFits(jobs, limits.neighbourIterations, stage, at, at));
       std::ranges::sort(fits, costsLess);
       if (fits.size() > limits.neighboursFittedOn) fits.resize(limits.neighboursFittedOn);
-      fits = fitOn(fits, limits.neighbourBestIterations, stage, at, at);
+      fits = service.fitOn(fits, limits.neighbourBestIterations, stage, at, at);
       const auto least = std::ranges::min_element(fits, costsLess);
       if (least == fits.end() || !(least->cost < limits.better * fit.cost)) break;
       fit = *least;

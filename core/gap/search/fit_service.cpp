@@ -1,12 +1,15 @@
-// Fits and scores of many models at once.
+#include "core/gap/search/fit_service.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/parallel.h"
-#include "core/gap/search/search_run.h"
+#include "core/gap/fit/score.h"
+#include "core/gap/search/window_fits.h"
 #include "core/sim/worker_pool.h"
+#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -34,19 +37,54 @@ void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
 
 }  // namespace
 
-int SearchRun::workersFor(std::size_t count) const {
+bool FitService::isConsidered(const std::string& effect) const {
+  return options_.names.empty() || std::ranges::find(options_.names, effect) != options_.names.end();
+}
+
+std::vector<EffectCandidate> FitService::candidatesBeside(const FitModel& model) const {
+  return candidatesBeside(model, options_.names);
+}
+
+std::vector<EffectCandidate> FitService::candidatesBeside(const FitModel& model,
+                                                          const std::vector<std::string>& names) const {
+  return candidatesFor(problem_, model, names, thresholds().candidates);
+}
+
+std::vector<Parameter> FitService::parametersOf(const PlacedEffect& effect) const {
+  return parametersAt(problem_, effect.effect, effect.at, thresholds().candidates);
+}
+
+std::function<bool(std::size_t)> FitService::reporter(const std::string& stage, std::size_t count, double from,
+                                                      double to) const {
+  if (!options_.progress) return {};
+  return [this, stage, count, from, to](std::size_t done) {
+    const double share = count > 0 ? static_cast<double>(done) / static_cast<double>(count) : 1;
+    return report(stage, from + (to - from) * share);
+  };
+}
+
+bool FitService::report(const std::string& stage, double share) const {
+  reported_ = std::max(reported_, share);
+  return options_.progress(stage, reported_);
+}
+
+void FitService::tell(const std::string& stage, double share) const {
+  if (options_.progress && !report(stage, share)) throw Cancelled{};
+}
+
+int FitService::workersFor(std::size_t count) const {
   const bool inside = 2 * static_cast<int>(count) <= options_.jobs && problem_.segments.size() > count;
   return inside ? 1 : options_.jobs;
 }
 
-std::vector<std::optional<Fit>> SearchRun::tryFits(const std::vector<FitJob>& jobs, int iterations,
-                                                   const std::string& stage, double from, double to) const {
+std::vector<std::optional<Fit>> FitService::tryFits(const std::vector<FitJob>& jobs, int iterations,
+                                                    const std::string& stage, double from, double to) const {
   const auto fitOne = [&](std::size_t i) {
     FitOptions options{.iterations = iterations, .inherited = jobs[i].inherited, .tolerance = jobs[i].tolerance};
     if (options_.progress && !WorkerPool::inWorker())
       options.goOn = [&, i](double share) {
         const double done = (static_cast<double>(i) + share) / static_cast<double>(jobs.size());
-        return tell(stage, from + (to - from) * done);
+        return report(stage, from + (to - from) * done);
       };
     return packed(fitModel(problem_, jobs[i].model, jobs[i].shifts, options));
   };
@@ -63,34 +101,34 @@ std::vector<std::optional<Fit>> SearchRun::tryFits(const std::vector<FitJob>& jo
   return fits;
 }
 
-std::vector<Fit> SearchRun::thoseOf(std::vector<std::optional<Fit>> tried) {
+std::vector<Fit> completed(std::vector<std::optional<Fit>> tried) {
   std::vector<Fit> fits;
   for (std::optional<Fit>& fit : tried)
     if (fit) fits.push_back(std::move(*fit));
   return fits;
 }
 
-std::vector<Fit> SearchRun::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
-                                   double from, double to) const {
-  std::vector<Fit> fits = thoseOf(tryFits(jobs, iterations, stage, from, to));
+std::vector<Fit> FitService::fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
+                                    double from, double to) const {
+  std::vector<Fit> fits = completed(tryFits(jobs, iterations, stage, from, to));
   if (fits.size() < jobs.size()) throw InputError(stage + ": " + refused_->last());
   return fits;
 }
 
-std::vector<Fit> SearchRun::fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
-                                  double to) const {
+std::vector<Fit> FitService::fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+                                   double to) const {
   std::vector<FitJob> jobs;
   for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
   return fitAll(jobs, iterations, stage, from, to);
 }
 
-void SearchRun::bringToStep(Scored& scored, const std::string& stage, double at) const {
+void FitService::bringToStep(Scored& scored, const std::string& stage, double at) const {
   if (scored.step_s == problem_.scene.step_s) return;
-  scored = scoreAll(fitOn({scored.fit}, limits().step.iterations, stage, at, at), stage, at, at)[0];
+  scored = scoreAll(fitOn({scored.fit}, thresholds().step.iterations, stage, at, at), stage, at, at)[0];
 }
 
-std::vector<std::optional<Scored>> SearchRun::tryScores(const std::vector<Fit>& fits, const std::string& stage,
-                                                        double from, double to) const {
+std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>& fits, const std::string& stage,
+                                                         double from, double to) const {
   const auto results = parallel(
       workersFor(fits.size()), fits.size(),
       [&](std::size_t i) {
@@ -119,8 +157,8 @@ std::vector<std::optional<Scored>> SearchRun::tryScores(const std::vector<Fit>& 
   return scored;
 }
 
-std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
-                                        double to) const {
+std::vector<Scored> FitService::scoreAll(const std::vector<Fit>& fits, const std::string& stage, double from,
+                                         double to) const {
   std::vector<Scored> all;
   for (std::optional<Scored>& scored : tryScores(fits, stage, from, to)) {
     if (!scored) throw InputError(stage + ": " + refused_->last());
@@ -129,46 +167,53 @@ std::vector<Scored> SearchRun::scoreAll(const std::vector<Fit>& fits, const std:
   return all;
 }
 
-std::vector<Scored> SearchRun::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
-                                           double from, double to) {
-  const double judged_s = problem_.scene.step_s;
-  problem_.scene.step_s = stepToSearchWith(full);
-  const std::vector<Fit> fits = fitAll(jobs, limits().step.withoutIterations, stage, from, (from + to) / 2);
-  std::vector<Scored> scored = scoreAll(fits, stage, (from + to) / 2, to);
-  const double cost = residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2;
-  problem_.scene.step_s = judged_s;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    if (fits[i].cost <= limits().step.farWorse * cost) bringToStep(scored[i], stage, to);
+std::vector<Scored> FitService::fitAndScore(const std::vector<FitJob>& jobs, const Fit& full, const std::string& stage,
+                                            double from, double to) {
+  std::vector<Scored> scored;
+  double most = 0;
+  {
+    const StepGuard coarse = guardStep(stepToSearchWith(full));
+    const std::vector<Fit> fits = fitAll(jobs, thresholds().step.withoutIterations, stage, from, (from + to) / 2);
+    scored = scoreAll(fits, stage, (from + to) / 2, to);
+    most = thresholds().step.farWorse * (residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2);
+  }
+  for (Scored& each : scored)
+    if (each.fit.cost <= most) bringToStep(each, stage, to);
   return scored;
 }
 
-Eigen::VectorXd SearchRun::stepChange(const Fit& fit) const {
+FitService FitService::inWindows(double length_s) const {
+  FitService windows(cutShort(problem_, length_s, thresholds().restarts), options_);
+  windows.reported_ = reported_;
+  windows.refused_ = refused_;
+  return windows;
+}
+
+Eigen::VectorXd FitService::stepChange(const Fit& fit) const {
   FitProblem finer = problem_;
-  finer.scene.step_s /= 2;
+  const StepGuard half(finer.scene.step_s, step_s() / 2);
   return residualsOf(problem_, fit.model, fit.shifts) - residualsOf(finer, fit.model, fit.shifts);
 }
 
-double stepErrorOf(const Eigen::VectorXd& stepChange) {
-  return stepChange.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, stepChange.size()));
-}
-
-double SearchRun::stepToSearchWith(const Fit& fit) const {
-  const SearchThresholds::Step& limits = this->limits().step;
+double FitService::stepToSearchWith(const Fit& fit) const {
+  const SearchThresholds::Step& limits = thresholds().step;
   const double judged_s = problem_.scene.step_s;
-  if (search_s_ <= judged_s) return judged_s;
+  if (calibrated_s_ <= judged_s) return judged_s;
   const Eigen::VectorXd fine = residualsOf(problem_, fit.model, fit.shifts);
   const auto count = static_cast<double>(std::max<Eigen::Index>(1, fine.size()));
   const double error = fine.norm() / std::sqrt(count);
   const double most =
       std::max(limits.harmless, (error > limits.muchError ? limits.ofMuchError : limits.ofError) * error);
   FitProblem coarse = problem_;
-  for (coarse.scene.step_s = search_s_; coarse.scene.step_s > limits.coarser * judged_s; coarse.scene.step_s /= 2)
-    if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return coarse.scene.step_s;
+  for (double step_s = calibrated_s_; step_s > limits.coarser * judged_s; step_s /= 2) {
+    const StepGuard longer(coarse.scene.step_s, step_s);
+    if (std::sqrt(stepErrorOf(residualsOf(coarse, fit.model, fit.shifts) - fine)) < most) return step_s;
+  }
   return judged_s;
 }
 
-void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
-  const SearchThresholds::Step& limits = this->limits().step;
+void FitService::refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at) {
+  const SearchThresholds::Step& limits = thresholds().step;
   /// What half the step changes, of what may hide in the noise.
   const auto coarsenessOf = [&](const Fit& fit) {
     // Where much is unexplained anyway, the step is not what matters.
@@ -186,16 +231,17 @@ void SearchRun::refineStep(std::vector<Fit>& fits, std::size_t judged, const std
   };
   // The numbers move little with the step: they are fitted again where it no longer matters, not on the way there.
   const double finest_s = problem_.finestStep * problem_.givenStep_s;
-  while (problem_.scene.step_s > finest_s) {
-    const double before_s = problem_.scene.step_s, before = coarseness();
+  while (step_s() > finest_s) {
+    const double before = coarseness();
     double now = before;
-    while (now > 1 && problem_.scene.step_s > finest_s) {
-      problem_.scene.step_s /= 2;
+    StepGuard step = guardStep();
+    while (now > 1 && step_s() > finest_s) {
+      step.set(step_s() / 2);
       now = coarseness();
     }
     // Feet that land another way with each step do so at any.
-    if (now > std::max(1.0, limits.settled * before)) problem_.scene.step_s = before_s;
-    if (problem_.scene.step_s == before_s) return;
+    if (now > std::max(1.0, limits.settled * before) || step_s() == step.before_s()) return;
+    step.keep();
     fits = fitOn(fits, limits.iterations, stage, at, at);
   }
 }

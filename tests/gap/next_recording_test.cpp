@@ -124,7 +124,7 @@ TEST(NextRecording, SaysWhereNoneWouldTellRivalsApart) {
       givenModel(problem).with(problem, {"coulomb_friction", "rig.rail", {{"torque_nm", 0.5 * (1 + 1e-9)}}});
   const GapReport::NextRecording next = designNext(problem, found, 1);
   ASSERT_GT(next.separation, 0);
-  ASSERT_LT(next.separation, leastSeparation);
+  ASSERT_LT(next.separation, SearchThresholds::NextRecording{}.leastSeparation);
   EXPECT_THAT(next.why, HasSubstr("would hardly tell coulomb friction at rig.rail from viscous friction at rig.rail"));
 }
 

@@ -44,7 +44,7 @@ double Uncertainty::half95(std::size_t parameter) const {
   return normal95 * standardError[parameter] + (unsettled.empty() ? 0 : unsettled[parameter]);
 }
 
-bool isTold(const FitParameter& parameter, double half95) {
+bool isIdentifiable(const FitParameter& parameter, double half95) {
   return half95 < 0.5 * (parameter.maximum - parameter.minimum);
 }
 

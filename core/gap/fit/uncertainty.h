@@ -12,7 +12,7 @@ namespace btr {
 /// Standard errors of the parameters from the blocks' scatter (a sandwich: residuals of one block belong together), and
 /// the correlations.
 struct Uncertainty {
-  std::vector<double> standardError;  ///< in the parameter's unit; infinite where the recordings do not tell it
+  std::vector<double> standardError;  ///< in the parameter's unit; infinite where it is not identifiable
   Eigen::MatrixXd correlation;
   std::vector<double> unsettled;  ///< unsettled(), where it was asked for; else empty
 
@@ -20,7 +20,7 @@ struct Uncertainty {
   double half95(std::size_t parameter) const;
 };
 /// Whether an interval of which this is the half says where a parameter is between its bounds.
-bool isTold(const FitParameter& parameter, double half95);
+bool isIdentifiable(const FitParameter& parameter, double half95);
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linearised);
 
 /// How far each parameter may still be from where it belongs, beside what noise does, in its unit: the way that the

@@ -100,7 +100,7 @@ void addErrors(GapReport& report, const FitProblem& problem, const Eigen::Vector
 
 /// An effect that is absent at its lower bound is not "at its bound" there.
 bool isAtBound(double value, const FitParameter& p) {
-  const double close = 1e-3 * (p.maximum - p.minimum);
+  const double close = SearchThresholds::Verdict{}.atBound * (p.maximum - p.minimum);
   const bool endsInNothing = p.effect >= 0 && p.hasNeutral && p.given <= p.minimum;
   return p.maximum - value < close || (!endsInNothing && value - p.minimum < close);
 }
@@ -128,7 +128,7 @@ GapReport::Number numberOf(const FitModel& model, const Uncertainty& uncertainty
           value,
           interval95(model, uncertainty, parameter),
           isAtBound(value, p),
-          isTold(p, uncertainty.half95(parameter))};
+          isIdentifiable(p, uncertainty.half95(parameter))};
 }
 
 /// Of an effect of the final simulator, or of the scene (−1), with what rivals would make of them.
@@ -246,7 +246,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
   }
 }
 
-void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty& uncertainty) {
+void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty& uncertainty, double strong) {
   const auto nameOfParameter = [&](std::size_t i) {
     const FitParameter& p = model.parameters[i];
     return p.effect < 0 ? p.name : model.effects[static_cast<std::size_t>(p.effect)].effect + "." + p.name;
@@ -254,7 +254,7 @@ void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double r = uncertainty.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      if (std::abs(r) > 0.98)
+      if (std::abs(r) > strong)
         report.strongCorrelations.push_back(nameOfParameter(j) + " ~ " + nameOfParameter(i) + ": " +
                                             toText(std::round(1000 * r) / 1000));
     }
@@ -286,7 +286,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   const auto begin = std::chrono::steady_clock::now();
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
   refuseUnknownEffects(options, library);
-  const Consultation consultation = consult(given, library, options.asRecorded);
+  const SearchThresholds& limits = options.thresholds;
+  const Consultation consultation = consult(given, library, options.asRecorded, limits.verdict);
   const auto prepare = [&](const std::vector<Recording>& recordings, double window_s) {
     FitProblem ready = makeFitProblem(given, recordings, library, window_s);
     ready.jobs = options.jobs;
@@ -298,6 +299,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   search.maximumEffects = options.maximumEffects;
   search.names = options.effects;
   search.seed = options.seed;
+  search.thresholds = limits;
   search.progress = progress;
   SearchResult found = searchEffects(problem, search);
   if (found.unstable) {
@@ -343,7 +345,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addErrors(report, problem, found.final.heldOut, &GapReport::Channel::withEffects,
             &GapReport::Channel::maeWithEffects);
   addEffects(report, problem, found);
-  addCorrelations(report, found.final.fit.model, found.finalUncertainty);
+  addCorrelations(report, found.final.fit.model, found.finalUncertainty, limits.verdict.strongCorrelation);
   addStepErrors(report, problem, found);
   addSeries(report, problem, found, false);
   if (!given.heldOut.empty()) {
@@ -353,12 +355,12 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     addSeries(report, heldOut, found, true);
   }
   if (progress && !progress("locating", 0.96)) throw Cancelled{};
-  report.located = locate(found.calibrated.fit.model, problem);
+  report.located = locate(found.calibrated.fit.model, problem, limits.location);
   if (progress && !progress("looking at what remains", 0.97)) throw Cancelled{};
-  if (options.learnRest) report.remainder = findRemainder(problem, found, options.jobs);
-  const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs);
-  if (options.designNext) report.next = designNext(problem, found, options.seed);
-  judge(report, problem, found, curveIsBetter);
+  if (options.learnRest) report.remainder = findRemainder(problem, found, options.jobs, limits);
+  const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs, limits);
+  if (options.designNext) report.next = designNext(problem, found, options.seed, limits.nextRecording);
+  judge(report, problem, found, curveIsBetter, limits);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   report.sentence = consultation.caveat + report.sentence;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

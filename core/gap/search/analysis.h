@@ -5,6 +5,7 @@
 
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -17,7 +18,8 @@ struct AnalysisOptions {
   /// Step 9: what named effects leave as a curve. It takes longer than all else on a floor; without it no verdict knows
   /// whether the rest has a shape.
   bool learnRest = true;
-  bool asRecorded = false;  ///< goes on where the doctor is certain that a column is not what its name says
+  bool asRecorded = false;        ///< goes on where the doctor is certain that a column is not what its name says
+  SearchThresholds thresholds{};  ///< of every decision on the way
 };
 
 /// Steps 1 to 9 of gap analysis: doctor, noise floor, replay, calibrate, locate, screen, confirm, rivals, remainder.

@@ -11,6 +11,7 @@
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/extent.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
     case Effect::Place::link:
       for (const SceneRobot& robot : scene.robots)
         for (std::size_t i = 0; i < robot.model.links.size(); ++i) {
-          // What never moves does not feel a load.
+          // A load changes nothing of what never moves.
           const bool carried = robot.freeBase || i > 0;
           if (carried && robot.model.links[i].inertial.mass_kg > 0)
             places.push_back(robot.name + "." + robot.model.links[i].name);
@@ -46,25 +47,25 @@ std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
 }
 
 /// Whole numbers are tried one after another, numbers without a neutral value at a few places of their range.
-std::vector<double> triesOf(const Parameter& p) {
+std::vector<double> triesOf(const Parameter& p, const SearchThresholds::Candidates& limits) {
   if (p.integer || !p.choices.empty()) {
     // Small numbers one by one, larger ones by a quarter: a fit goes on to their neighbours.
-    constexpr double wider = 1.25;
-    constexpr std::size_t most = 26;
     std::vector<double> tries;
     // The same numbers whatever the recordings allow.
-    for (double value = std::min(1.0, std::ceil(p.minimum)); value <= p.maximum && tries.size() < most;
-         value = std::max(value + 1, p.integer ? std::round(wider * value) : 0))
+    for (double value = std::min(1.0, std::ceil(p.minimum));
+         value <= p.maximum && tries.size() < limits.wholeNumbersMost;
+         value = std::max(value + 1, p.integer ? std::round(limits.wholeNumbersWider * value) : 0))
       if (value >= p.minimum) tries.push_back(value);
     return tries;
   }
   const double range = p.maximum - p.minimum;
-  if (p.minimum > 0 && p.maximum / p.minimum > 20)
-    return {p.byDefault, std::max(p.minimum, p.byDefault / 4), std::min(p.maximum, p.byDefault * 4)};
-  std::vector<double> tries{p.byDefault, p.minimum + 0.25 * range, p.minimum + 0.75 * range};
+  if (p.minimum > 0 && p.maximum / p.minimum > limits.wideRange)
+    return {p.byDefault, std::max(p.minimum, p.byDefault / limits.aroundDefault),
+            std::min(p.maximum, p.byDefault * limits.aroundDefault)};
+  std::vector<double> tries{p.byDefault, p.minimum + limits.rangeLow * range, p.minimum + limits.rangeHigh * range};
   // Lengths to either side also near nothing: bodies are as small as a hand and as large as a man.
   if (p.unit == "m" && p.minimum < 0 && p.maximum > 0 && p.byDefault == 0)
-    for (const double near : {-range / 12, range / 12}) tries.push_back(near);
+    for (const double near : {-range / limits.nearNothing, range / limits.nearNothing}) tries.push_back(near);
   return tries;
 }
 
@@ -88,8 +89,7 @@ double travelOf(const FitProblem& problem, const std::string& at) {
 }
 
 /// A joint that stays where it is in each of the recordings, as far as its noise lets see.
-bool standsStill(const FitProblem& problem, const std::string& at) {
-  constexpr double widest = 12;  // noise floors: six standard deviations to either side
+bool standsStill(const FitProblem& problem, const std::string& at, const SearchThresholds::Candidates& limits) {
   bool isSeen = false;
   for (const FitTrial& trial : problem.trials) {
     const auto channel = positionOf(trial, at);
@@ -97,7 +97,7 @@ bool standsStill(const FitProblem& problem, const std::string& at) {
     isSeen = true;
     Extent position;
     position.add(trial.recording.columns[trial.binding.measured[*channel].column]);
-    if (position.high - position.low > widest * trial.noiseFloor[*channel]) return false;
+    if (position.high - position.low > limits.standsStill * trial.noiseFloor[*channel]) return false;
   }
   return isSeen;
 }
@@ -117,12 +117,12 @@ void addHolding(EffectCandidate& candidate) {
   }
 }
 
-std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
+std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
   const auto sized = [&](const Parameter& p, double share, double sign, const Values& others) {
-    const double typical =
-        std::abs(p.byDefault - *p.neutral) > 0 ? std::abs(p.byDefault - *p.neutral) : 0.1 * (p.maximum - p.minimum);
+    const double typical = std::abs(p.byDefault - *p.neutral) > 0 ? std::abs(p.byDefault - *p.neutral)
+                                                                  : limits.typicalOfRange * (p.maximum - p.minimum);
     Values values = others;
     values[p.name] = std::clamp(*p.neutral + sign * share * typical, p.minimum, p.maximum);
     if (values[p.name] != *p.neutral && std::find(variants.begin(), variants.end(), values) == variants.end())
@@ -135,11 +135,11 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
     // ones.
     if (up) sized(p, 1, 1, base);
     if (down) sized(p, 1, -1, base);
-    sized(p, 0.2, up ? 1 : -1, base);
-    for (const double much : {4.0, 16.0}) sized(p, much, up ? 1 : -1, base);
+    sized(p, limits.smallSize, up ? 1 : -1, base);
+    for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, base);
     for (const Parameter& other : declared) {
       if (other.neutral) continue;
-      for (const double value : triesOf(other)) {
+      for (const double value : triesOf(other, limits)) {
         if (value == base[other.name]) continue;
         Values others = base;
         others[other.name] = value;
@@ -154,7 +154,8 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared) {
 
 std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
                                            const std::vector<PlacedEffect>& there,
-                                           const std::vector<std::string>& names) {
+                                           const std::vector<std::string>& names,
+                                           const SearchThresholds::Candidates& thresholds) {
   std::vector<EffectCandidate> candidates;
   for (const std::string& name : names.empty() ? library.names : names) {
     const auto effect = library.make(name);
@@ -162,13 +163,13 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
     for (const std::string& at : placesFor(effect->place(), scene))
       if (std::none_of(there.begin(), there.end(),
                        [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
-        candidates.push_back({name, at, declared, variantsOf(declared)});
+        candidates.push_back({name, at, declared, variantsOf(declared, thresholds)});
   }
   return candidates;
 }
 
-std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at) {
-  constexpr double leastPeriods = 2;
+std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at,
+                                    const SearchThresholds::Candidates& thresholds) {
   const auto made = problem.library.make(effect);
   std::vector<Parameter> declared = made->parameters();
   const std::string periods = made->periodsPerTurn();
@@ -176,34 +177,40 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
   const double travel = travelOf(problem, at);
   for (Parameter& p : declared)
     if (p.name == periods) {
-      p.minimum = std::max(p.minimum, travel > 0 ? std::ceil(leastPeriods * 2 * M_PI / travel) : INFINITY);
+      p.minimum = std::max(p.minimum, travel > 0 ? std::ceil(thresholds.leastPeriods * 2 * M_PI / travel) : INFINITY);
       p.byDefault = std::max(p.byDefault, p.minimum);
     }
   return declared;
 }
 
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
-                                           const std::vector<std::string>& names) {
+                                           const std::vector<std::string>& names,
+                                           const SearchThresholds::Candidates& thresholds) {
   std::vector<PlacedEffect> there = problem.given.effects;
   there.insert(there.end(), model.effects.begin(), model.effects.end());
   std::vector<EffectCandidate> candidates =
-      candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names);
+      candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names, thresholds);
   std::erase_if(candidates, [&](EffectCandidate& candidate) {
-    const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at);
+    const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
     if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum)) {
       candidate.declared = shown;
-      candidate.variants = variantsOf(shown);
+      candidate.variants = variantsOf(shown, thresholds);
     }
     return false;
   });
   std::map<std::string, bool> isHeld;  // by place: each is looked at once, however many effects it may have
   for (EffectCandidate& candidate : candidates) {
     const auto [place, isNew] = isHeld.emplace(candidate.at, false);
-    if (isNew) place->second = standsStill(problem, candidate.at);
+    if (isNew) place->second = standsStill(problem, candidate.at, thresholds);
     if (place->second) addHolding(candidate);
   }
   return candidates;
+}
+
+bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect) {
+  const std::vector<std::string> simpler = library.make(candidate.effect)->contains();
+  return candidate.at == effect.at && std::find(simpler.begin(), simpler.end(), effect.effect) != simpler.end();
 }
 
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {

@@ -6,6 +6,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -24,14 +25,20 @@ struct EffectCandidate {
 /// `there` already.
 std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
                                            const std::vector<PlacedEffect>& there,
-                                           const std::vector<std::string>& names);
+                                           const std::vector<std::string>& names,
+                                           const SearchThresholds::Candidates& thresholds = {});
 /// What an effect declares, as far as the recordings can show it at a place: periods are called so only where the
 /// motion passes two of them. A minimum above the maximum: not at all.
-std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at);
+std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string& effect, const std::string& at,
+                                    const SearchThresholds::Candidates& thresholds = {});
 /// The same for a fit: without those that the simulator as given or `model` already has, and those that the recordings
 /// cannot show.
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
-                                           const std::vector<std::string>& names);
+                                           const std::vector<std::string>& names,
+                                           const SearchThresholds::Candidates& thresholds = {});
+
+/// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
+bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect);
 
 /// The variant moved along its own direction: neutral + step·(variant − neutral), within the bounds.
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step);

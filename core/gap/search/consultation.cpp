@@ -17,11 +17,10 @@
 namespace btr {
 namespace {
 
-/// So large a share of the samples is missing that it may itself be what the simulator does not show.
-constexpr double manyMissing = 0.05;
 constexpr std::size_t mostInSentence = 3;
 
-bool missesMany(const RecordingHealth& health, std::size_t rows) {
+/// So large a share of the samples is missing that it may itself be what the simulator does not show.
+bool missesMany(const RecordingHealth& health, std::size_t rows, double manyMissing) {
   double missing = 0;
   for (const Gap& gap : health.gaps) missing += gap.missing;
   return missing > manyMissing * static_cast<double>(rows);
@@ -68,7 +67,8 @@ std::string caveatOf(const std::vector<Grave>& grave) {
 
 }  // namespace
 
-Consultation consult(const GapProblem& problem, const EffectLibrary& library, bool asRecorded) {
+Consultation consult(const GapProblem& problem, const EffectLibrary& library, bool asRecorded,
+                     const SearchThresholds::Verdict& thresholds) {
   const TrialScenes scenes{problem.scene, problem.models, problem.simulator};
   std::vector<Grave> grave;
   std::vector<std::string> notes, others;
@@ -84,7 +84,7 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
         notes.push_back(name + ": " + finding.text);
       }
       const RecordingHealth health = examine(recording);
-      const bool broken = missesMany(health, recording.rows());
+      const bool broken = missesMany(health, recording.rows(), thresholds.manyMissing);
       if (broken) addGrave(grave, "", name, health.findings.front());
       for (std::size_t i = 0; i < health.findings.size(); ++i)
         (broken && i == 0 ? notes : others).push_back(name + ": " + health.findings[i]);

@@ -4,6 +4,7 @@
 
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/search/analysis.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -15,6 +16,7 @@ struct Consultation {
 
 /// Throws InputError where a finding is certain, with what to change in the mapping, unless `asRecorded`; and for
 /// recordings that do not fit the scene.
-Consultation consult(const GapProblem& problem, const EffectLibrary& library, bool asRecorded);
+Consultation consult(const GapProblem& problem, const EffectLibrary& library, bool asRecorded,
+                     const SearchThresholds::Verdict& thresholds = {});
 
 }  // namespace btr

@@ -24,8 +24,8 @@ struct GapReport {
     }
     bool known() const { return !std::isnan(low) && !std::isnan(high); }
   };
-  /// A number that was fitted, in its own unit. `excited` is false where the recordings do not tell it. `ci95` takes
-  /// the accepted effects for granted.
+  /// A number that was fitted, in its own unit. `excited` is false where it is not identifiable from the recordings.
+  /// `ci95` takes the accepted effects for granted.
   struct Number {
     std::string name, unit;
     double before = 0, value = 0;  ///< before: as given in the scene; an effect's neutral value

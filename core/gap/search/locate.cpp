@@ -11,6 +11,7 @@
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 namespace {
@@ -26,13 +27,13 @@ struct Motion {
   double low = 0, high = 0;
 };
 
-/// Slope through the samples within ±10 ms, at least two on either side.
-std::vector<double> smoothRate(const std::vector<double>& time, const std::vector<double>& x) {
+/// Slope through the samples within `reach_s`, at least two on either side.
+std::vector<double> smoothRate(const std::vector<double>& time, const std::vector<double>& x, double reach_s) {
   std::vector<double> rate(x.size(), 0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::size_t from = i, to = i;
-    while (from > 0 && (i - from < 2 || time[i] - time[from] < 0.01)) --from;
-    while (to + 1 < x.size() && (to - i < 2 || time[to] - time[i] < 0.01)) ++to;
+    while (from > 0 && (i - from < 2 || time[i] - time[from] < reach_s)) --from;
+    while (to + 1 < x.size() && (to - i < 2 || time[to] - time[i] < reach_s)) ++to;
     if (time[to] > time[from] && std::isfinite(x[to]) && std::isfinite(x[from]))
       rate[i] = (x[to] - x[from]) / (time[to] - time[from]);
   }
@@ -55,7 +56,8 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trialIndex, const Measured& measured) {
+Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trialIndex, const Measured& measured,
+                const SearchThresholds::Location& limits) {
   const FitTrial& trial = problem.trials[trialIndex];
   Motion motion;
   motion.time = trial.recording.columns[0];
@@ -87,7 +89,7 @@ Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trial
         if (input.what != Binding::Input::What::command) continue;
         motion.load[row] = drive.kind == Drive::Kind::torque ? given[row] : given[row] - motion.position[row];
         if (drive.kind == Drive::Kind::servo)
-          motion.saturated[row] = std::abs(drive.p * motion.load[row]) > 0.98 * drive.maxTorque;
+          motion.saturated[row] = std::abs(drive.p * motion.load[row]) > limits.saturated * drive.maxTorque;
       }
     }
   } else if (measured.what == Measured::What::ballPosition) {
@@ -95,43 +97,42 @@ Motion motionOf(const FitProblem& problem, const Scene& scene, std::size_t trial
       if (other.what == Measured::What::ballPosition && other.object == measured.object && other.part == 2)
         for (std::size_t row = 0; row < rows; ++row)
           motion.onFloor[row] =
-              trial.recording.columns[other.column][row] < 1.05 * scene.balls[measured.object].radius_m;
+              trial.recording.columns[other.column][row] < limits.onFloor * scene.balls[measured.object].radius_m;
   }
   motion.positionName = trial.recording.channels[column];
   motion.rateName = rateOf(motion.positionName);
-  motion.rate = smoothRate(motion.time, motion.position);
+  motion.rate = smoothRate(motion.time, motion.position, limits.rate_s);
   std::vector<double> speeds;
   for (const double rate : motion.rate) speeds.push_back(std::abs(rate));
-  motion.fast = quantile(speeds, 0.9);
-  motion.low = quantile(motion.position, 0.02);
-  motion.high = quantile(motion.position, 0.98);
+  motion.fast = quantile(speeds, limits.fast);
+  motion.low = quantile(motion.position, limits.outer);
+  motion.high = quantile(motion.position, 1 - limits.outer);
   return motion;
 }
 
-/// Rows within 60 ms after the velocity changed its sign.
-std::vector<char> afterReversal(const Motion& motion) {
-  constexpr double shortly_s = 0.06;
+/// Rows shortly after the velocity changed its sign.
+std::vector<char> afterReversal(const Motion& motion, const SearchThresholds::Location& limits) {
   std::vector<char> mask(motion.time.size(), 0);
   int direction = 0;
   double since = -1;
   for (std::size_t row = 0; row < mask.size(); ++row) {
     const double rate = motion.rate[row];
-    if (std::abs(rate) > 0.03 * motion.fast) {
+    if (std::abs(rate) > limits.moves * motion.fast) {
       const int now = rate > 0 ? 1 : -1;
       if (direction != 0 && now != direction) since = motion.time[row];
       direction = now;
     }
-    mask[row] = since >= 0 && motion.time[row] - since <= shortly_s;
+    mask[row] = since >= 0 && motion.time[row] - since <= limits.reversal_s;
   }
   return mask;
 }
 
-using Mask = std::function<std::vector<char>(const Motion&)>;
+using Mask = std::function<std::vector<char>(const Motion&, const SearchThresholds::Location&)>;
 
-Mask byRow(std::function<bool(const Motion&, std::size_t)> test) {
-  return [test = std::move(test)](const Motion& motion) {
+Mask byRow(std::function<bool(const Motion&, std::size_t, const SearchThresholds::Location&)> test) {
+  return [test = std::move(test)](const Motion& motion, const SearchThresholds::Location& limits) {
     std::vector<char> mask(motion.time.size());
-    for (std::size_t row = 0; row < mask.size(); ++row) mask[row] = test(motion, row);
+    for (std::size_t row = 0; row < mask.size(); ++row) mask[row] = test(motion, row, limits);
     return mask;
   };
 }
@@ -139,28 +140,41 @@ Mask byRow(std::function<bool(const Motion&, std::size_t)> test) {
 const std::vector<std::pair<std::string, Mask>>& regimes() {
   static const std::vector<std::pair<std::string, Mask>> all{
       {"velocity_reversal", afterReversal},
-      {"low_speed", byRow([](const Motion& m, std::size_t i) { return std::abs(m.rate[i]) < 0.1 * m.fast; })},
-      {"high_speed", byRow([](const Motion& m, std::size_t i) { return std::abs(m.rate[i]) > 0.7 * m.fast; })},
-      {"positive_direction", byRow([](const Motion& m, std::size_t i) { return m.rate[i] > 0.1 * m.fast; })},
-      {"negative_direction", byRow([](const Motion& m, std::size_t i) { return m.rate[i] < -0.1 * m.fast; })},
+      {"low_speed", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return std::abs(m.rate[i]) < of.slowShare * m.fast;
+       })},
+      {"high_speed", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return std::abs(m.rate[i]) > of.fastShare * m.fast;
+       })},
+      {"positive_direction", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return m.rate[i] > of.slowShare * m.fast;
+       })},
+      {"negative_direction", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return m.rate[i] < -of.slowShare * m.fast;
+       })},
       {"high_load",
-       [](const Motion& m) {
+       [](const Motion& m, const SearchThresholds::Location& of) {
          std::vector<double> loads;
          for (const double load : m.load) loads.push_back(std::abs(load));
-         const double heavy = quantile(loads, 0.8);
+         const double heavy = quantile(loads, of.heavy);
          std::vector<char> mask(m.time.size());
          for (std::size_t row = 0; row < mask.size(); ++row) mask[row] = heavy > 0 && std::abs(m.load[row]) > heavy;
          return mask;
        }},
-      {"saturation", byRow([](const Motion& m, std::size_t i) { return m.saturated[i] != 0; })},
-      {"switched_off", byRow([](const Motion& m, std::size_t i) { return m.enabled[i] == 0; })},
-      {"on_the_floor", byRow([](const Motion& m, std::size_t i) { return m.onFloor[i] != 0; })},
-      {"low_position",
-       byRow([](const Motion& m, std::size_t i) { return m.position[i] < m.low + 0.2 * (m.high - m.low); })},
-      {"high_position",
-       byRow([](const Motion& m, std::size_t i) { return m.position[i] > m.high - 0.2 * (m.high - m.low); })},
-      {"late_in_the_trial", byRow([](const Motion& m, std::size_t i) {
-         return m.time[i] > m.time.front() + 2.0 / 3.0 * (m.time.back() - m.time.front());
+      {"saturation",
+       byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location&) { return m.saturated[i] != 0; })},
+      {"switched_off",
+       byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location&) { return m.enabled[i] == 0; })},
+      {"on_the_floor",
+       byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location&) { return m.onFloor[i] != 0; })},
+      {"low_position", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return m.position[i] < m.low + of.endShare * (m.high - m.low);
+       })},
+      {"high_position", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return m.position[i] > m.high - of.endShare * (m.high - m.low);
+       })},
+      {"late_in_the_trial", byRow([](const Motion& m, std::size_t i, const SearchThresholds::Location& of) {
+         return m.time[i] > m.time.front() + of.late * (m.time.back() - m.time.front());
        })}};
   return all;
 }
@@ -188,20 +202,20 @@ double shareInside(const ChannelExcess& channel, const std::vector<std::vector<c
   return all > 0 ? std::clamp(inside / all, 0.0, 1.0) : 0;
 }
 
-std::vector<GapReport::Regime> sharesOf(const ChannelExcess& channel) {
+std::vector<GapReport::Regime> sharesOf(const ChannelExcess& channel, const SearchThresholds::Location& limits) {
   std::vector<GapReport::Regime> list;
   for (const auto& [name, mask] : regimes()) {
     std::vector<std::vector<char>> masks;
     double marked = 0, rows = 0;
     for (const Motion& motion : channel.motions) {
-      masks.push_back(mask(motion));
+      masks.push_back(mask(motion, limits));
       marked += static_cast<double>(std::count(masks.back().begin(), masks.back().end(), 1));
       rows += static_cast<double>(masks.back().size());
     }
     if (marked == 0 || marked == rows) continue;
     GapReport::Regime regime{name, shareInside(channel, masks, 0), marked / rows, 1};
     // Against the same pattern of time turned by other amounts, which keeps its rhythm.
-    constexpr int turns = 199;
+    const int turns = limits.turns;
     int asMuch = 0;
     for (int turn = 1; turn <= turns; ++turn)
       if (shareInside(channel, masks, turn / (turns + 1.0)) >= regime.shareOfExcess) ++asMuch;
@@ -214,9 +228,10 @@ std::vector<GapReport::Regime> sharesOf(const ChannelExcess& channel) {
   return list;
 }
 
-/// Share of the signed error's variance that the mean over eight bins of a variable explains.
-double explainedBy(const ChannelExcess& channel, const std::function<double(const Motion&, std::size_t)>& variable) {
-  constexpr std::size_t bins = 8;
+/// Share of the signed error's variance that the mean over bins of a variable explains.
+double explainedBy(const ChannelExcess& channel, const std::function<double(const Motion&, std::size_t)>& variable,
+                   const SearchThresholds::Location& limits) {
+  const std::size_t bins = limits.bins;
   std::vector<double> x, e;
   for (std::size_t t = 0; t < channel.motions.size(); ++t)
     for (std::size_t row = 0; row < channel.signedError[t].size(); ++row) {
@@ -224,9 +239,10 @@ double explainedBy(const ChannelExcess& channel, const std::function<double(cons
       x.push_back(variable(channel.motions[t], row));
       e.push_back(channel.signedError[t][row]);
     }
-  if (x.size() < 20 * bins) return 0;
+  if (x.size() < limits.samplesPerBin * bins) return 0;
   std::vector<double> edges;
-  for (std::size_t b = 1; b < bins; ++b) edges.push_back(quantile(x, static_cast<double>(b) / bins));
+  for (std::size_t b = 1; b < bins; ++b)
+    edges.push_back(quantile(x, static_cast<double>(b) / static_cast<double>(bins)));
   std::vector<double> sum(bins, 0), count(bins, 0);
   double mean = 0, square = 0;
   const auto n = static_cast<double>(x.size());
@@ -244,11 +260,12 @@ double explainedBy(const ChannelExcess& channel, const std::function<double(cons
   return total > 0 ? between / total : 0;
 }
 
-std::vector<std::string> dependencesOf(const ChannelExcess& channel) {
+std::vector<std::string> dependencesOf(const ChannelExcess& channel, const SearchThresholds::Location& limits) {
   std::vector<std::pair<double, std::string>> found;
   const auto add = [&](const std::string& what, const std::function<double(const Motion&, std::size_t)>& variable) {
     if (what.empty()) return;
-    if (const double share = explainedBy(channel, variable); share > 0.1) found.push_back({share, what});
+    if (const double share = explainedBy(channel, variable, limits); share > limits.dependence)
+      found.push_back({share, what});
   };
   const Motion& named = channel.motions.front();
   add(named.rateName, [](const Motion& m, std::size_t i) { return m.rate[i]; });
@@ -261,17 +278,15 @@ std::vector<std::string> dependencesOf(const ChannelExcess& channel) {
   return names;
 }
 
-/// The stretches of a fifth of a second that hold most of the excess.
-std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel) {
-  constexpr double length_s = 0.2;
-  constexpr std::size_t most = 5;
+/// The short stretches that hold most of the excess.
+std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel, const SearchThresholds::Location& limits) {
   std::vector<std::pair<double, GapReport::Window>> all;
   for (std::size_t t = 0; t < channel.excess.size(); ++t) {
     const auto& time = channel.motions[t].time;
     for (std::size_t first = 0; first < time.size();) {
       std::size_t last = first;
       double sum = 0;
-      while (last < time.size() && time[last] < time[first] + length_s) sum += channel.excess[t][last++];
+      while (last < time.size() && time[last] < time[first] + limits.stretch_s) sum += channel.excess[t][last++];
       all.push_back({sum, {channel.trials[t], {time[first], time[last - 1]}}});
       first = last;
     }
@@ -279,23 +294,26 @@ std::vector<GapReport::Window> windowsOf(const ChannelExcess& channel) {
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<GapReport::Window> windows;
   for (const auto& [sum, window] : all)
-    if (windows.size() < most && sum > 0) windows.push_back(window);
+    if (windows.size() < limits.stretches && sum > 0) windows.push_back(window);
   return windows;
 }
 
 }  // namespace
 
-std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProblem& problem) {
+std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProblem& problem,
+                                       const SearchThresholds::Location& thresholds) {
   const auto residualsIn = [&](const FitProblem& segments) {
     const Fit fit = fitModel(segments, calibrated, {}, {3, true});
     return residualsOf(segments, fit.model, fit.shifts);
   };
   // Short windows see an error where it is made, but for a robot that walks: no window can begin in a step.
   FitProblem used = problem;
-  if (!problem.walks) cutSegments(used, std::max(0.2, 20 * problem.trials[0].recording.samplePeriod()));
+  if (!problem.walks)
+    cutSegments(used,
+                std::max(thresholds.window_s, thresholds.windowSamples * problem.trials[0].recording.samplePeriod()));
   Eigen::VectorXd residuals = residualsIn(used);
-  if (!problem.walks && residuals.squaredNorm() < 1.15 * static_cast<double>(residuals.size())) {
-    used = problem;  // windows are too short to feel it
+  if (!problem.walks && residuals.squaredNorm() < thresholds.sensitive * static_cast<double>(residuals.size())) {
+    used = problem;  // windows are too short to see it
     residuals = residualsIn(used);
   }
 
@@ -311,7 +329,7 @@ std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProb
         const auto known = std::find(channel.trials.begin(), channel.trials.end(), segment.trial);
         if (known == channel.trials.end()) {
           channel.trials.push_back(segment.trial);
-          channel.motions.push_back(motionOf(problem, scene, segment.trial, measured));
+          channel.motions.push_back(motionOf(problem, scene, segment.trial, measured, thresholds));
           channel.excess.emplace_back(trial.recording.rows(), 0.0);
           channel.signedError.emplace_back(trial.recording.rows(), 0.0);
         }
@@ -326,18 +344,19 @@ std::vector<GapReport::Located> locate(const FitModel& calibrated, const FitProb
   double all = 0;
   for (const auto& [name, channel] : channels) all += std::max(0.0, channel.sum);
   std::vector<GapReport::Located> located;
-  if (all < 0.1 * static_cast<double>(residuals.size())) return located;
+  if (all < thresholds.leastExcess * static_cast<double>(residuals.size())) return located;
   for (const auto& [name, channel] : channels) {
-    if (channel.sum < 0.05 * all) continue;
+    if (channel.sum < thresholds.leastOfChannels * all) continue;
     GapReport::Located place;
     place.channel = name;
     place.shareOfExcess = channel.sum / all;
-    place.regimes = sharesOf(channel);
+    place.regimes = sharesOf(channel, thresholds);
     for (const GapReport::Regime& regime : place.regimes)
-      if (place.when.empty() && regime.pValue < 0.02 && regime.shareOfExcess > 1.3 * regime.shareOfTime)
+      if (place.when.empty() && regime.pValue < thresholds.leastP &&
+          regime.shareOfExcess > thresholds.standsOut * regime.shareOfTime)
         place.when = regime.name;
-    place.windows = windowsOf(channel);
-    place.dependsOn = dependencesOf(channel);
+    place.windows = windowsOf(channel, thresholds);
+    place.dependsOn = dependencesOf(channel, thresholds);
     located.push_back(std::move(place));
   }
   std::stable_sort(located.begin(), located.end(),

@@ -12,13 +12,12 @@
 #include "core/gap/replay/start_state.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
+#include "core/gap/search/thresholds.h"
 #include "core/spec/figures.h"
 #include "core/spec/random.h"
 
 namespace btr {
 namespace {
-
-constexpr double length_s = 8, sample_s = 0.008, rest_s = 0.5;
 
 /// A joint that a recording can move: to positions, or by a force, duty or voltage that lets it go where it will.
 struct CommandedJoint {
@@ -34,18 +33,19 @@ bool isPositionOf(const Binding::Measured& measured, std::size_t robot, std::siz
 }
 
 /// Of a joint that is pushed: the recorded positions, a little more than that, inside its limits.
-Extent rangeOf(const FitProblem& problem, const Binding::Input& input, const Joint& joint) {
-  constexpr double more = 0.1;
+Extent rangeOf(const FitProblem& problem, const Binding::Input& input, const Joint& joint,
+               const SearchThresholds::NextRecording& limits) {
   Extent seen;
   for (const FitTrial& trial : problem.trials)
     for (const auto& measured : trial.binding.measured)
       if (isPositionOf(measured, input.robot, input.joint)) seen.add(trial.recording.columns[measured.column]);
   if (!seen.some()) return {};
-  const double slack = more * (seen.high - seen.low);
+  const double slack = limits.beyond * (seen.high - seen.low);
   return {std::max(seen.low - slack, joint.lower), std::min(seen.high + slack, joint.upper)};
 }
 
-std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Scene& scene) {
+std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Scene& scene,
+                                            const SearchThresholds::NextRecording& limits) {
   using What = Binding::Input::What;
   std::vector<CommandedJoint> joints;
   for (const auto& input : problem.trials[0].binding.inputs) {
@@ -58,7 +58,7 @@ std::vector<CommandedJoint> commandedJoints(const FitProblem& problem, const Sce
     CommandedJoint found{input.robot, input.joint, problem.trials[0].recording.channels[input.column]};
     found.pushed = input.what != What::command || robot.drives[input.joint].kind == Drive::Kind::torque;
     if (found.pushed) {
-      found.range = rangeOf(problem, input, joint);
+      found.range = rangeOf(problem, input, joint, limits);
       if (!found.range.some()) continue;  // nobody knows where it may go
     } else {
       commanded = {std::max(commanded.low, joint.lower), std::min(commanded.high, joint.upper)};
@@ -117,19 +117,20 @@ std::vector<std::pair<std::string, Shape>> shapes(std::uint64_t seed) {
 }
 
 /// What is pushed gets `push` times its reach: the same force moves it far in one direction, or not at all.
-Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial& like, const Shape& shape,
-                      double push) {
+Recording recordingOf(const std::vector<CommandedJoint>& joints, const FitTrial& like, const Shape& shape, double push,
+                      const SearchThresholds::NextRecording& limits) {
   Recording recording;
   recording.source = "next command";
   recording.channels = {"time_s"};
   recording.columns.resize(1);
-  for (double t = 0; t < length_s; t += sample_s) recording.columns[0].push_back(t);
+  for (double t = 0; t < limits.length_s; t += limits.sample_s) recording.columns[0].push_back(t);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     recording.channels.push_back(joints[k].channel);
-    const double size = 0.95 * joints[k].reach * (joints[k].pushed ? push : 1);
+    const double size = limits.reach * joints[k].reach * (joints[k].pushed ? push : 1);
     std::vector<double> column;
     for (const double t : recording.columns[0])
-      column.push_back(joints[k].middle + (t < rest_s ? 0 : size * std::clamp(shape(t - rest_s, k), -1.0, 1.0)));
+      column.push_back(joints[k].middle +
+                       (t < limits.rest_s ? 0 : size * std::clamp(shape(t - limits.rest_s, k), -1.0, 1.0)));
     recording.columns.push_back(column);
   }
   for (const auto& measured : like.binding.measured) {
@@ -168,7 +169,8 @@ double separationOf(const FitProblem& problem, const std::vector<CommandedJoint>
 
 }  // namespace
 
-GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed) {
+GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed,
+                                    const SearchThresholds::NextRecording& thresholds) {
   GapReport::NextRecording next;
   const auto doubted = std::find_if(found.effects.begin(), found.effects.end(),
                                     [](const Found& effect) { return !effect.rivals.empty(); });
@@ -177,15 +179,16 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
   const FitModel &first = found.final.fit.model, &rival = doubted->rivalFits[0].model;
   const Scene sceneA = problem.sceneOf(first.simulator(problem), 0),
               sceneB = problem.sceneOf(rival.simulator(problem), 0);
-  const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA);
+  const std::vector<CommandedJoint> joints = commandedJoints(problem, sceneA, thresholds);
   if (joints.empty()) return next;
 
   const bool pushes = std::ranges::any_of(joints, &CommandedJoint::pushed);
-  const std::vector<double> pushed = pushes ? std::vector<double>{1, 0.5, 0.25, 0.1} : std::vector<double>{1};
+  const std::vector<double> pushed =
+      pushes ? std::vector<double>(thresholds.pushes.begin(), thresholds.pushes.end()) : std::vector<double>{1};
   std::string shapeName;
   for (const auto& [name, shape] : shapes(seed))
     for (const double push : pushed) {
-      const Recording recording = recordingOf(joints, like, shape, push);
+      const Recording recording = recordingOf(joints, like, shape, push, thresholds);
       const double separation = separationOf(problem, joints, sceneA, sceneB, recording);
       if (separation <= next.separation) continue;
       next.separation = separation;
@@ -198,9 +201,9 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
   if (next.separation <= 0) return next;
   const std::string own = inWords(doubted->effect.effect) + " at " + doubted->effect.at,
                     other = inWords(doubted->rivals[0]),
-                    by = " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " + toText(length_s) +
-                         " s)";
-  next.why = next.separation >= leastSeparation
+                    by = " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +
+                         toText(thresholds.length_s) + " s)";
+  next.why = next.separation >= thresholds.leastSeparation
                  ? "separates " + own + " from " + other + by
                  : "would hardly tell " + own + " from " + other + ": the best of those tried separates them" + by +
                        "; what commands do not change may tell them, a known weight on the link or another posture of "

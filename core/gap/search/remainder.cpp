@@ -14,6 +14,7 @@
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/learned_force.h"
 #include "core/gap/search/screen.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 namespace {
@@ -28,7 +29,8 @@ struct Option {
 };
 
 /// Curves over what each joint and ball did, over the range that it did it in.
-std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
+std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene,
+                              const SearchThresholds::Remainder& limits) {
   std::vector<Option> options;
   const FitTrial& first = problem.trials[0];
   for (const auto& measured : first.binding.measured) {
@@ -54,7 +56,7 @@ std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
       const double strength = drive.maxTorque < 1e8 ? drive.maxTorque : drive.p > 0 ? drive.p * 0.1 : 1;
       const std::string at = robot.name + "." + robot.model.joints[measured.part].name;
       const auto add = [&](Over over, Extent range, const char* unit) {
-        options.push_back({{over, Along::joint, range.low, range.high, 0.02 * strength}, at, unit});
+        options.push_back({{over, Along::joint, range.low, range.high, limits.jointForce * strength}, at, unit});
       };
       add(Over::position, position, slides ? "m" : "rad");
       add(Over::velocity, speed, slides ? "m/s" : "rad/s");
@@ -67,11 +69,14 @@ std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene) {
       const BallSpec& ball = scene.balls[measured.object];
       const double weight = ball.mass_kg * 9.81;
       const Along along = measured.part == 0 ? Along::x : Along::y;
-      options.push_back({{Over::position, along, position.low, position.high, 0.01 * weight}, ball.name, "m"});
-      options.push_back({{Over::time, along, time.low, time.high, 0.01 * weight}, ball.name, "s"});
+      options.push_back(
+          {{Over::position, along, position.low, position.high, limits.ballForce * weight}, ball.name, "m"});
+      options.push_back({{Over::time, along, time.low, time.high, limits.ballForce * weight}, ball.name, "s"});
       if (measured.part == 0)
         options.push_back(
-            {{Over::velocity, Along::motion, 0, std::max(speed.high, -speed.low), 0.01 * weight}, ball.name, "m/s"});
+            {{Over::velocity, Along::motion, 0, std::max(speed.high, -speed.low), limits.ballForce * weight},
+             ball.name,
+             "m/s"});
     }
   }
   return options;
@@ -84,8 +89,10 @@ struct Learned {
 };
 
 /// The option whose knots would take most away by the score test, fitted to the end.
-std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const Linearised& linear, int jobs) {
-  const std::vector<Option> options = optionsOf(problem, problem.sceneOf(base.model.simulator(problem), 0));
+std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const Linearised& linear, int jobs,
+                             const SearchThresholds& thresholds) {
+  const std::vector<Option> options =
+      optionsOf(problem, problem.sceneOf(base.model.simulator(problem), 0), thresholds.remainder);
   const auto shareOf = [&](std::size_t i) -> std::vector<double> {
     FitProblem with = problem;
     with.library = withLearnedForce(problem.library, options[i].force);
@@ -99,7 +106,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
       variant[p.name] = -p.byDefault;
       candidate.variants.push_back(variant);
     }
-    return {screen(with, base, linear, {candidate}, 1)[0].share};
+    return {screen(with, base, linear, {candidate}, 1, {}, thresholds.screening)[0].share};
   };
   const auto shares = parallel(jobs, options.size(), shareOf);
   double most = 0;
@@ -115,7 +122,7 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
   FitModel model = base.model.with(with, {options[chosen].force.name(), options[chosen].at, {}});
   for (std::size_t i = 0; i < model.parameters.size(); ++i)
     if (model.parameters[i].effect == static_cast<int>(model.effects.size()) - 1) model.values[i] = 0;
-  const Fit fit = fitModel(with, model, base.shifts, {12});
+  const Fit fit = fitModel(with, model, base.shifts, {thresholds.remainder.iterations});
   Learned learned{options[chosen], crossValidate(with, fit), {}};
   learned.uncertainty = uncertaintyOf(with, fit, linearise(with, fit));
   return learned;
@@ -123,18 +130,19 @@ std::optional<Learned> learn(const FitProblem& problem, const Fit& base, const L
 
 }  // namespace
 
-GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult& found, int jobs) {
+GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult& found, int jobs,
+                                   const SearchThresholds& thresholds) {
   GapReport::Remainder remainder;
-  constexpr double worthLooking = 0.3, leastT = 3, leastShare = 0.1;
+  const SearchThresholds::Remainder& limits = thresholds.remainder;
   const double rest = excessOf(found.final);
-  if (rest < worthLooking) return remainder;
-  const auto learned = learn(problem, found.final.fit, found.finalLinear, jobs);
+  if (rest < limits.leastExcess) return remainder;
+  const auto learned = learn(problem, found.final.fit, found.finalLinear, jobs, thresholds);
   if (!learned) return remainder;
   const PairedTest comparison = compare(found.final.blocks, learned->scored.blocks);
   const double share = (found.final.mean() - learned->scored.mean()) / rest;
   remainder.pValue = comparison.pValue;
   remainder.shareOfRest = std::clamp(share, 0.0, 1.0);
-  if (comparison.t < leastT || share < leastShare) return remainder;
+  if (comparison.t < limits.leastT || share < limits.leastShare) return remainder;
   remainder.at = learned->option.at;
   remainder.on = toText(learned->option.force.over);
   remainder.unitX = learned->option.unitX;
@@ -150,16 +158,17 @@ GapReport::Remainder findRemainder(const FitProblem& problem, const SearchResult
   return remainder;
 }
 
-bool aCurveDoesBetter(const FitProblem& problem, const SearchResult& found, int jobs) {
-  constexpr double muchBetter = 0.7, leastT = 3, atNoise = 1.3;
-  if (found.effects.empty() || found.final.mean() < atNoise) return false;
+bool aCurveDoesBetter(const FitProblem& problem, const SearchResult& found, int jobs,
+                      const SearchThresholds& thresholds) {
+  const SearchThresholds::Remainder& limits = thresholds.remainder;
+  if (found.effects.empty() || found.final.mean() < limits.insteadError) return false;
   Fit base = found.calibrated.fit;
   base.model = found.final.fit.model;
   while (!base.model.effects.empty()) base.model = base.model.without(base.model.effects.size() - 1);
-  base = fitModel(problem, base.model, found.calibrated.fit.shifts, {8});
-  const auto learned = learn(problem, base, linearise(problem, base), jobs);
-  return learned && learned->scored.mean() < muchBetter * found.final.mean() &&
-         compare(found.final.blocks, learned->scored.blocks).t > leastT;
+  base = fitModel(problem, base.model, found.calibrated.fit.shifts, {limits.insteadIterations});
+  const auto learned = learn(problem, base, linearise(problem, base), jobs, thresholds);
+  return learned && learned->scored.mean() < limits.instead * found.final.mean() &&
+         compare(found.final.blocks, learned->scored.blocks).t > limits.leastT;
 }
 
 }  // namespace btr

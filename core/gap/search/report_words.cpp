@@ -14,7 +14,8 @@ std::string inWords(const GapReport::Rival& rival) {
 
 bool isWiderAmongRivals(const GapReport::Number& number) {
   const GapReport::Interval &all = number.amongRivals, &own = number.ci95;
-  return all.known() && own.known() && all.high - all.low > 2 * (own.high - own.low);
+  return all.known() && own.known() &&
+         all.high - all.low > SearchThresholds::Rivals{}.widerAmong * (own.high - own.low);
 }
 
 std::string brief(const GapReport::Interval& interval) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 #include "core/spec/figures.h"
 
 namespace btr {
@@ -23,7 +24,7 @@ std::string headline(GapReport::Verdict verdict);
 /// held out. It got worse where the simulator to adopt is off by 5 % more than the one as given.
 struct UnseenError {
   double asGiven = 0, calibrated = 0, withEffects = 0;
-  bool gotWorse() const { return withEffects > 1.05 * asGiven; }
+  bool gotWorse() const { return withEffects > SearchThresholds::Verdict{}.unseenWorse * asGiven; }
 };
 std::optional<UnseenError> unseenError(const GapReport& report);
 /// "the recordings that were held out got worse: 259 → 278 noise floors"; "" if they did not.

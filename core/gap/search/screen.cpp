@@ -10,6 +10,7 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/screen.h"
+#include "core/gap/search/thresholds.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -44,11 +45,9 @@ class Projector {
   Eigen::LDLT<MatrixXd> solver_;
 };
 
-constexpr double worthLooking = 0.005;  // share of the squared error that a candidate must promise
-
-/// Squared change of all residuals that counts as felt.
-double leastFelt(const Linearised& linear) {
-  return std::min(0.01 * static_cast<double>(linear.residuals.size()), 25.0);
+/// Squared change of all residuals from which they count as sensitive.
+double leastChange(const Linearised& linear, const SearchThresholds::Screening& limits) {
+  return std::min(limits.sensitivePerResidual * static_cast<double>(linear.residuals.size()), limits.sensitiveMost);
 }
 
 struct Try {
@@ -77,7 +76,8 @@ VectorXd nonNegative(const std::vector<const Try*>& tries, const VectorXd& targe
 /// One number list per candidate: norm, best promised share, sizes that the scene refuses, number of starts, then for
 /// each share, effect values, parameters.
 std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                              const Projector& projector, const VectorXd& rest, const EffectCandidate& candidate) {
+                              const Projector& projector, const VectorXd& rest, const EffectCandidate& candidate,
+                              const SearchThresholds::Screening& limits) {
   int refused = 0;
   /// Nothing where the scene cannot be: a mass below zero, say.
   const auto changeBy = [&](const Values& values) -> std::optional<VectorXd> {
@@ -91,7 +91,7 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   };
   const auto gainOf = [&](const VectorXd& change) { return rest.squaredNorm() - (rest + change).squaredNorm(); };
   std::vector<Try> tries;
-  /// How much the residuals feel of it.
+  /// How much it changes the residuals.
   const auto tryOut = [&](const Values& variant) {
     const auto change = changeBy(variant);
     if (!change) return 0.0;
@@ -100,23 +100,23 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     attempt.left = projector.leftOf(attempt.change);
     const double norm = attempt.left.squaredNorm();
     // What the fitted parameters can do as well is no evidence.
-    if (norm <= 1e-6 * all || norm <= 0) return all;
-    attempt.step = std::clamp(-rest.dot(attempt.left) / norm, 0.0, 20.0);
+    if (norm <= limits.indistinct * all || norm <= 0) return all;
+    attempt.step = std::clamp(-rest.dot(attempt.left) / norm, 0.0, limits.largestStep);
     attempt.gain = gainOf(attempt.step * attempt.left);
     attempt.gainAsIs = gainOf(attempt.left);
     tries.push_back(std::move(attempt));
     return all;
   };
-  double felt = 0;
-  for (const Values& variant : candidate.variants) felt = std::max(felt, tryOut(variant));
-  // What is too small to be felt where it is usual may be there in a size that is not: a ball that hardly rolls on a
-  // carpet feels creep only where there is a lot of it.
-  double feltAtAll = felt;
-  if (felt <= leastFelt(linear))
-    for (const double size : {50.0, 500.0})
-      for (std::size_t i = 0; i < std::min<std::size_t>(2, candidate.variants.size()); ++i)
-        feltAtAll = std::max(feltAtAll, tryOut(scaledVariant(candidate, candidate.variants[i], size)));
-  if (feltAtAll <= leastFelt(linear)) tries.clear();
+  double sensitivity = 0;
+  for (const Values& variant : candidate.variants) sensitivity = std::max(sensitivity, tryOut(variant));
+  // What changes nothing in a usual size may be there in one that is not: a ball that hardly rolls on a carpet is
+  // sensitive to creep only where there is a lot of it.
+  double atAnySize = sensitivity;
+  if (sensitivity <= leastChange(linear, limits))
+    for (const double size : limits.insensitiveSizes)
+      for (std::size_t i = 0; i < std::min(limits.insensitiveVariants, candidate.variants.size()); ++i)
+        atAnySize = std::max(atAnySize, tryOut(scaledVariant(candidate, candidate.variants[i], size)));
+  if (atAnySize <= leastChange(linear, limits)) tries.clear();
   const double total = linear.profiled.squaredNorm();
   struct Found {
     double gain;
@@ -162,9 +162,9 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   // Few effects are proportional to their size (play, limits): the promise is looked at where it lies, and at smaller
   // and larger sizes. What does best there comes first.
   const double promised = found.empty() ? 0 : found[0].gain;
-  if (promised > worthLooking * total) {
+  if (promised > limits.worthLooking * total) {
     std::vector<Found> seen;
-    for (const double size : {1.0, 0.1, 0.3, 3.0}) {
+    for (const double size : limits.lookedAt) {
       const Values values = scaledVariant(candidate, found[0].effect, size);
       if (size != 1 && values == found[0].effect) continue;
       const auto change = changeBy(values);
@@ -176,7 +176,7 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     found.insert(found.begin(), seen.begin(), seen.begin() + std::min<std::ptrdiff_t>(1, std::ssize(seen)));
   }
 
-  std::vector<double> numbers{felt, total > 0 ? promised / total : 0, static_cast<double>(refused),
+  std::vector<double> numbers{sensitivity, total > 0 ? promised / total : 0, static_cast<double>(refused),
                               static_cast<double>(found.size())};
   for (const Found& each : found) {
     numbers.push_back(total > 0 ? each.gain / total : 0);
@@ -190,14 +190,15 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
   return numbers;
 }
 
-/// The segments where most is unexplained, a third of all, and what belongs to them.
+/// The segments where most is unexplained and what belongs to them.
 struct Part {
   FitProblem problem;
   Fit fit;
   Linearised linear;
 };
 
-Part worstThird(const FitProblem& problem, const Fit& fit, const Linearised& linear) {
+/// One of `ofSegments`, rounded up.
+Part worstOf(const FitProblem& problem, const Fit& fit, const Linearised& linear, std::size_t ofSegments) {
   std::vector<std::size_t> order;
   std::vector<double> error;
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
@@ -207,7 +208,7 @@ Part worstThird(const FitProblem& problem, const Fit& fit, const Linearised& lin
     order.push_back(s);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return error[a] > error[b]; });
-  order.resize((order.size() + 2) / 3);
+  order.resize((order.size() + ofSegments - 1) / ofSegments);
   std::sort(order.begin(), order.end());
 
   Part part{problem, {fit.model, {}, fit.cost}, {}};
@@ -226,34 +227,33 @@ Part worstThird(const FitProblem& problem, const Fit& fit, const Linearised& lin
   return part;
 }
 
-constexpr std::size_t many = 60, mostPromising = 40;
-
-/// Of many candidates, those that a first look at a third of the segments, with one size in either direction, finds
+/// Of many candidates, those that a first look at the worst segments, with one size in either direction, finds
 /// promising. The others' share is that of this look.
 std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                             const std::vector<EffectCandidate>& candidates, int jobs,
-                            const std::function<bool(std::size_t)>& goOn, std::vector<Screened>& result) {
-  const Part part = worstThird(problem, fit, linear);
+                            const std::function<bool(std::size_t)>& goOn, const SearchThresholds::Screening& limits,
+                            std::vector<Screened>& result) {
+  const Part part = worstOf(problem, fit, linear, limits.segmentsPart);
   const Projector projector(part.linear.columns, fit.model);
   const VectorXd rest = projector.leftOf(part.linear.profiled);
   const auto numbers = parallel(
       jobs, candidates.size(),
       [&](std::size_t i) {
         EffectCandidate few = candidates[i];
-        few.variants.resize(std::min<std::size_t>(2, few.variants.size()));
-        return screenOne(part.problem, part.fit, part.linear, projector, rest, few);
+        few.variants.resize(std::min(limits.firstVariants, few.variants.size()));
+        return screenOne(part.problem, part.fit, part.linear, projector, rest, few, limits);
       },
       goOn);
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     result[c].share = numbers[c].ok() ? numbers[c].numbers[1] : 0;
-    result[c].excited = numbers[c].ok() && numbers[c].numbers[0] > leastFelt(part.linear);
+    result[c].excited = numbers[c].ok() && numbers[c].numbers[0] > leastChange(part.linear, limits);
     order.push_back(c);
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return result[a].share > result[b].share; });
   std::vector<char> promising(candidates.size(), 0);
-  for (std::size_t k = 0; k < std::min(mostPromising, order.size()); ++k) promising[order[k]] = 1;
+  for (std::size_t k = 0; k < std::min(limits.promising, order.size()); ++k) promising[order[k]] = 1;
   return promising;
 }
 
@@ -261,12 +261,13 @@ std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Lin
 
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                              const std::vector<EffectCandidate>& candidates, int jobs,
-                             const std::function<bool(std::size_t)>& goOn) {
+                             const std::function<bool(std::size_t)>& goOn,
+                             const SearchThresholds::Screening& thresholds) {
   std::vector<Screened> result(candidates.size());
   for (std::size_t c = 0; c < candidates.size(); ++c) result[c].candidate = c;
   std::vector<char> promising(candidates.size(), 1);
-  if (candidates.size() > many && problem.segments.size() > 2)
-    promising = firstLook(problem, fit, linear, candidates, jobs, goOn, result);
+  if (candidates.size() > thresholds.many && problem.segments.size() > 2)
+    promising = firstLook(problem, fit, linear, candidates, jobs, goOn, thresholds, result);
   std::vector<std::size_t> chosen;
   for (std::size_t c = 0; c < candidates.size(); ++c)
     if (promising[c]) chosen.push_back(c);
@@ -275,7 +276,10 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
   const VectorXd rest = projector.leftOf(linear.profiled);
   const auto numbers = parallel(
       jobs, chosen.size(),
-      [&](std::size_t i) { return screenOne(problem, fit, linear, projector, rest, candidates[chosen[i]]); }, goOn);
+      [&](std::size_t i) {
+        return screenOne(problem, fit, linear, projector, rest, candidates[chosen[i]], thresholds);
+      },
+      goOn);
 
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const std::size_t c = chosen[k];
@@ -284,7 +288,7 @@ std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Li
     screened.share = 0;
     const auto& list = numbers[k].numbers;
     if (numbers[k].ok()) {
-      screened.excited = list[0] > leastFelt(linear);
+      screened.excited = list[0] > leastChange(linear, thresholds);
       screened.share = list[1];
       screened.refused = static_cast<int>(list[2]);
       const auto starts = static_cast<std::size_t>(list[3]);

@@ -7,6 +7,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
 #include "core/gap/search/candidates.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -14,7 +15,7 @@ namespace btr {
 /// with the sensitivities of the parameters that are fitted already and of the initial states.
 struct Screened {
   std::size_t candidate = 0;
-  bool excited = false;  ///< the recordings feel it at a typical size
+  bool excited = false;  ///< the recordings are sensitive to it at a typical size
   int refused = 0;       ///< sizes at which there is no such scene
   double share = 0;      ///< of the sum of squared residuals that it would take away
   struct Start {
@@ -22,12 +23,13 @@ struct Screened {
     std::vector<double> parameters;  ///< of the model, moved along to where they would go
     double share = 0;
   };
-  std::vector<Start> starts;  ///< the best that was looked at, then what others promise, best first; none: not felt at
-                              ///< any size
+  std::vector<Start> starts;  ///< the best that was looked at, then what others promise, best first; none: no
+                              ///< size changes anything
 };
 /// In the order of the candidates. Candidates of a model that cannot be simulated are not excited.
 std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                              const std::vector<EffectCandidate>& candidates, int jobs,
-                             const std::function<bool(std::size_t)>& goOn = {});
+                             const std::function<bool(std::size_t)>& goOn = {},
+                             const SearchThresholds::Screening& thresholds = {});
 
 }  // namespace btr

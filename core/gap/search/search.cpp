@@ -4,253 +4,219 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
-#include "core/gap/fit/block_scores.h"
-#include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
-#include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
-#include "core/gap/fit/starts_anew.h"
 #include "core/gap/fit/uncertainty.h"
-#include "core/gap/search/gap_report.h"
-#include "core/gap/search/search_run.h"
-#include "core/spec/cancelled.h"
-#include "core/spec/random.h"
+#include "core/gap/search/calibrator.h"
+#include "core/gap/search/candidate_search.h"
+#include "core/gap/search/confirmer.h"
+#include "core/gap/search/fit_service.h"
+#include "core/gap/search/model_reduction.h"
+#include "core/gap/search/pair_search.h"
+#include "core/gap/search/rival_finder.h"
+#include "core/gap/search/selection.h"
+#include "core/gap/search/unidentifiable.h"
 
 namespace btr {
 namespace {
 
-constexpr std::size_t candidatesToFit = 8;  // half of them are fitted to the end and scored
-constexpr double nothingLeft = 1.03;        // mean squared error at which there is nothing left to explain
+/// One search: holds its parts and calls one after another.
+class StructureSearch {
+ public:
+  StructureSearch(const FitProblem& problem, const SearchOptions& options) : service_(problem, options) {}
 
-}  // namespace
+  SearchResult run();
 
-void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool accepted, const std::string& reason) {
-  for (Attempt& attempt : attempts)
-    if (attempt.candidate.text() == candidate) {
-      attempt.accepted = accepted;
-      attempt.reason = reason;
-    }
-}
-
-bool SearchRun::promisesAPair(const std::vector<Tried>& tried) {
-  constexpr double least = 0.03;
-  return std::any_of(tried.begin(), tried.end(), [](const Tried& each) { return each.attempt.share > least; });
-}
-
-Scored SearchRun::calibrate() {
-  const FitModel given = givenModel(problem_);
-  if (given.parameters.empty()) {
-    std::vector<Fit> asIs{scoreAsIs(problem_, {given, {}, 0}).fit};
-    refineStep(asIs, 1, "calibrating", 0.05);
-    return scoreAsIs(problem_, asIs[0]);
+ private:
+  int most() const { return service_.options().maximumEffects; }
+  bool hasRoomFor(std::size_t effects) const {
+    return static_cast<int>(selection_.final.fit.model.effects.size() + effects) <= most();
   }
-  // From the numbers as given, and from two drawn around them.
-  std::vector<FitModel> starts{given, given, given};
-  Random random = Random::forPurpose(options_.seed, "calibration starts");
-  for (std::size_t s = 1; s < starts.size(); ++s)
-    for (std::size_t i = 0; i < given.values.size(); ++i) {
-      const FitParameter& p = given.parameters[i];
-      starts[s].values[i] = std::clamp(p.given + 2 * p.scale * random.uniform(-1, 1), p.minimum, p.maximum);
-    }
-  std::vector<Fit> fits = fitAll({{given, {}}}, 15, "calibrating", 0.02, 0.05);
-  // ½ a residual is the cost of noise alone: then there is nothing to look for elsewhere.
-  if (fits[0].cost > 0.6 * static_cast<double>(problem_.residuals())) {
-    const std::vector<Fit> others = thoseOf(tryFits({{starts[1], {}}, {starts[2], {}}}, 10, "calibrating", 0.05, 0.08));
-    fits.insert(fits.end(), others.begin(), others.end());
-  }
-  std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
-  if (problem_.walks && fits.size() > 1) scatter(best[0], "calibrating", 0.08);
-  startAnew(best[0], "calibrating", 0.08);
-  // A step that was harmless beside the error as given may not be so beside what is left of it.
-  refineStep(best, 1, "calibrating", 0.08);
-  return scoreAll(best, "calibrating", 0.08, 0.1)[0];
+  /// The simulator without effects: where the search begins.
+  void beginFrom(const Calibration& calibration);
+  /// One effect at a time, or two that need each other, for as long as they help.
+  void addEffects();
+  /// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it
+  /// may have bent them to take up what is missing.
+  std::vector<Fit> basesOf(bool first) const;
+  Round ask(int stage);
+  /// Which of them is accepted; the others that pass say so.
+  std::optional<std::size_t> winnerOf(std::vector<TriedCandidate>& tried) const;
+  /// Uncertainties of the rivals' fits.
+  void measureRivals(std::vector<Found>& effects) const;
+
+  FitService service_;
+  Calibrator calibrator_{service_};
+  Calibration calibration_;
+  Confirmer confirmer_{service_, calibration_.held};
+  CandidateSearch candidates_{service_, confirmer_};
+  PairSearch pairs_{service_, confirmer_, candidates_};
+  Selection selection_;
+  std::vector<TriedCandidate> firstRound_;
+};
+
+void StructureSearch::beginFrom(const Calibration& calibration) {
+  calibration_ = calibration;
+  selection_.ladder = {rungOf("as given", calibration_.given), rungOf("calibrated", calibration_.calibrated)};
+  selection_.final = calibration_.base;
 }
 
-/// Of a fit that ended where single trials stuck, all numbers once more.
-void SearchRun::startAnew(Fit& fit, const std::string& stage, double at) const {
-  constexpr int iterations = 15;
-  const Fit anew = withStartsAnew(problem_, fit);
-  if (anew.shifts == fit.shifts) return;
-  const Fit all = fitOn({anew}, iterations, stage, at, at)[0];
-  fit = costsLess(all, anew) ? all : anew;
-}
-
-/// What was accepted is fitted on where it still is far from the noise: a curved valley takes its iterations.
-Scored SearchRun::converged(const Scored& scored, const std::string& stage, double at) {
-  if (excessOf(scored) < leastToFitOn) return scored;
-  std::vector<Fit> fits = fitOn({scored.fit}, toTheEnd, stage, at, at);
-  startAnew(fits[0], stage, at);
-  climbWholeNumbers(fits[0], stage, at);
-  refineStep(fits, 1, stage, at);
-  const Scored better = scoreAll(fits, stage, at, at)[0];
-  Scored same = scored;
-  bringToStep(same, stage, at);
-  return better.mean() < same.mean() ? better : same;
-}
-
-void SearchRun::settle(SearchResult& result, bool fitToTheEnd, const std::string& stage, double at) {
-  if (fitToTheEnd) result.final = converged(result.final, stage, at);
-  bringToStep(result.final, stage, at);
-  result.ladder.back() = step(result.ladder.back().what, result.final);
-}
-
-GapReport::Step SearchRun::step(const std::string& what, const Scored& scored) const {
-  GapReport::Step step{what, std::sqrt(scored.mean()), 0};
-  double n = 0, square = 0;
-  for (const double block : scored.blocks)
-    if (block >= 0) {
-      ++n;
-      square += (block - scored.mean()) * (block - scored.mean());
-    }
-  if (n > 1 && step.error > 0) step.standardError = std::sqrt(square / (n - 1) / n) / (2 * step.error);
-  return step;
-}
-
-void SearchRun::remember(std::vector<Attempt>& attempts, const Attempt& attempt) const {
-  for (Attempt& known : attempts)
-    if (known.candidate.text() == attempt.candidate.text()) {
-      // The first time that it came as far as ever: what is promised beside others later says less of it.
-      const auto reached = [](const Attempt& a) { return a.accepted ? 3 : a.scored ? 2 : a.fitted ? 1 : 0; };
-      if (!attempt.accepted && reached(attempt) <= reached(known)) return;
-      const int rank = known.rank;
-      const double share = known.share;
-      known = attempt;
-      known.rank = rank;
-      known.share = share;
-      return;
-    }
-  attempts.push_back(attempt);
-}
-
-/// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it may
-/// have bent them to take up what is missing.
-std::vector<Fit> SearchRun::basesOf(const SearchResult& result, bool first) const {
-  std::vector<Fit> bases{result.final.fit};
-  if (!first || excessOf(result.final) < 1) return bases;
-  const FitModel& model = result.final.fit.model;
+std::vector<Fit> StructureSearch::basesOf(bool first) const {
+  const SearchThresholds::Calibration& limits = service_.thresholds().calibration;
+  std::vector<Fit> bases{selection_.final.fit};
+  if (!first || excessOf(selection_.final) < limits.muchLeft) return bases;
+  const FitModel& model = selection_.final.fit.model;
   FitModel given = model;
   bool far = false;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     given.values[i] = model.parameters[i].given;
-    far = far || std::abs(model.values[i] - given.values[i]) > 2 * model.parameters[i].scale;
+    far = far || std::abs(model.values[i] - given.values[i]) > limits.farFromGiven * model.parameters[i].scale;
   }
-  if (far) bases.push_back({given, result.given.fit.shifts, 0});
+  if (far) bases.push_back({given, calibration_.given.fit.shifts, 0});
   return bases;
 }
 
-SearchResult SearchRun::run() {
-  SearchResult result;
-  if (options_.progress && !options_.progress("replaying as given", 0)) throw Cancelled{};
-  result.given = scoreAsIs(problem_, {givenModel(problem_), {}, 0});
-  result.ladder.push_back(step("as given", result.given));
-  const double givenStep_s = problem_.scene.step_s;
-  result.calibrated = calibrate();
-  if (problem_.scene.step_s < givenStep_s)
-    result.given = scoreAsIs(problem_, {givenModel(problem_), result.given.fit.shifts, 0});
-  // Where the fit began a trial may suit the numbers as given, too: what they are worth must not hang on where the
-  // search for the initial states began.
-  Scored again = scoreAsIs(problem_, {givenModel(problem_), result.calibrated.fit.shifts, 0});
-  if (again.fit.cost < result.given.fit.cost) result.given = std::move(again);
-  result.ladder.back() = step("as given", result.given);
-  const std::vector<double> inside = blockScores(
-      problem_, residualsOf(problem_, result.calibrated.fit.model, result.calibrated.fit.shifts), Fold::all);
-  double fitted = 0, blocks = 0;
-  for (const double block : inside)
-    if (block >= 0) {
-      fitted += block;
-      ++blocks;
-    }
-  if (problem_.window_s == 0 && blocks > 0 && result.calibrated.mean() > 1.5 * fitted / blocks &&
-      result.calibrated.mean() > 1.3) {
-    result.unstable = true;
-    return result;
-  }
-  // Never worse than what was given.
-  if (result.calibrated.mean() >= result.given.mean()) result.calibrated = result.given;
-  result.ladder.push_back(step("calibrated", result.calibrated));
-  search_s_ = problem_.scene.step_s;
-  result.calibratedLinear = linearise(problem_, result.calibrated.fit);
-  result.calibratedUncertainty = uncertaintyOf(problem_, result.calibrated.fit, result.calibratedLinear);
-  result.final = result.calibrated;
-  holdUntold(result);
+Round StructureSearch::ask(int stage) {
+  const double from = 0.1 + 0.7 * stage / most();
+  return candidates_.ask({.without = selection_.final,
+                          .models = basesOf(stage == 0),
+                          .known = stage == 0 ? &calibration_.linear : nullptr,
+                          .toFit = service_.thresholds().screening.fitted,
+                          .stage = stage == 0 ? "" : ", effect " + std::to_string(stage + 1),
+                          .from = from,
+                          .to = from + 0.7 / most(),
+                          .lastChance = true});
+}
 
+std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>& tried) const {
+  std::optional<std::size_t> winner;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    if (!tried[k].passes) continue;
+    if (!winner)
+      winner = k;
+    else
+      tried[k].attempt.reason = tried[*winner].attempt.candidate.text() + " does better";
+  }
+  if (winner) tried[*winner].attempt.accepted = true;
+  return winner;
+}
+
+void StructureSearch::addEffects() {
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
   bool recalibrated = false;
-  std::optional<Choice> choice;  // of the last effect, where it was accepted alone
-  for (int stage = 0; stage < options_.maximumEffects; ++stage) {
+  std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
+  for (int stage = 0; stage < most(); ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
-    if (result.final.mean() < nothingLeft + stepErrorOf(stepChange(result.final.fit))) break;
-    const double from = 0.1 + 0.7 * stage / options_.maximumEffects, to = from + 0.7 / options_.maximumEffects;
-    auto tried =
-        tryCandidates(result.final, basesOf(result, stage == 0), stage == 0 ? &result.calibratedLinear : nullptr,
-                      candidatesToFit, stage == 0 ? "" : ", effect " + std::to_string(stage + 1), from, to, true);
-    if (stage == 0) firstStage_ = tried;
-    std::size_t winner = tried.size();
-    for (std::size_t k = 0; k < tried.size(); ++k) {
-      if (!tried[k].passes) continue;
-      if (winner == tried.size())
-        winner = k;
-      else
-        tried[k].attempt.reason = tried[winner].attempt.candidate.text() + " does better";
-    }
-    if (winner < tried.size()) tried[winner].attempt.accepted = true;
-    for (const Tried& each : tried) remember(result.attempts, each.attempt);
-    if (winner < tried.size()) {
-      choice = Choice{result.final, tried[winner].attempt.candidate.text(), tried};
-      choice->others.erase(choice->others.begin() + static_cast<std::ptrdiff_t>(winner));
-      result.final = converged(tried[winner].scored, "confirming", to);
-      if (stage == 0 && !recalibrated && calibrateFrom(result)) {
+    if (selection_.final.mean() < limits.nothingLeft + stepErrorOf(service_.stepChange(selection_.final.fit))) break;
+    Round round = ask(stage);
+    std::vector<TriedCandidate>& tried = round.tried;
+    selection_.final = round.without;
+    if (stage == 0) firstRound_ = tried;
+    const std::optional<std::size_t> winner = winnerOf(tried);
+    for (const TriedCandidate& each : tried) selection_.remember(each.attempt);
+    if (winner) {
+      const std::string name = tried[*winner].attempt.candidate.text();
+      choice = Choice{selection_.final, name, tried};
+      choice->others.erase(choice->others.begin() + static_cast<std::ptrdiff_t>(*winner));
+      const Scored with =
+          confirmer_.converged(tried[*winner].scored, "confirming", 0.1 + 0.7 * stage / most() + 0.7 / most());
+      const auto anew = stage == 0 && !recalibrated ? calibrator_.recalibrate(calibration_, with) : std::nullopt;
+      if (anew) {
+        for (Attempt& attempt : selection_.attempts)
+          if (attempt.accepted) {
+            attempt.accepted = false;
+            attempt.reason = "useless once the calibrated numbers were fitted from where it left them";
+          }
+        beginFrom(*anew);
         recalibrated = true;
         choice.reset();
         --stage;
         continue;
       }
-      result.ladder.push_back(step("+ " + tried[winner].attempt.candidate.text(), result.final));
-    } else if (Scored pair; static_cast<int>(result.final.fit.model.effects.size()) + 2 <= options_.maximumEffects &&
-                            excessOf(result.final) > unexplainedExcess && promisesAPair(tried) &&
-                            tryPair(result.final, tried, pair)) {
-      acceptPair(result, pair, "+ ");
+      selection_.take(with, "+ " + name);
+      continue;
+    }
+    const bool mayBeTwo =
+        hasRoomFor(2) && excessOf(selection_.final) > limits.lastChanceExcess && pairs_.promisesAPair(tried);
+    if (const auto pair = mayBeTwo ? pairs_.find(selection_.final, tried) : std::nullopt) {
+      PairSearch::accept(selection_, *pair, "+ ");
       choice.reset();
       ++stage;
-    } else if (choice && static_cast<int>(result.final.fit.model.effects.size()) < options_.maximumEffects &&
-               chooseTwoOthers(result, *choice)) {
+    } else if (choice && hasRoomFor(1) && pairs_.replaceOne(selection_, *choice)) {
       choice.reset();
     } else {
       break;
     }
   }
-  prune(result);
-  takeApart(result);
-  prune(result);
-  if (!result.final.fit.model.effects.empty()) settle(result, true, "fitting once more", 0.86);
-  findRivals(result);
-  result.step_s = problem_.scene.step_s;
-  measure(result);
-  if (leaveUntold(result)) measure(result);
-  measureRivals(result);
-  result.refused = refused_->notes();
+}
+
+void StructureSearch::measureRivals(std::vector<Found>& effects) const {
+  for (Found& found : effects)
+    for (const Fit& rival : found.rivalFits) {
+      found.rivalUncertainties.push_back(
+          uncertaintyOf(service_.problem(), rival, linearise(service_.problem(), rival)));
+      service_.tell("what rivals would make of the numbers", 0.95);
+    }
+}
+
+SearchResult StructureSearch::run() {
+  const Calibration calibration = calibrator_.calibrate();
+  if (calibration.unstable) {
+    SearchResult result;
+    result.given = calibration.given;
+    result.calibrated = calibration.calibrated;
+    result.ladder = {rungOf("as given", calibration.given)};
+    result.unstable = true;
+    return result;
+  }
+  beginFrom(calibration);
+  addEffects();
+  dropUseless(service_, selection_);
+  takeApart(service_, selection_, calibration_.calibrated);
+  dropUseless(service_, selection_);
+  if (!selection_.final.fit.model.effects.empty()) confirmer_.settle(selection_, true, "fitting once more", 0.86);
+  RivalSearch rivals =
+      RivalFinder(service_, confirmer_, candidates_, calibration_.calibrated, firstRound_).find(std::move(selection_));
+  selection_ = std::move(rivals.selection);
+
+  Measurement measured = measure(service_, selection_.final.fit);
+  if (const auto back = backAsGiven(service_, selection_.final, measured)) {
+    if (selection_.final.fit.model.effects.empty())
+      calibration_.calibrated = back->of(calibration_.calibrated.fit.model);
+    selection_.takeInstead(back->of(selection_.final.fit.model));
+    measured = measure(service_, selection_.final.fit);
+  }
+  measureRivals(rivals.effects);
+
+  SearchResult result;
+  result.given = std::move(calibration_.given);
+  result.calibrated = std::move(calibration_.calibrated);
+  result.calibratedLinear = std::move(calibration_.linear);
+  result.calibratedUncertainty = std::move(calibration_.uncertainty);
+  result.final = std::move(selection_.final);
+  result.attempts = std::move(selection_.attempts);
+  result.ladder = std::move(selection_.ladder);
+  result.effects = std::move(rivals.effects);
+  result.stepChange = std::move(measured.stepChange);
+  result.finalLinear = std::move(measured.linear);
+  result.finalUncertainty = std::move(measured.uncertainty);
+  result.step_s = service_.step_s();
+  result.refused = service_.refused();
   return result;
 }
 
-void SearchRun::measure(SearchResult& result) const {
-  result.stepChange = stepChange(result.final.fit);
-  result.finalLinear = linearise(problem_, result.final.fit);
-  result.finalUncertainty = uncertaintyOf(problem_, result.final.fit, result.finalLinear);
-  result.finalUncertainty.unsettled = unsettled(problem_, result.final.fit, result.finalLinear, result.stepChange);
-}
+}  // namespace
 
-void SearchRun::measureRivals(SearchResult& result) const {
-  for (Found& found : result.effects)
-    for (const Fit& rival : found.rivalFits) {
-      found.rivalUncertainties.push_back(uncertaintyOf(problem_, rival, linearise(problem_, rival)));
-      if (options_.progress && !tell("what rivals would make of the numbers", 0.95)) throw Cancelled{};
-    }
+double stepErrorOf(const Eigen::VectorXd& stepChange) {
+  return stepChange.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, stepChange.size()));
 }
 
 double excessOf(const Scored& scored) { return std::max(0.0, scored.mean() - 1); }
 
 SearchResult searchEffects(const FitProblem& problem, const SearchOptions& options) {
-  return SearchRun(problem, options).run();
+  return StructureSearch(problem, options).run();
 }
 
 }  // namespace btr

@@ -12,6 +12,7 @@
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/candidates.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -21,6 +22,7 @@ struct SearchOptions {
   std::vector<std::string> names;  ///< effects to consider; empty: all
   std::uint64_t seed = 1;
   AnalysisProgress progress;
+  SearchThresholds thresholds{};
 };
 
 /// A candidate that was looked at, and what became of it.

@@ -13,13 +13,10 @@
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/replay/residual.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 namespace {
-
-constexpr double leastPeriods = 3, bandwidth = 0.25;
-constexpr double timesAnother = 25, shareOfError = 0.5, leastFloors = 3;
-constexpr std::size_t leastSamples = 30;
 
 /// Power by frequency: bin k is k/(count·period), and all bins but the first add up to the variance about the line.
 std::vector<double> spectrum(std::vector<double> values) {
@@ -48,7 +45,7 @@ std::vector<double> spectrum(std::vector<double> values) {
   return power;
 }
 
-double within(std::span<const double> power, std::size_t peak) {
+double within(std::span<const double> power, std::size_t peak, double bandwidth) {
   // Hann's window spreads a line over its neighbours.
   const auto half = std::max<std::size_t>(1, static_cast<std::size_t>(bandwidth * static_cast<double>(peak)));
   double sum = 0;
@@ -62,23 +59,26 @@ struct Peak {
 
 /// Of an even grid's samples.
 std::optional<Peak> ownPeak(const std::vector<double>& recorded, const std::vector<double>& simulated,
-                            const std::vector<double>& command, double period_s, double noiseFloor) {
+                            const std::vector<double>& command, double period_s, double noiseFloor,
+                            const SearchThresholds::SelfExcitation& limits) {
   std::vector<double> error(recorded);
   for (std::size_t i = 0; i < error.size(); ++i) error[i] -= simulated[i];
   const std::vector<double> mine = spectrum(recorded), its = spectrum(simulated), asked = spectrum(command),
                             wrong = spectrum(error);
-  const auto first = static_cast<std::ptrdiff_t>(leastPeriods);
+  const auto first = static_cast<std::ptrdiff_t>(limits.leastPeriods);
   const auto peak = static_cast<std::size_t>(std::max_element(wrong.begin() + first, wrong.end()) - wrong.begin());
-  const double power = within(mine, peak);
+  const auto near = [&](const std::vector<double>& spectrum) { return within(spectrum, peak, limits.bandwidth); };
+  const double power = near(mine);
   double allWrong = 0;
   for (const double each : wrong) allWrong += each;
-  if (noiseFloor <= 0 || power < std::pow(leastFloors * noiseFloor, 2) || power < timesAnother * within(its, peak) ||
-      power < timesAnother * within(asked, peak) || within(wrong, peak) < shareOfError * allWrong)
+  if (noiseFloor <= 0 || power < std::pow(limits.leastFloors * noiseFloor, 2) ||
+      power < limits.timesAnother * near(its) || power < limits.timesAnother * near(asked) ||
+      near(wrong) < limits.shareOfError * allWrong)
     return std::nullopt;
   return Peak{static_cast<double>(peak) / (static_cast<double>(recorded.size()) * period_s), power};
 }
 
-/// Column of the position that a joint's servo is told to take; 0 where it is told none.
+/// Column of the position that a joint's servo is commanded to; 0 where it has no command.
 std::size_t commandOf(const FitTrial& trial, const Binding::Measured& measured) {
   if (measured.what != Binding::Measured::What::position) return 0;
   const auto unit = [&](std::size_t column) { return unitOfChannel(trial.recording.channels[column]); };
@@ -91,17 +91,17 @@ std::size_t commandOf(const FitTrial& trial, const Binding::Measured& measured) 
 
 }  // namespace
 
-std::optional<SelfExcitedSwing> selfExcitedSwing(const FitProblem& problem,
-                                                 const std::vector<GapReport::Trial>& trials) {
+std::optional<SelfExcitedSwing> selfExcitedSwing(const FitProblem& problem, const std::vector<GapReport::Trial>& trials,
+                                                 const SearchThresholds::SelfExcitation& thresholds) {
   std::optional<SelfExcitedSwing> found;
   double strongest = 0;
   for (std::size_t t = 0; t < std::min(trials.size(), problem.trials.size()); ++t) {
     const FitTrial& trial = problem.trials[t];
     const std::vector<double>& time = trial.recording.columns[0];
     const double period = trial.recording.samplePeriod();
-    if (time.size() < 3 * leastSamples || !(period > 0)) continue;
+    if (time.size() < 3 * thresholds.leastSamples || !(period > 0)) continue;
     const auto count = static_cast<std::size_t>((time.back() - time.front()) / 3 / period);
-    if (count < leastSamples) continue;
+    if (count < thresholds.leastSamples) continue;
     for (const Binding::Measured& measured : trial.binding.measured) {
       const std::size_t command = commandOf(trial, measured);
       const auto series =
@@ -111,7 +111,7 @@ std::optional<SelfExcitedSwing> selfExcitedSwing(const FitProblem& problem,
         const double start = time.front() + third * static_cast<double>(count) * period;
         const auto grid = [&](const std::vector<double>& values) { return onGrid(time, values, start, period, count); };
         const auto peak = ownPeak(grid(series->recorded), grid(series->withEffects),
-                                  grid(trial.recording.columns[command]), period, series->noiseFloor);
+                                  grid(trial.recording.columns[command]), period, series->noiseFloor, thresholds);
         const double floors = peak ? std::sqrt(peak->power) / series->noiseFloor : 0;
         if (floors <= strongest) continue;
         strongest = floors;

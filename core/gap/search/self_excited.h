@@ -5,6 +5,7 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 
@@ -21,7 +22,7 @@ struct SelfExcitedSwing {
 /// the third, the recording holds 25 times what the command and what the final simulator hold, more than half of the
 /// error of the third, and more than three noise floors (r.m.s.).
 /// `trials`: of the same problem, with recorded and final series.
-std::optional<SelfExcitedSwing> selfExcitedSwing(const FitProblem& problem,
-                                                 const std::vector<GapReport::Trial>& trials);
+std::optional<SelfExcitedSwing> selfExcitedSwing(const FitProblem& problem, const std::vector<GapReport::Trial>& trials,
+                                                 const SearchThresholds::SelfExcitation& thresholds = {});
 
 }  // namespace btr

@@ -11,24 +11,13 @@
 #include "core/gap/search/next_recording.h"
 #include "core/gap/search/report_words.h"
 #include "core/gap/search/self_excited.h"
+#include "core/gap/search/thresholds.h"
 #include "core/spec/figures.h"
 
 namespace btr {
 namespace {
 
 using Verdict = GapReport::Verdict;
-
-// Mean squared errors in noise floors²: what is at the noise, and what is too much to stay without a name.
-constexpr double atNoise = 1.3, stillNoise = 1.15, unexplained = 1.5, unexplainedShare = 0.2;
-// Where what is left stands well above the noise, a small share of what was there is too much already.
-constexpr double clearlyLeft = 4, clearlyLeftShare = 0.04;
-// And five noise floors are too much whatever their share: beside a large error, that of a wrong name is a small one.
-constexpr double muchLeft = 25;
-// Of what is left, a share that a learned curve takes (and a paired test sees): noise has no shape. In 763 cases of two
-// blind trials (seeds 20261165 and 20261168) named effects left such a curve five times. It took 46 to 100 %; four of
-// the names were wrong (two for effects outside the library), and in one the truth stood among their rivals.
-constexpr double shapeLeft = 0.4;
-constexpr double leastMotion = 10;  // noise floors that something must move
 
 /// Largest movement of any compared channel about its mean, in noise floors.
 double motionOf(const FitProblem& problem) {
@@ -115,7 +104,9 @@ std::string inFloors(double meanSquare) { return digits(std::sqrt(meanSquare)) +
 /// 13 (1942) 1: the first serial correlation of white noise scatters by 1/√n).
 struct RestColour {
   double correlation = 0, pairs = 0;
-  bool stands() const { return correlation > 0.1 && correlation * std::sqrt(pairs) > 4; }
+  bool stands(const SearchThresholds::Verdict& limits) const {
+    return correlation > limits.colour && correlation * std::sqrt(pairs) > limits.colourErrors;
+  }
 };
 
 RestColour colourOf(const FitProblem& problem, const Eigen::VectorXd& residuals) {
@@ -140,8 +131,8 @@ RestColour colourOf(const FitProblem& problem, const Eigen::VectorXd& residuals)
 }
 
 /// A servo that hunts: what it does grows out of nothing that was recorded, so that fits find no way to its cause.
-std::string swingText(const FitProblem& problem, const GapReport& report) {
-  const auto swing = selfExcitedSwing(problem, report.trials);
+std::string swingText(const FitProblem& problem, const GapReport& report, const SearchThresholds& thresholds) {
+  const auto swing = selfExcitedSwing(problem, report.trials, thresholds.selfExcitation);
   if (!swing) return "";
   const std::string unit = unitOfChannel(swing->channel);
   return "In " + swing->trial + ", from " + digits(swing->from_s, 2) + " to " + digits(swing->to_s, 2) + " s, " +
@@ -160,7 +151,7 @@ struct Findings {
   bool moves = false;             ///< something, by more than a few noise floors
   bool calibrationHelps = false;  ///< a paired test says so
   bool named = false;             ///< effects were accepted
-  bool told = false;              ///< a number is told, or an effect would be felt at a typical size
+  bool identifiable = false;      ///< a number is, or the recordings are sensitive to an effect at a typical size
   bool tried = false;             ///< effects were looked at
   RestColour colour;
 
@@ -168,34 +159,37 @@ struct Findings {
   double leftBeyondStep() const { return std::max(0.0, beyondStep() - 1); }
 };
 
-Findings findingsOf(const GapReport& report, const FitProblem& problem, const SearchResult& found) {
+Findings findingsOf(const GapReport& report, const FitProblem& problem, const SearchResult& found,
+                    const SearchThresholds::Verdict& limits) {
   Findings e;
   e.given = found.given.mean();
   e.calibrated = found.calibrated.mean();
   e.final = found.final.mean();
   e.step = stepErrorOf(found.stepChange);
   e.excess = std::max(0.0, e.calibrated - 1);
-  e.moves = motionOf(problem) >= leastMotion;
-  e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > 2.5 &&
-                       e.given - e.calibrated > std::max(0.02 * e.given, 0.02);
+  e.moves = motionOf(problem) >= limits.leastMotion;
+  e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > limits.calibrationT &&
+                       e.given - e.calibrated > std::max(limits.calibrationGain * e.given, limits.calibrationGain);
   e.named = !found.effects.empty();
-  e.told = e.named ||
-           std::any_of(report.calibrated.begin(), report.calibrated.end(),
-                       [](const auto& number) { return number.excited; }) ||
-           std::any_of(found.attempts.begin(), found.attempts.end(), [](const Attempt& a) { return a.excited; });
+  e.identifiable =
+      e.named ||
+      std::any_of(report.calibrated.begin(), report.calibrated.end(),
+                  [](const auto& number) { return number.excited; }) ||
+      std::any_of(found.attempts.begin(), found.attempts.end(), [](const Attempt& a) { return a.excited; });
   e.tried = !found.attempts.empty();
   e.colour = colourOf(problem, found.final.heldOut);
   return e;
 }
 
-/// Standing still although the simulator moves, or numbers that fit better, tell a lot; so does a number that is told.
-bool tellsNothing(const Findings& e) {
-  return e.calibrated <= unexplained && !e.calibrationHelps && !e.told && (!e.moves || e.tried);
+/// Standing still although the simulator moves, or numbers that fit better, tell a lot; so does a number that is
+/// identifiable.
+bool tellsNothing(const Findings& e, const SearchThresholds::Verdict& limits) {
+  return e.calibrated <= limits.unexplained && !e.calibrationHelps && !e.identifiable && (!e.moves || e.tried);
 }
 
-std::string tellsNothingText(const Findings& e) {
+std::string tellsNothingText(const Findings& e, const SearchThresholds::Verdict& limits) {
   return (e.moves ? "These recordings feel none of the calibrated numbers, and no effect at a typical size"
-                  : "Nothing in these recordings moves by more than " + toText(leastMotion) + noiseFloors) +
+                  : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
          ": they cannot tell the simulator from reality. Record larger and faster motions, with reversals.";
 }
 
@@ -210,8 +204,8 @@ std::string explainedText(const GapReport& report) {
 }
 
 /// A large rest weighs more than the share that a name explains, however large that is.
-std::string caveatText(const GapReport& report, const Findings& e) {
-  if (e.beyondStep() <= clearlyLeft) return "";
+std::string caveatText(const GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
+  if (e.beyondStep() <= limits.clearlyLeft) return "";
   return "The named effects explain " + explainedText(report) + " of the squared error beyond the noise, yet " +
          inFloors(e.final) + " are left: the name may be a stand-in for something else. ";
 }
@@ -222,8 +216,8 @@ std::string colourText(const Findings& e) {
 
 /// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
 /// recordings cannot: a number or an effect that fits, and misleads.
-std::string unseenText(const GapReport& report, bool named) {
-  constexpr double worse = 1.05;
+std::string unseenText(const GapReport& report, bool named, const SearchThresholds::Verdict& limits) {
+  const double worse = limits.unseenWorse;
   const auto unseen = unseenError(report);
   if (!unseen) return "";  // none was held out
   std::string text = "Recordings that no fit saw are left by " + inFloors(unseen->asGiven * unseen->asGiven) +
@@ -239,7 +233,7 @@ std::string unseenText(const GapReport& report, bool named) {
   return text;
 }
 
-void judgeNamed(GapReport& report, const Findings& e) {
+void judgeNamed(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::missingPhysics;
   std::string list, rivals;
   for (const GapReport::Effect& effect : report.tried) {
@@ -247,16 +241,16 @@ void judgeNamed(GapReport& report, const Findings& e) {
     list += (list.empty() ? "" : "; ") + effectText(effect);
     rivals += rivalsText(effect);
   }
-  report.sentence = caveatText(report, e) + whereText(report) + "What was left out: " + list + ". " + errorText(e) +
-                    rivals + movedByRivalsText(report);
+  report.sentence = caveatText(report, e, limits) + whereText(report) + "What was left out: " + list + ". " +
+                    errorText(e) + rivals + movedByRivalsText(report);
 }
 
-void judgeUnexplained(GapReport& report, const Findings& e) {
+void judgeUnexplained(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::unexplained;
   std::string partly;
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
-  if (e.named && e.leftBeyondStep() <= unexplainedShare * e.excess)
+  if (e.named && e.leftBeyondStep() <= limits.unexplainedShare * e.excess)
     report.sentence = whereText(report) + errorText(e) + "Most of it, " + explainedText(report) +
                       " of the squared error, is taken up by " + partly + ", but what is left, " + inFloors(e.final) +
                       ", no effect of the library explains: the cause may be another. ";
@@ -272,27 +266,27 @@ void judgeNoMismatch(GapReport& report, const Findings& e) {
                     ": nothing is missing that they could show. ";
 }
 
-void judgeSufficient(GapReport& report, const Findings& e) {
+void judgeSufficient(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::parametersSuffice;
   report.sentence = errorText(e) + "Other numbers for what is calibrated suffice; " +
                     (report.tried.empty() ? "nothing is left for a missing effect to explain. "
                                           : "no missing effect improves the held-out error. ");
-  if (e.final > stillNoise && e.colour.stands())
+  if (e.final > limits.stillNoise && e.colour.stands(limits))
     report.sentence += "What is left is small, but not noise alone: " + colourText(e) +
                        ". Something small may be missing, or the sensor's noise is not white. ";
 }
 
 /// Neither other numbers nor an effect are shown to help, and what is left is not much, or the integration hides it.
-void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks) {
-  if (e.final > unexplained) {
+void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks, const SearchThresholds::Verdict& limits) {
+  if (e.final > limits.unexplained) {
     report.verdict = Verdict::unexplained;
     report.sentence = errorText(e) + "What is left may be the integration's own error, " + inFloors(e.step) +
                       " at this step, or hide behind it: a smaller step_s would tell. ";
-  } else if (e.given > unexplained) {
+  } else if (e.given > limits.unexplained) {
     report.verdict = Verdict::notExcited;
     report.sentence = errorText(e) + "That other numbers help is not certain over " + std::to_string(blocks) +
                       " blocks of recordings: they cannot tell. Record more. ";
-  } else if (e.colour.stands()) {
+  } else if (e.colour.stands(limits)) {
     report.verdict = Verdict::unexplained;
     report.sentence = errorText(e) + "What is left is small, but not noise alone: " + colourText(e) +
                       ". Neither other numbers nor an effect of the library take it away; a sensor whose noise is not "
@@ -305,52 +299,55 @@ void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks) {
 
 }  // namespace
 
-void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter) {
-  const Findings e = findingsOf(report, problem, found);
+void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter,
+           const SearchThresholds& thresholds) {
+  const SearchThresholds::Verdict& limits = thresholds.verdict;
+  const Findings e = findingsOf(report, problem, found, limits);
   report.remainder.explainedShare = e.excess > 0 ? std::clamp(1 - std::max(0.0, e.final - 1) / e.excess, 0.0, 1.0) : 1;
-  if (tellsNothing(e)) {
+  if (tellsNothing(e, limits)) {
     report.verdict = Verdict::notExcited;
-    report.sentence = tellsNothingText(e);
+    report.sentence = tellsNothingText(e, limits);
     return;
   }
   const bool tooMuchLeft =
-      e.named ? e.beyondStep() > stillNoise &&
-                    (curveIsBetter || (!report.remainder.on.empty() && report.remainder.shareOfRest > shapeLeft) ||
-                     e.leftBeyondStep() > unexplainedShare * e.excess ||
-                     (e.beyondStep() > clearlyLeft && e.leftBeyondStep() > clearlyLeftShare * e.excess) ||
-                     e.beyondStep() > muchLeft)
-              : e.beyondStep() > unexplained;
+      e.named
+          ? e.beyondStep() > limits.stillNoise &&
+                (curveIsBetter || (!report.remainder.on.empty() && report.remainder.shareOfRest > limits.shapeLeft) ||
+                 e.leftBeyondStep() > limits.unexplainedShare * e.excess ||
+                 (e.beyondStep() > limits.clearlyLeft && e.leftBeyondStep() > limits.clearlyLeftShare * e.excess) ||
+                 e.beyondStep() > limits.muchLeft)
+          : e.beyondStep() > limits.unexplained;
   if (e.named && !tooMuchLeft)
-    judgeNamed(report, e);
+    judgeNamed(report, e, limits);
   else if (tooMuchLeft)
-    judgeUnexplained(report, e);
-  else if (!e.calibrationHelps && e.given <= atNoise)
+    judgeUnexplained(report, e, limits);
+  else if (!e.calibrationHelps && e.given <= limits.atNoise)
     judgeNoMismatch(report, e);
-  else if (e.calibrationHelps && e.final <= unexplained)
-    judgeSufficient(report, e);
+  else if (e.calibrationHelps && e.final <= limits.unexplained)
+    judgeSufficient(report, e, limits);
   else
-    judgeTheRest(report, e, found.given.blocks.size());
+    judgeTheRest(report, e, found.given.blocks.size(), limits);
   if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
-    report.sentence += "Nothing in the recordings moves by more than " + toText(leastMotion) + noiseFloors +
+    report.sentence += "Nothing in the recordings moves by more than " + toText(limits.leastMotion) + noiseFloors +
                        ": they can show little. ";
-  if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named);
-  if (report.verdict == Verdict::unexplained || e.beyondStep() > clearlyLeft)
-    report.sentence += swingText(problem, report);
+  if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named, limits);
+  if (report.verdict == Verdict::unexplained || e.beyondStep() > limits.clearlyLeft)
+    report.sentence += swingText(problem, report, thresholds);
   if (!report.remainder.on.empty())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +
                        " would take " + wholePercent(report.remainder.shareOfRest) +
                        " of the rest; its curve is in the report. ";
-  std::string untold;
-  const auto tellNot = [&](const std::string& what) { untold += (untold.empty() ? "" : ", ") + what; };
+  std::string unidentifiable;
+  const auto add = [&](const std::string& what) { unidentifiable += (unidentifiable.empty() ? "" : ", ") + what; };
   for (const GapReport::Number& number : report.calibrated)
-    if (!number.excited) tellNot(number.name);
+    if (!number.excited) add(number.name);
   for (const GapReport::Effect& effect : report.tried)
-    if (effect.accepted && !tellsSize(effect))
-      tellNot("how large " + inWords(effect.effect) + " at " + effect.at + " is");
-  if (!untold.empty()) report.sentence += "These recordings do not tell " + untold + ". ";
+    if (effect.accepted && !tellsSize(effect)) add("how large " + inWords(effect.effect) + " at " + effect.at + " is");
+  if (!unidentifiable.empty()) report.sentence += "These recordings do not tell " + unidentifiable + ". ";
   if (!report.next.why.empty())
     report.sentence +=
-        (report.next.separation >= leastSeparation ? "The suggested next recording " : "Another recording ") +
+        (report.next.separation >= thresholds.nextRecording.leastSeparation ? "The suggested next recording "
+                                                                            : "Another recording ") +
         report.next.why + ". ";
   while (!report.sentence.empty() && report.sentence.back() == ' ') report.sentence.pop_back();
 }

@@ -1,0 +1,23 @@
+#include "core/gap/search/model_comparison.h"
+
+namespace btr {
+
+bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits) {
+  const PairedTest comparison = compare(without.blocks, with.blocks);
+  return comparison.t >= limits.missedT && comparison.gain >= limits.leastGain;
+}
+
+bool isWorse(const PairedTest& lost, const SearchThresholds::Rivals& limits) {
+  return lost.t >= limits.worseT && lost.gain > limits.worseGain;
+}
+
+bool isRefuted(const Scored& other, const Scored& by, const SearchThresholds::Rivals& limits) {
+  const PairedTest lost = compare(other.blocks, by.blocks);
+  return isWorse(lost, limits) && !(other.mean() <= 1 && lost.gain < limits.gainOfNoise);
+}
+
+bool isDistinguished(const Scored& other, const Scored& final, const SearchThresholds::Rivals& limits) {
+  return isRefuted(other, final, limits) && other.fit.cost > limits.fitsWorse * final.fit.cost;
+}
+
+}  // namespace btr

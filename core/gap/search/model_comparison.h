@@ -1,0 +1,21 @@
+#pragma once
+#include "core/gap/fit/score.h"
+#include "core/gap/search/thresholds.h"
+
+namespace btr {
+
+// Models compared by what both leave of blocks that they were not fitted to.
+
+/// Whether a model without something predicts worse than the one with it.
+bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits);
+
+/// Another model is no rival, by its comparison (without) with the final one (with).
+bool isWorse(const PairedTest& lost, const SearchThresholds::Rivals& limits);
+/// The same where the other may explain all but the noise already: what takes a few percent of the noise itself
+/// (sensors of counts are no dice) does not refute it.
+bool isRefuted(const Scored& other, const Scored& by, const SearchThresholds::Rivals& limits);
+/// Predicts worse and fits worse. What fits as well and predicts worse only pays for a number more: recordings that it
+/// explains as well do not distinguish it from the final model.
+bool isDistinguished(const Scored& other, const Scored& final, const SearchThresholds::Rivals& limits);
+
+}  // namespace btr

@@ -1,0 +1,79 @@
+#include "core/gap/search/model_reduction.h"
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/search/model_comparison.h"
+
+namespace btr {
+
+void dropUseless(FitService& service, Selection& selection) {
+  for (bool changed = true; changed && selection.final.fit.model.effects.size() > 1;) {
+    changed = false;
+    std::vector<FitJob> jobs;
+    for (std::size_t i = 0; i < selection.final.fit.model.effects.size(); ++i)
+      jobs.push_back({selection.final.fit.model.without(i), selection.final.fit.shifts});
+    auto scored = service.fitAndScore(jobs, selection.final.fit, "dropping each in turn", 0.8, 0.86);
+    for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
+      if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;
+      service.bringToStep(scored[i], "dropping each in turn", 0.86);
+      if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;
+      const std::string dropped = selection.final.fit.model.effects[i].text();
+      conclude(selection.attempts, dropped, false, "useless once the others were there");
+      selection.take(scored[i], "− " + dropped);
+      changed = true;
+    }
+  }
+}
+
+/// The simpler effects of a richer one, side by side, where they have fewer numbers and do as well: friction that was
+/// allowed to differ by direction and does not is dry and viscous friction.
+void takeApart(const FitService& service, Selection& selection, const Scored& calibrated) {
+  const FitProblem& problem = service.problem();
+  for (std::size_t i = 0; i < selection.final.fit.model.effects.size();) {
+    const FitModel& whole = selection.final.fit.model;
+    const PlacedEffect own = whole.effects[i];
+    const std::vector<std::string> names = problem.library.make(own.effect)->contains();
+    FitModel parts = whole.without(i);
+    const std::size_t others = parts.effects.size();
+    std::vector<EffectCandidate> added;
+    for (const std::string& name : names)
+      for (const EffectCandidate& candidate : service.candidatesBeside(parts, {name}))
+        if (candidate.at == own.at && service.isConsidered(name)) {
+          parts = parts.with(problem, candidate.placed({}));
+          added.push_back(candidate);
+        }
+    if (added.size() < 2 || parts.parameters.size() >= whole.parameters.size() ||
+        static_cast<int>(parts.effects.size()) > service.options().maximumEffects) {
+      ++i;
+      continue;
+    }
+    const std::vector<Fit> fits =
+        completed(service.tryFits({{parts, selection.final.fit.shifts}}, service.thresholds().rivals.apartIterations,
+                                  "taking apart", 0.86, 0.86));
+    const auto apart = service.tryScores(fits, "taking apart", 0.86, 0.86);
+    if (apart.empty() || !apart[0] ||
+        isWorse(compare(apart[0]->blocks, selection.final.blocks), service.thresholds().rivals)) {
+      ++i;
+      continue;
+    }
+    const Scored& scored = *apart[0];
+    const std::string ownText = own.text();
+    std::string what = ownText + " →";
+    for (std::size_t k = 0; k < added.size(); ++k) {
+      what += (k ? " and " : " ") + added[k].text();
+      Attempt attempt;
+      attempt.candidate = added[k];
+      attempt.accepted = attempt.fitted = attempt.scored = true;
+      attempt.values =
+          scored.fit.model.simulator(problem).effects[problem.given.effects.size() + others + k].parameters;
+      attempt.comparison = compare(calibrated.blocks, scored.blocks);
+      attempt.reason = "with the others simpler than " + ownText + " and not worse";
+      selection.remember(attempt);
+    }
+    conclude(selection.attempts, ownText, false, "its simpler forms together do as well");
+    selection.take(scored, what);
+    i = 0;
+  }
+}
+
+}  // namespace btr

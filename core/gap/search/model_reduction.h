@@ -1,0 +1,13 @@
+#pragma once
+#include "core/gap/fit/score.h"
+#include "core/gap/search/fit_service.h"
+#include "core/gap/search/selection.h"
+
+namespace btr {
+
+/// Drops effects that became useless beside the others, one at a time.
+void dropUseless(FitService& service, Selection& selection);
+/// Puts the simpler effects of a richer one in its place, side by side, where they have fewer numbers and do as well.
+void takeApart(const FitService& service, Selection& selection, const Scored& calibrated);
+
+}  // namespace btr

@@ -1,0 +1,312 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+namespace btr {
+
+/// All numbers that decide what a gap analysis tries, fits, accepts and says. One set serves all scenes; nothing adapts
+/// them to a recording. Where a number came from stands behind it in brackets:
+/// [prototype] 150 simulated recordings of one joint, analysed by a throw-away program: BIC and F-test alone accepted a
+/// false effect in 6 of 7 healthy cases, these conditions none in 37;
+/// [case] came with a change that mended a kind of case, which the comment names, of blind trials (`btr gap prove`) or
+/// real recordings (resources/results.md);
+/// [statistics] follows from the named distribution; [order] from the integrator's order; [time] bounds the work,
+/// chosen by hand; [hand] chosen by hand, nothing more is known. Errors are mean squared errors in noise floors² (1:
+/// noise alone) unless a comment says otherwise, their excess is what lies above 1; costs are sums over all residuals
+/// (fit.h); gains are shares of the error without the effect.
+struct SearchThresholds {
+  /// The integration step that models are fitted, scored and compared with.
+  struct Step {
+    int iterations = 3;  ///< of what was fitted with another step [time]
+    double harmless =
+        0.3;               ///< noise floors, RMS: a coarser step may change so much where effects are looked for [hand]
+    double ofError = 0.1;  ///< or so much of the error that there is to explain [hand]
+    double muchError = 5;  ///< noise floors, RMS: from here on what is unexplained is much [hand]
+    double ofMuchError = 0.3;         ///< of that a coarser step may change so much [time]
+    double hidden = 0.12;             ///< noise floors, RMS: what half the step may change of what is judged [hand]
+    double hiddenOfError = 0.05;      ///< or so much of its error: a four hundredth of its square [hand]
+    double hiddenOfMuchError = 0.15;  ///< the same where much is unexplained: a fiftieth of its square [time]
+    double mostError =
+        10;  ///< noise floors, RMS: with more left the step is not what matters, if it is the scene's [time]
+    double settled = 0.7;   ///< of the change by half the step, left at the finest: more, and the step stays, as where
+                            ///< feet land another way with each step [hand]
+    double coarser = 1.01;  ///< factor: steps nearer to each other are the same (numeric)
+    double farWorse = 2;    ///< by cost, of the best: no winner at any step, so left at a coarse one [time]
+    int withoutIterations = 12;  ///< of a model that lacks one of its effects [time]
+  };
+
+  /// The numbers of the scene: fitted first, and what stays as given.
+  struct Calibration {
+    int iterations = 15;          ///< from the numbers as given [time]
+    double leastForStarts = 0.6;  ///< cost per residual from which drawn starts are tried; noise alone costs 0.5 [hand]
+    double startSpread = 2;       ///< typical changes to either side that starts are drawn from [hand]
+    int startIterations = 10;     ///< of those [time]
+    int againIterations = 15;     ///< with the initial states of trials that got stuck begun anew [time]
+    int drawnIterations = 15;     ///< of a walk, from the best of drawn replays [time]
+    double sensitive = 0.5;       ///< noise floors, all residuals together: a typical change of a number that changes
+                                  ///< less is held [hand]
+    double unstableRatio = 1.5;   ///< held-out error over that of the fit; more in free runs asks for windows [hand]
+    double unstableError = 1.3;   ///< and held-out error of at least this [hand]
+    double chiSquared95 =
+        3.84;                 ///< χ² of one number, 95 %: what going back to the value as given may cost [statistics]
+    double farFromGiven = 2;  ///< typical changes: a calibration that moved a number farther may have bent it [hand]
+    double muchLeft = 1;      ///< and excess from which effects are looked for from the numbers as given, too [hand]
+    double leastToFitOn = 0.1;  ///< excess at which what was accepted is fitted on [case: curved valleys]
+    int toTheEnd = 30;          ///< iterations of what was accepted and of its rivals [time]
+  };
+
+  /// Where a fit is begun again to leave a side minimum. "Better" is the cost after over the cost before.
+  struct Restarts {
+    int iterations = 15;                             ///< from a better start [time]
+    double better = 0.995;                           ///< by replays, or by a few iterations [hand]
+    std::array<double, 4> sizes{1, 0.5, 0.8, 1.25};  ///< of the last effect, side minima of friction and play [hand]
+    std::array<double, 2> alongSizes{0.9, 1.1};      ///< steps along a rough valley [case: rolling balls in wind]
+    int heldIterations = 8;                          ///< of all else with the effect held [time]
+    int alongRounds = 4;                             ///< steps at most [time]
+    double alongBetter = 0.998;                      ///< for the next step along the valley [hand]
+    double alongInReach = 1.02;                      ///< with the effect held: more is set free no more [hand]
+    std::array<double, 3> farSizes{0.5, 2, 4};       ///< far off, as from a quarter of a play's width [case: play]
+    double farBetter = 0.98;                         ///< [hand]
+    std::array<double, 6> neighbours{-3, -2, -1, 1, 2, 3};     ///< of a whole number [hand]
+    int neighbourIterations = 3, neighbourBestIterations = 8;  ///< of each, of the best two [time]
+    std::size_t neighboursFittedOn = 2;
+    int neighbourRounds = 6;       ///< moves at most [time]
+    int drawRounds = 6;            ///< of drawn replays, each in half the width of the last [hand]
+    std::size_t draws = 24;        ///< a round; a replay costs a tenth of a Jacobian [time]
+    double drawCloser = 0.5;       ///< width of a round over that of the last [hand]
+    double decade = 10;            ///< an effect's number whose bounds are farther apart is drawn by magnitude [hand]
+    int wholeIterations = 15;      ///< over whole trials, after windows [time]
+    double windowSamples = 8;      ///< at least, in a window: to know its beginning [hand]
+    double windowsReplayed_s = 8;  ///< windows from all over the recordings, together [time]
+    double longer = 4;             ///< a window over the one before [hand]
+    double longestWindow_s = 3;    ///< then whole trials [hand]
+    int windowIterations = 8;      ///< in the first windows [time]
+  };
+
+  /// Whole numbers (waves of a ripple in a turn) begun in short windows. [case: hard ripples, commit e4fe6a1]
+  struct WholeNumbers {
+    double leastLeft = 4;    ///< error of a candidate from which they are looked for again [case]
+    double widest = 1.3;     ///< from the fit's own number by this factor down and up [hand]
+    double most = 24;        ///< different numbers [time]
+    int phases = 16;         ///< of numbers without a neutral value, over their range [hand]
+    double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
+    std::size_t fitted = 3;  ///< numbers that are fitted [time]
+  };
+
+  /// An effect's own numbers drawn all over their ranges in short windows. [case: large play was called friction]
+  struct DrawnEffects {
+    double leastLeft = 1.3;  ///< error that the best candidate leaves, from which it is done [hand]
+    double window_s = 0.4;   ///< rough over whole trials, one hollow over all widths of play in these [case]
+    double inReach = 1.5;    ///< by squared error in windows, of the best [time]
+    double mostLeft = 4;     ///< error of what may be the cause; of other laws a better fit says nothing [case]
+    double hopeless = 4;     ///< times mostLeft in short windows: whole trials leave more [time]
+  };
+
+  /// Which effects are tried at all, where and in which sizes (candidates.h).
+  struct Candidates {
+    double wholeNumbersWider = 1.25;    ///< from one whole number that is tried to the next [hand]
+    std::size_t wholeNumbersMost = 26;  ///< that are tried [time]
+    double wideRange = 20;              ///< maximum over minimum: tried at the default and around it by `aroundDefault`
+    double aroundDefault = 4;           ///< factor [hand]
+    double rangeLow = 0.25, rangeHigh = 0.75;  ///< places in a narrow range [hand]
+    double nearNothing = 12;      ///< of lengths to either side, a part of the range [case: bodies of all sizes]
+    double standsStill = 12;      ///< noise floors: six standard deviations to either side [statistics: normal]
+    double typicalOfRange = 0.1;  ///< a size without a default [hand]
+    double smallSize = 0.2;       ///< of a typical size, tried too [hand]
+    std::array<double, 2> largeSizes{4, 16};  ///< the same [case: play and limits are not linear]
+    double leastPeriods = 2;                  ///< that a motion must pass for them to be counted [case]
+  };
+
+  /// Linear screening: what each candidate promises (screen.h), and which are fitted.
+  struct Screening {
+    double sensitivePerResidual = 0.01;  ///< squared change per residual that counts as sensitive, but [hand]
+    double sensitiveMost = 25;           ///< no more is asked of all residuals together: five standard errors [hand]
+    double indistinct = 1e-6;  ///< of a squared change that the fitted numbers leave: they can do as well [numeric]
+    double largestStep = 20;   ///< linear, times the size that was tried [hand]
+    std::array<double, 2> insensitiveSizes{50,
+                                           500};  ///< tried where a usual size changes nothing [case: creep on carpet]
+    std::size_t insensitiveVariants = 2;          ///< in these sizes [time]
+    double worthLooking = 0.005;  ///< promised gain from which a replay looks at what was promised [hand]
+    std::array<double, 4> lookedAt{1.0, 0.1, 0.3, 3.0};  ///< times the promised size; the first as promised [hand]
+    std::size_t many = 60;           ///< candidates: then a third of the segments is looked at first [time]
+    std::size_t promising = 40;      ///< that are screened in full then [time]
+    std::size_t firstVariants = 2;   ///< of each at the first look [time]
+    std::size_t segmentsPart = 3;    ///< one of so many segments, the worst ones [time]
+    std::size_t fitted = 8;          ///< half of them to the end. The truth was among the first ten in 92 of 106 cases,
+                                     ///< first in 61 [prototype]
+    std::size_t fittedInPairs = 4;   ///< beside another [time]
+    std::size_t fittedAsRivals = 6;  ///< in the place of another [time]
+    double leastOfGain = 0.7;        ///< promise, of the least gain that is accepted [hand]
+    double leastOfBest = 0.1;        ///< promise, of the best one's [hand]
+    int iterations = 8;              ///< of the first fits [time]
+    double hopeless = 4;             ///< by cost, of the best after those: no rival [hand]
+    double inReach = 16;  ///< by cost: a wrong number of waves leaves many times what the right one does [case]
+    double lastChanceExcess = 0.3;  ///< before nothing is said to help with more left, others are fitted, too; also
+                                    ///< the least at which pairs are tried [prototype]
+    std::size_t lastChance = 16;    ///< candidates then [time]
+    std::size_t lastChanceConfirmed = 4;  ///< of those [time]
+    double lastChancePromise = 0.01;      ///< least promise of those [hand]
+    double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
+    std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
+    double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]
+    double doubtfulExcess = 1;  ///< left by one effect: two others in its place are tried [case: payload
+                                ///< beside a servo of any strength]
+  };
+
+  /// What counts as an effect. Fewer conditions let false effects in.
+  struct Confirmation {
+    double leastT = 2.5;               ///< paired t over blocks, not fitted to against fitted without it [prototype]
+    double leastGain = 0.01;           ///< of the held-out error [prototype]
+    double leastShareOfExcess = 0.08;  ///< of the excess [prototype]
+    double leastErrors = 6;            ///< its size, standard errors from neutral [prototype]
+    double mostFalse = 0.05;           ///< share of false ones among all accepted, on average: q-value (Benjamini and
+                                       ///< Hochberg 1995) [hand: usual]
+    double largeExcess = 1;       ///< from which standard errors, made rough by bounces and reversals, are not asked
+    double mostOfExcess = 0.5;    ///< of what takes more than this of it [case: real arms]
+    double timesIntegration = 4;  ///< taken, over what half the step changes: half of the error, a quarter of its
+                                  ///< square [order]
+    double largerSize = 1.5;      ///< times as large: friction that holds a joint is known from below only, if this
+    double flat = 1e-3;           ///< changes the cost by less than this of what the effect takes [hand]
+    int iterations = 15;          ///< of the last fits [time]
+    double worthMore = 1.5;       ///< by cost, of the best: restarts are tried; where feet walk, [time]
+    double worthMoreOfWalks = 1;  ///< only of the best itself [time]
+    double leastToLeap = 1.3, mostToLeap = 10;  ///< error: between them far sizes are tried; with more, a better start
+                                                ///< does not help [hand]
+    double leastToFollow = 1.03, mostToFollow = 4;  ///< error: between them valleys are followed; with less nothing is
+                                                    ///< missed, with more it is no valley's bottom [hand]
+    std::size_t decideStep = 2;  ///< candidates, the most promising ones, that may ask for a finer step [time]
+    double missedT = 2;          ///< t from which a model without something predicts worse: it stays. Less is asked
+                                 ///< than to come in, about 2.5 % one-sided [statistics]
+  };
+
+  /// What would explain the recordings as well, and what stands in another's place.
+  struct Rivals {
+    double worseT = 2,
+           worseGain = 0.01;    ///< of a paired comparison: another one is refuted (t as missedT) [statistics]
+    double gainOfNoise = 0.05;  ///< where another leaves no more than noise, less than this does not refute it:
+                                ///< sensors of counts are no dice [case]
+    double fitsWorse = 1.005;   ///< by cost: what fits as well and predicts worse only pays for a number more [trials:
+                                ///< gravity that leans and a sensor's offset are one law]
+    double equals = 1.25;       ///< by error, where a paired test does not tell them apart [case: simpler laws]
+    double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
+    int replaced = 3;                 ///< times at most that one takes another's place [time]
+    int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]
+    int togetherIterations = 15;      ///< of two that say the same together [time]
+    std::size_t handedTo = 6;         ///< candidates that an effect's place is handed over to bit by bit [time]
+    double leastPromise = 0.25;       ///< of the best one's [hand]
+    double valley = 4;                ///< times the final cost on the way: farther is out of the valley [case]
+    double valleyEnd = 2;             ///< and where nothing of the effect is kept [hand]
+    std::array<double, 3> kept{0.7, 0.35, 0};  ///< of the effect's size, step by step [hand]
+    double small = 0.1;                        ///< of a typical size, where the way begins: all is linear there [hand]
+    int wayIterations = 18;                    ///< a step of the way; what arrives is fitted on [time]
+    double wayTolerance = 2e-3;                ///< of its cost [time]
+    double smallestForm = 0.02, largestForm = 50,
+           formRatio = 1.15;                                   ///< of a typical size: simpler forms are tried in all
+                                                               ///< these, as no fit finds them [case: dry friction]
+    std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
+    double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
+  };
+
+  /// Where the error lies that calibration leaves (locate.h): describes, decides nothing.
+  struct Location {
+    double window_s = 0.2, windowSamples = 20;  ///< windows from the recorded state: the longer of both [hand]
+    double sensitive = 1.15;                    ///< error below which the windows are too short to see it [hand]
+    double leastExcess = 0.1;                   ///< a residual: less is located nowhere [hand]
+    double leastOfChannels = 0.05;              ///< share of a channel that is reported [hand]
+    double leastP = 0.02;                       ///< p-value of a regime that stands out [hand: usual]
+    double standsOut = 1.3;                     ///< its share of the excess over that of the time [hand]
+    int turns = 199;          ///< of the same pattern of time, for p-values in steps of 1/200 [statistics]
+    double rate_s = 0.01;     ///< slopes through samples so far to either side [hand]
+    double saturated = 0.98;  ///< of the servo's largest torque [hand]
+    double onFloor = 1.05;    ///< radii of a ball's height [hand]
+    double fast = 0.9, heavy = 0.8, outer = 0.02;  ///< quantiles of speed, load, position (from either end) [hand]
+    double reversal_s = 0.06;                      ///< after a change of direction [hand]
+    double moves = 0.03;                           ///< of the fast speed: a direction [hand]
+    double slowShare = 0.1, fastShare = 0.7;       ///< of the fast speed: low and high speed, and directions [hand]
+    double endShare = 0.2;                         ///< of the range: low and high positions [hand]
+    double late = 2.0 / 3.0;                       ///< of the trial [hand]
+    std::size_t bins = 8, samplesPerBin = 20;      ///< of a variable on which the error may depend [hand]
+    double dependence = 0.1;    ///< share of the error's variance that the bins explain: it depends on it [hand]
+    double stretch_s = 0.2;     ///< stretches that hold most of the excess [hand]
+    std::size_t stretches = 5;  ///< of them
+  };
+
+  /// A joint that swings by itself (self_excited.h): described, decides nothing. [case: seed 20261162]
+  struct SelfExcitation {
+    double leastPeriods = 3;        ///< in a third of a trial [hand]
+    double bandwidth = 0.25;        ///< of the frequency, to either side [hand]
+    double timesAnother = 25;       ///< power, over the command's and the simulator's: five times their swing [hand]
+    double shareOfError = 0.5;      ///< of the third's error [hand]
+    double leastFloors = 3;         ///< noise floors, r.m.s. [hand]
+    std::size_t leastSamples = 30;  ///< in the third [hand]
+  };
+
+  /// A force without a name that is learned from the rest (remainder.h).
+  struct Remainder {
+    double leastExcess = 0.3;   ///< left, from which one is learned [hand]
+    double leastT = 3;          ///< paired, against without it [prototype]
+    double leastShare = 0.1;    ///< of the rest [hand]
+    int iterations = 12;        ///< [time]
+    double insteadError = 1.3;  ///< left by named effects, from which a curve in their place is tried [hand]
+    double instead = 0.7;       ///< its error over theirs: names that a curve beats by 30 % are wrong [prototype]
+    int insteadIterations = 8;  ///< of the calibration without them, before [time]
+    double jointForce = 0.02,
+           ballForce = 0.01;  ///< a typical force, of the drive's strength, of the ball's weight [hand]
+  };
+
+  /// The recording that would distinguish rivals (next_recording.h).
+  struct NextRecording {
+    double length_s = 8, sample_s = 0.008,
+           rest_s = 0.5;  ///< of the sequence, its samples, its beginning at rest [hand]
+    double beyond = 0.1;  ///< of the range in which a pushed joint was seen: it may go so much farther [hand]
+    double reach = 0.95;  ///< of the recorded commands' reach [hand]
+    std::array<double, 4> pushes{1, 0.5, 0.25, 0.1};  ///< of the reach of a push [hand]
+    /// noise floors, RMS: what the 1000 samples of a designed recording distinguish, √1000 × 0.1 being three standard
+    /// errors of one number [statistics]
+    double leastSeparation = 0.1;
+  };
+
+  /// What the verdict and its sentence say.
+  struct Verdict {
+    double atNoise = 1.3;            ///< error: nothing is missing [hand]
+    double stillNoise = 1.15;        ///< error beyond the integration's: nothing is left beside what was named [hand]
+    double unexplained = 1.5;        ///< error: too much to stay without a name [hand]
+    double unexplainedShare = 0.2;   ///< of the excess, left beside names [prototype]
+    double clearlyLeft = 4;          ///< error: where so much is left, a smaller share is too much [case]
+    double clearlyLeftShare = 0.04;  ///< of the excess [case]
+    double muchLeft = 25;  ///< error, five noise floors: too much whatever the share. Beside a large error that of
+                           ///< a wrong name is a small one [case]
+    /// Of what is left, a share that a learned curve takes (and a paired test sees): noise has no shape. In 763 cases
+    /// of two blind trials (seeds 20261165 and 20261168) named effects left such a curve five times. It took 46 to 100
+    /// %; four of the names were wrong (two for effects outside the library), and in one the truth stood among their
+    /// rivals.
+    double shapeLeft = 0.4;
+    double leastMotion = 10;        ///< noise floors that something must move [hand]
+    double calibrationT = 2.5;      ///< paired: calibration helps [prototype]
+    double calibrationGain = 0.02;  ///< and takes so much, of the error as given and at all [hand]
+    double colour = 0.1;            ///< correlation of successive samples of the rest that is no noise [hand]
+    double colourErrors = 4;        ///< and standard errors of it, 1/√n each (Anderson 1942) [statistics]
+    double unseenWorse = 1.05;  ///< error (RMS) of recordings that no fit saw, over the one before: it got worse [hand]
+    double strongCorrelation = 0.98;  ///< of two numbers that the recordings hardly separate [hand]
+    double atBound = 1e-3;            ///< of its range: a number is at its bound [numeric]
+    double manyMissing =
+        0.05;  ///< share of a recording's samples: may itself be what the simulator does not show [hand]
+  };
+
+  Step step;
+  Calibration calibration;
+  Restarts restarts;
+  WholeNumbers wholeNumbers;
+  DrawnEffects drawnEffects;
+  Candidates candidates;
+  Screening screening;
+  Confirmation confirmation;
+  Rivals rivals;
+  Location location;
+  SelfExcitation selfExcitation;
+  Remainder remainder;
+  NextRecording nextRecording;
+  Verdict verdict;
+};
+
+}  // namespace btr

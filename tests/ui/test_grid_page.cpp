@@ -9,8 +9,8 @@
 #include <QTest>
 #include <nlohmann/json.hpp>
 
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_losses.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_losses.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/message_banner.h"

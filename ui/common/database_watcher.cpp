@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "core/run/grid.h"
+#include "core/run/grid/grid.h"
 
 namespace btr::ui {
 namespace {

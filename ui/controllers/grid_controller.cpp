@@ -5,8 +5,8 @@
 #include <QStandardPaths>
 #include <algorithm>
 
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/resources.h"
 #include "ui/controllers/run_controller.h"

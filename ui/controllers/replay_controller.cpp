@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
 #include "core/run/replay.h"
 #include "core/spec/scene_spec.h"
 #include "ui/database/individuals_table.h"

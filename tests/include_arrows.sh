@@ -37,7 +37,7 @@ done
 # Of core the window sees what the user asked for (spec), the public headers of runs, store and plugins, and what it
 # draws: models, trials, recordings and reports. A header that is not here is an inner part: add it only if it is not.
 declare -A public=(
-  [store]="database records"
+  [store]="database network_file records"
   [plugin]="plugin_host reality"
   [run]="adoption back_to_reality comparison fitness_clues measured_import plausibility prepared_experiment reality_gap
     reality_report replay resting_simulator rig spec_changes spread stored_recordings"

@@ -9,6 +9,7 @@
 #include "app/number_options.h"
 #include "core/plugin/plugin_host.h"
 #include "core/run/spread.h"
+#include "core/spec/figures.h"
 
 // Commands of btr. Each function adds its subcommands to the parser; their callbacks do the work and set the exit code.
 namespace btr::cli {
@@ -53,14 +54,14 @@ void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export, merg
 /// A database on a network file system is said to be there, on stderr, before any of these commands opens it.
 void warnOfNetworkFiles(CLI::App& app);
 void addKeepCommands(CLI::App& app, Shell& shell);      ///< backup, check
-void addModelCommands(CLI::App& app, Shell& shell);    ///< model check, list
-void addGapCommands(CLI::App& app, Shell& shell);      ///< gap residual
+void addModelCommands(CLI::App& app, Shell& shell);     ///< model check, list
+void addGapCommands(CLI::App& app, Shell& shell);       ///< gap residual
 void addGapAdoptCommands(CLI::App& gap, Shell& shell);  ///< gap adopt|revert|versions, below "gap"
 void addGapStoreCommands(CLI::App& gap, Shell& shell);  ///< gap recordings|clues
 void addGapProveCommands(CLI::App& gap, Shell& shell);  ///< gap prove|tally
-void addBenchCommand(CLI::App& app, Shell& shell);     ///< bench
-void addGaitCommands(CLI::App& app, Shell& shell);     ///< gait check
-void addGridCommands(CLI::App& app, Shell& shell);     ///< grid, grid table|map|kick
+void addBenchCommand(CLI::App& app, Shell& shell);      ///< bench
+void addGaitCommands(CLI::App& app, Shell& shell);      ///< gait check
+void addGridCommands(CLI::App& app, Shell& shell);      ///< grid, grid table|map|kick
 
 /// One JSON document on standard output. Bytes that are no UTF-8 come out as U+FFFD.
 void printJson(const nlohmann::json& document);
@@ -75,8 +76,6 @@ std::string printable(const std::string& text);
 /// Rows under a header, columns as wide as needed; numbers to the right, cells printable().
 std::string table(const std::vector<std::string>& header, std::vector<std::vector<std::string>> rows);
 
-/// Four significant digits for people.
-std::string brief(double value);
 /// "0.123 ± 0.045", the 95 % interval; empty where there is nothing.
 std::string interval(const Spread& spread);
 

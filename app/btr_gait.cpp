@@ -19,17 +19,11 @@ struct GaitArguments {
   GaitCheckOptions options;
 };
 
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%+.0f %%", 100 * share);
-  return text;
-}
-
 void printTable(const GaitCheck& check) {
   std::vector<std::vector<std::string>> rows;
   for (const GaitResult& g : check.gaits)
-    rows.push_back({g.name, g.robot, g.unit, brief(g.real), brief(g.before), percent(g.relative(g.before)),
-                    brief(g.after), percent(g.relative(g.after)),
+    rows.push_back({g.name, g.robot, g.unit, brief(g.real), brief(g.before), signedPercent(g.relative(g.before)),
+                    brief(g.after), signedPercent(g.relative(g.after)),
                     !g.measured ? "commanded"
                     : g.heldOut ? "held out"
                                 : "fitted"});

@@ -8,10 +8,10 @@
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
-#include "core/run/grid.h"
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_table.h"
+#include "core/run/grid/grid.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_table.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
@@ -28,12 +28,6 @@ struct GridArguments {
   double distance = 0, bearing = 0, direction = 0;
   bool quiet = false, progress = false;
 };
-
-std::string percent(double share) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-  return text;
-}
 
 std::string degrees(double rad) {
   char text[32];
@@ -86,7 +80,7 @@ void printMethods(const GridComparison& c, const std::vector<GridSummary>& grids
       }
     rows.push_back({m.method, std::to_string(m.seeds.size()), interval(m.cells), interval(m.points),
                     interval(m.cellsDifference), interval(m.pointsDifference), interval(m.edges), brief(m.failed),
-                    brief(m.taken), count ? degrees(off / count) : "", count ? percent(falls / count) : ""});
+                    brief(m.taken), count ? degrees(off / count) : "", count ? tenthPercent(falls / count) : ""});
   }
   std::cout << '\n'
             << printable(c.name) << " [" << c.unit

@@ -40,12 +40,6 @@ void writeOut(const std::string& path, const std::string& text) {
     writeFile(path, text);
 }
 
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 std::string interval(const Spread& spread) {
   if (spread.count == 0) return "";
   char text[48];

@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     if (arguments.run) window.selectRun(arguments.run);
     if (!arguments.report.empty()) window.openReport(QString::fromStdString(arguments.report));
     if (arguments.grid) window.grids().show(arguments.grid);
-    if (arguments.replayBest) window.replays().replayBest();
+    if (arguments.replayBest) window.bench().whenSelected([&window] { window.replays().replayBest(); });
 
     int result = 0;
     if (!arguments.screenshot.empty())

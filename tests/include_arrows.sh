@@ -37,11 +37,11 @@ done
 # Of core the window sees what the user asked for (spec), the public headers of runs, store and plugins, and what it
 # draws: models, trials, recordings and reports. A header that is not here is an inner part: add it only if it is not.
 declare -A public=(
-  [store]="database records"
+  [store]="database network_file records"
   [plugin]="plugin_host reality"
-  [run]="adoption back_to_reality comparison fitness_clues grid grid_cells grid_kicks grid_losses grid_table
-    measured_import plausibility prepared_experiment reality_gap reality_report replay resting_simulator rig spread
-    stored_recordings"
+  [run]="adoption back_to_reality comparison fitness_clues measured_import plausibility prepared_experiment reality_gap
+    reality_report replay resting_simulator rig spec_changes spread stored_recordings"
+  [run/grid]="grid grid_cells grid_kicks grid_losses grid_table"
   [model]="kinematics robot_model"
   [sim]="scene trace trial"
   [gap/recordings]="channel_name doctor mapping objection recording recording_health"

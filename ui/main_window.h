@@ -4,25 +4,18 @@
 
 #include "ui/controllers/workbench.h"
 #include "ui/window/dock_layout.h"
-
-class QLabel;
-class QToolBar;
+#include "ui/window/window_pages.h"
 
 namespace btr::ui {
 class CompareController;
-class ComparePage;
 class DraftController;
-class ExperimentForm;
-class GapPage;
 class GridController;
-class GridPage;
 class MeasureController;
 class MessageBanner;
 class ReplayController;
-class RigController;
 class RunController;
-class RunViews;
-struct WindowPages;
+class WindowMessages;
+class WindowPlace;
 
 /// The workbench. Puts the parts together and does nothing itself: the workbench knows database and selection, the
 /// controllers act, the docks show.
@@ -48,48 +41,34 @@ class MainWindow : public QMainWindow {
   RunController& runs() { return *runs_; }
   ReplayController& replays() { return *replays_; }
   GridController& grids() { return *grids_; }
-  MessageBanner& banner() { return *banner_; }
-  ExperimentForm& draft();
-  GapPage& gapPage();
-  GridPage& gridPage();
-  ComparePage& comparePage();
+  MessageBanner& banner();
+  ExperimentForm& draft() { return *pages_.draft; }
+  GapPage& gapPage() { return *pages_.gapPage; }
+  GridPage& gridPage() { return *pages_.gridPage; }
+  ComparePage& comparePage() { return *pages_.comparePage; }
 
  protected:
   void closeEvent(QCloseEvent* event) override;
-  void showEvent(QShowEvent* event) override;
   bool focusNextPrevChild(bool next) override;
 
  private:
-  void makeDocks();
-  void makeMessages();
   void makeControllers();
-  void connectTree();
-  void connectStart();
-  void connectDrops();
   void raise(const QString& dock);
-  void restoreWindow();
-  void resetLayout();
-  void keepOnScreen();
-  QSize defaultSize() const;
-  void showTitle();
 
   Theme& theme_;
   DockLayout layout_;
   Workbench bench_;
-  std::unique_ptr<WindowPages> pages_;
+  WindowPages pages_;
   // Owned by the workbench.
   DraftController* drafts_ = nullptr;
   RunController* runs_ = nullptr;
-  RunViews* views_ = nullptr;
   MeasureController* measuring_ = nullptr;
   ReplayController* replays_ = nullptr;
   GridController* grids_ = nullptr;
-  RigController* rigs_ = nullptr;
   CompareController* comparing_ = nullptr;
-
-  MessageBanner* banner_ = nullptr;
-  QToolBar* messages_ = nullptr;
-  QLabel *databaseLabel_ = nullptr, *activeLabel_ = nullptr;
+  // Owned by the window.
+  WindowMessages* messages_ = nullptr;
+  WindowPlace* place_ = nullptr;
 };
 
 }  // namespace btr::ui

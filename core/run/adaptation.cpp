@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/run/learner_state.h"
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
 #include "core/run/told_numbers.h"
@@ -190,8 +191,7 @@ bool Adaptation::begin() {
   context_.progress.stageTotal = generations_;
   context_.progress.stageDone = number_;
   if (!earlier.empty()) {
-    random_.setState(earlier.back().randomState);
-    learner_->setState(earlier.back().learnerState);
+    goOnFrom(earlier.back(), random_, *learner_);
     context_.progress.best = earlier.back().bestError;
     context_.progress.mean = earlier.back().meanError;
   }
@@ -218,8 +218,7 @@ bool Adaptation::breed() {
   learner_->tell(fitness);
   record.bestError = *std::min_element(errors.begin(), errors.end());
   record.meanError = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-  record.randomState = random_.state();
-  record.learnerState = learner_->state();
+  keepState(record, random_, *learner_);
   record.evidenceSha256 = evidence_.sha256;
   context_.database.addAdaptation(record);
   all_.insert(all_.end(), record.candidates.begin(), record.candidates.end());

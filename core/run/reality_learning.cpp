@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/run/learner_state.h"
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
 
@@ -165,8 +166,7 @@ StageEnd learnInReality(RunContext& context, int stage) {
   learner->start(context.prepared.genotype, context.prepared.spec.realityLearner.settings, random);
   // An iteration that was begun keeps its policies, whatever has become of the measurements that it came from.
   if (begun || !iterations.empty()) {
-    random.setState(begun ? begun->randomState : iterations.back().randomState);
-    learner->setState(begun ? begun->learnerState : iterations.back().learnerState);
+    goOnFrom(begun ? *begun : iterations.back(), random, *learner);
   } else {
     learner->beginAt(originOf(context, stage).parameters, {1, context.realitySetting("flip")}, random);
   }
@@ -186,8 +186,7 @@ StageEnd learnInReality(RunContext& context, int stage) {
     if (!begun || begun->number != number) {
       db.setRunState(run, RunState::learning, "");
       const std::vector<Candidate> candidates = learner->ask(random);
-      iteration.randomState = random.state();
-      iteration.learnerState = learner->state();
+      keepState(iteration, random, *learner);
       if (!begin(context, iteration, candidates)) return StageEnd::stopped;
     }
     const bool isComplete = !isMeasured(context) || completeMeasuring(context, stage, number);
@@ -204,8 +203,7 @@ StageEnd learnInReality(RunContext& context, int stage) {
     else
       context.progress.message.clear();
     iteration.centreAfter = learner->centre();
-    iteration.randomState = random.state();
-    iteration.learnerState = learner->state();
+    keepState(iteration, random, *learner);
     iteration.finishedAt = utcNow();
     db.addRealityIteration(iteration);
     iterations.push_back(std::move(iteration));

@@ -1,4 +1,5 @@
 #include "core/run/search.h"
+#include "core/run/learner_state.h"
 
 #include <algorithm>
 #include <numeric>
@@ -18,8 +19,7 @@ Search::Search(const Database& database, const PluginHost& host, const PreparedE
   learner_->start(prepared.genotype, prepared.spec.learner.settings, random_);
   if (const auto& start = prepared.spec.start) learner_->beginAt(prepared.start, {start->share, start->flip}, random_);
   if (const auto last = database.lastGeneration(run_)) {
-    random_.setState(last->randomState);
-    learner_->setState(last->learnerState);
+    goOnFrom(*last, random_, *learner_);
     number_ = last->number;
   }
   for (const IndividualRecord& i : database.individualsOfSimulator(run_, simulator.id))
@@ -91,8 +91,7 @@ GenerationRecord Search::fill(const std::vector<TrialReply>& replies) const {
 
 void Search::tell(GenerationRecord& generation, std::span<const double> fitness) {
   learner_->tell(fitness);
-  generation.randomState = random_.state();
-  generation.learnerState = learner_->state();
+  keepState(generation, random_, *learner_);
   generation.finishedAt = utcNow();
 }
 

@@ -7,7 +7,6 @@ namespace btr {
 namespace {
 
 using nlohmann::json;
-using Flat = std::map<std::string, std::string>;
 
 const std::string absent = "not set";
 
@@ -25,7 +24,7 @@ bool isPlain(const json& list) {
   return true;
 }
 
-void flatten(const json& value, const std::string& key, Flat& flat) {
+void flatten(const json& value, const std::string& key, SpecSettings& flat) {
   const auto below = [&](const std::string& name) {
     return key.empty() || key.ends_with(' ') ? key + name : key + '.' + name;
   };
@@ -34,12 +33,13 @@ void flatten(const json& value, const std::string& key, Flat& flat) {
   } else if (value.is_array() && !isPlain(value)) {
     for (std::size_t k = 0; k < value.size(); ++k) flatten(value[k], below(keyIn(value, k)), flat);
   } else {
-    // 10 and 10.0 are the same setting.
-    flat[key] = value.is_number() ? toText(value.get<double>()) : value.dump();
+    flat[key] = value;
   }
 }
 
-void add(Flat& flat, const std::string& text, const std::string& under) {
+// What cannot be read is still compared, as a whole.
+void add(SpecSettings& flat, const std::string& text, const std::string& under) {
+  if (text.empty()) return;
   const json parsed = json::parse(text, nullptr, false);
   if (parsed.is_discarded())
     flat[under.empty() ? "specification" : under] = text;
@@ -47,20 +47,28 @@ void add(Flat& flat, const std::string& text, const std::string& under) {
     flatten(parsed, under, flat);
 }
 
-Flat flat(const RunRecord& run) {
-  Flat all;
-  add(all, run.specJson, "");
-  add(all, run.sceneJson, "scene ");
+std::map<std::string, std::string> settingTexts(const RunRecord& run) {
+  std::map<std::string, std::string> all;
+  // 10 and 10.0 are the same setting.
+  for (const auto& [key, value] : specSettings(run))
+    all[key] = value.is_number() ? toText(value.get<double>()) : value.dump();
   for (const StoredFile& file : run.files) all["file " + file.name] = "sha256 " + file.sha256.substr(0, 12);
   return all;
 }
 
 }  // namespace
 
+SpecSettings specSettings(const RunRecord& run) {
+  SpecSettings all;
+  add(all, run.specJson, "");
+  add(all, run.sceneJson, "scene ");
+  return all;
+}
+
 std::vector<SpecChange> specChanges(const RunRecord& before, const RunRecord& after) {
-  const Flat a = flat(before), b = flat(after);
+  const auto a = settingTexts(before), b = settingTexts(after);
   std::vector<SpecChange> changes;
-  Flat keys = a;
+  auto keys = a;
   keys.insert(b.begin(), b.end());
   for (const auto& [key, unused] : keys) {
     const auto old = a.find(key), now = b.find(key);

@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -6,6 +8,10 @@
 #include "core/store/database.h"
 
 namespace btr {
+
+/// Every setting of a run's specification and scene by its key: a number, a text, true or false, or a list of such.
+using SpecSettings = std::map<std::string, nlohmann::json>;
+SpecSettings specSettings(const RunRecord& run);
 
 /// One setting that two runs do not have in common.
 struct SpecChange {

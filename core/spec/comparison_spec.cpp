@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/spec/json_reader.h"
+#include "core/spec/spec_head.h"
 
 namespace btr {
 
@@ -23,12 +24,10 @@ std::vector<std::uint64_t> seedsFrom(JsonReader& reader) {
 
 ComparisonSpec comparisonFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
-  reader.word("format", {"uchilsim-comparison-1"});
   ComparisonSpec spec;
   spec.place = place;
   spec.directory = directory;
-  spec.name = reader.text("name");
-  if (spec.name.empty()) reader.refuse("name", "at least one letter");
+  spec.name = nameOfSpec(reader, "uchilsim-comparison-1");
   reader.array("arms", [&](JsonReader arm) {
     ComparisonSpec::Arm read{arm.text("name"), arm.text("experiment")};
     if (read.name.empty() || std::ranges::any_of(spec.arms, [&](const auto& a) { return a.name == read.name; }))

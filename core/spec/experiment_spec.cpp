@@ -6,6 +6,7 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/spec_head.h"
 
 namespace btr {
 namespace {
@@ -211,14 +212,11 @@ const std::vector<Parameter>& standInParameters() {
 
 ExperimentSpec experimentFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
-  reader.word("format", {"uchilsim-experiment-1"});
   ExperimentSpec spec;
   spec.directory = directory;
-  spec.name = reader.text("name");
-  if (spec.name.empty()) reader.refuse("name", "at least one letter");
+  spec.name = nameOfSpec(reader, "uchilsim-experiment-1");
   spec.plugins = reader.texts("plugins");
-  spec.scene = reader.text("scene");
-  if (spec.scene.empty()) reader.refuse("scene", "the path of a scene file");
+  spec.scene = filledText(reader, "scene", "the path of a scene file");
   spec.controller = pluginChoice(reader.object("controller"));
   spec.fitness = pluginChoice(reader.object("fitness"));
   spec.learner = pluginChoice(reader.object("learner"));

@@ -9,15 +9,33 @@
 
 namespace btr {
 
+namespace {
+
+std::string written(const char* format, double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+}  // namespace
+
 std::string inWords(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string brief(double value) {
-  if (!std::isfinite(value)) return "–";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
+std::string brief(double value) { return std::isfinite(value) ? written("%.4g", value) : "–"; }
+
+std::string withDeviation(double mean, double deviation) {
+  const std::string after = " ± " + (deviation == 0 ? "0" : digits(deviation, 2));
+  if (!std::isfinite(mean) || !std::isfinite(deviation) || deviation == 0) return brief(mean) + after;
+  // The place of the second digit once it is rounded: 0.0996 is 0.10.
+  const double size = std::stod(written("%.1e", deviation));
+  const int decimals = 1 - static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  constexpr int most = 6;
+  if (decimals > most || decimals < 0) return brief(mean) + after;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f ± %.*f", decimals, mean, decimals, deviation);
   return text.data();
 }
 
@@ -35,11 +53,13 @@ std::string digits(double value, int count) {
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "–";
-  std::array<char, 32> text{};
   const double value = 100 * share;
-  std::snprintf(text.data(), text.size(), std::abs(value) < 9.95 && value != 0 ? "%.1f %%" : "%.0f %%", value);
-  return text.data();
+  return written(std::abs(value) < 9.95 && value != 0 ? "%.1f %%" : "%.0f %%", value);
 }
+
+std::string tenthPercent(double share) { return written("%.1f %%", 100 * share); }
+
+std::string signedPercent(double share) { return written("%+.0f %%", 100 * share); }
 
 std::string wholePercent(double share) { return toText(std::round(100 * share)) + " %"; }
 

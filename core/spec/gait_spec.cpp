@@ -3,18 +3,16 @@
 #include <filesystem>
 
 #include "core/spec/json_reader.h"
+#include "core/spec/spec_head.h"
 
 namespace btr {
 
 GaitSpec gaitFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
-  reader.word("format", {"uchilsim-gait-1"});
   GaitSpec gait;
   gait.directory = directory;
-  gait.name = reader.text("name");
-  if (gait.name.empty()) reader.refuse("name", "at least one letter");
-  gait.scene = reader.text("scene");
-  if (gait.scene.empty()) reader.refuse("scene", "the path of a scene file");
+  gait.name = nameOfSpec(reader, "uchilsim-gait-1");
+  gait.scene = filledText(reader, "scene", "the path of a scene file");
   gait.controller = pluginChoice(reader.object("controller"));
   gait.parameters = reader.anyValues("parameters");
   gait.fitness = pluginChoice(reader.object("fitness"));

@@ -6,6 +6,7 @@
 #include "core/spec/comparison_spec.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/spec_head.h"
 
 namespace btr {
 namespace {
@@ -28,12 +29,9 @@ std::vector<double> axisFrom(JsonReader& reader, const char* key, bool symmetric
 }
 
 GridSpec read(JsonReader reader, bool stored) {
-  reader.word("format", {"uchilsim-grid-1"});
   GridSpec grid;
-  grid.name = reader.text("name");
-  if (grid.name.empty()) reader.refuse("name", "at least one letter");
-  grid.experiment = reader.text("experiment");
-  if (grid.experiment.empty()) reader.refuse("experiment", "the path of an experiment file");
+  grid.name = nameOfSpec(reader, "uchilsim-grid-1");
+  grid.experiment = filledText(reader, "experiment", "the path of an experiment file");
   grid.mirroredDerived = reader.word("mirrored", {"derived", "learned"}, "derived") == "derived";
   std::size_t cells = 1;
   for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {

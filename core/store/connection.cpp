@@ -63,6 +63,24 @@ std::int64_t Connection::dataVersion() const {
   return (others << 32) + sqlite3_total_changes64(database_->getHandle());
 }
 
+// SQLite asks these two in the thread of the call: while a query runs, and while another process keeps the lock.
+void Connection::endWhen(const std::atomic<bool>& stop) {
+  constexpr int instructionsBetween = 10'000, pause_ms = 10;
+  stop_ = &stop;
+  sqlite3_progress_handler(
+      database_->getHandle(), instructionsBetween,
+      [](void* self) { return static_cast<Connection*>(self)->stop_->load() ? 1 : 0; }, this);
+  sqlite3_busy_handler(
+      database_->getHandle(),
+      [](void* self, int pauses) {
+        const auto* connection = static_cast<Connection*>(self);
+        if (connection->stop_->load() || pauses * pause_ms >= connection->patience_ms_) return 0;
+        sqlite3_sleep(pause_ms);
+        return 1;
+      },
+      this);
+}
+
 void Connection::transact(const std::function<void()>& work, bool writes) const {
   std::optional<SQLite::Transaction> transaction;
   try {
@@ -89,6 +107,8 @@ std::string explain(const std::string& path, SQLite::Database* database, int ext
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return begin + "another process keeps the database locked; try again when it is done";
+    case SQLITE_INTERRUPT:
+      return begin + "reading was ended before it was done";
     case SQLITE_IOERR:
       return begin + "cannot be read or written (" + (systemError ? std::strerror(systemError) : message) + ")";
     case SQLITE_READONLY:

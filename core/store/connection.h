@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,6 +30,8 @@ class Connection {
   int patience_ms() const { return patience_ms_; }  ///< how long a call waits for another process's lock
   /// Number that changes with every commit, our own included.
   std::int64_t dataVersion() const;
+  /// See Database::endWhen().
+  void endWhen(const std::atomic<bool>& stop);
 
   /// Runs `work` on one snapshot: several queries see the same state.
   template <class Work>
@@ -69,6 +72,7 @@ class Connection {
   std::string path_;
   std::unique_ptr<SQLite::Database> database_;
   int patience_ms_;
+  const std::atomic<bool>* stop_ = nullptr;
 };
 
 /// What SQLite's latest error on this file means to a person, beginning with the path.

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ class Database {
   const std::string& path() const;
   /// Number that changes when any connection has committed (cheap; for polling).
   std::int64_t dataVersion() const;
+  /// Of a connection that only reads: while `stop` is true, which another thread may set, a call ends soon with an
+  /// InputError, also one that waits for a lock. `stop` lives longer than the database.
+  void endWhen(const std::atomic<bool>& stop);
 
   // ---- the file as a whole
   /// A consistent, checked copy while others work with the database: complete under another name first, on the disk,

@@ -241,5 +241,6 @@ Database& Database::operator=(Database&&) noexcept = default;
 
 const std::string& Database::path() const { return connection_->path(); }
 std::int64_t Database::dataVersion() const { return connection_->dataVersion(); }
+void Database::endWhen(const std::atomic<bool>& stop) { connection_->endWhen(stop); }
 
 }  // namespace btr

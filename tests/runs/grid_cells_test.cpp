@@ -1,5 +1,5 @@
 // The geometry of a grid: neighbours, mirror images, the order in which contamination spreads.
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

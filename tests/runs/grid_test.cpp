@@ -1,6 +1,6 @@
 // Grids: learned cell by cell in the database, the same bits whatever happens, and every number follows from what is
 // stored.
-#include "core/run/grid.h"
+#include "core/run/grid/grid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_table.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_table.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"

@@ -43,6 +43,15 @@ ComparePage::History history(double best) {
   return {{generation}, {}, {}, "m"};
 }
 
+/// Answers at once whatever the page wants.
+void answer(ComparePage& page, const std::function<ComparePage::History(Id run)>& history) {
+  QObject::connect(&page, &ComparePage::wanted, &page, [&page, history](const std::vector<Id>& runs) {
+    std::map<Id, ComparePage::History> histories;
+    for (const Id run : runs) histories[run] = history(run);
+    page.setHistories(histories);
+  });
+}
+
 }  // namespace
 
 class TestComparePage : public QObject {
@@ -56,11 +65,11 @@ class TestComparePage : public QObject {
     QStringList different;
     for (const SpecRow& row : rows)
       if (row.differs) different << row.key;
-    QCOMPARE(different, (QStringList{"learner.settings.population", "reality", "scene file.gravity_m_s2"}));
+    QCOMPARE(different, (QStringList{"learner.settings.population", "reality", "scene gravity_m_s2"}));
     QCOMPARE(find(rows, "learner.settings.population")->values, (QStringList{"30", "60"}));
     QCOMPARE(find(rows, "reality")->values, (QStringList{"person", "stand-in reality"}));
-    QCOMPARE(find(rows, "scene file.gravity_m_s2")->values, (QStringList{"[0, 0, -9.81]", "[0, 0, -9.5]"}));
-    QCOMPARE(find(rows, "scene file.robots.dog.servos.knee.p")->values, (QStringList{"4.5", "4.5"}));
+    QCOMPARE(find(rows, "scene gravity_m_s2")->values, (QStringList{"[0, 0, -9.81]", "[0, 0, -9.5]"}));
+    QCOMPARE(find(rows, "scene robots.dog.servos.knee.p")->values, (QStringList{"4.5", "4.5"}));
     QCOMPARE(find(rows, "adapted")->values[0], QString("[friction, slip1]"));
   }
 
@@ -89,13 +98,13 @@ class TestComparePage : public QObject {
   void damagedSpecsAreComparedAsTheyStand() {
     RunRecord broken = run(1, 7, 30);
     broken.specJson = "{nonsense";
-    QCOMPARE(find(compareSpecs({broken, run(2, 7, 30)}), "spec")->values, (QStringList{"{nonsense", "–"}));
+    QCOMPARE(find(compareSpecs({broken, run(2, 7, 30)}), "specification")->values, (QStringList{"{nonsense", "–"}));
   }
 
   void tickedRunsAreDrawnAndTheirDifferencesListed() {
     ComparePage page;
     QList<Id> read;
-    page.setReader([&](Id id) {
+    answer(page, [&](Id id) {
       read << id;
       return history(static_cast<double>(id));
     });
@@ -128,7 +137,7 @@ class TestComparePage : public QObject {
 
   void gapAndRealFitnessOfRunsThatDifferInTheirSeedBecomeMeansWithIntervals() {
     ComparePage page;
-    page.setReader([&](Id id) {
+    answer(page, [&](Id id) {
       ComparePage::History all = history(1);
       // Gaps 0.1 and 0.3 of two seeds, 0.5 of the other experiment.
       all.stages = {{1, id == 1 ? 0.1 : id == 2 ? 0.3 : 0.5, 0, double(id), double(id)}};
@@ -160,7 +169,7 @@ class TestComparePage : public QObject {
 
   void whatWasReachedAtTheEndStandsInATable() {
     ComparePage page;
-    page.setReader([&](Id id) {
+    answer(page, [&](Id id) {
       ComparePage::History all = history(1);
       all.stages = {{1, 9, 9, 9, 9}, {2, 0.1 * double(id), 0, double(id), double(id)}};
       return all;
@@ -181,7 +190,7 @@ class TestComparePage : public QObject {
 
   void runsWithAnotherUnitAreLeftOutOfTheChartsAndNamed() {
     ComparePage page;
-    page.setReader([](Id id) {
+    answer(page, [](Id id) {
       ComparePage::History all = history(1);
       all.stages = {{1, 0.1, 0, 1, 1}};
       if (id == 2) all.unit = "cm/s";
@@ -219,9 +228,34 @@ class TestComparePage : public QObject {
     QCOMPARE(page.differences().columnCount(), 3);
   }
 
+  // Nothing is emptied while the runs are read again, and what is missing is said.
+  void whatIsThereStaysUntilTheAnswerComes() {
+    ComparePage page;
+    std::vector<Id> asked;
+    connect(&page, &ComparePage::wanted, &page, [&](const std::vector<Id>& runs) { asked = runs; });
+    page.setRuns({run(1, 7, 30), run(3, 7, 60)}, {{1, "Kick"}});
+    page.setChosen({1});
+    QCOMPARE(asked, std::vector<Id>{1});
+    const auto isSaid = [&](const QString& text) {
+      return std::ranges::any_of(page.findChildren<QLabel*>(), [&](const QLabel* l) { return l->text() == text; });
+    };
+    QVERIFY(isSaid("Reading…"));
+    page.setHistories({{1, history(1)}});
+    QVERIFY(!isSaid("Reading…"));
+    const std::size_t curves = page.plot().data().series.size();
+    QVERIFY(curves > 0);
+    page.setChosen({1, 3});
+    QCOMPARE(asked, std::vector<Id>{3});
+    QCOMPARE(page.plot().data().series.size(), curves);
+    QVERIFY(isSaid("Reading…"));
+    page.refresh();
+    QCOMPARE(asked, (std::vector<Id>{1, 3}));
+    QCOMPARE(page.plot().data().series.size(), curves);
+  }
+
   void aRunThatCannotBeReadSaysWhy() {
     ComparePage page;
-    page.setReader([](Id) -> ComparePage::History { throw InputError("kick.db: the file is damaged"); });
+    connect(&page, &ComparePage::wanted, &page, [&] { page.setHistories({}, "kick.db: the file is damaged"); });
     page.setRuns({run(1, 7, 30)}, {});
     page.setChosen({1});
     bool said = false;

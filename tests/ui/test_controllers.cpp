@@ -43,6 +43,12 @@ struct Desk {
   WindowOptions options;
 };
 
+/// Opened, and everything that follows from it is read.
+void open(Workbench& bench, const Desk& desk) {
+  QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+  bench.reader().waitUntilIdle();
+}
+
 }  // namespace
 
 class TestControllers : public QObject {
@@ -56,13 +62,16 @@ class TestControllers : public QObject {
     const Id second = desk.stored.addRun(desk.stored.database.experiments().front().id, 2);
     {
       Workbench bench(desk.host, desk.options, desk.window);
-      QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+      open(bench, desk);
       QCOMPARE(bench.run().id, second);
       bench.selectRun(first);
+      QCOMPARE(bench.run().id, second);  // until everything about the other one is there
+      bench.reader().waitUntilIdle();
+      QCOMPARE(bench.run().id, first);
     }
     Workbench bench(desk.host, desk.options, desk.window);
     QSignalSpy selected(&bench, &Workbench::runSelected);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QCOMPARE(bench.run().id, first);
     QCOMPARE(selected.count(), 1);
   }
@@ -78,7 +87,7 @@ class TestControllers : public QObject {
     {
       Workbench bench(desk.host, desk.options, desk.window);
       follow(bench);
-      QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+      open(bench, desk);
       bench.nameExperiment(experiment, "Kick, worn knee");
       QCOMPARE(names.last(), QString("Kick, worn knee"));
       QCOMPARE(bench.nameOfExperiment(experiment), QString("Kick, worn knee"));
@@ -87,7 +96,7 @@ class TestControllers : public QObject {
     names.clear();
     Workbench bench(desk.host, desk.options, desk.window);
     follow(bench);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QCOMPARE(names.last(), QString("Kick, worn knee"));
     bench.nameExperiment(experiment, "");
     QCOMPARE(names.last(), QString("Kick"));
@@ -99,9 +108,10 @@ class TestControllers : public QObject {
     desk.stored.database.setRunState(run, RunState::finished, "");
     Workbench bench(desk.host, desk.options, desk.window);
     RunController runs(bench);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QSignalSpy informed(&bench, &Workbench::informed);
     runs.resume(run);
+    bench.reader().waitUntilIdle();
     QVERIFY(informed.last().first().toString().contains("is finished"));
     QVERIFY(!bench.launcher().isAlive(run));
   }
@@ -112,7 +122,7 @@ class TestControllers : public QObject {
     desk.active = {run};
     Workbench bench(desk.host, desk.options, desk.window);
     RunController runs(bench);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     runs.stop(run);
     QVERIFY(desk.stored.database.run(run).stopRequested);
   }
@@ -131,7 +141,7 @@ class TestControllers : public QObject {
     QList<MeasuringCount> counts;
     connect(&measuring, &MeasureController::measuringChanged, this,
             [&](const MeasuringCount& count) { counts << count; });
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QCOMPARE(wanted.count(), 1);
     QVERIFY(measuring.isSheetWanted());
     QCOMPARE(alarm.state(), Alarm::State::ringing);
@@ -153,7 +163,7 @@ class TestControllers : public QObject {
     RunController runs(bench);
     GridPage page("/bin/true");
     GridController grids(bench, runs, page);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QSignalSpy docks(&bench, &Workbench::dockWanted), errors(&bench, &Workbench::reported);
     grids.show(0);
     QCOMPARE(docks.first().first().toString(), QString("grid"));
@@ -170,7 +180,7 @@ class TestControllers : public QObject {
     ExperimentTree tree;
     SimulatorsPage versions;
     RigController rigs(bench, page, tree, versions);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     QCOMPARE(bench.run().id, run);
     QSignalSpy docks(&bench, &Workbench::dockWanted);
     rigs.select(rig, 0);
@@ -187,9 +197,10 @@ class TestControllers : public QObject {
     Workbench bench(desk.host, desk.options, desk.window);
     ComparePage page;
     CompareController comparing(bench, page);
-    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    open(bench, desk);
     comparing.compare({first});
     comparing.compare({second});
+    bench.reader().waitUntilIdle();
     std::vector<Id> chosen = page.chosen();
     std::ranges::sort(chosen);
     QCOMPARE(chosen, (std::vector<Id>{first, second}));

@@ -37,6 +37,7 @@ struct Desk {
     window->show();
     window->activateWindow();
     window->openDatabase(stored.qpath());
+    window->bench().reader().waitUntilIdle();
     QTest::qWait(50);  // what is shown follows from events
     return window;
   }

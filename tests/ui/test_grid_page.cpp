@@ -9,8 +9,8 @@
 #include <QTest>
 #include <nlohmann/json.hpp>
 
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_losses.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_losses.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/message_banner.h"
@@ -429,7 +429,7 @@ class TestGridPage : public QObject {
     form->findChild<QLineEdit*>("distances_m")->setText("0.8");
     form->findChild<QPushButton*>("start")->click();
     QTRY_VERIFY_WITH_TIMEOUT(window.banner().text().contains("0.8 is not allowed"), 60'000);
-    QVERIFY(window.bench().watcher().database().grids().empty());
+    QVERIFY(Database::open(folder.filePath("a.db").toStdString(), Database::Mode::readOnly).grids().empty());
   }
 
   void theWindowShowsAStoredGridAndPlaysAKickBetweenItsCells() {
@@ -458,6 +458,7 @@ class TestGridPage : public QObject {
     QVERIFY(window.openDatabase(folder.filePath("a.db")));
     window.grids().show(1);
     QVERIFY(window.gridPage().isVisible());
+    window.bench().reader().waitUntilIdle();
     QCOMPARE(window.gridPage().current(), Id(1));
     // A cell's replay selects its run.
     ReplayJob* job = window.findChild<ReplayJob*>();

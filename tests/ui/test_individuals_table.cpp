@@ -67,6 +67,19 @@ QCheckBox* box(IndividualsTable& table, const QString& text) {
 
 using M = IndividualsModel;
 
+/// A reader that answers with the next turn of the event loop.
+IndividualsTable::Reader later(const std::function<IndividualsTable::Page(int first, int last)>& page) {
+  return [page](int first, int last, const IndividualsTable::Take& take, const IndividualsTable::Failed& failed) {
+    QTimer::singleShot(0, qApp, [=] {
+      try {
+        take(page(first, last));
+      } catch (const InputError& error) {
+        failed(error.what());
+      }
+    });
+  };
+}
+
 }  // namespace
 
 class TestIndividualsTable : public QObject {
@@ -279,13 +292,14 @@ class TestIndividualsTable : public QObject {
     QTimer other;
     connect(&other, &QTimer::timeout, this, [&] { ++turns; });
     other.start(0);
-    table.load(generations, [&](int generation) {
-      std::vector<IndividualRecord> all;
-      for (int slot = 0; slot < population; ++slot)
-        all.push_back(
-            individual(generation * 1000 + slot, generation, slot, (slot * 7919 + generation * 31) % 1000, "01"));
-      return all;
-    });
+    table.load(generations, later([](int first, int) {
+                 IndividualsTable::Page page{{}, first + 15};
+                 for (int generation = first; generation < page.next; ++generation)
+                   for (int slot = 0; slot < population && generation <= generations; ++slot)
+                     page.individuals.push_back(individual(generation * 1000 + slot, generation, slot,
+                                                           (slot * 7919 + generation * 31) % 1000, "01"));
+                 return page;
+               }));
     QCOMPARE(table.model().rowCount(), 0);
     QVERIFY(loaded.wait(20000));
     QCOMPARE(table.model().rowCount(), generations * population);
@@ -296,24 +310,42 @@ class TestIndividualsTable : public QObject {
     for (int row = 1; row < generations * population; ++row) QVERIFY(fitness(row - 1) >= fitness(row));
   }
 
-  void aGenerationThatIsReadAndAnnouncedComesOnce() {
+  void aGenerationThatIsStoredMeanwhileComesOnce() {
     IndividualsTable table;
     QSignalSpy loaded(&table, &IndividualsTable::loaded);
-    table.load(1, [](int) { return std::vector{individual(1, 1, 0, 1, "0")}; });
+    const auto one = [](int first, int) {
+      return IndividualsTable::Page{{individual(first, first, 0, 1, "0")}, first + 1};
+    };
+    table.load(1, later(one));
+    table.extend(2);
     QVERIFY(loaded.wait(20000));
-    GenerationRecord generation;
-    generation.individuals = {individual(1, 1, 0, 1, "0"), individual(2, 1, 1, 2, "1")};
-    table.append(generation);
     QCOMPARE(table.model().rowCount(), 2);
+    table.extend(2);
+    table.extend(3);
+    QVERIFY(loaded.wait(20000));
+    QCOMPARE(table.model().rowCount(), 3);
+  }
+
+  void aPageOfTheRunBeforeComesTooLate() {
+    IndividualsTable table;
+    std::vector<IndividualsTable::Take> takes;
+    const auto keep = [&](int, int, const IndividualsTable::Take& take, const auto&) { takes.push_back(take); };
+    table.load(1, keep);
+    table.load(1, keep);
+    QCOMPARE(takes.size(), std::size_t(2));
+    takes[1]({{individual(7, 1, 0, 1, "0")}, 2});
+    takes[0]({{individual(1, 1, 0, 1, "0"), individual(2, 1, 1, 1, "1")}, 2});
+    QCOMPARE(table.model().rowCount(), 1);
+    QCOMPARE(table.model().at(0).id, Id(7));
   }
 
   void aReadingThatFailsSaysWhy() {
     IndividualsTable table;
     QSignalSpy loaded(&table, &IndividualsTable::loaded);
-    table.load(3, [](int generation) -> std::vector<IndividualRecord> {
-      if (generation == 2) throw InputError("kick.db: the file is damaged");
-      return {individual(generation, generation, 0, 1, "0")};
-    });
+    table.load(3, later([](int first, int) {
+                 if (first == 2) throw InputError("kick.db: the file is damaged");
+                 return IndividualsTable::Page{{individual(first, first, 0, 1, "0")}, first + 1};
+               }));
     QVERIFY(loaded.wait(20000));
     QCOMPARE(table.model().rowCount(), 1);
     bool said = false;

@@ -11,6 +11,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QScreen>
+#include <QSignalSpy>
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QTest>
@@ -22,12 +23,15 @@
 #include "core/run/prepared_experiment.h"
 #include "tests/gap/rig_report.h"
 #include "tests/plugin/built_plugins.h"
+#include "tests/ui/locked_database.h"
 #include "tests/ui/stored_run.h"
+#include "ui/charts/compare_page.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/message_banner.h"
 #include "ui/controllers/draft_controller.h"
+#include "ui/controllers/grid_controller.h"
 #include "ui/controllers/run_controller.h"
 #include "ui/database/individuals_table.h"
 #include "ui/experiment/experiment_form.h"
@@ -83,6 +87,7 @@ struct Desk {
     auto window = std::make_unique<MainWindow>(host, theme, options);
     window->show();
     window->openDatabase(database, Workbench::Absent::make);
+    window->bench().reader().waitUntilIdle();
     return window;
   }
   QTemporaryDir folder;
@@ -96,6 +101,14 @@ struct Desk {
 struct RealDesk : Desk {
   RealDesk() : Desk(BTR_PROGRAM) { options.isActive = isRunActive; }
 };
+
+/// Until everything that was asked of the database is answered.
+void settle(MainWindow& window) { window.bench().reader().waitUntilIdle(); }
+
+void show(MainWindow& window, Id run) {
+  window.selectRun(run);
+  settle(window);
+}
 
 void startDraft(MainWindow& window) {
   QVERIFY2(window.draft().isValid(), qPrintable(window.draft().problems().join('\n')));
@@ -170,6 +183,55 @@ class TestMainWindow : public QObject {
     QTRY_COMPARE(table->model().rowCount(), 14);
   }
 
+  // Another process keeps the file to itself: what is shown stays, the window goes on, and what was asked for comes
+  // when it can be read.
+  void theWindowGoesOnWhileTheDatabaseIsLocked() {
+    LockedDatabase stored;
+    Desk desk;
+    desk.options.isWritable = [](const QString&) { return false; };
+    const auto window = desk.open(stored.qpath());
+    const FitnessChart* chart = window->findChild<FitnessChart*>();
+    QCOMPARE(chart->run().run, stored.secondRun());
+    stored.lock();
+    // Everything that reads: another run, runs to compare, grids, the individuals of a table.
+    window->selectRun(stored.firstRun());
+    window->compareRuns({stored.firstRun(), stored.secondRun()});
+    window->grids().read();
+    emit window->findChild<MeasurementSheet*>()->parametersRequested({1, 2}, false);
+    QSignalSpy answered(&window->bench().reader(), &DatabaseReader::idle);
+    int turns = 0;
+    QTimer timer;
+    connect(&timer, &QTimer::timeout, this, [&] { ++turns; });
+    timer.start(0);
+    while (turns < 50) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+    QCOMPARE(answered.count(), 0);
+    QCOMPARE(chart->run().run, stored.secondRun());
+    QCOMPARE(window->bench().run().id, stored.secondRun());
+    QTRY_VERIFY(window->findChild<QLabel*>("reading")->text().contains("Reading"));
+    stored.unlock();
+    settle(*window);
+    QCOMPARE(chart->run().run, stored.firstRun());
+    QCOMPARE(chart->run().generations.size(), std::size_t(3));
+    QCOMPARE(window->comparePage().plot().data().bands.size(), std::size_t(1));
+    QCOMPARE(window->findChild<IndividualsTable*>()->model().rowCount(), 6);
+    QCOMPARE(window->findChild<QLabel*>("reading")->text(), QString());
+    QCOMPARE(message(*window), QString());
+  }
+
+  // Its questions are under way, and the lock is not given up.
+  void theWindowClosesWhileTheDatabaseIsLocked() {
+    LockedDatabase stored;
+    Desk desk;
+    desk.options.isWritable = [](const QString&) { return false; };
+    auto window = desk.open(stored.qpath());
+    stored.lock();
+    window->selectRun(stored.firstRun());
+    window->grids().read();
+    QVERIFY(!window->bench().reader().isIdle());
+    QVERIFY(window->close());
+    window.reset();
+  }
+
   void aBadDatabaseShowsTheErrorAndKeepsTheOldOne() {
     StoredRun stored;
     fullRun(stored);
@@ -204,6 +266,7 @@ class TestMainWindow : public QObject {
 
     QTest::mouseClick(panel->findChild<QPushButton*>("stop"), Qt::LeftButton);
     QVERIFY(stored.database.run(run).stopRequested);
+    settle(*window);
     QCOMPARE(panel->findChild<QLabel*>("stage")->text(), QString("Stopping …"));
     stored.database.setRunState(run, RunState::stopped, "");
     program.end();
@@ -231,6 +294,7 @@ class TestMainWindow : public QObject {
     Desk desk("/no/such/btr");
     const auto window = desk.open(stored.qpath());
     QTest::mouseClick(window->findChild<RunPanel*>()->findChild<QPushButton*>("go"), Qt::LeftButton);
+    settle(*window);
     QVERIFY(message(*window).contains("/no/such/btr cannot be started"));
   }
 
@@ -283,7 +347,7 @@ class TestMainWindow : public QObject {
     Desk desk;
     {
       const auto window = desk.open(stored.qpath());
-      window->selectRun(first);
+      show(*window, first);
       window->findChild<QDockWidget*>("dock.gap")->hide();
       ExperimentSpec spec = StoredRun::spec();
       spec.name = "My draft";
@@ -321,6 +385,7 @@ class TestMainWindow : public QObject {
     QVERIFY(program.said().isEmpty());
     emit sheet->submitted({value(tasks[1].individual)});
     QCOMPARE(stored.database.measurements(run).size(), 2u);
+    settle(*window);
     QCOMPARE(window->findChild<Alarm*>()->state(), Alarm::State::quiet);
     QTRY_VERIFY(program.said().startsWith("run --db"));
     stored.database.setRunState(run, RunState::stopped, "");
@@ -342,17 +407,19 @@ class TestMainWindow : public QObject {
     };
     {
       const auto window = desk.open(stored.qpath());
-      window->selectRun(run);
+      show(*window, run);
       window->findChild<MeasurementSheet*>()->model().write({{0, MeasurementModel::firstRepeat, "0.5"}}, "entry");
-      window->selectRun(other);
+      show(*window, other);
       QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 0);
-      window->selectRun(run);
+      show(*window, run);
       QCOMPARE(typed(*window), QString("0.5"));
       // The same numbers of run and individuals in another database are others.
       QVERIFY(window->openDatabase(elsewhere.qpath()));
+      settle(*window);
       QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 2);
       QCOMPARE(typed(*window), QString());
       QVERIFY(window->openDatabase(stored.qpath()));
+      settle(*window);
       QCOMPARE(typed(*window), QString("0.5"));
       QVERIFY(window->close());
     }
@@ -378,7 +445,7 @@ class TestMainWindow : public QObject {
     stored.database.addSimulator(version);
     Desk desk;
     const auto window = desk.open(stored.qpath());
-    window->selectRun(run);
+    show(*window, run);
     answerClosing("goBack");
     emit window->findChild<MeasurementSheet*>()->voidRequested(value, true, "hit the wall");
     QVERIFY(stored.database.measurement(value).isVoid);
@@ -432,11 +499,12 @@ class TestMainWindow : public QObject {
     const Id other = stored.addRun(stored.database.experiments().front().id, 8);
     Desk desk;
     const auto window = desk.open(stored.qpath());
-    window->selectRun(other);
+    show(*window, other);
     auto* alarm = window->findChild<Alarm*>();
     QCOMPARE(alarm->state(), Alarm::State::ringing);
     QVERIFY2(alarm->message().contains(QString("Run %1").arg(waiting)), qPrintable(alarm->message()));
     emit alarm->sheetRequested();
+    settle(*window);
     QCOMPARE(window->findChild<ExperimentTree*>()->selectedRun(), waiting);
     QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 2);
   }
@@ -508,6 +576,7 @@ class TestMainWindow : public QObject {
     Desk desk;
     const auto window = desk.open(stored.qpath());
     emit window->findChild<MeasurementSheet*>()->parametersRequested({tasks[0].individual, tasks[1].individual}, false);
+    settle(*window);
     const QStringList lines = QApplication::clipboard()->text().split('\n');
     QCOMPARE(lines.size(), 4);
     QVERIFY(lines[0].startsWith("individual,"));
@@ -530,6 +599,7 @@ class TestMainWindow : public QObject {
     // A run that nobody has measured.
     const Id other = stored.addRun(stored.addExperiment("Other"));
     emit window->findChild<ExperimentTree*>()->runSelected(other);
+    settle(*window);
     QVERIFY(state->text().startsWith("0 of this run's individuals"));
   }
 
@@ -662,7 +732,7 @@ class TestMainWindow : public QObject {
     QCOMPARE(stored.database.rigSimulators(0).back().simulator, SimulatorSpec{});
     QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 3);
     tree->selectRun(run);
-    window->selectRun(run);
+    show(*window, run);
     QCOMPARE(window->findChild<SimulatorsPage*>()->findChild<QTableWidget*>("versions")->rowCount(), 2);
   }
 

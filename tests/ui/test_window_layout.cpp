@@ -27,6 +27,7 @@ struct Desk {
     auto window = std::make_unique<MainWindow>(host, theme, options);
     window->show();
     window->openDatabase(stored.qpath());
+    window->bench().reader().waitUntilIdle();
     settle();
     return window;
   }

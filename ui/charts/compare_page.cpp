@@ -10,7 +10,6 @@
 #include <QTreeWidget>
 #include <algorithm>
 
-#include "core/spec/error.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/charts/stage_plot.h"
 #include "ui/common/format.h"
@@ -66,7 +65,10 @@ ComparePage::ComparePage(QWidget* parent)
   tree_->setToolTip(tr("Tick the runs to compare; a tick beside an experiment takes all of its runs"));
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  connect(tree_, &QTreeWidget::itemChanged, this, [this] { draw(); });
+  connect(tree_, &QTreeWidget::itemChanged, this, [this] {
+    draw();
+    ask();
+  });
 
   differences_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   differences_->setAlternatingRowColors(true);
@@ -124,11 +126,6 @@ QWidget* ComparePage::makeOptions() {
   return bar;
 }
 
-void ComparePage::setReader(Reader reader) {
-  reader_ = std::move(reader);
-  refresh();
-}
-
 void ComparePage::setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments) {
   const std::vector<Id> before = chosen();
   runs_ = runs;
@@ -168,6 +165,7 @@ void ComparePage::setChosen(const std::vector<Id>& runs) {
     }
   }
   draw();
+  ask();
 }
 
 std::vector<Id> ComparePage::chosen() const {
@@ -180,8 +178,31 @@ std::vector<Id> ComparePage::chosen() const {
 void ComparePage::showStages(bool on) { charts_->setCurrentWidget(on ? static_cast<QWidget*>(stages_) : plot_); }
 
 void ComparePage::refresh() {
-  read_.clear();
+  fresh_.clear();
+  ask();
+}
+
+// Each run is read once, until refresh().
+void ComparePage::ask() {
+  std::vector<Id> missing;
+  for (const Id id : chosen())
+    if (!fresh_.contains(id)) missing.push_back(id);
+  if (!missing.empty()) emit wanted(missing);
+}
+
+void ComparePage::setHistories(std::map<Id, History> histories, const QString& trouble) {
+  trouble_ = trouble;
+  for (auto& [id, history] : histories) {
+    fresh_.insert(id);
+    read_[id] = std::move(history);
+  }
   draw();
+}
+
+void ComparePage::forget() {
+  fresh_.clear();
+  read_.clear();
+  trouble_.clear();
 }
 
 QString ComparePage::experimentOf(const RunRecord& run) const {
@@ -194,24 +215,22 @@ QString ComparePage::nameOf(const RunRecord& run) const { return tr("%1, run %2"
 void ComparePage::draw() {
   std::vector<RunRecord> records, drawn;
   std::vector<FitnessRun> curves;
-  QString trouble, unit;
+  QString unit;
   QStringList leftOut;
+  bool isMissing = false;
   for (const Id id : chosen()) {
     const auto record = std::find_if(runs_.begin(), runs_.end(), [&](auto& run) { return run.id == id; });
     if (record == runs_.end()) continue;
-    // Each run is read once, until refresh().
-    if (reader_ && !read_.contains(id)) {
-      try {
-        read_[id] = reader_(id);
-      } catch (const InputError& error) {
-        trouble = QString::fromUtf8(error.what());
-      }
-    }
     records.push_back(*record);
+    const auto history = read_.find(id);
+    if (history == read_.end()) {
+      isMissing = true;
+      continue;
+    }
     // Metres and centimetres a second on one axis would compare nothing.
-    if (curves.empty()) unit = read_[id].unit;
-    if (read_[id].unit != unit) {
-      leftOut << tr("run %1 (%2)").arg(id).arg(read_[id].unit);
+    if (curves.empty()) unit = history->second.unit;
+    if (history->second.unit != unit) {
+      leftOut << tr("run %1 (%2)").arg(id).arg(history->second.unit);
       continue;
     }
     FitnessRun curve;
@@ -220,8 +239,8 @@ void ComparePage::draw() {
     curve.experiment = experimentOf(*record);
     curve.group = withoutSeed(*record);
     curve.standIn = record->reality == "stand_in";
-    curve.generations = read_[id].generations;
-    curve.simulators = read_[id].simulators;
+    curve.generations = history->second.generations;
+    curve.simulators = history->second.simulators;
     drawn.push_back(*record);
     curves.push_back(std::move(curve));
   }
@@ -233,7 +252,10 @@ void ComparePage::draw() {
   fillDifferences(records);
   leftOut_->setText(tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", ")));
   leftOut_->setVisible(!leftOut.isEmpty());
-  if (!trouble.isEmpty()) summary_->setText(trouble);
+  if (!trouble_.isEmpty())
+    summary_->setText(trouble_);
+  else if (isMissing)
+    summary_->setText(tr("Reading…"));
 }
 
 // One row an arm, each at its last stage; differences are to the first arm, paired by seed.

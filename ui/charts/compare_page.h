@@ -1,7 +1,7 @@
 #pragma once
 #include <QWidget>
-#include <functional>
 #include <map>
+#include <set>
 
 #include "core/run/comparison.h"
 #include "ui/charts/fitness_plot.h"
@@ -26,25 +26,26 @@ class ComparePage : public QWidget {
   Q_OBJECT
 
  public:
-  /// Generations of a run (without individuals), its simulator versions and what its measurement stages showed; may
-  /// throw InputError, which is shown.
+  /// Generations of a run (without individuals), its simulator versions and what its measurement stages showed.
   struct History {
     std::vector<GenerationRecord> generations;
     std::vector<SimulatorRecord> simulators;
     std::vector<StageOutcome> stages = {};
     QString unit = {};  ///< of its fitness
   };
-  using Reader = std::function<History(Id run)>;
 
   explicit ComparePage(QWidget* parent = nullptr);
 
-  void setReader(Reader reader);
   /// All runs to choose from, with their specs; the names of their experiments by id. Ticks stay.
   void setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments);
   void setChosen(const std::vector<Id>& runs);
   std::vector<Id> chosen() const;
-  /// Reads the chosen runs again, for those that are still learning.
+  /// Asks for the chosen runs again, for those that are still learning. What is there stays until it comes.
   void refresh();
+  /// Answers to what was wanted; `trouble` is shown: why others cannot be read.
+  void setHistories(std::map<Id, History> histories, const QString& trouble = {});
+  /// Another database: numbers of runs mean others now.
+  void forget();
 
   PlotWidget& plot() { return *plot_; }
   PlotWidget& stages() { return *stages_; }     ///< the gap by stage
@@ -54,8 +55,13 @@ class ComparePage : public QWidget {
   void showStages(bool on);
   QTableWidget& differences() { return *differences_; }
 
+ signals:
+  /// The chosen runs that are not known, or no longer; answered by setHistories().
+  void wanted(const std::vector<btr::Id>& runs);
+
  private:
   QWidget* makeOptions();
+  void ask();
   QString experimentOf(const RunRecord& run) const;
   QString nameOf(const RunRecord& run) const;
   void draw();
@@ -68,10 +74,11 @@ class ComparePage : public QWidget {
   QTableWidget *differences_, *reached_;
   QLabel *summary_, *leftOut_;
   QCheckBox *joinSeeds_, *onlyDifferent_;
-  Reader reader_;
   std::vector<RunRecord> runs_;
   std::map<Id, QString> experiments_;
   std::map<Id, History> read_;
+  std::set<Id> fresh_;  ///< of these: read since the last refresh()
+  QString trouble_;
 };
 
 }  // namespace btr::ui

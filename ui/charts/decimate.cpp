@@ -1,8 +1,9 @@
 #include "ui/charts/decimate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "core/spec/thinning.h"
 
 namespace btr::ui {
 
@@ -18,21 +19,15 @@ std::vector<QPointF> decimate(const std::vector<QPointF>& points, double from, d
   if (last != points.end()) ++last;
   if (last - first <= 2 * columns) return {first, last};
 
-  const auto column = [&](const QPointF& point) {
-    const double place = (point.x() - from) / (to - from) * columns;
+  const auto at = [&](std::size_t i) { return *(first + static_cast<std::ptrdiff_t>(i)); };
+  const auto column = [&](std::size_t i) {
+    const double place = (at(i).x() - from) / (to - from) * columns;
     return static_cast<int>(std::floor(std::clamp(place, -1.0, columns + 1.0)));
   };
   std::vector<QPointF> kept;
-  while (first != last) {
-    const int here = column(*first);
-    const auto end = std::find_if(first, last, [&](const QPointF& point) { return column(point) != here; });
-    const auto [low, high] = std::minmax_element(first, end, [](auto& a, auto& b) { return a.y() < b.y(); });
-    std::array picks{first, low, high, end - 1};
-    std::sort(picks.begin(), picks.end());
-    const auto distinct = std::unique(picks.begin(), picks.end());
-    for (auto pick = picks.begin(); pick != distinct; ++pick) kept.push_back(**pick);
-    first = end;
-  }
+  thin(
+      0, static_cast<std::size_t>(last - first), column, [&](std::size_t i) { return at(i).y(); },
+      [&](std::size_t i) { kept.push_back(at(i)); });
   return kept;
 }
 

@@ -3,50 +3,64 @@
 #include <QTimer>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
 
 #include "core/run/back_to_reality.h"
-#include "core/store/database.h"
+#include "ui/common/database_reader.h"
 
 namespace btr::ui {
 
-/// Looks at a database that other processes write: every quarter of a second it asks for the data version and tells, as
-/// plain values, what became new. It reads only. One run at a time is followed in detail. Errors of reading are told
-/// once by failed() and tried again at the next change.
+struct SeenBefore;
+struct DatabaseNews;
+struct RunNews;
+
+/// Looks at a database that other processes write: every quarter of a second it asks the reader for the data version
+/// and tells, as plain values, what became new. One run at a time is followed in detail. Errors of reading are told
+/// once by failed(), until reading succeeds again.
 class DatabaseWatcher : public QObject {
   Q_OBJECT
  public:
+  /// Whether a process holds the run's lock; called in the reader's thread.
   using ActiveTest = std::function<bool(const std::string& database, Id run)>;
+  /// Whether a process of ours lives that works on the run: until it holds the lock nobody else can tell.
+  using OwnTest = std::function<bool(Id run)>;
   /// `isActive` is isRunActive() but in tests.
-  explicit DatabaseWatcher(ActiveTest isActive, int interval_ms = 250, QObject* parent = nullptr);
+  DatabaseWatcher(DatabaseReader& reader, ActiveTest isActive, OwnTest isOurs = {}, int interval_ms = 250,
+                  QObject* parent = nullptr);
 
   using Names = std::map<Id, std::string>;
-  /// Opens another database and tells everything anew; `names` stand in for those of the stored experiments. Throws
-  /// InputError and keeps the old one.
-  void open(const QString& path, const Names& names = {});
+  /// Opens another database and tells its runs; `names` stand in for those of the stored experiments. Returns when they
+  /// are told (see DatabaseReader::open, also for `mode` and what is returned). Throws InputError and keeps the old
+  /// one.
+  std::optional<Database> open(const QString& path, const Names& names = {},
+                               Database::Mode mode = Database::Mode::readOnly);
   void setNames(const Names& names);
-  bool isOpen() const { return database_.has_value(); }
-  QString path() const;
-  const Database& database() const { return *database_; }  ///< only while isOpen(); of the window's thread
+  bool isOpen() const { return reader_.isOpen(); }
+  QString path() const { return reader_.path(); }
 
-  /// The run to follow, 0 for none; everything about it is told anew.
+  /// The run to follow, 0 for none; everything about it is told anew, after followed(). What is not told by then of the
+  /// run that was followed before never is.
   void follow(Id run);
   Id followed() const { return run_; }
   std::set<Id> activeRuns() const { return active_; }  ///< also those of active grids that are not finished
   std::set<Id> activeGrids() const { return activeGrids_; }
-  const std::vector<RunRecord>& runs() const { return runs_; }
+  const std::vector<RunRecord>& runs() const { return runs_; }  ///< as last seen, without files and genes
+  const RunRecord* run(Id id) const;                            ///< or nothing
+  std::vector<ExperimentRecord> experiments() const;            ///< with the user's names
   /// A grid and the runs of its cells.
   struct Grid {
     GridRecord record;
     std::map<Id, int> cellOfRun;  ///< number of the cell
   };
-  const std::vector<Grid>& grids() const { return grids_; }
+  const std::vector<Grid>& grids() const { return *grids_; }
   const Grid* grid(Id id) const;  ///< or nothing
 
-  /// What the timer does; also called after an own write, so that it is seen at once.
-  void poll();
+  /// What the timer does; also asked for after an own write, so that it is seen soon. `then` is called when what was
+  /// stored by now has been told.
+  void poll(std::function<void()> then = {});
 
  signals:
   void opened(const QString& path);
@@ -56,6 +70,9 @@ class DatabaseWatcher : public QObject {
   /// The versions of all rigs, by rig and number: at first, and when one came along.
   void rigsChanged(const std::vector<btr::SimulatorRecord>& versions);
   void activeChanged(const std::set<btr::Id>& active);  ///< runs or grids
+  /// Before and after all that is told about another run to follow.
+  void followedRun(const btr::RunRecord& run);
+  void followedRunTold();
   // About the followed run:
   void runChanged(const btr::RunRecord& run, const btr::RunProgress& progress, bool active);
   void generationsReset(btr::Id run, const std::vector<btr::GenerationRecord>& all);
@@ -67,19 +84,30 @@ class DatabaseWatcher : public QObject {
   void failed(const QString& message);
 
  private:
-  void readGrids();
-  void readAll();
-  void readRun(const RunRecord& run, bool stageTold);
-  bool readActive();
+  SeenBefore seen() const;
+  void ask();
+  void take(DatabaseNews& news, quint64 asked);
+  void tellNews(DatabaseNews& news);
+  void tellRun(RunNews& found, bool versionsTold);
+  bool tellActive();
+  void tellActivity();
+  void fail(const QString& why);
+  bool mayBeActive(const RunRecord& run) const;
 
+  DatabaseReader& reader_;
   ActiveTest isActive_;
+  OwnTest isOurs_;
   QTimer timer_;
-  std::optional<Database> database_;
+  bool asking_ = false, again_ = false;
+  quint64 asked_ = 0;
+  std::vector<std::pair<quint64, std::function<void()>>> then_;  ///< and the number of the look that they wait for
   std::int64_t version_ = -1;
   std::vector<RunRecord> runs_;
+  std::vector<ExperimentRecord> experiments_;  ///< as stored
   Names names_;
-  std::vector<Grid> grids_;
-  std::map<Id, int> stages_;  ///< of each run, when its simulators were told
+  std::shared_ptr<const std::vector<Grid>> grids_ = std::make_shared<const std::vector<Grid>>();
+  std::map<Id, int> stages_;           ///< of each run, when its simulators were told
+  std::set<Id> locked_, lockedGrids_;  ///< by some process
   std::set<Id> active_, activeGrids_;
   Id run_ = 0;
   std::optional<std::size_t> rigVersions_;  ///< that were told

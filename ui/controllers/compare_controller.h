@@ -16,6 +16,8 @@ class CompareController : public QObject {
   void compare(const std::vector<Id>& runs);
 
  private:
+  void read(const std::vector<Id>& runs);
+
   Workbench& bench_;
   ComparePage& page_;
 };

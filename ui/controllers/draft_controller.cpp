@@ -6,6 +6,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <algorithm>
+#include <utility>
 
 #include "core/spec/file_kind.h"
 #include "core/spec/json_reader.h"
@@ -22,6 +23,9 @@ DraftController::DraftController(Workbench& bench, ExperimentForm& draft, Experi
   connect(&draft_, &ExperimentForm::startRequested, this, &DraftController::start);
   connect(&draft_, &ExperimentForm::saveRequested, this, &DraftController::save);
   connect(&draft_, &ExperimentForm::openRequested, this, &DraftController::openWithDialog);
+  connect(&draft_, &ExperimentForm::changed, this, [this] {
+    if (!refused_.isEmpty() && !draft_.problems().contains(refused_)) bench_.mend(std::exchange(refused_, {}));
+  });
   connect(&spec_, &ExperimentForm::copyRequested, this, &DraftController::copyStored);
   connect(&bench_.launcher(), &RunLauncher::stored, this, [this] {
     draft_.markSaved();
@@ -54,8 +58,16 @@ bool DraftController::mayReplace() {
 }
 
 void DraftController::show(const ExperimentSpec& spec) {
+  offerPluginsOf(spec);
   draft_.setSpec(spec);
   keptUnsaved_ = false;
+}
+
+// An experiment may name folders of plugins.
+void DraftController::offerPluginsOf(const ExperimentSpec& spec) {
+  if (spec.plugins.empty()) return;
+  bench_.host()->load(pluginFolders(spec), "experiment /plugins");
+  draft_.setOffers(offersOf(*bench_.host()));
 }
 
 bool DraftController::begin() {
@@ -89,10 +101,13 @@ bool DraftController::open(const QString& file) {
     const std::string path = QFileInfo(file).absoluteFilePath().toStdString();
     requireKind(path, FileKind::experiment);
     spec = loadExperiment(path);
+    offerPluginsOf(spec);
   });
+  if (!read) refusedFile_ = bench_.lastError();
   if (!read || !mayReplace()) return false;
   return bench_.guard([&] {
     show(spec);
+    bench_.mend(std::exchange(refusedFile_, {}));
     emit bench_.dockWanted("draft");
     bench_.inform(tr("Opened %1").arg(file));
   });
@@ -144,7 +159,8 @@ void DraftController::start() {
     return bench_.report(tr("Open or make a database first: a run is stored from its first generation on."));
   if (!draft_.isValid()) {
     emit bench_.dockWanted("draft");
-    return bench_.report(draft_.problems().first());
+    refused_ = draft_.problems().first();
+    return bench_.report(refused_);
   }
   const ExperimentSpec spec = draft_.spec();
   bench_.inform(tr("Preparing %1 …").arg(QString::fromStdString(spec.name)));
@@ -167,7 +183,7 @@ void DraftController::restore() {
   Settings& settings = bench_.settings();
   try {
     if (const QString json = settings.draft(); !json.isEmpty()) {
-      draft_.setSpec(experimentFromJson(json.toStdString(), "draft", settings.draftFolder().toStdString()));
+      show(experimentFromJson(json.toStdString(), "draft", settings.draftFolder().toStdString()));
       keptUnsaved_ = settings.flag(unsavedFlag, false);
       return;
     }

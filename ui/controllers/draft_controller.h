@@ -29,12 +29,14 @@ class DraftController : public QObject {
 
  private:
   bool mayReplace();
+  void offerPluginsOf(const ExperimentSpec& spec);
   void show(const ExperimentSpec& spec);
   bool fresh();
 
   Workbench& bench_;
   ExperimentForm &draft_, &spec_;
-  bool keptUnsaved_ = false;  ///< restored from the last start, where it was not saved
+  QString refused_, refusedFile_;  ///< why the form could not be started, and a file not be opened
+  bool keptUnsaved_ = false;       ///< restored from the last start, where it was not saved
 };
 
 }  // namespace btr::ui

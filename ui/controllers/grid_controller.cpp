@@ -4,9 +4,10 @@
 #include <QFile>
 #include <QStandardPaths>
 #include <algorithm>
+#include <utility>
 
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/resources.h"
 #include "ui/controllers/run_controller.h"
@@ -39,7 +40,7 @@ GridController::GridController(Workbench& bench, RunController& runs, GridPage& 
   });
   connect(&page_, &GridPage::replayRequested, this, [this](Id run, Id individual) {
     bench_.selectRun(run);
-    emit bench_.replayWanted(individual);
+    bench_.whenSelected([this, individual] { emit bench_.replayWanted(individual); });
   });
   connect(&bench_.watcher(), &DatabaseWatcher::activeChanged, this, [this] {
     checkProcess();
@@ -59,21 +60,36 @@ std::vector<RunGroup> GridController::groups() const {
 
 void GridController::read() {
   if (!bench_.watcher().isOpen()) return;
-  bench_.guard([this] {
+  std::vector<Id> ids;
+  for (const DatabaseWatcher::Grid& grid : bench_.watcher().grids()) ids.push_back(grid.record.id);
+  struct Read {
     std::vector<GridSummary> grids;
-    for (const DatabaseWatcher::Grid& grid : bench_.watcher().grids())
-      grids.push_back(summaryOf(bench_.watcher().database(), *bench_.host(), grid.record.id));
-    page_.setGrids(bench_.path(), grids);
-    std::map<Id, GridState> states;
-    for (const GridSummary& grid : grids) states[grid.grid.id] = stateOf(grid);
-    page_.setStates(states);
-  });
+    std::set<Id> finished;
+  };
+  bench_.reader().read(
+      this, "grids", tr("the grids"),
+      [ids, host = bench_.host()](const Database& database) {
+        Read read;
+        for (const Id grid : ids) {
+          read.grids.push_back(summaryOf(database, *host, grid));
+          if (isGridFinished(database, grid)) read.finished.insert(grid);
+        }
+        return read;
+      },
+      [this](const Read& read) {
+        page_.setGrids(bench_.path(), read.grids);
+        std::map<Id, GridState> states;
+        for (const GridSummary& grid : read.grids)
+          states[grid.grid.id] = stateOf(grid, read.finished.contains(grid.grid.id));
+        page_.setStates(states);
+        if (const Id wanted = std::exchange(wanted_, 0)) page_.choose(wanted);
+      });
 }
 
-GridState GridController::stateOf(const GridSummary& grid) const {
+GridState GridController::stateOf(const GridSummary& grid, bool isFinished) const {
   GridState state;
   state.isActive = bench_.watcher().activeGrids().count(grid.grid.id) > 0;
-  state.isFinished = isGridFinished(bench_.watcher().database(), grid.grid.id);
+  state.isFinished = isFinished;
   if (state.isFinished) return state;
   const auto each = static_cast<int>(valueOf(gridParameters(), grid.spec.settings, "generations"));
   state.total = grid.learning * each;
@@ -148,9 +164,9 @@ void GridController::checkProcess() {
 }
 
 void GridController::show(Id grid) {
+  wanted_ = grid;
   read();
   emit bench_.dockWanted("grid");
-  page_.choose(grid);
 }
 
 }  // namespace btr::ui

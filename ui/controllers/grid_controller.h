@@ -30,7 +30,7 @@ class GridController : public QObject {
   void kickWanted(btr::Id grid, double distance_m, double bearing_rad, double direction_rad);
 
  private:
-  GridState stateOf(const GridSummary& grid) const;
+  GridState stateOf(const GridSummary& grid, bool isFinished) const;
   void describe();
   void start(const GridForm& form);
   void stop(Id grid);
@@ -42,6 +42,7 @@ class GridController : public QObject {
   RunController& runs_;
   GridPage& page_;
   QTimer process_;         ///< runs while ours may end
+  Id wanted_ = 0;          ///< the grid to show when it is read
   bool launched_ = false;  ///< a process of ours whose end was not seen yet
 };
 

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "core/run/adoption.h"
-#include "core/run/prepared_experiment.h"
 #include "core/run/resting_simulator.h"
 #include "core/spec/json_reader.h"
 #include "ui/charts/plot_data.h"
@@ -38,7 +37,7 @@ MeasureController::MeasureController(Workbench& bench, RunController& runs, cons
     showPolicies(progress);
   });
   connect(&watcher, &DatabaseWatcher::runsChanged, this,
-          [this](const auto&, const std::vector<RunRecord>& all) { bench_.guard([&] { callForPerson(all); }); });
+          [this](const auto&, const std::vector<RunRecord>& all) { countWaiting(all); });
   MeasurementSheet& sheet = views_.sheet;
   connect(&sheet.model(), &MeasurementModel::draftChanged, this, &MeasureController::keepMeasurements);
   connect(&sheet.model(), &MeasurementModel::changed, this, &MeasureController::hideSimulated);
@@ -52,8 +51,8 @@ MeasureController::MeasureController(Workbench& bench, RunController& runs, cons
   connect(&views_.policies, &PolicyPage::endRequested, this, &MeasureController::endRealityLearning);
   connect(&views_.alarm, &Alarm::sheetRequested, this, [this] {
     bench_.selectRun(waitingRun_);
-    views_.sheet.showNewest();
     emit bench_.dockWanted("sheet");
+    bench_.whenSelected([this] { views_.sheet.showNewest(); });
   });
 }
 
@@ -73,7 +72,8 @@ void MeasureController::selectRun(const RunRecord& run) {
   genotype_ = bench_.host()->controller(spec.controller.name)->genotype();
   views_.policies.setUnit(unit_);
   views_.sheet.setUnit(unit_);
-  views_.sheet.setAllowed({fitness->canBeNegative() ? std::optional<double>() : 0.0, {}});
+  canBeNegative_ = fitness->canBeNegative();
+  views_.sheet.setAllowed({canBeNegative_ ? std::optional<double>() : 0.0, {}});
   views_.sheet.setStandIn(isStandIn(run));
   views_.sheet.model().setSimulatedShown(valueOf(stageParameters(), spec.stages, "hide_simulated") == 0);
 }
@@ -94,27 +94,39 @@ void MeasureController::showTasks(const std::vector<MeasurementTask>& tasks,
   views_.individuals.setMeasurements(measurements);
   hideSimulated();
   emit measuringChanged(countMeasured(bench_.run(), tasks, measurements));
-  bench_.guard([&] {
-    std::vector<IndividualRecord> individuals;
-    std::set<Id> seen;
-    for (const MeasurementRecord& measurement : measurements)
-      if (seen.insert(measurement.individual).second)
-        individuals.push_back(bench_.watcher().database().individual(measurement.individual));
-    emit measured(individuals, measurements);
-  });
+  readMeasured();
   showWaiting();
   showPolicies({});
+}
+
+// Generation and simulated fitness of those that were measured, for the charts.
+void MeasureController::readMeasured() {
+  std::set<Id> wanted;
+  for (const MeasurementRecord& measurement : measurements_) wanted.insert(measurement.individual);
+  bench_.reader().read(
+      this, "measured", tr("the measured individuals"),
+      [wanted](const Database& database) {
+        std::vector<IndividualRecord> individuals;
+        for (const Id id : wanted) individuals.push_back(database.individual(id));
+        return individuals;
+      },
+      [this](const std::vector<IndividualRecord>& individuals) { emit measured(individuals, measurements_); });
 }
 
 // Whoever measures shall not read elsewhere what the sheet hides.
 void MeasureController::hideSimulated() {
   std::set<Id> hidden;
+  std::set<double> fitness;
   const MeasuringCount count = countMeasured(bench_.run(), tasks_, measurements_);
   if (!views_.sheet.model().isSimulatedShown() && count.settled < count.wanted)
     for (const MeasurementTask& task : tasks_)
-      if (task.stage == bench_.run().stage + 1 && task.iteration == count.iteration) hidden.insert(task.individual);
+      if (task.stage == bench_.run().stage + 1 && task.iteration == count.iteration) {
+        hidden.insert(task.individual);
+        fitness.insert(task.simulatedFitness);
+      }
   views_.individuals.setHidden(hidden);
   emit blindChanged(!hidden.empty());
+  emit hiddenChanged(fitness);
 }
 
 // What the pages say while the selected run waits. Its process may be at work: right after the last value, or on L3
@@ -135,14 +147,27 @@ void MeasureController::showWaiting() {
 }
 
 // The alarm rings for a person while values are missing, whichever run is selected; a stand-in answers by itself.
-void MeasureController::callForPerson(const std::vector<RunRecord>& runs) {
+void MeasureController::countWaiting(const std::vector<RunRecord>& runs) {
+  std::vector<RunRecord> waiting;
+  for (const RunRecord& run : runs)
+    if (run.state == RunState::waiting && !isStandIn(run)) waiting.push_back(run);
+  bench_.reader().read(
+      this, "waiting", tr("what waits to be measured"),
+      [waiting](const Database& database) {
+        std::vector<WaitingRun> counted;
+        for (const RunRecord& run : waiting)
+          counted.push_back(
+              {run, countMeasured(run, database.measurementTasks(run.id), database.measurements(run.id))});
+        return counted;
+      },
+      [this](const std::vector<WaitingRun>& counted) { callForPerson(counted); });
+}
+
+void MeasureController::callForPerson(const std::vector<WaitingRun>& waiting) {
   QStringList others;
   QString message;
   Id first = 0;
-  for (const RunRecord& run : runs) {
-    if (run.state != RunState::waiting || isStandIn(run)) continue;
-    const MeasuringCount count = countMeasured(run, bench_.watcher().database().measurementTasks(run.id),
-                                               bench_.watcher().database().measurements(run.id));
+  for (const auto& [run, count] : waiting) {
     if (count.settled >= count.wanted) continue;
     if (first != 0) {
       others << QString::number(run.id);
@@ -172,9 +197,15 @@ void MeasureController::showPolicies(const RunProgress& progress) {
                                       tasks_.size(),
                                       measurements_.size()};
   if (seen == policiesSeen_) return;
-  bench_.guard(
-      [&] { views_.policies.setReports(realityReports(bench_.watcher().database(), bench_.run(), genotype_)); });
   policiesSeen_ = seen;
+  bench_.reader().read(
+      this, "policies", tr("the policies of L2"),
+      [run = bench_.run(), genotype = genotype_](const Database& database) {
+        return realityReports(database, run, genotype);
+      },
+      [this, run = bench_.run().id](const std::vector<RealityReport>& reports) {
+        if (run == bench_.run().id) views_.policies.setReports(reports);
+      });
 }
 
 // Typed beside the robot and not saved yet: kept for its run, whatever is looked at next.
@@ -202,13 +233,20 @@ QString MeasureController::whereItStands() {
                      "File, Back up");
 }
 
+// What was just written, in the sheet at once: nothing can be entered twice.
+void MeasureController::showStored() {
+  const Id run = bench_.run().id;
+  bench_.guard([&] { showTasks(tasks_, bench_.writer().measurements(run)); });
+  bench_.watcher().poll();
+}
+
 void MeasureController::submit(const std::vector<MeasurementRecord>& measurements) {
   try {
     bench_.writer().addMeasurements(measurements);
   } catch (const std::exception& error) {
     return views_.sheet.submissionFailed(QString::fromUtf8(error.what()));
   }
-  bench_.watcher().poll();
+  showStored();
   bench_.inform((measurements.size() == 1 ? tr("1 value stored") : tr("%1 values stored").arg(measurements.size())) +
                 whereItStands());
   const MeasuringCount count = countMeasured(bench_.run(), tasks_, measurements_);
@@ -222,7 +260,7 @@ void MeasureController::voidMeasurement(Id measurement, bool isVoid, const QStri
     const MeasurementRecord before = bench_.writer().measurement(measurement);
     bench_.writer().setMeasurementVoid(measurement, isVoid, note.toStdString());
     if (const QString where = whereItStands(); !where.isEmpty()) bench_.inform(tr("Stored") + where);
-    bench_.watcher().poll();
+    showStored();
     if (!isVoid || before.isVoid) return;
     if (const auto resting = simulatorRestingOn(bench_.writer(), before.run, before.individual))
       if (askToGoBack(bench_.window(), *resting)) {
@@ -238,42 +276,50 @@ void MeasureController::importMeasurements() {
                                    QFileInfo(bench_.path()).absolutePath(), tr("Tables (*.csv);;All files (*)"));
   if (file.isEmpty()) return;
   bench_.guard([&] {
-    const PreparedExperiment prepared = prepareFromRun(bench_.writer().run(bench_.run().id), *bench_.host());
-    const ImportAnswer answer = askAboutImport(
-        bench_.window(), file, {tasks_, measurements_, unit_.toStdString(), prepared.fitness->canBeNegative()});
+    const ImportAnswer answer =
+        askAboutImport(bench_.window(), file, {tasks_, measurements_, unit_.toStdString(), canBeNegative_});
     if (answer != ImportAnswer::cancelled)
       bench_.launcher().importFitness(bench_.path(), bench_.run().id, file, answer == ImportAnswer::confirmed);
   });
 }
 
 // What a robot's own program needs: one line an individual, the controller's parameters by name in its order.
-QString MeasureController::parametersCsv(const std::vector<Id>& individuals) const {
-  QStringList names{"individual"};
-  for (const Parameter& parameter : genotype_) names << QString::fromStdString(parameter.name);
-  QString text = names.join(',') + '\n';
-  for (const Id id : individuals) {
-    QStringList cells{QString::number(id)};
-    for (const double value : bench_.watcher().database().individual(id).parameters) cells << exactText(value);
-    text += cells.join(',') + '\n';
-  }
-  return text;
-}
-
 void MeasureController::giveParameters(const std::vector<Id>& individuals, bool asFile) {
-  bench_.guard([&] {
-    const QString text = parametersCsv(individuals);
-    if (!asFile) {
-      QApplication::clipboard()->setText(text);
-      return bench_.inform(tr("Copied the parameters of %1 individuals").arg(individuals.size()));
-    }
-    const QString file = QFileDialog::getSaveFileName(
+  QString file;
+  if (asFile) {
+    file = QFileDialog::getSaveFileName(
         bench_.window(), tr("Save parameters"),
         QFileInfo(bench_.path()).dir().filePath(QStringLiteral("run%1-parameters.csv").arg(bench_.run().id)),
         tr("Tables (*.csv)"));
     if (file.isEmpty()) return;
-    writeFile(file.toStdString(), text.toStdString());
-    bench_.inform(tr("Written: %1").arg(file));
-  });
+  }
+  bench_.reader().read(
+      this, "parameters", tr("the parameters"),
+      [individuals](const Database& database) {
+        std::vector<IndividualRecord> read;
+        for (const Id id : individuals) read.push_back(database.individual(id));
+        return read;
+      },
+      [this, file](const std::vector<IndividualRecord>& read) {
+        if (file.isEmpty()) {
+          QApplication::clipboard()->setText(parametersCsv(read));
+          return bench_.inform(tr("Copied the parameters of %1 individuals").arg(read.size()));
+        }
+        writeFile(file.toStdString(), parametersCsv(read).toStdString());
+        bench_.inform(tr("Written: %1").arg(file));
+      });
+}
+
+QString MeasureController::parametersCsv(const std::vector<IndividualRecord>& individuals) const {
+  QStringList names{"individual"};
+  for (const Parameter& parameter : genotype_) names << QString::fromStdString(parameter.name);
+  QString text = names.join(',') + '\n';
+  for (const IndividualRecord& individual : individuals) {
+    QStringList cells{QString::number(individual.id)};
+    for (const double value : individual.parameters) cells << exactText(value);
+    text += cells.join(',') + '\n';
+  }
+  return text;
 }
 
 }  // namespace btr::ui

@@ -1,9 +1,11 @@
 #pragma once
 #include <QObject>
+#include <set>
 #include <vector>
 
 #include "core/run/back_to_reality.h"
 #include "ui/controllers/workbench.h"
+#include "ui/experiment/run_text.h"
 
 namespace btr::ui {
 class Alarm;
@@ -11,7 +13,6 @@ class IndividualsTable;
 class MeasurementSheet;
 class PolicyPage;
 class RunController;
-struct MeasuringCount;
 
 /// Measuring: the sheet, the page of L2's policies and the alarm that calls for a person; what a person enters goes to
 /// the database here.
@@ -35,7 +36,8 @@ class MeasureController : public QObject {
                 const std::vector<btr::MeasurementRecord>& measurements);
   /// The simulated fitness of those that wait is not to be read anywhere.
   void blindChanged(bool blind);
-  void sheetWanted();  ///< values have begun to be missing
+  void hiddenChanged(const std::set<double>& fitness);  ///< theirs
+  void sheetWanted();                                   ///< values have begun to be missing
 
  private:
   void selectRun(const RunRecord& run);
@@ -43,13 +45,20 @@ class MeasureController : public QObject {
   void voidMeasurement(Id measurement, bool isVoid, const QString& note);
   void importMeasurements();
   QString whereItStands();
-  QString parametersCsv(const std::vector<Id>& individuals) const;
+  QString parametersCsv(const std::vector<IndividualRecord>& individuals) const;
   void giveParameters(const std::vector<Id>& individuals, bool asFile);
   void showTasks(const std::vector<MeasurementTask>& tasks, const std::vector<MeasurementRecord>& measurements);
+  void readMeasured();
+  void showStored();
   void keepMeasurements();
   void hideSimulated();
   void showWaiting();
-  void callForPerson(const std::vector<RunRecord>& runs);
+  struct WaitingRun {
+    RunRecord run;
+    MeasuringCount count;
+  };
+  void countWaiting(const std::vector<RunRecord>& runs);
+  void callForPerson(const std::vector<WaitingRun>& waiting);
   void showPolicies(const RunProgress& progress);
   void endRealityLearning();
 
@@ -61,8 +70,9 @@ class MeasureController : public QObject {
   std::vector<Parameter> genotype_;        ///< of the run's controller
   std::vector<std::size_t> policiesSeen_;  ///< what the page of L2 was made from
   QString unit_;
-  QString sheetDatabase_;  ///< that the sheet's run is of
-  Id waitingRun_ = 0;      ///< that the alarm leads to
+  bool canBeNegative_ = false;  ///< the run's fitness
+  QString sheetDatabase_;       ///< that the sheet's run is of
+  Id waitingRun_ = 0;           ///< that the alarm leads to
   bool sheetWanted_ = false;
 };
 

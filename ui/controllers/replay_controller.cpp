@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/run/grid_cells.h"
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_cells.h"
+#include "core/run/grid/grid_kicks.h"
 #include "core/run/replay.h"
 #include "core/spec/scene_spec.h"
 #include "ui/database/individuals_table.h"
@@ -75,10 +75,14 @@ void ReplayController::replayPair(Id first, Id second) {
 void ReplayController::replayBest() {
   const RunRecord& run = bench_.run();
   if (!bench_.watcher().isOpen() || run.generation == 0) return;
-  bench_.guard([&] {
-    const auto best = bench_.watcher().database().bestIndividuals(run.id, 1, run.generation, run.generation);
-    if (!best.empty()) replay(best.front().id);
-  });
+  bench_.reader().read(
+      this, "best", tr("the best of run %1").arg(run.id),
+      [id = run.id, generation = run.generation](const Database& database) {
+        return database.bestIndividuals(id, 1, generation, generation);
+      },
+      [this, id = run.id](const std::vector<IndividualRecord>& best) {
+        if (!best.empty() && id == bench_.run().id) replay(best.front().id);
+      });
 }
 
 void ReplayController::playKick(Id grid, double distance_m, double bearing_rad, double direction_rad) {

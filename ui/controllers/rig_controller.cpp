@@ -1,8 +1,10 @@
 #include "ui/controllers/rig_controller.h"
 
 #include <QFileDialog>
+#include <QTableWidget>
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/run/stored_recordings.h"
 #include "ui/experiment/experiment_tree.h"
@@ -31,6 +33,12 @@ RigController::RigController(Workbench& bench, GapPage& page, ExperimentTree& tr
   DatabaseWatcher& watcher = bench_.watcher();
   RunLauncher& launcher = bench_.launcher();
   connect(&page_, &GapPage::failed, &bench_, &Workbench::report);
+  connect(&page_, &GapPage::mended, &bench_, &Workbench::mend);
+  connect(&page_.setup(), &AnalysisSetup::changed, this, [this] {
+    const bool hasFiles = page_.setup().recordings().rowCount() > 0;
+    if (refused_ == needsRecordings() && hasFiles) bench_.mend(std::exchange(refused_, {}));
+    if (refused_ == needsOwner() && hasOwner()) bench_.mend(std::exchange(refused_, {}));
+  });
   connect(&page_, &GapPage::informed, &bench_, &Workbench::inform);
   connect(&page_, &GapPage::adoptRequested, this,
           [this](const QString& simulator, const QString& folder, const QString& rig) {
@@ -47,13 +55,14 @@ RigController::RigController(Workbench& bench, GapPage& page, ExperimentTree& tr
   connect(&page_.setup(), &AnalysisSetup::storedRequested, this, &RigController::takeStoredRecordings);
   connect(&tree_, &ExperimentTree::rigSelected, this, &RigController::select);
   connect(&launcher, &RunLauncher::simulatorChanged, this, [this](Id run, const QString& rig) {
-    bench_.watcher().poll();
-    if (rig.isEmpty()) {
-      if (run == bench_.run().id && !simulators_.empty())
+    bench_.watcher().poll([this, run, rig] {
+      if (!rig.isEmpty()) {
+        rigChanged_ = true;
+        findVersions(reportRig_);
+      } else if (run == bench_.run().id && !simulators_.empty()) {
         bench_.inform(tr("Run %1 goes on with simulator version %2.").arg(run).arg(simulators_.back().number));
-    } else if (!reportRig_.versions.empty()) {
-      bench_.inform(tr("%1 has simulator version %2 now.").arg(reportRig_.name).arg(reportRig_.versions.back().number));
-    }
+      }
+    });
   });
   connect(&launcher, &RunLauncher::recordingsKept, this,
           [this](int files) { bench_.inform(tr("%1 recordings are kept in the database.").arg(files)); });
@@ -96,12 +105,19 @@ void RigController::readRig(KnownRig& rig, const QString& file) {
   findVersions(rig);
 }
 
+// Known at once are the versions that were known; what the database has of the rig comes later.
 void RigController::findVersions(KnownRig& rig) {
-  rig.versions.clear();
   if (!bench_.watcher().isOpen() || rig.file.isEmpty()) return;
-  bench_.guard([&] {
-    if (const auto id = findRig(bench_.watcher().database(), rig.rig)) rig.versions = versionsOf(*id);
-  });
+  bench_.reader().read(
+      this, &rig == &setupRig_ ? "setup's rig" : "report's rig", tr("the versions of the %1").arg(rig.name),
+      [spec = rig.rig](const Database& database) { return findRig(database, spec); },
+      [this, &rig, file = rig.file](std::optional<Id> id) {
+        if (rig.file != file) return;
+        rig.versions = id ? versionsOf(*id) : std::vector<SimulatorRecord>();
+        showAdoption();
+        if (&rig == &reportRig_ && !rig.versions.empty() && std::exchange(rigChanged_, false))
+          bench_.inform(tr("%1 has simulator version %2 now.").arg(rig.name).arg(rig.versions.back().number));
+      });
 }
 
 void RigController::showRigs() {
@@ -168,34 +184,56 @@ QString RigController::ownerOfRecordings() const {
   return bench_.run().id != 0 && isPartOf(setupRig_.rig.scene, runScene_) ? QString() : setupRig_.file;
 }
 
+QString RigController::needsRecordings() { return tr("Add recordings first."); }
+QString RigController::needsOwner() { return tr("Choose a scene or select a run first: recordings are kept with it."); }
+
+bool RigController::hasOwner() const {
+  return bench_.watcher().isOpen() && (bench_.run().id != 0 || !ownerOfRecordings().isEmpty());
+}
+
+void RigController::refuse(const QString& why) {
+  refused_ = why;
+  bench_.report(why);
+}
+
 void RigController::keepRecordings(const QStringList& files, const QString& scene) {
-  if (files.isEmpty()) return bench_.report(tr("Add recordings first."));
+  if (files.isEmpty()) return refuse(needsRecordings());
+  if (!hasOwner()) return refuse(needsOwner());
   const QString rig = ownerOfRecordings();
-  if (!bench_.watcher().isOpen() || (bench_.run().id == 0 && rig.isEmpty()))
-    return bench_.report(tr("Choose a scene or select a run first: recordings are kept with it."));
   bench_.launcher().keepRecordings(bench_.path(), bench_.run().id, rig, files, scene);
 }
 
 // Written out as files, beside which mappings and the report stay.
 void RigController::takeStoredRecordings() {
+  if (!hasOwner()) return refuse(needsOwner());
   const QString rig = ownerOfRecordings();
-  if (!bench_.watcher().isOpen() || (bench_.run().id == 0 && rig.isEmpty()))
-    return bench_.report(tr("Choose a scene or select a run first: recordings are kept with it."));
-  bench_.guard([&] {
-    const Database& database = bench_.watcher().database();
-    const auto id = rig.isEmpty() ? std::optional(bench_.run().experiment) : findRig(database, setupRig_.rig);
-    const auto stored = id ? database.recordings(*id) : std::vector<RecordingRecord>();
-    if (stored.empty())
-      return bench_.inform(rig.isEmpty()
-                               ? tr("No recordings are kept with the experiment of run %1.").arg(bench_.run().id)
-                               : tr("No recordings are kept with the %1.").arg(setupRig_.name));
-    const QString folder = QFileDialog::getExistingDirectory(bench_.window(), tr("Folder for the recordings"));
-    if (folder.isEmpty()) return;
-    QStringList files;
-    for (const RecordingRecord& recording : stored)
-      files << QString::fromStdString(exportRecording(database, recording.id, folder.toStdString()));
-    page_.setup().addRecordings(files);
-  });
+  const QString none = rig.isEmpty() ? tr("No recordings are kept with the experiment of run %1.").arg(bench_.run().id)
+                                     : tr("No recordings are kept with the %1.").arg(setupRig_.name);
+  bench_.reader().read(
+      this, "list of recordings", tr("the recordings"),
+      [experiment = rig.isEmpty() ? std::optional(bench_.run().experiment) : std::nullopt,
+       spec = setupRig_.rig](const Database& database) {
+        const std::optional<Id> owner = experiment ? experiment : findRig(database, spec);
+        return owner ? database.recordings(*owner) : std::vector<RecordingRecord>();
+      },
+      [this, none](const std::vector<RecordingRecord>& stored) {
+        if (stored.empty()) return bench_.inform(none);
+        const QString folder = QFileDialog::getExistingDirectory(bench_.window(), tr("Folder for the recordings"));
+        if (!folder.isEmpty()) exportRecordings(stored, folder);
+      });
+}
+
+void RigController::exportRecordings(const std::vector<RecordingRecord>& recordings, const QString& folder) {
+  std::vector<Id> ids;
+  for (const RecordingRecord& recording : recordings) ids.push_back(recording.id);
+  bench_.reader().read(
+      this, "recordings", tr("the recordings"),
+      [ids, folder = folder.toStdString()](const Database& database) {
+        QStringList files;
+        for (const Id id : ids) files << QString::fromStdString(exportRecording(database, id, folder));
+        return files;
+      },
+      [this](const QStringList& files) { page_.setup().addRecordings(files); });
 }
 
 }  // namespace btr::ui

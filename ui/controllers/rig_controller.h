@@ -33,8 +33,13 @@ class RigController : public QObject {
   std::vector<SimulatorRecord> versionsOf(Id rig) const;
   void showAdoption();
   QString ownerOfRecordings() const;  ///< the rig's scene; empty: the selected run's experiment
+  bool hasOwner() const;
+  void refuse(const QString& why);
+  static QString needsRecordings();
+  static QString needsOwner();
   void keepRecordings(const QStringList& files, const QString& scene);
   void takeStoredRecordings();
+  void exportRecordings(const std::vector<RecordingRecord>& recordings, const QString& folder);
 
   Workbench& bench_;
   GapPage& page_;
@@ -43,7 +48,9 @@ class RigController : public QObject {
   SceneSpec runScene_;
   std::vector<SimulatorRecord> simulators_, rigVersions_;
   KnownRig setupRig_, reportRig_;
-  Id shownRig_ = 0;  ///< whose versions the page of simulators shows in place of a run's
+  QString refused_;          ///< why recordings could not be kept or taken
+  bool rigChanged_ = false;  ///< by us: it is to be said when the new version is seen
+  Id shownRig_ = 0;          ///< whose versions the page of simulators shows in place of a run's
 };
 
 }  // namespace btr::ui

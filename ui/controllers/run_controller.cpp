@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QMessageBox>
 #include <QPushButton>
+#include <algorithm>
 #include <utility>
 
 #include "ui/experiment/run_text.h"
@@ -54,22 +55,32 @@ RunController::RunController(Workbench& bench) : QObject(&bench), bench_(bench) 
   });
 }
 
+void RunController::readStanding(Id run, const QString& why, const std::function<void(const Standing&)>& then) {
+  bench_.reader().read(
+      this, why + QString::number(run), tr("run %1").arg(run),
+      [run](const Database& database) {
+        Standing standing{database.run(run), {}};
+        standing.count = countMeasured(standing.run, database.measurementTasks(run), database.measurements(run));
+        return standing;
+      },
+      then);
+}
+
 void RunController::resume(Id run) {
-  if (run == 0 || bench_.watcher().activeRuns().count(run)) return;
-  bench_.guard([&] {
-    const RunRecord record = bench_.watcher().database().run(run);
+  if (run == 0 || bench_.watcher().activeRuns().count(run) || bench_.launcher().isAlive(run)) return;
+  readStanding(run, "resume", [this](const Standing& standing) {
+    const auto& [record, count] = standing;
     if (record.state == RunState::finished)
       return bench_.inform(tr("%1 is finished: the same experiment and seed give the same bits.").arg(runName(record)));
-    if (record.stopRequested) bench_.writer().requestStop(run, false);
-    launch(run);
-    if (record.state == RunState::waiting && !isStandIn(record)) sayWhatItWaitsFor(record);
+    if (record.stopRequested) bench_.writer().requestStop(record.id, false);
+    launch(record.id);
+    if (record.state == RunState::waiting && !isStandIn(record)) sayWhatItWaitsFor(standing);
   });
 }
 
 // Its process may find nothing to do and end at once, which nobody would see.
-void RunController::sayWhatItWaitsFor(const RunRecord& run) {
-  const Database& db = bench_.watcher().database();
-  const MeasuringCount count = countMeasured(run, db.measurementTasks(run.id), db.measurements(run.id));
+void RunController::sayWhatItWaitsFor(const Standing& standing) {
+  const auto& [run, count] = standing;
   if (count.settled >= count.wanted) return;
   bench_.note(
       tr("%1 waits for real fitness: %2 of %3 are measured. Enter the other values in the measurement sheet; the run "
@@ -95,15 +106,13 @@ void RunController::launch(Id run) {
 
 void RunController::checkMeasured() {
   for (const Id run : std::exchange(measuredMeanwhile_, {})) {
-    if (bench_.watcher().activeRuns().count(run) > 0)
+    if (bench_.watcher().activeRuns().count(run) > 0) {
       measuredMeanwhile_.insert(run);
-    else
-      bench_.guard([&] {
-        const Database& db = bench_.watcher().database();
-        const RunRecord record = db.run(run);
-        const MeasuringCount count = countMeasured(record, db.measurementTasks(run), db.measurements(run));
-        if (record.state == RunState::waiting && count.settled >= count.wanted) resume(run);
-      });
+      continue;
+    }
+    readStanding(run, "measured", [this](const Standing& now) {
+      if (now.run.state == RunState::waiting && now.count.settled >= now.count.wanted) resume(now.run.id);
+    });
   }
 }
 
@@ -117,14 +126,12 @@ void RunController::checkLaunched() {
       ++run;
       continue;
     }
-    bench_.guard([&] {
-      const RunRecord record = bench_.watcher().database().run(*run);
-      const QString words = launcher.lastWords(*run);
-      const bool fine =
-          record.state == RunState::waiting || record.state == RunState::stopped || record.state == RunState::finished;
-      if (!fine)
-        bench_.report(
-            tr("%1 ended: %2").arg(runName(record), words.isEmpty() ? tr("its process said nothing.") : words));
+    readStanding(*run, "ended", [this](const Standing& end) {
+      const RunState state = end.run.state;
+      if (state == RunState::waiting || state == RunState::stopped || state == RunState::finished) return;
+      const QString words = bench_.launcher().lastWords(end.run.id);
+      bench_.report(
+          tr("%1 ended: %2").arg(runName(end.run), words.isEmpty() ? tr("its process said nothing.") : words));
     });
     run = launched_.erase(run);
   }
@@ -141,12 +148,13 @@ void RunController::stop(Id run) {
 }
 
 void RunController::duplicate(Id run) {
+  const RunRecord* record = bench_.watcher().run(run);
+  if (!record) return;
   bench_.guard([&] {
-    const RunRecord record = bench_.watcher().database().run(run);
     bool ok = false;
     const QString typed = QInputDialog::getText(bench_.window(), tr("Duplicate with another seed"),
                                                 tr("Seed (a whole number from 0 to 9007199254740991):"),
-                                                QLineEdit::Normal, QString::number(record.seed + 1), &ok);
+                                                QLineEdit::Normal, QString::number(record->seed + 1), &ok);
     if (!ok) return;
     const quint64 seed = typed.trimmed().toULongLong(&ok);
     if (!ok || seed > 9007199254740991ULL)
@@ -156,11 +164,12 @@ void RunController::duplicate(Id run) {
 }
 
 void RunController::editRunNote(Id run) {
+  const RunRecord* record = bench_.watcher().run(run);
+  if (!record) return;
   bench_.guard([&] {
     bool ok = false;
-    const RunRecord record = bench_.watcher().database().run(run);
-    const QString note = QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(runName(record)),
-                                               QLineEdit::Normal, QString::fromStdString(record.note), &ok);
+    const QString note = QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(runName(*record)),
+                                               QLineEdit::Normal, QString::fromStdString(record->note), &ok);
     if (!ok) return;
     bench_.writer().setRunNote(run, note.trimmed().toStdString());
     bench_.watcher().poll();
@@ -170,10 +179,12 @@ void RunController::editRunNote(Id run) {
 void RunController::editExperimentNote(Id experiment) {
   bench_.guard([&] {
     bool ok = false;
-    const ExperimentRecord record = bench_.watcher().database().experiment(experiment);
+    const std::vector<ExperimentRecord> all = bench_.watcher().experiments();
+    const auto record = std::ranges::find(all, experiment, &ExperimentRecord::id);
+    if (record == all.end()) return;
     const QString note =
         QInputDialog::getText(bench_.window(), tr("Note"), tr("Note on %1:").arg(bench_.nameOfExperiment(experiment)),
-                              QLineEdit::Normal, QString::fromStdString(record.note), &ok);
+                              QLineEdit::Normal, QString::fromStdString(record->note), &ok);
     if (!ok) return;
     bench_.writer().setExperimentNote(experiment, note.trimmed().toStdString());
     bench_.watcher().poll();

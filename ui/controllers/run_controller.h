@@ -1,9 +1,11 @@
 #pragma once
 #include <QObject>
 #include <QTimer>
+#include <functional>
 #include <set>
 
 #include "ui/controllers/workbench.h"
+#include "ui/experiment/run_text.h"
 
 namespace btr::ui {
 class ProgramProcess;
@@ -37,7 +39,13 @@ class RunController : public QObject {
   void launch(Id run);
   void checkLaunched();
   void checkMeasured();
-  void sayWhatItWaitsFor(const RunRecord& run);
+  struct Standing {
+    RunRecord run;
+    MeasuringCount count;
+  };
+  /// `why` tells requests apart that may be under way at once.
+  void readStanding(Id run, const QString& why, const std::function<void(const Standing&)>& then);
+  void sayWhatItWaitsFor(const Standing& standing);
 
   Workbench& bench_;
   int jobs_ = 0;

@@ -9,6 +9,22 @@
 #include "ui/experiment/simulators_page.h"
 
 namespace btr::ui {
+namespace {
+
+constexpr std::size_t rowsAPage = 600;
+
+/// Whole generations, so that the window takes in a bounded number of rows at once.
+IndividualsTable::Page pageOf(const Database& database, Id run, int first, int last) {
+  IndividualsTable::Page page;
+  for (page.next = first; page.next <= last && page.individuals.size() < rowsAPage; ++page.next) {
+    std::vector<IndividualRecord> generation = database.individuals(run, page.next);
+    page.individuals.insert(page.individuals.end(), std::make_move_iterator(generation.begin()),
+                            std::make_move_iterator(generation.end()));
+  }
+  return page;
+}
+
+}  // namespace
 
 RunViews::RunViews(Workbench& bench, const Pages& pages) : QObject(&bench), bench_(bench), pages_(pages) {
   DatabaseWatcher& watcher = bench_.watcher();
@@ -17,10 +33,20 @@ RunViews::RunViews(Workbench& bench, const Pages& pages) : QObject(&bench), benc
   connect(&watcher, &DatabaseWatcher::generationsReset, this, [this](Id run, const std::vector<GenerationRecord>& all) {
     pages_.fitness.setGenerations(all);
     pages_.panel.setGenerations(all);
-    pages_.individuals.load(all.empty() ? 0 : all.back().number,
-                            [this, run](int number) { return bench_.watcher().database().individuals(run, number); });
+    pages_.individuals.load(
+        all.empty() ? 0 : all.back().number,
+        [this, run](int first, int last, IndividualsTable::Take take, IndividualsTable::Failed failed) {
+          bench_.reader().read(
+              &pages_.individuals, "individuals", tr("the individuals"),
+              [run, first, last](const Database& database) { return pageOf(database, run, first, last); },
+              std::move(take), std::move(failed));
+        });
   });
-  connect(&watcher, &DatabaseWatcher::generationsAdded, this, &RunViews::addGenerations);
+  connect(&watcher, &DatabaseWatcher::generationsAdded, this, [this](Id, const std::vector<GenerationRecord>& added) {
+    pages_.panel.addGenerations(added);
+    for (const GenerationRecord& generation : added) pages_.fitness.append(generation);
+    pages_.individuals.extend(added.back().number);
+  });
   connect(&watcher, &DatabaseWatcher::simulatorsChanged, this,
           [this](Id, const std::vector<SimulatorRecord>& simulators) {
             simulators_ = simulators;
@@ -63,6 +89,7 @@ void RunViews::select(const RunRecord& run) {
   ExperimentSpec spec = experimentFromJson(run.specJson, "run " + std::to_string(run.id), "");
   // Runs of one experiment share its specification; each has a seed of its own.
   spec.seed = run.seed;
+  if (!spec.plugins.empty()) pages_.spec.setOffers(offersOf(*bench_.host()));
   pages_.spec.setSpec(spec);
   const QString unit = QString::fromStdString(bench_.host()->fitness(spec.fitness.name)->unit());
   pages_.panel.setUnit(unit);
@@ -74,18 +101,6 @@ void RunViews::select(const RunRecord& run) {
   pages_.individuals.setUnit(unit);
   pages_.individuals.setStandIn(standIn);
   pages_.individuals.setGenotype(bench_.host()->controller(spec.controller.name)->genotype());
-}
-
-void RunViews::addGenerations(Id run, const std::vector<GenerationRecord>& added) {
-  pages_.panel.addGenerations(added);
-  for (const GenerationRecord& generation : added) {
-    pages_.fitness.append(generation);
-    bench_.guard([&] {
-      GenerationRecord whole = generation;
-      whole.individuals = bench_.watcher().database().individuals(run, generation.number);
-      pages_.individuals.append(whole);
-    });
-  }
 }
 
 }  // namespace btr::ui

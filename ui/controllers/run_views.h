@@ -29,7 +29,6 @@ class RunViews : public QObject {
  private:
   void clear();
   void select(const RunRecord& run);
-  void addGenerations(Id run, const std::vector<GenerationRecord>& added);
 
   Workbench& bench_;
   Pages pages_;

@@ -5,6 +5,9 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <algorithm>
+#include <utility>
+
+#include "core/store/network_file.h"
 
 namespace btr::ui {
 
@@ -15,17 +18,24 @@ Workbench::Workbench(std::shared_ptr<const PluginHost> host, const WindowOptions
       window_(window),
       settings_(options.settingsFile),
       launcher_(host_, options.program),
-      // A process of ours counts from its start on: until it holds the run's lock nobody else can tell.
-      watcher_([this](const std::string& database, Id run) {
-        return launcher_.isAlive(run) || options_.isActive(database, run);
-      }) {
+      watcher_(reader_, options.isActive, [this](Id run) { return launcher_.isAlive(run); }) {
   if (!options_.isWritable) options_.isWritable = [](const QString& path) { return QFileInfo(path).isWritable(); };
+  if (!options_.networkWarning) options_.networkWarning = btr::networkWarning;
+  connect(&reader_, &DatabaseReader::failed, this, &Workbench::report);
   connect(&watcher_, &DatabaseWatcher::failed, this, &Workbench::report);
+  connect(&watcher_, &DatabaseWatcher::followedRun, this, &Workbench::show);
+  connect(&watcher_, &DatabaseWatcher::followedRunTold, this, [this] {
+    for (const auto& then : std::exchange(whenSelected_, {})) then();
+  });
   // Before everybody else, who asks for it here.
   connect(&watcher_, &DatabaseWatcher::runChanged, this, [this](const RunRecord& run, const RunProgress&, bool active) {
     run_ = run;
     runActive_ = active;
   });
+}
+
+QString Workbench::networkWarning() const {
+  return QString::fromStdString(options_.networkWarning(path().toStdString()).value_or(""));
 }
 
 bool Workbench::mayMake(const QString& path) {
@@ -49,16 +59,14 @@ bool Workbench::open(const QString& path, Absent absent) {
   if (absent == Absent::ask && !QFileInfo::exists(absolute) && !mayMake(absolute)) return false;
   emit databaseLeft();
   const bool opened = guard([&] {
-    // Made or brought up to date first: the watcher only reads. A file that may only be read is opened so.
-    std::optional<Database> writer;
+    // A file that may only be read is opened so.
     const bool readOnly = QFileInfo::exists(absolute) && !options_.isWritable(absolute);
-    if (!readOnly) writer = Database::open(absolute.toStdString(), Database::Mode::create);
-    watcher_.open(absolute, namesIn(absolute));
-    writer_ = std::move(writer);
+    writer_ = watcher_.open(absolute, namesIn(absolute), readOnly ? Database::Mode::readOnly : Database::Mode::create);
     readOnly_ = readOnly;
   });
   if (!opened) return false;
   settings_.addRecentDatabase(absolute);
+  whenSelected_.clear();
   run_ = {};
   emit databaseOpened();
 
@@ -82,9 +90,9 @@ void Workbench::nameExperiment(Id experiment, const QString& name) {
 }
 
 QString Workbench::nameOfExperiment(Id experiment) const {
-  const auto names = settings_.experimentNames(path());
-  const auto given = names.find(experiment);
-  return given != names.end() ? given->second : QString::fromStdString(watcher_.database().experiment(experiment).name);
+  const std::vector<ExperimentRecord> all = watcher_.experiments();
+  const auto known = std::ranges::find(all, experiment, &ExperimentRecord::id);
+  return known == all.end() ? QString() : QString::fromStdString(known->name);
 }
 
 Database& Workbench::writer() {
@@ -93,18 +101,41 @@ Database& Workbench::writer() {
 }
 
 void Workbench::selectRun(Id run) {
-  if (!watcher_.isOpen() || (run != 0 && run == run_.id && watcher_.followed() == run)) return;
-  emit runLeft();
-  run_ = {};
-  runActive_ = false;
-  RunRecord selected;
-  if (run != 0) {
-    guard([&] { selected = watcher_.database().run(run); });
-    settings_.setSelectedRun(path(), run);
-  }
-  run_ = selected;
-  guard([&] { emit runSelected(selected); });
+  if (!watcher_.isOpen() || (run != 0 && watcher_.followed() == run)) return;
+  whenSelected_.clear();
+  if (run != 0) settings_.setSelectedRun(path(), run);
   watcher_.follow(run);
+  if (run == 0) show({});
+}
+
+void Workbench::whenSelected(std::function<void()> then) {
+  if (watcher_.followed() == run_.id) return then();
+  whenSelected_.push_back(std::move(then));
+}
+
+// An experiment may name folders of plugins.
+void Workbench::loadPluginsOf(const RunRecord& run) {
+  const std::string place = "run " + std::to_string(run.id);
+  const ExperimentSpec spec = experimentFromJson(run.specJson, place, "");
+  if (!spec.plugins.empty()) host_->load(spec.plugins, place + " /plugins");
+}
+
+// Before the rest of its news is told.
+void Workbench::show(const RunRecord& run) {
+  emit runLeft();
+  run_ = run;
+  runActive_ = false;
+  if (run.id != 0) guard([&] { loadPluginsOf(run); });
+  guard([&] { emit runSelected(run); });
+}
+
+void Workbench::report(const QString& error) {
+  lastError_ = error;
+  emit reported(error);
+}
+
+void Workbench::mend(const QString& error) {
+  if (!error.isEmpty()) emit mended(error);
 }
 
 bool Workbench::guard(const std::function<void()>& action) {

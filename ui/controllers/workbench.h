@@ -16,7 +16,9 @@ struct WindowOptions {
   QString settingsFile = {};  ///< empty: the user's own
   QString program = {};       ///< that works on runs; empty: btr beside this executable
   DatabaseWatcher::ActiveTest isActive = isRunActive;
-  std::function<bool(const QString&)> isWritable = {};  ///< of a database; empty: as the file system says
+  // Of a database; empty: as the file system says.
+  std::function<bool(const QString&)> isWritable = {};
+  std::function<std::optional<std::string>(const std::string&)> networkWarning = {};
 };
 
 /// What the controllers share: the database that is open, the selected run, the processes at work, the settings, and
@@ -30,6 +32,7 @@ class Workbench : public QObject {
   const std::shared_ptr<const PluginHost>& host() const { return host_; }
   Settings& settings() { return settings_; }
   RunLauncher& launcher() { return launcher_; }
+  DatabaseReader& reader() { return reader_; }
   DatabaseWatcher& watcher() { return watcher_; }
   QWidget* window() const { return &window_; }
 
@@ -38,18 +41,27 @@ class Workbench : public QObject {
   /// says so. False, with a message unless the user declined, keeps the old one.
   bool open(const QString& path, Absent absent);
   bool isReadOnly() const { return readOnly_; }
+  /// What is to be said of a database on a network file system; empty: it is on a local one.
+  QString networkWarning() const;
   QString path() const { return watcher_.path(); }
   /// A name of the user's own for a stored experiment; empty: its own again.
   void nameExperiment(Id experiment, const QString& name);
   QString nameOfExperiment(Id experiment) const;
-  /// The connection for the user's own words, opened when it is first needed.
+  /// The connection for what the user enters, of the window's thread.
   Database& writer();
 
+  /// Shows another run, as soon as everything about it is read: until then all pages, and run(), keep the old one.
   void selectRun(Id run);
-  const RunRecord& run() const { return run_; }  ///< the selected one as last seen; id 0: none
+  /// Calls `then` when the run that was selected last is shown, which may be now; never if another one is selected
+  /// before.
+  void whenSelected(std::function<void()> then);
+  const RunRecord& run() const { return run_; }  ///< that is shown, as last seen; id 0: none
   bool isRunActive() const { return runActive_; }
 
-  void report(const QString& error) { emit reported(error); }
+  void report(const QString& error);
+  const QString& lastError() const { return lastError_; }
+  /// What was reported is mended: it is shown no longer. Another message stays.
+  void mend(const QString& error);
   void inform(const QString& text) { emit informed(text); }
   void note(const QString& text) { emit noted(text); }
   /// Runs an action that may throw; false, with a message, if it did.
@@ -59,15 +71,18 @@ class Workbench : public QObject {
   void reported(const QString& error);
   void informed(const QString& text);  ///< goes by itself
   void noted(const QString& text);     ///< stays until it is closed
+  void mended(const QString& error);
   void messagesOver();
   void databaseLeft();
   void databaseOpened();
   void runLeft();
-  void runSelected(const btr::RunRecord& run);  ///< with everything; id 0: none
+  void runSelected(const btr::RunRecord& run);  ///< id 0: none
   void dockWanted(const QString& dock);
   void replayWanted(btr::Id individual);
 
  private:
+  void loadPluginsOf(const RunRecord& run);
+  void show(const RunRecord& run);
   DatabaseWatcher::Names namesIn(const QString& database) const;
   bool mayMake(const QString& path);
 
@@ -76,11 +91,14 @@ class Workbench : public QObject {
   QWidget& window_;
   Settings settings_;
   RunLauncher launcher_;
+  DatabaseReader reader_;
   DatabaseWatcher watcher_;
   std::optional<Database> writer_;
   bool readOnly_ = false;
+  QString lastError_;
   RunRecord run_;
   bool runActive_ = false;
+  std::vector<std::function<void()>> whenSelected_;
 };
 
 }  // namespace btr::ui

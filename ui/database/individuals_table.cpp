@@ -18,14 +18,10 @@
 #include <QToolButton>
 #include <algorithm>
 
-#include "core/spec/error.h"
 #include "ui/common/theme.h"
 #include "ui/database/individual_details.h"
 
 namespace btr::ui {
-namespace {
-constexpr std::size_t rowsAPage = 600;
-}
 
 IndividualsTable::IndividualsTable(QWidget* parent)
     : QWidget(parent), filter_(model_), view_(new QTableView(this)), details_(new IndividualDetails(this)) {
@@ -70,7 +66,6 @@ IndividualsTable::IndividualsTable(QWidget* parent)
   for (const auto signal : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved})
     connect(&filter_, signal, this, &IndividualsTable::showCount);
   connect(&filter_, &QAbstractItemModel::modelReset, this, &IndividualsTable::showCount);
-  connect(&reading_, &QTimer::timeout, this, &IndividualsTable::readPage);
   showCount();
 }
 
@@ -174,34 +169,46 @@ void IndividualsTable::load(int last, Reader read) {
   clear();
   read_ = std::move(read);
   last_ = last;
-  // One page with each turn of the event loop: painting and clicks come in between.
-  reading_.start(0);
+  readPage();
+}
+
+void IndividualsTable::extend(int last) {
+  last_ = std::max(last_, last);
+  if (!reading_ && read_ && trouble_.isEmpty()) readPage();
 }
 
 void IndividualsTable::readPage() {
-  std::vector<IndividualRecord> page;
-  try {
-    while (next_ <= last_ && page.size() < rowsAPage) {
-      std::vector<IndividualRecord> generation = read_(next_++);
-      page.insert(page.end(), std::make_move_iterator(generation.begin()), std::make_move_iterator(generation.end()));
-    }
-  } catch (const InputError& error) {
-    trouble_ = QString::fromUtf8(error.what());
-    next_ = last_ + 1;
-  }
-  model_.append(page);
-  if (next_ <= last_) return;
-  reading_.stop();
-  read_ = {};
+  reading_ = true;
+  showCount();
+  if (next_ > last_) return end({});
+  read_(
+      next_, last_,
+      [this, load = load_](const Page& page) {
+        if (load == load_) takePage(page);
+      },
+      [this, load = load_](const QString& why) {
+        if (load == load_) end(why);
+      });
+}
+
+void IndividualsTable::takePage(const Page& page) {
+  model_.append(page.individuals);
+  next_ = page.next;
+  if (next_ > last_) return end({});
+  readPage();
+}
+
+void IndividualsTable::end(const QString& trouble) {
+  reading_ = false;
+  trouble_ = trouble;
   showCount();
   emit loaded();
 }
 
-void IndividualsTable::append(const GenerationRecord& generation) { model_.append(generation.individuals); }
-
 void IndividualsTable::clear() {
-  reading_.stop();
+  ++load_;
   read_ = {};
+  reading_ = false;
   next_ = 1;
   last_ = 0;
   trouble_.clear();
@@ -240,7 +247,7 @@ void IndividualsTable::showCount() {
   QString text = filter_.rowCount() == model_.rowCount()
                      ? tr("%1 individuals").arg(model_.rowCount())
                      : tr("%1 of %2 individuals").arg(filter_.rowCount()).arg(model_.rowCount());
-  if (reading_.isActive()) text += tr(", reading…");
+  if (reading_) text += tr(", reading…");
   if (!trouble_.isEmpty()) text = trouble_;
   count_->setText(text);
 }

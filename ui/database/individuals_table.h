@@ -1,5 +1,4 @@
 #pragma once
-#include <QTimer>
 #include <QWidget>
 #include <functional>
 
@@ -16,13 +15,20 @@ namespace btr::ui {
 class IndividualDetails;
 
 /// The page with the individuals of a run: sortable, filterable, with everything about the selected one beside it.
-/// It takes values; a run is read page by page through a function, so that the window goes on meanwhile.
+/// It takes values; a run comes page by page from a function that answers later, so that the window goes on meanwhile.
 class IndividualsTable : public QWidget {
   Q_OBJECT
 
  public:
-  /// Individuals of a generation (1, 2, …); may throw InputError, which ends the reading and is shown.
-  using Reader = std::function<std::vector<IndividualRecord>(int generation)>;
+  struct Page {
+    std::vector<IndividualRecord> individuals;
+    int next = 1;  ///< the generation that the next page begins with
+  };
+  using Take = std::function<void(Page)>;
+  using Failed = std::function<void(const QString& why)>;
+  /// Asks for individuals of the generations from `first` (1, 2, …) on, of at most `last`. Once it has returned, one of
+  /// the two is called: with whole generations, at least one, or with what is shown in place of the rest.
+  using Reader = std::function<void(int first, int last, Take take, Failed failed)>;
 
   explicit IndividualsTable(QWidget* parent = nullptr);
 
@@ -33,10 +39,10 @@ class IndividualsTable : public QWidget {
   void setMeasurements(const std::vector<MeasurementRecord>& measurements);
   /// Individuals whose simulated fitness is not shown.
   void setHidden(const std::set<Id>& hidden);
-  /// Empties the table and reads generations 1 … `last`, a few with each turn of the event loop; then loaded().
+  /// Empties the table and reads generations 1 … `last`, a page at a time; then loaded().
   void load(int last, Reader read);
-  /// One more generation, with its individuals.
-  void append(const GenerationRecord& generation);
+  /// There are more generations by now.
+  void extend(int last);
   void clear();
 
   /// Shows and selects it; false if it is not in the table (yet) or filtered out.
@@ -66,6 +72,8 @@ class IndividualsTable : public QWidget {
   QWidget* makeFilterBar();
   void fitColumns();
   void readPage();
+  void takePage(const Page& page);
+  void end(const QString& trouble);
   void showCount();
   void showSelected();
   void showMenu(const QPoint& place);
@@ -81,8 +89,9 @@ class IndividualsTable : public QWidget {
   QLineEdit* words_;
   Reader read_;
   int next_ = 1, last_ = 0;
+  int load_ = 0;  ///< number of the load that is under way: a page of an earlier one comes too late
+  bool reading_ = false;
   QString trouble_;
-  QTimer reading_;
 };
 
 }  // namespace btr::ui

@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "core/run/grid_table.h"
+#include "core/run/grid/grid_table.h"
 
 namespace btr::ui {
 

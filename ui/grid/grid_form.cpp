@@ -13,7 +13,7 @@
 #include <QScrollArea>
 #include <filesystem>
 
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 #include "ui/common/decimal_spin_box.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"

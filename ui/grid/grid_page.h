@@ -2,8 +2,8 @@
 #include <QWidget>
 #include <map>
 
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_table.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_table.h"
 #include "ui/gap/program_process.h"
 
 class QComboBox;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 #include "ui/common/format.h"
 #include "ui/grid/ramp.h"
 

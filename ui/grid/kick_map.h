@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "core/run/grid_losses.h"
+#include "core/run/grid/grid_losses.h"
 
 namespace btr::ui {
 

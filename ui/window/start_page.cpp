@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/common/format.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/run_text.h"
@@ -61,7 +62,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent) {
   auto* example = button("example", "folder-templates", tr("Begin with an example"), this);
   auto* examples = new QMenu(example);
   for (const QString& path : exampleExperiments())
-    examples->addAction(exampleName(path), this, [this, path] { emit exampleWanted(path); });
+    examples->addAction(inMenu(exampleName(path)), this, [this, path] { emit exampleWanted(path); });
   example->setMenu(examples);
   example->setEnabled(!examples->isEmpty());
   setUp->addWidget(fresh);

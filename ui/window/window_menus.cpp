@@ -15,6 +15,7 @@
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/common/format.h"
 #include "ui/common/manual.h"
 #include "ui/common/plugins_dialog.h"
 #include "ui/common/resources.h"
@@ -134,7 +135,7 @@ void Menus::makeExports(QMenu& file) {
 void Menus::fillExamples(QMenu& menu) {
   menu.clear();
   for (const QString& path : exampleExperiments())
-    menu.addAction(tr("%1 (%2)").arg(exampleName(path), QFileInfo(path).completeBaseName()), this,
+    menu.addAction(inMenu(tr("%1 (%2)").arg(exampleName(path), QFileInfo(path).completeBaseName())), this,
                    [this, path] { to_.drafts.open(path); });
   if (menu.isEmpty()) menu.addAction(tr("No examples are installed"))->setEnabled(false);
 }
@@ -142,7 +143,7 @@ void Menus::fillExamples(QMenu& menu) {
 void Menus::fillRecent() {
   recent_->clear();
   for (const QString& path : bench_.settings().recentDatabases())
-    recent_->addAction(path, this, [this, path] { bench_.open(path, Workbench::Absent::ask); });
+    recent_->addAction(inMenu(path), this, [this, path] { bench_.open(path, Workbench::Absent::ask); });
   recent_->setEnabled(!recent_->isEmpty());
 }
 

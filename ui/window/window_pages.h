@@ -1,8 +1,15 @@
 #pragma once
 
+class QMainWindow;
+class QString;
+
+namespace btr {
+class PluginHost;
+}
 namespace btr::ui {
 class Alarm;
 class ComparePage;
+class DockLayout;
 class ExperimentForm;
 class ExperimentTree;
 class FitnessChart;
@@ -35,5 +42,9 @@ struct WindowPages {
   StartPage* start = nullptr;
   Alarm* alarm = nullptr;
 };
+
+/// Makes them all, in docks of the window. `program` is btr, `settingsFile` the alarm's.
+WindowPages makePages(QMainWindow& window, DockLayout& layout, const PluginHost& host, const QString& program,
+                      const QString& settingsFile);
 
 }  // namespace btr::ui

@@ -1,6 +1,7 @@
 #include "core/gap/proof/proof_score.h"
 #include "core/gap/proof/proof_marks.h"
 #include "core/gap/proof/proved_case.h"
+#include "core/spec/figures.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -13,12 +14,6 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<double>;
 constexpr double tail = 0.025;
-
-std::string tenthPercent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-  return text;
-}
 
 std::string foundText(const Share& share) {
   return tenthPercent(share.value()) + " (" + std::to_string(share.hits) + " of " + std::to_string(share.cases) + "; " +

@@ -17,14 +17,8 @@ namespace {
 constexpr std::size_t tableColumns = 9;
 using Row = std::array<std::string, tableColumns>;
 
-/// Three or four digits that matter, the same in every locale.
-std::string digits(double value) {
-  if (!std::isfinite(value)) return "-";
-  const double rounded = std::abs(value) < 1e-15 ? 0 : value;
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", rounded);
-  return text.data();
-}
+/// In a cell of the table; rounding errors are 0.
+std::string inCell(double value) { return std::isfinite(value) ? brief(std::abs(value) < 1e-15 ? 0 : value) : "-"; }
 
 std::string fileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -61,13 +55,13 @@ std::vector<ChannelError> means(const ResidualReport& report) {
     for (double* value :
          {&mean.meanAbsolute, &mean.rootMeanSquare, &mean.bias, &mean.last, &mean.resolution, &mean.stepError})
       *value /= count;
-    mean.recording = "mean of " + digits(places[mean.channel].second);
+    mean.recording = "mean of " + inCell(places[mean.channel].second);
   }
   return result;
 }
 
 Row rowOf(const ChannelError& error) {
-  const auto number = [&](double value) { return error.samples > 0 ? digits(value) : std::string("-"); };
+  const auto number = [&](double value) { return error.samples > 0 ? inCell(value) : std::string("-"); };
   return {fileName(error.recording),    error.channel,
           unitOfChannel(error.channel), std::to_string(error.samples),
           number(error.meanAbsolute),   number(error.rootMeanSquare),

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/spec/nice_steps.h"
+#include "core/spec/thinning.h"
+
 namespace btr::svg {
 
 std::string number(double value, const char* format) {
@@ -47,10 +50,7 @@ Axis Range::axis(double from, double to, double margin) const {
 }
 
 std::vector<double> ticksOf(const Axis& axis, double wanted) {
-  const double raw = (axis.high - axis.low) / wanted;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double rest = raw / power;
-  const double step = power * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
+  const double step = nearestNiceStep(axis.high - axis.low, wanted);
   std::vector<double> ticks;
   for (double i = std::ceil(axis.low / step); i * step <= axis.high && ticks.size() < 100; ++i)
     ticks.push_back(i * step);
@@ -65,24 +65,14 @@ std::string pathOf(const std::vector<double>& time, const std::vector<double>& v
     path += (drawing ? "L" : "M") + number(x(time[i])) + " " + number(y(values[i]));
     drawing = true;
   };
+  const auto bucket = [&](std::size_t i) { return std::floor(bucketsPerPixel * x(time[i])); };
+  const auto value = [&](std::size_t i) { return values[i]; };
   for (std::size_t i = 0; i < values.size();) {
-    if (!std::isfinite(values[i])) {
-      drawing = false;
-      ++i;
-      continue;
-    }
-    // First, lowest, highest and last sample of the bucket, in their order.
-    const double bucket = std::floor(bucketsPerPixel * x(time[i]));
-    std::size_t end = i, lowest = i, highest = i;
-    for (; end < values.size() && std::isfinite(values[end]) && std::floor(bucketsPerPixel * x(time[end])) == bucket;
-         ++end) {
-      if (values[end] < values[lowest]) lowest = end;
-      if (values[end] > values[highest]) highest = end;
-    }
-    std::array<std::size_t, 4> chosen{i, std::min(lowest, highest), std::max(lowest, highest), end - 1};
-    for (std::size_t k = 0; k < chosen.size(); ++k)
-      if (k == 0 || chosen[k] != chosen[k - 1]) point(chosen[k]);
-    i = end;
+    std::size_t end = i;
+    while (end < values.size() && std::isfinite(values[end])) ++end;
+    thin(i, end, bucket, value, point);
+    drawing = false;
+    i = end + 1;
   }
   return path;
 }

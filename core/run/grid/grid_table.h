@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_host.h"
-#include "core/run/grid.h"
+#include "core/run/grid/grid.h"
 #include "core/run/spread.h"
 
 namespace btr {

@@ -1,4 +1,4 @@
-#include "core/run/grid_losses.h"
+#include "core/run/grid/grid_losses.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/run/grid_kicks.h"
-#include "core/run/grid_work.h"
+#include "core/run/grid/grid_kicks.h"
+#include "core/run/grid/grid_work.h"
 
 namespace btr {
 

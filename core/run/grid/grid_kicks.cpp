@@ -1,4 +1,4 @@
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_kicks.h"
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 #include "core/run/evaluator.h"
 #include "core/run/export.h"
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

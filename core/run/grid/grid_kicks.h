@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/learn/vector_grid.h"
-#include "core/run/grid.h"
+#include "core/run/grid/grid.h"
 #include "core/run/replay.h"
 
 namespace btr {

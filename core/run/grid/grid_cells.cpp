@@ -1,4 +1,4 @@
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/run/grid_kicks.h"
+#include "core/run/grid/grid_kicks.h"
 
 namespace btr {
 

@@ -1,4 +1,4 @@
-#include "core/run/grid_table.h"
+#include "core/run/grid/grid_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/learn/vector_grid.h"
 #include "core/run/export.h"
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid_cells.h"
 #include "core/run/prepared_experiment.h"
 #include "core/spec/experiment_spec.h"
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/learn/vector_grid.h"
-#include "core/run/grid_work.h"
+#include "core/run/grid/grid_work.h"
 
 namespace btr {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/run/grid.h"
-#include "core/run/grid_cells.h"
+#include "core/run/grid/grid.h"
+#include "core/run/grid/grid_cells.h"
 #include "core/run/search.h"
 
 // The parts of a grid's work, for the sources that do it.

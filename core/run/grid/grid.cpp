@@ -1,9 +1,9 @@
-#include "core/run/grid.h"
+#include "core/run/grid/grid.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "core/run/grid_work.h"
+#include "core/run/grid/grid_work.h"
 #include "core/run/run_lock.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"

@@ -28,8 +28,9 @@ struct MeshFile {
 /// Gives the mesh file of that name, as it stands in the URDF file; throws InputError if there is none.
 using MeshSource = std::function<MeshFile(const std::string& name)>;
 /// Mesh files as the URDF file `robot` means them. Relative names and file:// lead from the robot's folder;
-/// package://NAME/… and model://NAME/… lead to a folder NAME above or beside the robot's folder, one of ROS_PACKAGE_PATH
-/// or AMENT_PREFIX_PATH, or, where the robot was taken out of its package, to the robot's folder or the one above it.
+/// package://NAME/… and model://NAME/… lead to a folder NAME above or beside the robot's folder, one of
+/// ROS_PACKAGE_PATH or AMENT_PREFIX_PATH, or, where the robot was taken out of its package, to the robot's folder or
+/// the one above it.
 MeshSource meshesBeside(const std::string& robot, const ModelBudget& budget = {});
 
 /// Reads .wrl (VRML97, OpenHRP/Choreonoid vocabulary) or .urdf by the file's ending, then runs checkModel. Inline files

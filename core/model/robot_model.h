@@ -32,8 +32,8 @@ struct Shape {
       Eigen::Isometry3d::Identity();  ///< in the link's frame; cylinder and capsule lie along their own y axis (VRML)
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();  ///< box: edges; sphere: x = radius; cylinder, capsule: x = radius,
                                                      ///< y = height, the capsule's without its two half spheres
-  std::shared_ptr<const Surface> surface;              ///< of a mesh, in the shape's frame; null for all others
-  std::shared_ptr<const Hull> hull;                    ///< of a colliding mesh, once loadModels() has made it
+  std::shared_ptr<const Surface> surface;            ///< of a mesh, in the shape's frame; null for all others
+  std::shared_ptr<const Hull> hull;                  ///< of a colliding mesh, once loadModels() has made it
   std::array<float, 4> colour{0.8f, 0.8f, 0.8f, 1.f};  ///< red, green, blue, opacity, 0…1
   bool collides = true;                                ///< see RobotModel::meshesReplacePrimitives
   bool drawn = true;

@@ -118,12 +118,11 @@ RobotProgram::RobotProgram(const std::vector<std::string>& words, Options option
 RobotProgram::~RobotProgram() = default;
 
 std::optional<RealAnswer> RobotProgram::measure(const RealTask& task) {
-  const std::string request = nlohmann::json{{"parameters", task.parameters},
-                                             {"repeat", task.repeat},
-                                             {"record", task.recordTo},
-                                             {"robot", task.pose}}
-                                  .dump() +
-                              '\n';
+  const std::string request =
+      nlohmann::json{
+          {"parameters", task.parameters}, {"repeat", task.repeat}, {"record", task.recordTo}, {"robot", task.pose}}
+          .dump() +
+      '\n';
   std::size_t sent = 0;
   while (sent < request.size()) {
     const ssize_t n = write(impl_->toChild, request.data() + sent, request.size() - sent);

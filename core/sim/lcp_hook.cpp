@@ -95,11 +95,11 @@ LcpHook& LcpHook::ofThisThread() {
 void requireLcpHook() {
   static const long problems = problemsOfAStep();
   if (problems > 0) return;
-  throw std::runtime_error(
-      problems < 0
-          ? "this libode has no dxSolveLCP to fall back on; install Debian's libode8 (0.16.2)"
-          : "this libode does not call UCHILSIM's constraint solver (a libode that was preloaded, or linked statically?): "
-            "trials would not be the same, bit for bit, as on other machines");
+  throw std::runtime_error(problems < 0
+                               ? "this libode has no dxSolveLCP to fall back on; install Debian's libode8 (0.16.2)"
+                               : "this libode does not call UCHILSIM's constraint solver (a libode that was preloaded, "
+                                 "or linked statically?): "
+                                 "trials would not be the same, bit for bit, as on other machines");
 }
 
 }  // namespace btr

@@ -15,10 +15,10 @@ struct Parameter {
   std::string meaning;  ///< one short sentence without a full stop
   double minimum = 0;
   double maximum = 1;
-  double byDefault = 0;                     ///< within [minimum, maximum]
-  std::optional<double> neutral = {};       ///< the value at which an effect does nothing
-  bool integer = false;                     ///< only whole numbers
-  std::vector<std::string> choices = {};    ///< not empty: the value is the index of one of these words
+  double byDefault = 0;                   ///< within [minimum, maximum]
+  std::optional<double> neutral = {};     ///< the value at which an effect does nothing
+  bool integer = false;                   ///< only whole numbers
+  std::vector<std::string> choices = {};  ///< not empty: the value is the index of one of these words
 };
 
 /// Values by parameter name. A name that is absent has its default.
@@ -37,7 +37,8 @@ std::vector<double> resolve(std::span<const Parameter> declared, const Values& v
 /// Throws InputError if `value` is not allowed for `parameter`; `place` begins the message.
 void check(const Parameter& parameter, double value, const std::string& place);
 
-/// Shortest text that reads back as the same double (whole numbers below 1e9 in plain digits), independent of the locale.
+/// Shortest text that reads back as the same double (whole numbers below 1e9 in plain digits), independent of the
+/// locale.
 std::string toText(double value);
 /// The whole of `text` as a finite double, or nothing. Independent of the locale.
 std::optional<double> toNumber(const std::string& text);

@@ -6,19 +6,19 @@
 
 namespace btr {
 
-/// The one random generator: xoshiro256** (Blackman and Vigna 2018), seeded through splitmix64. It is always passed in, never
-/// global. Its distributions are written out here because those of the standard library differ between libraries.
+/// The one random generator: xoshiro256** (Blackman and Vigna 2018), seeded through splitmix64. It is always passed in,
+/// never global. Its distributions are written out here because those of the standard library differ between libraries.
 /// Same seed, same sequence, on every machine.
 class Random {
  public:
   explicit Random(std::uint64_t seed);
 
-  std::uint64_t next();                        ///< 64 random bits
-  double uniform();                            ///< [0, 1), 53 bits
-  double uniform(double low, double high);     ///< [low, high)
-  std::uint64_t below(std::uint64_t count);    ///< 0 … count−1 without bias; count > 0
-  bool chance(double probability);             ///< true with that probability
-  double normal();                             ///< standard normal (Box–Muller, no value is kept between calls)
+  std::uint64_t next();                      ///< 64 random bits
+  double uniform();                          ///< [0, 1), 53 bits
+  double uniform(double low, double high);   ///< [low, high)
+  std::uint64_t below(std::uint64_t count);  ///< 0 … count−1 without bias; count > 0
+  bool chance(double probability);           ///< true with that probability
+  double normal();                           ///< standard normal (Box–Muller, no value is kept between calls)
 
   /// A generator for an independent purpose: a function of this seed and the key alone, whatever was drawn before.
   static Random forPurpose(std::uint64_t seed, std::string_view purpose, std::uint64_t number = 0);

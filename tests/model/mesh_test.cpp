@@ -168,7 +168,8 @@ TEST(Mesh, ScaledPrimitivesStayPrimitivesWhereTheyCan) {
   EXPECT_EQ(Shape::Kind::mesh, scaled("1 2 3", "Sphere { }").kind);
   EXPECT_EQ(Shape::Kind::mesh, scaled("1 1 2", "Cylinder { }").kind);
   const Shape egg = scaled("1 2 3", "Sphere { }");
-  EXPECT_NEAR(6, measure(egg.surface->vertices, egg.surface->triangles).volume / measure(vrml::spherePolygons(1)).volume, 1e-4);
+  EXPECT_NEAR(
+      6, measure(egg.surface->vertices, egg.surface->triangles).volume / measure(vrml::spherePolygons(1)).volume, 1e-4);
 }
 
 TEST(Mesh, AMirrorTurnsTheTrianglesSoThatTheyStillFaceOutwards) {

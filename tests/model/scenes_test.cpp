@@ -29,7 +29,8 @@ class ShippedScene : public testing::TestWithParam<const char*> {
   std::vector<double> positions_;
   Eigen::Isometry3d start_;
 };
-INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene, testing::Values("kick.json", "walk.json", "walk-ers210.json", "walk-ers220.json"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
+                         testing::Values("kick.json", "walk.json", "walk-ers210.json", "walk-ers220.json"));
 
 TEST_P(ShippedScene, TheDogStandsWithAllFourFeetOnTheFloor) {
   const auto poses = forwardKinematics(model_, start_, positions_);

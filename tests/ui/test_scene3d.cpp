@@ -161,8 +161,8 @@ void TestScene3d::meshesTurnTheirTrianglesOutwards() {
   // A closed body around the origin: every face and every normal looks away from it, and Gauss gives the volume.
   Shape tetrahedron;
   tetrahedron.kind = Shape::Kind::mesh;
-  tetrahedron.surface = std::make_shared<const Surface>(Surface{
-      {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}});
+  tetrahedron.surface = std::make_shared<const Surface>(
+      Surface{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}});
   const double pi = std::numbers::pi;
   const std::tuple<Shape, double, double> bodies[] = {
       {test::makeShape(Shape::Kind::box, {0, 0, 0}, {1, 2, 3}, {}), 6, 1e-5},

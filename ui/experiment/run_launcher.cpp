@@ -40,8 +40,7 @@ void RunLauncher::store(const QString& database, const ExperimentSpec& spec, qui
     QStringList remarks;
     if (!differs.empty()) remarks << QString::fromStdString(differs);
     for (const std::string& loss : runLosses(db.run(run), *host)) remarks << QString::fromStdString(loss);
-    if (!remarks.isEmpty())
-      QMetaObject::invokeMethod(this, [this, text = remarks.join('\n')] { emit remarked(text); });
+    if (!remarks.isEmpty()) QMetaObject::invokeMethod(this, [this, text = remarks.join('\n')] { emit remarked(text); });
     return run;
   });
 }

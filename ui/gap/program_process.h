@@ -6,7 +6,8 @@
 namespace btr::ui {
 
 /// Runs a command of btr beside the window that says "STAGE SHARE" on standard error: tells its progress, can be
-/// cancelled, and ends with what it wrote to standard output, or with a message. One at a time. It ends with the window.
+/// cancelled, and ends with what it wrote to standard output, or with a message. One at a time. It ends with the
+/// window.
 class ProgramProcess : public QObject {
   Q_OBJECT
  public:

@@ -14,12 +14,12 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "core/gap/proof/proof_marks.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/message_banner.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_view.h"
 #include "ui/measure/question_bar.h"
-#include "core/gap/proof/proof_marks.h"
 
 namespace btr::ui {
 

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <set>
 
+#include "core/run/identified_numbers.h"
 #include "core/run/learner_state.h"
 #include "core/run/reality_gap.h"
 #include "core/run/run_context.h"
-#include "core/run/told_numbers.h"
 #include "core/spec/sha256.h"
 
 namespace btr {
@@ -164,8 +164,9 @@ bool Adaptation::begin() {
     present_.push_back(valueOf(simulatorParameters(), parent_.simulator.values, p.name));
   std::vector<Parameter> adapted = context_.prepared.adapted;
   if (const double wanted = context_.recordingSetting("told_numbers"); wanted > 0)
-    adapted = withinTold(std::move(adapted), toldNumbers(context_.database.simulators(parent_.run), parent_), present_,
-                         wanted == 2 ? Untold::stay : Untold::free);
+    adapted =
+        withinIdentified(std::move(adapted), identifiedNumbers(context_.database.simulators(parent_.run), parent_),
+                         present_, wanted == 2 ? Unidentified::stay : Unidentified::free);
   Values settings = context_.prepared.spec.adaptation.settings;
   // A step of one parameter may be wider than its narrowed bounds.
   for (const Parameter& p : learner_->settingsFor(adapted))

@@ -11,7 +11,7 @@ namespace btr {
 /// are solved, all rows that contradict change sides; where that makes no progress only the last one does (Murty),
 /// which ends for every positive definite A.
 ///
-/// Bounds that hang on another row (friction on the normal force) come from the solution without them first, which is
+/// Bounds that depend on another row (friction on the normal force) come from the solution without them first, which is
 /// all that ODE does: friction at most μ times the normal force that there would be WITHOUT friction. A foot that
 /// friction presses into the floor or lifts off it then slides too easily or too hardly, by an amount that does not
 /// vanish with the step. So the bounds follow the normal forces of each solution until both agree: Coulomb's law.

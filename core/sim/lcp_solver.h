@@ -28,7 +28,7 @@ class LcpReducer {
   static constexpr unsigned lanes = 4;  ///< numbers that are worked on at once
   static constexpr unsigned width = 8;  ///< of a stored block's rows: six and two zeros
 
-  /// False if the problem is unusual (a bound that hangs on an unbounded row, not positive definite, too large, too
+  /// False if the problem is unusual (a bound that depends on an unbounded row, not positive definite, too large, too
   /// small to be worth it): nothing was changed, and it is to be solved whole.
   bool reduce(const LcpProblem& problem);
   /// The small problem, with its own memory. n may be 0.

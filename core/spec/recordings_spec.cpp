@@ -73,7 +73,9 @@ const std::vector<Parameter>& recordingParameters() {
        {"everything", "body_and_ball"}},
       {"told_numbers",
        "",
-       "where L3 changes numbers that recordings told: anywhere, within their 95 % intervals, or there and no others",
+       "where L3 may move numbers that recordings have identified: anywhere, within their 95 % intervals, or there "
+       "with "
+       "all others held",
        0,
        2,
        0,

@@ -1,4 +1,4 @@
-/// All drives of a robot hang on one battery, whose voltage falls with what they draw together; a drive's torque falls
+/// One battery feeds all drives of a robot; its voltage falls with what they draw together; a drive's torque falls
 /// with the voltage:
 ///   τ' = τ/(1 + s·Σ|τ_j|)      Σ over the robot's drives in the last step [N·m]; s in 1/(N·m)
 /// which is V = V0 − R·I with a current in proportion to the torques and V/V0 = 1/(1 + s·Σ) as its fixed point for

@@ -255,7 +255,7 @@ TEST(Analysis, AJointThatStandsStillThoughItIsToldToMoveTellsThatItIsHeld) {
   EXPECT_EQ(report.verdict, Verdict::missingPhysics) << report.sentence;
   EXPECT_THAT(namesOf(report), testing::ElementsAre("coulomb_friction at rig.hinge")) << toPlainText(report);
   // Whatever holds it would do.
-  EXPECT_THAT(report.sentence, HasSubstr("do not tell"));
+  EXPECT_THAT(report.sentence, HasSubstr("Not identifiable from these recordings"));
   EXPECT_THAT(report.sentence, HasSubstr("how large coulomb friction at rig.hinge is"));
 }
 

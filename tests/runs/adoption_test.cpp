@@ -8,8 +8,8 @@
 
 #include "core/gap/report/report_files.h"
 #include "core/gap/search/gap_report.h"
+#include "core/run/identified_numbers.h"
 #include "core/run/run_lock.h"
-#include "core/run/told_numbers.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
@@ -186,7 +186,7 @@ TEST_F(Adoption, TheReportIsTheEvidence) {
   EXPECT_EQ(evidence["sentence"], report.sentence);
   EXPECT_EQ(evidence["recordings_sha256"].size(), 5u);
   // What the recordings told of numbers is known to the stages that follow.
-  const auto told = toldNumbers(database_.simulators(run_), adopted);
+  const auto told = identifiedNumbers(database_.simulators(run_), adopted);
   ASSERT_FALSE(report.calibrated.empty());
   for (const GapReport::Number& number : report.calibrated) {
     ASSERT_TRUE(number.ci95.known());

@@ -147,7 +147,7 @@ void CalibratedTable::setReport(const GapReport& report) {
     fillCell(*this, row, amongRivals, n.amongRivals.known() ? word(brief(n.amongRivals)) : tr("–"), true);
     fillCell(*this, row, unit, n.unit.empty() ? unitOfPath(n.name) : word(n.unit));
     fillCell(*this, row, remark,
-             !n.excited  ? tr("the recordings do not tell it")
+             !n.excited  ? tr("not identifiable from these recordings")
              : n.atBound ? tr("at its bound")
                          : QString());
   }

@@ -100,7 +100,7 @@ class NoiseFloors {
     }
     if (!others.empty()) return {median(others), "that of " + names};
     if (digit > 0) return {digit * ofRounding, "the rounding of the file's decimals"};
-    return {withoutAnything, "a guess: nothing in these recordings tells it"};
+    return {withoutAnything, "a guess: nothing in these recordings determines it"};
   }
 
   std::map<std::string, Known> known_;

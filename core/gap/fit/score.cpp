@@ -38,8 +38,8 @@ Scored scoreAsIs(const FitProblem& problem, const Fit& fit) {
 namespace {
 
 /// Where the parameters would go without one half of the blocks: a Gauss–Newton step from the fit to everything, in
-/// which a tenth of what everything says of each parameter is kept, so that one that is felt in the other half alone
-/// does not run away. `train` marks the residuals that count.
+/// which a tenth of what everything says of each parameter is kept, so that one to which only the other half is
+/// sensitive does not run away. `train` marks the residuals that count.
 std::vector<double> withoutOther(const Fit& fit, const Linearised& linear, const Eigen::VectorXd& train,
                                  double length) {
   constexpr double kept = 0.1;

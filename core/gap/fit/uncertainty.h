@@ -24,7 +24,7 @@ bool isIdentifiable(const FitParameter& parameter, double half95);
 Uncertainty uncertaintyOf(const FitProblem& problem, const Fit& fit, const Linearised& linearised);
 
 /// How far each parameter may still be from where it belongs, beside what noise does, in its unit: the way that the
-/// step's integration error, felt as residuals, has pushed it, and the way that a further step of the fit would go.
+/// step's integration error, seen as residuals, has pushed it, and the way that a further step of the fit would go.
 /// `stepChange`: the fit's residuals less those with half the step.
 std::vector<double> unsettled(const FitProblem& problem, const Fit& fit, const Linearised& linearised,
                               const Eigen::VectorXd& stepChange);

@@ -147,7 +147,7 @@ class Prescribed {
     }
   }
 
-  /// A prescribed joint is told where it must be by the next row.
+  /// A prescribed joint gets the position of the next row.
   void aim(std::size_t nextRow, std::vector<std::vector<JointInput>>& inputs) const {
     for (const Input& input : inputs_) {
       const double value = recording_.columns[input.column][nextRow];

@@ -103,7 +103,7 @@ std::string calibratedTable(const GapReport& report) {
                      headerRow({"number", "unit", "remark", "as given", "fitted", "95 % interval", "among rivals"}, 3);
   for (const GapReport::Number& n : report.calibrated)
     html += "<tr>" + cell(n.name) + cell(n.unit) +
-            cell(!n.excited  ? "the recordings do not tell it"
+            cell(!n.excited  ? "not identifiable from these recordings"
                  : n.atBound ? "at its bound"
                              : "") +
             numberCell(n.before) + numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) +

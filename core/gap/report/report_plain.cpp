@@ -44,14 +44,15 @@ std::string toPlainText(const GapReport& report) {
         text += line("        %-28s %.4g %s%s\n", number.name.c_str(), number.value, number.unit.c_str(),
                      intervalText(number).c_str());
     for (const auto& rival : effect.rivals)
-      text += line("        not told from %s at %s%s%s (error ratio %.3f)\n", rival.effect.c_str(), rival.at.c_str(),
-                   rival.with.empty() ? "" : " together with ", rival.with.c_str(), rival.heldoutErrorRatio);
+      text += line("        indistinguishable from %s at %s%s%s (error ratio %.3f)\n", rival.effect.c_str(),
+                   rival.at.c_str(), rival.with.empty() ? "" : " together with ", rival.with.c_str(),
+                   rival.heldoutErrorRatio);
   }
   text += "\ncalibrated\n";
   for (const auto& number : report.calibrated)
     text += line("  %-52s %.5g → %.5g%s%s\n", number.name.c_str(), number.before, number.value,
                  intervalText(number).c_str(),
-                 !number.excited  ? " (not told by these recordings)"
+                 !number.excited  ? " (not identifiable from these recordings)"
                  : number.atBound ? " (at its bound)"
                                   : "");
   for (const std::string& pair : report.strongCorrelations) text += "  hardly separated: " + pair + "\n";

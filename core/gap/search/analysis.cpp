@@ -305,7 +305,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (found.unstable) {
     // A loop near its limit of stability: a hair of a parameter decides where a free run ends.
     problem = prepare(given.recordings, 1);
-    problem.notes.push_back("free runs hang on the last digits of the parameters: windows of 1 s instead");
+    problem.notes.push_back("free runs depend on the last digits of the parameters: windows of 1 s instead");
     found = searchEffects(problem, search);
   }
 

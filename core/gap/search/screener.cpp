@@ -48,7 +48,7 @@ std::string reasonOf(const Promise& promise) {
   if (promise.excited)
     return "screening: would take away " + percent(promise.share) + " of the squared error, others more";
   return promise.refused ? "the scene refuses it at the sizes that were tried"
-                         : "the recordings do not feel it at a typical size";
+                         : "the recordings are not sensitive to it at a typical size";
 }
 
 }  // namespace

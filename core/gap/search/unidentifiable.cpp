@@ -82,7 +82,7 @@ Scored BackAsGiven::of(const FitModel& model) const {
 }
 
 std::optional<BackAsGiven> backAsGiven(const FitService& service, const Scored& final, const Measurement& measured) {
-  const std::string stage = "what is not told";
+  const std::string stage = "unidentifiable numbers";
   constexpr double at = 0.95;
   const SearchThresholds::Calibration& limits = service.thresholds().calibration;
   const FitModel& whole = final.fit.model;

@@ -188,8 +188,9 @@ bool tellsNothing(const Findings& e, const SearchThresholds::Verdict& limits) {
 }
 
 std::string tellsNothingText(const Findings& e, const SearchThresholds::Verdict& limits) {
-  return (e.moves ? "These recordings feel none of the calibrated numbers, and no effect at a typical size"
-                  : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
+  return (e.moves
+              ? "These recordings are sensitive to none of the calibrated numbers, and to no effect of a typical size"
+              : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
          ": they cannot tell the simulator from reality. Record larger and faster motions, with reversals.";
 }
 
@@ -343,7 +344,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     if (!number.excited) add(number.name);
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted && !tellsSize(effect)) add("how large " + inWords(effect.effect) + " at " + effect.at + " is");
-  if (!unidentifiable.empty()) report.sentence += "These recordings do not tell " + unidentifiable + ". ";
+  if (!unidentifiable.empty()) report.sentence += "Not identifiable from these recordings: " + unidentifiable + ". ";
   if (!report.next.why.empty())
     report.sentence +=
         (report.next.separation >= thresholds.nextRecording.leastSeparation ? "The suggested next recording "

@@ -1,5 +1,5 @@
 // What recordings told of a simulator's numbers, and bounds narrowed to it.
-#include "core/run/told_numbers.h"
+#include "core/run/identified_numbers.h"
 #include "core/gap/search/gap_report.h"
 
 #include <gtest/gtest.h>
@@ -25,34 +25,34 @@ SimulatorRecord telling(int number, const std::string& evidence) {
   return version;
 }
 
-TEST(ToldNumbers, AreThoseOfTheNewestAnalysisThatTellsThem) {
+TEST(IdentifiedNumbers, AreThoseOfTheNewestAnalysisThatTellsThem) {
   const std::vector<SimulatorRecord> versions{
       telling(0, "{}"), calibrating(1, "friction", {0.5, 0.9}), telling(2, R"({"stage":1,"error":0.1})"),
       calibrating(3, "friction", {0.7, 0.8}), calibrating(4, "slip1_m_s_n", GapReport::Interval::none())};
-  const auto told = toldNumbers(versions, versions[4]);
+  const auto told = identifiedNumbers(versions, versions[4]);
   ASSERT_EQ(told.size(), 1u);  // no recording tells the slip
   EXPECT_EQ(told.at("friction").low, 0.7);
   EXPECT_EQ(told.at("friction").high, 0.8);
-  EXPECT_EQ(toldNumbers(versions, versions[2]).at("friction").low, 0.5);
-  EXPECT_TRUE(toldNumbers(versions, versions[0]).empty());
+  EXPECT_EQ(identifiedNumbers(versions, versions[2]).at("friction").low, 0.5);
+  EXPECT_TRUE(identifiedNumbers(versions, versions[0]).empty());
 }
 
-TEST(ToldNumbers, OfARevertedSimulatorAreThoseThatTheOlderOneHad) {
+TEST(IdentifiedNumbers, OfARevertedSimulatorAreThoseThatTheOlderOneHad) {
   std::vector<SimulatorRecord> versions{telling(0, ""), calibrating(1, "friction", {0.5, 0.9}),
                                         calibrating(2, "friction", {0.7, 0.8}),
                                         telling(3, R"({"reverts_to":1,"from":2})")};
-  EXPECT_EQ(toldNumbers(versions, versions[3]).at("friction").low, 0.5);
+  EXPECT_EQ(identifiedNumbers(versions, versions[3]).at("friction").low, 0.5);
   versions.push_back(telling(4, R"({"reverts_to":0,"from":3})"));
-  EXPECT_TRUE(toldNumbers(versions, versions[4]).empty());
+  EXPECT_TRUE(identifiedNumbers(versions, versions[4]).empty());
 }
 
-TEST(ToldNumbers, NarrowBoundsThatStillHoldThePresentValue) {
+TEST(IdentifiedNumbers, NarrowBoundsThatStillHoldThePresentValue) {
   const std::vector<Parameter> declared{{"a", "", "told", 0, 10, 5},
                                         {"b", "", "not told", 0, 10, 5},
                                         {"c", "", "told elsewhere since", 0, 10, 5},
                                         {"d", "", "told beyond its range", 0, 10, 5}};
   const auto within =
-      withinTold(declared, {{"a", {2, 3}}, {"c", {2, 3}}, {"d", {-1, 11}}}, std::vector<double>{2.5, 7, 4, 9});
+      withinIdentified(declared, {{"a", {2, 3}}, {"c", {2, 3}}, {"d", {-1, 11}}}, std::vector<double>{2.5, 7, 4, 9});
   const std::vector<std::pair<double, double>> expected{{2, 3}, {0, 10}, {2, 4}, {0, 10}};
   ASSERT_EQ(within.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -63,14 +63,15 @@ TEST(ToldNumbers, NarrowBoundsThatStillHoldThePresentValue) {
   }
 }
 
-TEST(ToldNumbers, MayBeTheOnlyOnesThatChange) {
+TEST(IdentifiedNumbers, MayBeTheOnlyOnesThatChange) {
   const std::vector<Parameter> declared{{"a", "", "told", 0, 10, 5}, {"b", "", "not told", 0, 10, 5}};
-  const auto within = withinTold(declared, {{"a", {2, 3}}}, std::vector<double>{2.5, 7}, Untold::stay);
+  const auto within = withinIdentified(declared, {{"a", {2, 3}}}, std::vector<double>{2.5, 7}, Unidentified::stay);
   EXPECT_EQ(within[0].maximum, 3);
   EXPECT_EQ(within[1].minimum, 7);
   EXPECT_EQ(within[1].maximum, 7);
   // Before the recordings, or where no number of L3 was told, nothing is held: L3 would have nothing to do.
-  EXPECT_EQ(withinTold(declared, {{"c", {2, 3}}}, std::vector<double>{2.5, 7}, Untold::stay)[1].maximum, 10);
+  EXPECT_EQ(withinIdentified(declared, {{"c", {2, 3}}}, std::vector<double>{2.5, 7}, Unidentified::stay)[1].maximum,
+            10);
 }
 
 }  // namespace

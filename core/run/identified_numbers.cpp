@@ -1,4 +1,4 @@
-#include "core/run/told_numbers.h"
+#include "core/run/identified_numbers.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/gap_report.h"
 
@@ -23,17 +23,17 @@ nlohmann::json toEvidence(const std::vector<GapReport::Number>& numbers) {
   return all;
 }
 
-std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<SimulatorRecord>& versions,
-                                                       const SimulatorRecord& newest) {
-  std::map<std::string, GapReport::Interval> told;
+std::map<std::string, GapReport::Interval> identifiedNumbers(const std::vector<SimulatorRecord>& versions,
+                                                             const SimulatorRecord& newest) {
+  std::map<std::string, GapReport::Interval> identified;
   const SimulatorRecord* version = &newest;
   while (version) {
     const auto evidence = nlohmann::json::parse(version->evidence, nullptr, false);
     if (evidence.is_object() && evidence.contains("calibrated"))
       for (const auto& [name, number] : evidence["calibrated"].items())
         if (const auto& interval = number.at("ci95"); interval.is_array())
-          told.try_emplace(name,
-                           GapReport::Interval{endOf(interval.at(0), -INFINITY), endOf(interval.at(1), INFINITY)});
+          identified.try_emplace(
+              name, GapReport::Interval{endOf(interval.at(0), -INFINITY), endOf(interval.at(1), INFINITY)});
     // A reverting version comes from the one whose values it has again, not from the one that it follows.
     const bool reverts = evidence.is_object() && evidence.contains("reverts_to");
     const auto origin = reverts
@@ -41,21 +41,21 @@ std::map<std::string, GapReport::Interval> toldNumbers(const std::vector<Simulat
                             : std::ranges::find(versions, version->parent, &SimulatorRecord::id);
     version = origin == versions.end() ? nullptr : &*origin;
   }
-  return told;
+  return identified;
 }
 
-std::vector<Parameter> withinTold(std::vector<Parameter> declared,
-                                  const std::map<std::string, GapReport::Interval>& told,
-                                  std::span<const double> present, Untold untold) {
-  const auto isTold = [&](const Parameter& p) { return told.contains(p.name); };
-  if (std::ranges::none_of(declared, isTold)) return declared;
+std::vector<Parameter> withinIdentified(std::vector<Parameter> declared,
+                                        const std::map<std::string, GapReport::Interval>& identified,
+                                        std::span<const double> present, Unidentified others) {
+  const auto isIdentified = [&](const Parameter& p) { return identified.contains(p.name); };
+  if (std::ranges::none_of(declared, isIdentified)) return declared;
   for (std::size_t i = 0; i < declared.size(); ++i) {
     Parameter& p = declared[i];
-    const auto found = told.find(p.name);
-    if (found != told.end()) {
+    const auto found = identified.find(p.name);
+    if (found != identified.end()) {
       p.minimum = std::max(p.minimum, std::min(found->second.low, present[i]));
       p.maximum = std::min(p.maximum, std::max(found->second.high, present[i]));
-    } else if (untold == Untold::stay) {
+    } else if (others == Unidentified::stay) {
       p.minimum = p.maximum = present[i];
     }
     p.byDefault = std::clamp(p.byDefault, p.minimum, p.maximum);

@@ -288,7 +288,6 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
 
   const ReplayedRecording replayed =
       replayRecording(scene, trial.recording, trial.binding, start, segment.first, segment.last);
-  constexpr double afterFault = 100;
   std::vector<double> residuals(segment.row.size(), afterFault);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];

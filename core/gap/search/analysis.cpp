@@ -10,6 +10,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/segments.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/fit/unit_at.h"
 #include "core/gap/recordings/channel_name.h"
@@ -34,22 +35,33 @@ namespace {
 
 std::string nameOf(const Recording& recording) { return std::filesystem::path(recording.source).filename().string(); }
 
-std::vector<std::vector<std::vector<double>>> simulateAll(const FitProblem& problem, const FitModel& model,
-                                                          const std::vector<std::vector<double>>& shifts) {
+struct Simulated {
+  /// By trial and measured channel; NaN where nothing is simulated, or a fault ended the simulation.
   std::vector<std::vector<std::vector<double>>> values;
+  std::vector<std::size_t> missed;  ///< by trial: samples that a fault took away
+};
+
+Simulated simulateAll(const FitProblem& problem, const FitModel& model,
+                      const std::vector<std::vector<double>>& shifts) {
+  Simulated simulated;
   for (const FitTrial& trial : problem.trials)
-    values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
+    simulated.values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
+  simulated.missed.assign(problem.trials.size(), 0);
   const Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
+      if (residuals[at] == afterFault) {
+        ++simulated.missed[segment.trial];
+        continue;
+      }
       const FitTrial& trial = problem.trials[segment.trial];
       const std::size_t c = segment.channel[k];
-      values[segment.trial][c][segment.row[k]] =
+      simulated.values[segment.trial][c][segment.row[k]] =
           trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] +
           residuals[at] * trial.noiseFloor[c];
     }
-  return values;
+  return simulated;
 }
 
 /// The model with its numbers fixed, for other recordings.
@@ -146,9 +158,9 @@ std::vector<GapReport::Number> finalNumbers(const SearchResult& found, int effec
 void addSeries(GapReport& report, const FitProblem& problem, const SearchResult& found, bool heldOut) {
   const auto fits = [&](const Scored& scored) { return heldOut ? carriedOver(problem, scored.fit.model) : scored.fit; };
   const Fit given = fits(found.given), calibrated = fits(found.calibrated), final = fits(found.final);
-  const auto asGiven = simulateAll(problem, given.model, given.shifts),
-             asCalibrated = simulateAll(problem, calibrated.model, calibrated.shifts),
-             withEffects = simulateAll(problem, final.model, final.shifts);
+  const Simulated asGiven = simulateAll(problem, given.model, given.shifts),
+                  asCalibrated = simulateAll(problem, calibrated.model, calibrated.shifts),
+                  withEffects = simulateAll(problem, final.model, final.shifts);
   std::map<std::string, std::array<Errors, 3>> errors;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const FitTrial& trial = problem.trials[t];
@@ -165,9 +177,9 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
       series.unit = unitOfChannel(series.channel);
       series.noiseFloor = trial.noiseFloor[c];
       series.recorded = trial.recording.columns[column];
-      series.asGiven = asGiven[t][c];
-      series.calibrated = asCalibrated[t][c];
-      series.withEffects = withEffects[t][c];
+      series.asGiven = asGiven.values[t][c];
+      series.calibrated = asCalibrated.values[t][c];
+      series.withEffects = withEffects.values[t][c];
       auto& sums = errors[series.channel];
       for (std::size_t row = 0; row < series.recorded.size(); ++row) {
         sums[0].add(series.asGiven[row] - series.recorded[row]);
@@ -177,6 +189,12 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
       if (heldOut) channelOf(report, series.channel, series.noiseFloor);
       out.series.push_back(std::move(series));
     }
+    for (const auto& [whose, simulated] :
+         {std::pair{"as given", &asGiven}, {"calibrated", &asCalibrated}, {"in the end", &withEffects}})
+      if (simulated->missed[t] > 0)
+        report.notes.push_back(out.name + ": " + whose +
+                               ", a fault ended the simulation: " + std::to_string(simulated->missed[t]) +
+                               " samples have no simulated value, and errors leave them out");
     report.trials.push_back(std::move(out));
   }
   if (!heldOut) return;

@@ -74,6 +74,16 @@ class TestFitnessAndGapCharts : public QObject {
   Q_OBJECT
 
  private slots:
+  // The maximum of a generation is the fitness of an individual, which may be one that is measured blind.
+  void whatIsMeasuredBlindIsNotReadOffTheCurves() {
+    FitnessRun run = example();
+    run.hidden = {0.3};
+    const PlotData plot = fitnessPlot(run, "m");
+    QCOMPARE(series(plot, "maximum").points, (Points{{1, 0.1}, {3, 0.2}, {4, 0.12}}));
+    for (const PlotSeries& curve : plot.series)
+      for (const QPointF& point : curve.points) QVERIFY2(point.y() != 0.3, qPrintable(curve.name));
+  }
+
   void curvesAreTheRecordsNumbers() {
     const PlotData plot = fitnessPlot(example(), "m");
     QCOMPARE(series(plot, "maximum").points, (Points{{1, 0.1}, {2, 0.3}, {3, 0.2}, {4, 0.12}}));

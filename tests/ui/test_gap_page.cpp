@@ -11,6 +11,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
@@ -167,6 +168,25 @@ class TestGapPage : public QObject {
     showProgress(bar, "handing over", 0.5, 10);
     QVERIFY2(bar.format().contains("handing over") && bar.format().contains("about 10 s left"),
              qPrintable(bar.format()));
+  }
+
+  // Two of them with the same letter would only take turns in getting the focus.
+  void noTwoThingsOnThePageShareAKey() {
+    GapPage page("/bin/true");
+    page.show();
+    QStringList letters{"&F", "&E", "&R", "&V", "&H"};  // the window's menus
+    const auto add = [&](const QString& text) {
+      for (int at = 0; (at = int(text.indexOf('&', at))) >= 0; at += 2)
+        if (text.mid(at, 2) != "&&") letters << text.mid(at, 2).toUpper();
+    };
+    for (const auto* button : page.findChildren<QAbstractButton*>())
+      if (button->isVisibleTo(&page)) add(button->text());
+    for (const auto* label : page.findChildren<QLabel*>())
+      if (label->isVisibleTo(&page) && label->buddy()) add(label->text());
+    for (const auto* tabs : page.findChildren<QTabBar*>())
+      for (int i = 0; tabs->isVisibleTo(&page) && i < tabs->count(); ++i) add(tabs->tabText(i));
+    QVERIFY(letters.size() > 12);
+    QCOMPARE(letters.removeDuplicates(), 0);
   }
 
   void anEmptyPageIsFilledWithTheShippedExample() {

@@ -238,7 +238,7 @@ class TestMeasurementSheet : public QObject {
   void meanDeviationAndCountFollowTheRepeats() {
     Stored s(1, 2);
     s.model().write({{0, first, "0.4"}, {0, first + 1, "0.6"}}, "paste");
-    QCOMPARE(s.text(0, s.model().meanColumn()), QString("0.5 ± 0.1414"));  // s = 0.2/√2
+    QCOMPARE(s.text(0, s.model().meanColumn()), QString("0.50 ± 0.14"));  // s = 0.2/√2
     QCOMPARE(s.model().index(0, s.model().countColumn()).data().toInt(), 2);
     s.model().write({{0, first + 1, ""}}, "delete");
     QCOMPARE(s.text(0, s.model().meanColumn()), QString("0.4"));

@@ -44,6 +44,7 @@ struct Desk {
     auto window = std::make_unique<MainWindow>(host, theme, options);
     window->show();
     window->openDatabase(database);
+    window->bench().reader().waitUntilIdle();
     return window;
   }
   QString file(const QString& name, const QByteArray& content) const {
@@ -93,6 +94,12 @@ void typeName(MainWindow& window, const QString& name) {
   field->setFocus();
   field->selectAll();
   QTest::keyClicks(field, name);
+}
+
+void emptyName(MainWindow& window) {
+  auto* field = window.draft().findChild<QLineEdit*>("name");
+  field->selectAll();
+  QTest::keyClick(field, Qt::Key_Delete);
 }
 
 }  // namespace
@@ -259,6 +266,7 @@ class TestWindowEntry : public QObject {
     Desk desk;
     const auto window = desk.open(stored.qpath());
     window->runs().resume(run);
+    window->bench().reader().waitUntilIdle();
     QVERIFY2(window->banner().text().contains("1 of 2 are measured"), qPrintable(window->banner().text()));
     QVERIFY(DockLayout::isInFront(window->findChild<QDockWidget*>("dock.sheet")));
   }
@@ -294,6 +302,102 @@ class TestWindowEntry : public QObject {
     window->showPage({});
     window->showStartIfIdle();
     QVERIFY(!start->isVisible());
+  }
+
+  // An experiment names a folder of plugins: the form knows what lies there, and shows it as any other.
+  void theFormKnowsThePluginsThatAnExperimentNames() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    ExperimentSpec spec = StoredRun::spec();
+    spec.plugins = {CRASHING_DIR};
+    spec.fitness = {"crashing", {}, {{"how", "abort"}}};
+    spec.scene = SOURCE_DIR "/resources/scenes/kick.json";
+    const QString file = desk.file("crashing.json", QByteArray::fromStdString(toJsonText(spec)));
+    QVERIFY2(window->drafts().open(file), qPrintable(window->banner().text()));
+    QVERIFY2(window->draft().isValid(), qPrintable(window->draft().problems().join('\n')));
+    QCOMPARE(window->draft().spec().fitness.name, std::string("crashing"));
+    QCOMPARE(window->draft().spec().fitness.words, spec.fitness.words);
+    // And of a stored run.
+    const Id experiment = stored.database.addExperiment({0, "Crashing", toJsonText(spec), "", ""});
+    RunRecord run;
+    run.experiment = experiment;
+    run.seed = 1;
+    run.specJson = toJsonText(spec);
+    run.specSha256 = "c";
+    run.sceneJson = R"({"format": "uchilsim-scene-1"})";
+    run.reality = "person";
+    window->selectRun(stored.database.addRun(run, SimulatorRecord{}));
+    window->bench().reader().waitUntilIdle();
+    QVERIFY2(window->banner().text().isEmpty(), qPrintable(window->banner().text()));
+    QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().fitness.name, std::string("crashing"));
+  }
+
+  void aFolderOfPluginsThatIsNotThereIsSaidAndTheFormStays() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    window->draft().setSpec(StoredRun::spec());
+    ExperimentSpec spec = StoredRun::spec();
+    spec.name = "Other";
+    spec.plugins = {desk.folder.filePath("absent").toStdString()};
+    QVERIFY(!window->drafts().open(desk.file("other.json", QByteArray::fromStdString(toJsonText(spec)))));
+    QVERIFY2(window->banner().text().contains("absent"), qPrintable(window->banner().text()));
+    QCOMPARE(window->draft().spec().name, std::string("Kick"));
+  }
+
+  void aMessageGoesWhenItsCauseIsMended() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    // A file that is none, then one that is.
+    QVERIFY(!window->drafts().open(desk.file("letter.txt", "Dear all,\nnothing.\n")));
+    QVERIFY(!window->banner().text().isEmpty());
+    QVERIFY(window->drafts().open(SOURCE_DIR "/resources/experiments/kick-short.json"));
+    QCOMPARE(window->banner().text(), QString());
+    // A form that cannot be started, until the field is filled.
+    emptyName(*window);
+    window->drafts().start();
+    QVERIFY(!window->banner().text().isEmpty());
+    typeName(*window, "Named");
+    QCOMPARE(window->banner().text(), QString());
+    // Another message stays.
+    emptyName(*window);
+    window->drafts().start();
+    window->bench().report("something else");
+    typeName(*window, "Named");
+    QCOMPARE(window->banner().text(), QString("something else"));
+    // A scene that cannot be read, then one that can.
+    AnalysisSetup& setup = window->gapPage().setup();
+    setup.setScene(desk.file("scene.json", "{"));
+    QVERIFY(window->banner().text().contains("scene.json"));
+    setup.setScene(SOURCE_DIR "/resources/scenes/emps.json");
+    QCOMPARE(window->banner().text(), QString());
+    emit setup.keepRequested({}, {});
+    QCOMPARE(window->banner().text(), QString("Add recordings first."));
+    setup.addRecordings({desk.file("swing.csv", "time_s,leg.knee.position_rad\n0,0.1\n0.01,0.2\n")});
+    QCOMPARE(window->banner().text(), QString());
+  }
+
+  void aDatabaseOnANetworkFileSystemIsMarked() {
+    StoredRun stored;
+    Desk desk;
+    desk.options.networkWarning = [](const std::string& path) { return std::optional(path + ": is on NFS"); };
+    const auto window = desk.open(stored.qpath());
+    QVERIFY2(window->banner().text().contains("test.db: is on NFS"), qPrintable(window->banner().text()));
+  }
+
+  // A single & would underline the next letter and be gone.
+  void aNameWithAnAmpersandIsShownWhole() {
+    StoredRun stored;
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const QString file = desk.folder.filePath("arms & legs.db");
+    QVERIFY(window->openDatabase(file, Workbench::Absent::make));
+    QStringList shown;
+    for (const QAction* entry : window->findChildren<QAction*>()) shown << entry->text();
+    QVERIFY(shown.contains(QString(file).replace("&", "&&")));
+    QVERIFY(window->windowTitle().contains("arms & legs.db"));
   }
 
   void theListOfKeysIsReadFromTheActions() {

@@ -27,6 +27,12 @@ void FitnessChart::setRun(FitnessRun run) {
   redraw();
 }
 
+void FitnessChart::setHidden(const std::set<double>& fitness) {
+  if (run_.hidden == fitness) return;
+  run_.hidden = fitness;
+  redraw();
+}
+
 void FitnessChart::append(const GenerationRecord& generation) {
   if (generation.run != run_.run) return;
   auto& all = run_.generations;

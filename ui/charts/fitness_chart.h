@@ -26,6 +26,9 @@ class FitnessChart : public QWidget {
   void setMeasurements(const std::vector<IndividualRecord>& individuals,
                        const std::vector<MeasurementRecord>& measurements);
 
+  /// Simulated fitness that nobody shall know yet.
+  void setHidden(const std::set<double>& fitness);
+
   PlotWidget& plot() { return *plot_; }
 
  private:

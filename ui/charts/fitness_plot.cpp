@@ -145,6 +145,8 @@ PlotData fitnessPlot(const FitnessRun& run, const QString& unit) {
       {FitnessPlots::tr("worst"), 7, Style::thinLine, curve(run.generations, &GenerationRecord::worst), {}, true});
   plot.series.push_back(
       {FitnessPlots::tr("best so far in this simulator"), 5, Style::dotted, bestSoFar(run.generations), {}, false});
+  for (PlotSeries& simulated : plot.series)
+    std::erase_if(simulated.points, [&](const QPointF& point) { return run.hidden.contains(point.y()); });
   if (PlotSeries points = measured(run); !points.points.empty()) plot.series.push_back(std::move(points));
   plot.markers = updates(run.simulators);
   plot.neverNegative = isNeverNegative(run);

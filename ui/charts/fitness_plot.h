@@ -1,5 +1,6 @@
 #pragma once
 #include <QString>
+#include <set>
 #include <vector>
 
 #include "core/store/records.h"
@@ -18,6 +19,9 @@ struct FitnessRun {
   std::vector<SimulatorRecord> simulators;
   std::vector<IndividualRecord> measuredIndividuals;  ///< those that `measurements` name
   std::vector<MeasurementRecord> measurements;
+  /// Simulated fitness of individuals that wait to be measured blind: points of the curves that would tell it are left
+  /// out.
+  std::set<double> hidden;
 };
 
 /// "stand-in reality" or "".

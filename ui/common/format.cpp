@@ -1,14 +1,16 @@
 #include "ui/common/format.h"
 
-#include <QLocale>
 #include <cmath>
+
+#include "core/spec/figures.h"
 
 namespace btr::ui {
 
-QString shortNumber(double value) {
-  if (!std::isfinite(value)) return QStringLiteral("–");
-  return QLocale::c().toString(value, 'g', 4).replace('-', QChar(u'−'));
-}
+QString inMenu(QString name) { return name.replace('&', QStringLiteral("&&")); }
+
+QString forPeople(const std::string& figures) { return QString::fromStdString(figures).replace('-', QChar(u'−')); }
+
+QString shortNumber(double value) { return forPeople(brief(value)); }
 
 QString withUnit(double value, const QString& unit) {
   if (unit.isEmpty() || !std::isfinite(value)) return shortNumber(value);

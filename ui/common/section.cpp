@@ -3,6 +3,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "ui/common/format.h"
+
 namespace btr::ui {
 
 Section::Section(const QString& title, QWidget* content, QWidget* parent)
@@ -32,7 +34,7 @@ Section::Section(const QString& title, QWidget* content, QWidget* parent)
 void Section::setOpen(bool open) { header_->setChecked(open); }
 bool Section::isOpen() const { return header_->isChecked(); }
 void Section::setSummary(const QString& summary) {
-  header_->setText(summary.isEmpty() ? title_ : title_ + QStringLiteral("  ·  ") + summary);
+  header_->setText(inMenu(summary.isEmpty() ? title_ : title_ + QStringLiteral("  ·  ") + summary));
 }
 
 }  // namespace btr::ui

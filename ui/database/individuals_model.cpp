@@ -3,6 +3,7 @@
 #include <QGuiApplication>
 
 #include "core/sim/trial.h"
+#include "core/spec/figures.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
@@ -222,6 +223,7 @@ QVariant IndividualsModel::textAt(int row, int column) const {
   const QVariant value = valueAt(row, column);
   if (column == fitness && !value.isValid()) return tr("hidden");
   if (column == simulator && value.toInt() < 0) return tr("?");
+  if (column == measuredDeviation && value.isValid()) return forPeople(digits(value.toDouble(), 2));
   if (value.typeId() == QMetaType::Double) return shortNumber(value.toDouble());
   return value;
 }

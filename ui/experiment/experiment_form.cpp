@@ -170,6 +170,33 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
 // The stack's commands point into this form: it must be empty before the widgets go.
 ExperimentForm::~ExperimentForm() { undo_.clear(); }
 
+void ExperimentForm::setOffers(const ExperimentOffers& offers) {
+  offers_ = offers;
+  controller_->addOffers(offers.controllers);
+  fitness_->addOffers(offers.fitnesses);
+  adaptation_->addOffers(offers.adapters.empty() ? offers.learners : offers.adapters);
+  learner_->setOffers(offers.learnersOf, offers.learners);
+  realityLearner_->setOffers(withNone(offers.learnersOf), withNone(offers.learners));
+  searchStart_->setOffers(offers.startsOf, startOffers({}));
+  realityForm_->addOffers(offers.realities);
+  offerRealities();
+  if (readOnly_) setReadOnly(why_->text());
+  orderTabs(*inside_);
+}
+
+void ExperimentForm::offerRealities() {
+  for (const RealityForm::Offer& offer : offers_.realities) {
+    int index = reality_->findData(offer.name);
+    if (index < 0) {
+      index = reality_->count();
+      reality_->addItem(offer.name, offer.name);
+    } else if (offer.name != "person" && offer.name != "stand_in") {
+      reality_->setItemText(index, offer.name);  // may have been "not installed"
+    }
+    if (index > 1) reality_->setItemData(index, offer.meaning, Qt::ToolTipRole);
+  }
+}
+
 void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.controller, offers_.controllers, "controller/settings");
   checkSettings(spec.fitness, offers_.fitnesses, "fitness/settings");

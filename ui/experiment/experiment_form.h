@@ -36,6 +36,8 @@ class ExperimentForm : public QWidget {
   explicit ExperimentForm(const ExperimentOffers& offers, QWidget* parent = nullptr);
   ~ExperimentForm() override;
 
+  /// The same with plugins that were loaded since. To be followed by setSpec().
+  void setOffers(const ExperimentOffers& offers);
   /// Shows the spec; undo starts afresh. Throws InputError, with nothing changed, if a plugin's setting is not allowed.
   void setSpec(const ExperimentSpec& spec);
   ExperimentSpec spec() const;
@@ -61,6 +63,7 @@ class ExperimentForm : public QWidget {
   void copyRequested();  ///< of a read-only form: begin a new experiment from it
 
  private:
+  void offerRealities();
   QWidget* makeGeneral();
   QWidget* makeReality();
   QWidget* makeRealityLearning();

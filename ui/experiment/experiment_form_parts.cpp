@@ -90,11 +90,7 @@ QWidget* ExperimentForm::makeReality() {
   reality_->setFocusPolicy(Qt::StrongFocus);
   reality_->addItem(tr("a person, on the real robot"), "person");
   reality_->addItem(tr("a stand-in reality (demonstration)"), "stand_in");
-  for (const RealityForm::Offer& offer : offers_.realities)
-    if (reality_->findData(offer.name) < 0) {
-      reality_->addItem(offer.name, offer.name);
-      reality_->setItemData(reality_->count() - 1, offer.meaning, Qt::ToolTipRole);
-    }
+  offerRealities();
   caption->setBuddy(reality_);
   row->addWidget(caption);
   row->addWidget(reality_, 1);

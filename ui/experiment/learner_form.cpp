@@ -12,6 +12,12 @@ LearnerForm::LearnerForm(const QString& what, const std::map<QString, Offers>& b
   show(pageOf({}));
 }
 
+void LearnerForm::setOffers(const std::map<QString, Offers>& byGenotype, const Offers& otherwise) {
+  byGenotype_ = byGenotype;
+  otherwise_ = otherwise;
+  for (const auto& [genotype, page] : pages_) page->addOffers(offersFor(genotype));
+}
+
 void LearnerForm::setGenotype(const QString& name) {
   const QString known = byGenotype_.count(name) ? name : QString();
   if (known == genotype_) return;

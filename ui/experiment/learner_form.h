@@ -17,6 +17,8 @@ class LearnerForm : public QWidget {
   LearnerForm(const QString& what, const std::map<QString, Offers>& byGenotype, const Offers& otherwise,
               QUndoStack& undo, QWidget* parent = nullptr);
 
+  /// The same with plugins that were loaded since; those that are there stay as they are.
+  void setOffers(const std::map<QString, Offers>& byGenotype, const Offers& otherwise);
   const Offers& offersFor(const QString& genotype) const;
   /// Not an undo step: it follows the choice of the controller, which is one.
   void setGenotype(const QString& name);

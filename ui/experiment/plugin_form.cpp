@@ -13,31 +13,11 @@
 namespace btr::ui {
 
 PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent)
-    : QWidget(parent), what_(what), offers_(offers), undo_(undo), names_(new QComboBox(this)) {
+    : QWidget(parent), what_(what), undo_(undo), names_(new QComboBox(this)) {
   WheelGuard::ensure();
   names_->setAccessibleName(what);
   names_->setToolTip(tr("%1: one of the installed plugins").arg(what));
   names_->setFocusPolicy(Qt::StrongFocus);
-  for (const Offer& offer : offers) {
-    names_->addItem(offer.name);
-    names_->setItemData(names_->count() - 1, offer.hint, Qt::ToolTipRole);
-    auto* page = new QWidget(this);
-    auto* column = new QVBoxLayout(page);
-    column->setContentsMargins(0, 0, 0, 0);
-    if (!offer.hint.isEmpty()) {
-      auto* hint = new QLabel(offer.hint, page);
-      hint->setWordWrap(true);
-      hint->setContentsMargins(8, 2, 8, 2);
-      hint->setForegroundRole(QPalette::PlaceholderText);
-      column->addWidget(hint);
-    }
-    auto* form = new ParameterForm(offer.settings, undo, page);
-    column->addWidget(form);
-    column->addStretch();
-    connect(form, &ParameterForm::changed, this, &PluginForm::changed);
-    page->hide();
-    pages_.push_back(page);
-  }
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index == chosen_) return;
     undo_.push(new EditCommand(tr("choose %1").arg(names_->itemText(index)), {}, -1, chosen_, index,
@@ -57,8 +37,39 @@ PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QU
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(2);
   column->addLayout(row);
-  for (QWidget* page : pages_) column->addWidget(page);
+  for (const Offer& offer : offers) add(offer);
   if (!offers_.empty()) select(0);
+}
+
+void PluginForm::add(const Offer& offer) {
+  offers_.push_back(offer);
+  names_->addItem(offer.name);
+  names_->setItemData(names_->count() - 1, offer.hint, Qt::ToolTipRole);
+  auto* page = new QWidget(this);
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 0, 0, 0);
+  if (!offer.hint.isEmpty()) {
+    auto* hint = new QLabel(offer.hint, page);
+    hint->setWordWrap(true);
+    hint->setContentsMargins(8, 2, 8, 2);
+    hint->setForegroundRole(QPalette::PlaceholderText);
+    column->addWidget(hint);
+  }
+  auto* form = new ParameterForm(offer.settings, undo_, page);
+  column->addWidget(form);
+  column->addStretch();
+  connect(form, &ParameterForm::changed, this, &PluginForm::changed);
+  page->hide();
+  pages_.push_back(page);
+  layout()->addWidget(page);
+}
+
+void PluginForm::addOffers(const std::vector<Offer>& offers) {
+  const bool wasMissing = chosen_ >= offerCount();
+  while (names_->count() > offerCount()) names_->removeItem(names_->count() - 1);
+  for (const Offer& offer : offers)
+    if (names_->findText(offer.name) < 0) add(offer);
+  if (wasMissing) setChoice(PluginChoice(missing_));
 }
 
 void PluginForm::setChoice(const PluginChoice& choice) {

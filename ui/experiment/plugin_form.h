@@ -22,6 +22,9 @@ class PluginForm : public QWidget {
   };
   PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
 
+  /// Plugins that were loaded since; those that are there stay as they are.
+  void addOffers(const std::vector<Offer>& offers);
+
   /// A name that is not offered is shown as missing and makes the form invalid. Not an undo step. Throws InputError,
   /// with nothing changed, if a setting is not allowed.
   void setChoice(const PluginChoice& choice);
@@ -36,6 +39,7 @@ class PluginForm : public QWidget {
   void changed();
 
  private:
+  void add(const Offer& offer);
   ParameterForm* page() const;  ///< of the chosen plugin, or nullptr
   void select(int index);
   int offerCount() const { return int(offers_.size()); }

@@ -15,18 +15,22 @@ RealityForm::RealityForm(const std::vector<Offer>& offers, QUndoStack& undo, QWi
     : QWidget(parent), undo_(undo) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  addOffers(offers);
+}
+
+void RealityForm::addOffers(const std::vector<Offer>& offers) {
   for (const Offer& offer : offers) {
-    if (offer.settings.empty() && offer.texts.empty()) continue;
-    Page page{offer, new QWidget(this), {}, nullptr};
-    auto* rows = new QVBoxLayout(page.widget);
+    if ((offer.settings.empty() && offer.texts.empty()) || page(offer.name)) continue;
+    Page made{offer, new QWidget(this), {}, nullptr};
+    auto* rows = new QVBoxLayout(made.widget);
     rows->setContentsMargins(0, 0, 0, 0);
-    for (const TextSetting& setting : offer.texts) page.texts.push_back(addText(page, setting));
-    page.numbers = new ParameterForm(offer.settings, undo_, page.widget);
-    connect(page.numbers, &ParameterForm::changed, this, &RealityForm::changed);
-    rows->addWidget(page.numbers);
-    page.widget->hide();
-    column->addWidget(page.widget);
-    pages_.push_back(std::move(page));
+    for (const TextSetting& setting : offer.texts) made.texts.push_back(addText(made, setting));
+    made.numbers = new ParameterForm(offer.settings, undo_, made.widget);
+    connect(made.numbers, &ParameterForm::changed, this, &RealityForm::changed);
+    rows->addWidget(made.numbers);
+    made.widget->hide();
+    layout()->addWidget(made.widget);
+    pages_.push_back(std::move(made));
   }
 }
 

@@ -23,6 +23,8 @@ class RealityForm : public QWidget {
   };
   RealityForm(const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
 
+  /// Plugins that were loaded since; those that are there stay as they are.
+  void addOffers(const std::vector<Offer>& offers);
   void show(const QString& name);  ///< its page, or none
   /// Not an undo step. Throws InputError if a setting is not allowed.
   void setOptions(const QString& name, const RealityOptions& options);

@@ -77,7 +77,7 @@ AnalysisSetup::AnalysisSetup(QWidget* parent) : QWidget(parent), mapping_(new Ma
   auto* below = new QTabWidget(this);
   below->setDocumentMode(true);
   below->addTab(mapping_, tr("Mappin&g"));
-  below->addTab(looks_, tr("&Look at it"));
+  below->addTab(looks_, tr("Look at &it"));
   below->setTabToolTip(1, tr("The recording as its mapping reads it"));
   splitter->addWidget(below);
   splitter->setChildrenCollapsible(false);
@@ -149,7 +149,7 @@ QWidget* AnalysisSetup::makeInputs() {
     connect(made, &QPushButton::clicked, this, slot);
     return made;
   };
-  auto* addButton = button("list-add", tr("Add &recordings…"), [this] { chooseRecordings(); });
+  auto* addButton = button("list-add", tr("Add rec&ordings…"), [this] { chooseRecordings(); });
   auto* removeButton = button("list-remove", tr("Re&move"), [this] { removeRecording(); });
   auto* storedButton = button("server-database", tr("From the data&base…"), [this] { emit storedRequested(); });
   storedButton->setToolTip(tr("Recordings that are kept with the selected run's experiment"));
@@ -159,7 +159,7 @@ QWidget* AnalysisSetup::makeInputs() {
   auto* form = new QFormLayout(inputs);
   form->setContentsMargins(8, 8, 8, 4);
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  form->addRow(tr("Sc&ene"), withButton(scene_, button("document-open", tr("Open…"), [this] { chooseScene(); })));
+  form->addRow(tr("&Scene"), withButton(scene_, button("document-open", tr("Open…"), [this] { chooseScene(); })));
   auto* buttons = new QVBoxLayout;
   buttons->addWidget(addButton);
   buttons->addWidget(removeButton);
@@ -170,7 +170,7 @@ QWidget* AnalysisSetup::makeInputs() {
   row->addWidget(recordings_, 1);
   row->addLayout(buttons);
   form->addRow(tr("Recordings"), row);
-  example_ = button("games-hint", tr("&Try it with a simulated XL330 servo"), [this] { fillWithExample(); });
+  example_ = button("games-hint", tr("Try it &with a simulated XL330 servo"), [this] { fillWithExample(); });
   example_->setObjectName("tryExample");
   example_->setToolTip(
       tr("Three recordings that the simulator made itself, with dry friction that the scene does not have: an analysis "
@@ -182,7 +182,7 @@ QWidget* AnalysisSetup::makeInputs() {
   doctorSays_->setTextFormat(Qt::PlainText);
   doctorSays_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   doctorSays_->setAccessibleName(tr("What is odd about the recordings"));
-  asRecorded_ = new QCheckBox(tr("Analyse &as recorded, whatever the columns look like"), inputs);
+  asRecorded_ = new QCheckBox(tr("Analyse as recorded, whatever the col&umns look like"), inputs);
   asRecorded_->setObjectName("asRecorded");
   connect(asRecorded_, &QCheckBox::toggled, this, [this] { refresh(); });
   form->addRow(doctorSays_);
@@ -225,9 +225,11 @@ void AnalysisSetup::readScene() {
     models_ = std::move(models);
     sceneRead_ = scene();
     mapping_->setChannels(channelsOf(spec_, models_));
+    if (!sceneProblem_.isEmpty()) emit mended(std::exchange(sceneProblem_, {}));
     emit sceneChanged(scene());
   } catch (const std::exception& error) {
-    emit failed(QString::fromUtf8(error.what()));
+    sceneProblem_ = QString::fromUtf8(error.what());
+    emit failed(sceneProblem_);
   }
   refresh();
 }
@@ -420,6 +422,7 @@ void AnalysisSetup::refresh() {
   problem_->setText(missing);
   problem_->setVisible(!running_);
   start_->setEnabled(!running_ && missing.isEmpty());
+  emit changed();
 }
 
 }  // namespace btr::ui

@@ -60,6 +60,8 @@ class AnalysisSetup : public QWidget {
   void startRequested();
   void cancelRequested();
   void failed(const QString& message);
+  void mended(const QString& message);  ///< what was told by failed() holds no longer
+  void changed();
   void sceneChanged(const QString& path);
   /// Recordings of the database are wanted; these files are to be kept in it.
   void storedRequested();
@@ -88,7 +90,8 @@ class AnalysisSetup : public QWidget {
   QProgressBar* progress_;
   QPushButton *start_, *cancel_;
   SceneSpec spec_;
-  QString sceneRead_;  ///< that spec_ was read from; what is being typed is another
+  QString sceneProblem_;  ///< why the scene cannot be read, as it was told
+  QString sceneRead_;     ///< that spec_ was read from; what is being typed is another
   ModelSet models_;
   RecordingDoctor doctor_;
   mutable FileDigests digests_;

@@ -11,6 +11,8 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
+#include <utility>
+
 #include "core/gap/replay/number_table.h"
 #include "core/gap/report/report_figures.h"
 #include "core/gap/report/report_files.h"
@@ -73,6 +75,10 @@ GapPage::GapPage(const QString& program, QWidget* parent) : QWidget(parent), pro
   connect(setup_, &AnalysisSetup::startRequested, this, &GapPage::start);
   connect(setup_, &AnalysisSetup::cancelRequested, &process_, &AnalysisProcess::cancel);
   connect(setup_, &AnalysisSetup::failed, this, &GapPage::failed);
+  connect(setup_, &AnalysisSetup::mended, this, &GapPage::mended);
+  connect(setup_, &AnalysisSetup::changed, this, [this] {
+    if (!refused_.isEmpty() && setup_->problem() != refused_) emit mended(std::exchange(refused_, {}));
+  });
   connect(&process_, &AnalysisProcess::started, this, [this] { setup_->setRunning(true); });
   connect(&process_, &AnalysisProcess::progressed, setup_, &AnalysisSetup::showProgress);
   connect(&process_, &AnalysisProcess::finished, this, [this](const QString& folder) {
@@ -145,7 +151,8 @@ bool GapPage::confirmAdoption() {
 }
 
 void GapPage::start() {
-  if (const QString missing = setup_->problem(); !missing.isEmpty()) return emit failed(missing);
+  refused_ = setup_->problem();
+  if (!refused_.isEmpty()) return emit failed(refused_);
   AnalysisJob job = setup_->job();
   try {
     if (const QString text = setup_->simulatorText(); !text.isEmpty()) {

@@ -60,6 +60,7 @@ class GapPage : public QWidget {
   void timeChosen(std::size_t trial, double time_s);
   void reportOpened(const QString& folder);
   void failed(const QString& message);
+  void mended(const QString& message);  ///< what was told by failed() holds no longer
   void informed(const QString& message);
 
  private:
@@ -69,6 +70,7 @@ class GapPage : public QWidget {
   void refresh();
   const AdoptionTarget* target() const;  ///< the chosen one
 
+  QString refused_;  ///< why the analysis could not be started
   QString folder_;
   std::vector<AdoptionTarget> targets_;
   bool chosen_ = false;  ///< by the user, for this report

@@ -128,9 +128,9 @@ MappingForm::MappingForm(QWidget* parent)
   table_->setItemDelegateForColumn(unit, new WordsDelegate(units, false, table_));
   connect(table_, &QTableWidget::cellChanged, this, &MappingForm::readCell);
 
-  add_ = new QPushButton(themeIcon("list-add"), tr("&Add channel"), this);
-  remove_ = new QPushButton(themeIcon("list-remove"), tr("&Remove channel"), this);
-  save_ = new QPushButton(themeIcon("document-save"), tr("Sa&ve mapping"), this);
+  add_ = new QPushButton(themeIcon("list-add"), tr("Add channel"), this);
+  remove_ = new QPushButton(themeIcon("list-remove"), tr("Remove channel"), this);
+  save_ = new QPushButton(themeIcon("document-save"), tr("Save mapping"), this);
   save_->setObjectName("saveMapping");
   connect(add_, &QPushButton::clicked, this, &MappingForm::addRow);
   connect(remove_, &QPushButton::clicked, this, &MappingForm::removeRow);

@@ -6,6 +6,7 @@
 
 #include "core/run/reality_gap.h"
 #include "core/run/spread.h"
+#include "core/spec/figures.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/format.h"
 #include "ui/common/theme.h"
@@ -69,7 +70,7 @@ QVariant MeasurementModel::textAt(const MeasurementRow& row, int column) const {
   if (column == meanColumn()) {
     if (values.empty()) return row.edit.isVoid || row.state() == MeasurementRow::State::isVoid ? tr("void") : QString();
     const Spread spread = spreadOf(values);
-    return shortNumber(spread.mean) + (spread.count > 1 ? " ± " + shortNumber(spread.deviation) : QString());
+    return spread.count > 1 ? forPeople(withDeviation(spread.mean, spread.deviation)) : shortNumber(spread.mean);
   }
   if (column == countColumn()) return static_cast<int>(values.size());
   if (column == reasonColumn())

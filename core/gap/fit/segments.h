@@ -13,8 +13,8 @@ void cutSegments(FitProblem& problem, double window_s);
 /// The state at a row from the samples on both sides of it, and how uncertain each coordinate is.
 StartState stateAt(const FitProblem& problem, std::size_t trial, std::size_t row, std::vector<Nuisance>& nuisances);
 
-/// Residual [noise floors] of a sample that the simulation did not reach, as it was ended by a fault: large, so that fits
-/// keep away from such numbers. It says nothing of where the simulation would have been.
+/// Residual [noise floors] of a sample that the simulation did not reach, as it was ended by a fault: large, so that
+/// fits keep away from such numbers. It says nothing of where the simulation would have been.
 inline constexpr double afterFault = 100;
 
 /// Simulates a segment from its start, shifted by `shift` (by nuisance, in their units), and returns its residuals.

@@ -37,10 +37,10 @@ struct Parts {
   Parts(const SimulatorSpec& truth, SearchOptions given) : Parts(recordedInItsSteps(truth), std::move(given)) {}
 
   Round firstRound() {
-    return candidates.ask({.without = calibration.base,
-                           .models = {calibration.base.fit},
-                           .known = nullptr,
-                           .toFit = options.thresholds.screening.fitted});
+    return candidates.search({.without = calibration.base,
+                              .models = {calibration.base.fit},
+                              .known = nullptr,
+                              .toFit = options.thresholds.screening.fitted});
   }
 
   SearchOptions options;

@@ -72,7 +72,7 @@ Scored Calibrator::fitNumbers() const {
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
   if (problem.walks && fits.size() > 1) restartFromDraws(service_, best[0], "calibrating", 0.08);
-  restartStarts(service_, best[0], "calibrating", 0.08);
+  restartInitialStates(service_, best[0], "calibrating", 0.08);
   // A step that was harmless beside the error as given may not be so beside what is left of it.
   service_.refineStep(best, 1, "calibrating", 0.08);
   return service_.scoreAll(best, "calibrating", 0.08, 0.1)[0];
@@ -107,7 +107,7 @@ void Calibrator::finish(Calibration& calibration) const {
 
 Calibration Calibrator::calibrate() const {
   Calibration result;
-  service_.tell("replaying as given", 0);
+  service_.announce("replaying as given", 0);
   result.given = asGiven({});
   const double givenStep_s = service_.step_s();
   result.calibrated = fitNumbers();

@@ -25,7 +25,7 @@ class CandidateSearch {
   CandidateSearch(FitService& service, Confirmer& confirmer)
       : service_(service), screener_(service), confirmer_(confirmer) {}
 
-  struct Question {
+  struct Request {
     Scored without;
     std::vector<Fit> models;            ///< fits begin from any of them; the first is that of `without`
     const Linearised* known = nullptr;  ///< sensitivities of the first, if they are known
@@ -35,7 +35,7 @@ class CandidateSearch {
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
   };
   /// Where something passes that needs a finer step, that step stays.
-  Round ask(const Question& question);
+  Round search(const Request& request);
 
  private:
   FitService& service_;

@@ -68,13 +68,13 @@ std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vect
                                    const std::string& what, double from, double to) const {
   std::vector<FitJob> jobs;
   for (const std::size_t k : which) jobs.push_back({tried[k].fit.model, tried[k].fit.shifts});
-  const auto fittedOn = service_.tryFits(jobs, service_.thresholds().confirmation.iterations, what, from, to);
+  const auto refitted = service_.tryFits(jobs, service_.thresholds().confirmation.iterations, what, from, to);
   std::vector<std::size_t> left;
   std::vector<Fit> fits;
   for (std::size_t i = 0; i < which.size(); ++i) {
-    if (fittedOn[i]) {
+    if (refitted[i]) {
       left.push_back(which[i]);
-      fits.push_back(*fittedOn[i]);
+      fits.push_back(*refitted[i]);
     } else {
       tried[which[i]].attempt.reason = "the scene refuses the numbers of its fit";
     }
@@ -89,10 +89,10 @@ void Confirmer::restart(Fit& fit, double least, const std::string& what, double 
   if (fit.cost > (service_.problem().walks ? limits.worthMoreOfWalks : limits.worthMore) * least) return;
   climbWholeNumbers(service_, fit, what, at);
   const double left = 2 * fit.cost / static_cast<double>(service_.problem().residuals());
-  if (left > limits.leastToLeap && left < limits.mostToLeap && fit.cost <= least)
+  if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
     restartFarOff(service_, fit, what, at);
   // What leaves no more than the noise may still stop behind a better one.
-  if ((left > limits.leastToFollow || fit.cost > limits.leastToFollow * least) && left < limits.mostToFollow)
+  if ((left > limits.leastForValley || fit.cost > limits.leastForValley * least) && left < limits.mostForValley)
     followValley(service_, fit, what, at);
 }
 
@@ -124,7 +124,7 @@ std::optional<Scored> Confirmer::confirm(std::vector<TriedCandidate>& tried, con
   StepGuard step = service_.guardStep();
   if (judged_s < service_.step_s()) {
     step.set(judged_s);
-    closeFits = service_.fitOn(closeFits, ofStep.iterations, what, half, half);
+    closeFits = service_.refit(closeFits, ofStep.iterations, what, half, half);
   }
   service_.refineStep(closeFits, limits.decideStep, what, half);
   Scored withoutNow = without;
@@ -160,8 +160,8 @@ std::optional<Scored> Confirmer::confirm(std::vector<TriedCandidate>& tried, con
 Scored Confirmer::converged(const Scored& scored, const std::string& stage, double at) {
   const SearchThresholds::Calibration& limits = service_.thresholds().calibration;
   if (excessOf(scored) < limits.leastToFitOn) return scored;
-  std::vector<Fit> fits = service_.fitOn({scored.fit}, limits.toTheEnd, stage, at, at);
-  restartStarts(service_, fits[0], stage, at);
+  std::vector<Fit> fits = service_.refit({scored.fit}, limits.toTheEnd, stage, at, at);
+  restartInitialStates(service_, fits[0], stage, at);
   climbWholeNumbers(service_, fits[0], stage, at);
   service_.refineStep(fits, 1, stage, at);
   const Scored better = service_.scoreAll(fits, stage, at, at)[0];

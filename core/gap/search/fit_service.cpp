@@ -68,7 +68,7 @@ bool FitService::report(const std::string& stage, double share) const {
   return options_.progress(stage, reported_);
 }
 
-void FitService::tell(const std::string& stage, double share) const {
+void FitService::announce(const std::string& stage, double share) const {
   if (options_.progress && !report(stage, share)) throw Cancelled{};
 }
 
@@ -115,7 +115,7 @@ std::vector<Fit> FitService::fitAll(const std::vector<FitJob>& jobs, int iterati
   return fits;
 }
 
-std::vector<Fit> FitService::fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+std::vector<Fit> FitService::refit(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
                                    double to) const {
   std::vector<FitJob> jobs;
   for (const Fit& fit : fits) jobs.push_back({fit.model, fit.shifts});
@@ -124,7 +124,7 @@ std::vector<Fit> FitService::fitOn(const std::vector<Fit>& fits, int iterations,
 
 void FitService::bringToStep(Scored& scored, const std::string& stage, double at) const {
   if (scored.step_s == problem_.scene.step_s) return;
-  scored = scoreAll(fitOn({scored.fit}, thresholds().step.iterations, stage, at, at), stage, at, at)[0];
+  scored = scoreAll(refit({scored.fit}, thresholds().step.iterations, stage, at, at), stage, at, at)[0];
 }
 
 std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>& fits, const std::string& stage,
@@ -242,7 +242,7 @@ void FitService::refineStep(std::vector<Fit>& fits, std::size_t judged, const st
     // Feet that land another way with each step do so at any.
     if (now > std::max(1.0, limits.settled * before) || step_s() == step.before_s()) return;
     step.keep();
-    fits = fitOn(fits, limits.iterations, stage, at, at);
+    fits = refit(fits, limits.iterations, stage, at, at);
   }
 }
 

@@ -45,7 +45,7 @@ class FitService {
   /// For jobs that report how many are done; none where nobody waits.
   std::function<bool(std::size_t)> reporter(const std::string& stage, std::size_t count, double from, double to) const;
   /// Tells whoever waits; shares never go back. Throws Cancelled where that is asked for.
-  void tell(const std::string& stage, double share) const;
+  void announce(const std::string& stage, double share) const;
 
   /// Nothing for a fit whose numbers the scene refuses; those are counted.
   std::vector<std::optional<Fit>> tryFits(const std::vector<FitJob>& jobs, int iterations, const std::string& stage,
@@ -53,7 +53,7 @@ class FitService {
   /// The same for fits that must not fail: throws InputError if the scene refuses one.
   std::vector<Fit> fitAll(const std::vector<FitJob>& jobs, int iterations, const std::string& stage, double from,
                           double to) const;
-  std::vector<Fit> fitOn(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
+  std::vector<Fit> refit(const std::vector<Fit>& fits, int iterations, const std::string& stage, double from,
                          double to) const;
   /// Nothing for a fit whose numbers, as half of the blocks would have them, the scene refuses.
   std::vector<std::optional<Scored>> tryScores(const std::vector<Fit>& fits, const std::string& stage, double from,

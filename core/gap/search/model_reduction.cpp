@@ -6,7 +6,7 @@
 
 namespace btr {
 
-void dropUseless(FitService& service, Selection& selection) {
+void dropRedundant(FitService& service, Selection& selection) {
   for (bool changed = true; changed && selection.final.fit.model.effects.size() > 1;) {
     changed = false;
     std::vector<FitJob> jobs;

@@ -6,7 +6,7 @@
 namespace btr {
 
 /// Drops effects that became useless beside the others, one at a time.
-void dropUseless(FitService& service, Selection& selection);
+void dropRedundant(FitService& service, Selection& selection);
 /// Puts the simpler effects of a richer one in its place, side by side, where they have fewer numbers and do as well.
 void takeApart(const FitService& service, Selection& selection, const Scored& calibrated);
 

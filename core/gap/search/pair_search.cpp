@@ -22,7 +22,7 @@ std::optional<Scored> PairSearch::find(const Scored& current, const std::vector<
     Scored single = singles[k].scored, neither = current;
     service_.bringToStep(single, "in pairs", 0.5);
     const Round round =
-        candidates_.ask({single, {single.fit}, nullptr, limits.screening.fittedInPairs, ", in pairs", 0.5, 0.6});
+        candidates_.search({single, {single.fit}, nullptr, limits.screening.fittedInPairs, ", in pairs", 0.5, 0.6});
     if (round.tried.empty()) continue;
     const TriedCandidate& second = round.tried[0];
     if (!second.attempt.scored || second.attempt.qValue > limits.confirmation.mostFalse) continue;

@@ -124,10 +124,10 @@ void restartFarOff(const FitService& service, Fit& fit, const std::string& stage
   if (best.cost < limits.farBetter * fit.cost) fit = best;
 }
 
-void restartStarts(const FitService& service, Fit& fit, const std::string& stage, double at) {
+void restartInitialStates(const FitService& service, Fit& fit, const std::string& stage, double at) {
   const Fit anew = withStartsAnew(service.problem(), fit);
   if (anew.shifts == fit.shifts) return;
-  const Fit all = service.fitOn({anew}, service.thresholds().calibration.againIterations, stage, at, at)[0];
+  const Fit all = service.refit({anew}, service.thresholds().calibration.againIterations, stage, at, at)[0];
   fit = costsLess(all, anew) ? all : anew;
 }
 

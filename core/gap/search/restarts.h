@@ -21,6 +21,6 @@ void followValley(const FitService& service, Fit& fit, const std::string& stage,
 /// The last effect far from its size, its other numbers where they usually are.
 void restartFarOff(const FitService& service, Fit& fit, const std::string& stage, double at);
 /// With the initial states begun anew of trials in which they got stuck (starts_anew.h).
-void restartStarts(const FitService& service, Fit& fit, const std::string& stage, double at);
+void restartInitialStates(const FitService& service, Fit& fit, const std::string& stage, double at);
 
 }  // namespace btr

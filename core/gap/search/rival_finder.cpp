@@ -123,7 +123,7 @@ void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandid
     if (excessOf(selection.final) >= limits.calibration.leastToFitOn ||
         isDistinguished(other.scored, selection.final, limits.rivals))
       other.scored =
-          service_.scoreAll(service_.fitOn({other.scored.fit}, limits.calibration.toTheEnd, "rivals", 0.95, 0.95),
+          service_.scoreAll(service_.refit({other.scored.fit}, limits.calibration.toTheEnd, "rivals", 0.95, 0.95),
                             "rivals", 0.95, 0.95)[0];
     service_.bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
@@ -156,7 +156,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
   if (model.effects.size() == 1) return {calibrated_, first_};
   const Scored without =
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
-  Round round = candidates_.ask(
+  Round round = candidates_.search(
       {without, {without.fit}, nullptr, service_.thresholds().screening.fittedAsRivals, ", rivals", 0.88, 0.95});
   return {std::move(round.without), std::move(round.tried)};
 }

@@ -41,7 +41,7 @@ class StructureSearch {
   /// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it
   /// may have bent them to take up what is missing.
   std::vector<Fit> basesOf(bool first) const;
-  Round ask(int stage);
+  Round nextRound(int stage);
   /// Which of them is accepted; the others that pass say so.
   std::optional<std::size_t> winnerOf(std::vector<TriedCandidate>& tried) const;
   /// Uncertainties of the rivals' fits.
@@ -78,16 +78,16 @@ std::vector<Fit> StructureSearch::basesOf(bool first) const {
   return bases;
 }
 
-Round StructureSearch::ask(int stage) {
+Round StructureSearch::nextRound(int stage) {
   const double from = 0.1 + 0.7 * stage / most();
-  return candidates_.ask({.without = selection_.final,
-                          .models = basesOf(stage == 0),
-                          .known = stage == 0 ? &calibration_.linear : nullptr,
-                          .toFit = service_.thresholds().screening.fitted,
-                          .stage = stage == 0 ? "" : ", effect " + std::to_string(stage + 1),
-                          .from = from,
-                          .to = from + 0.7 / most(),
-                          .lastChance = true});
+  return candidates_.search({.without = selection_.final,
+                             .models = basesOf(stage == 0),
+                             .known = stage == 0 ? &calibration_.linear : nullptr,
+                             .toFit = service_.thresholds().screening.fitted,
+                             .stage = stage == 0 ? "" : ", effect " + std::to_string(stage + 1),
+                             .from = from,
+                             .to = from + 0.7 / most(),
+                             .lastChance = true});
 }
 
 std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>& tried) const {
@@ -110,7 +110,7 @@ void StructureSearch::addEffects() {
   for (int stage = 0; stage < most(); ++stage) {
     // What the integration itself is wrong by is not physics that was left out.
     if (selection_.final.mean() < limits.nothingLeft + stepErrorOf(service_.stepChange(selection_.final.fit))) break;
-    Round round = ask(stage);
+    Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;
     selection_.final = round.without;
     if (stage == 0) firstRound_ = tried;
@@ -157,7 +157,7 @@ void StructureSearch::measureRivals(std::vector<Found>& effects) const {
     for (const Fit& rival : found.rivalFits) {
       found.rivalUncertainties.push_back(
           uncertaintyOf(service_.problem(), rival, linearise(service_.problem(), rival)));
-      service_.tell("what rivals would make of the numbers", 0.95);
+      service_.announce("what rivals would make of the numbers", 0.95);
     }
 }
 
@@ -173,9 +173,9 @@ SearchResult StructureSearch::run() {
   }
   beginFrom(calibration);
   addEffects();
-  dropUseless(service_, selection_);
+  dropRedundant(service_, selection_);
   takeApart(service_, selection_, calibration_.calibrated);
-  dropUseless(service_, selection_);
+  dropRedundant(service_, selection_);
   if (!selection_.final.fit.model.effects.empty()) confirmer_.settle(selection_, true, "fitting once more", 0.86);
   RivalSearch rivals =
       RivalFinder(service_, confirmer_, candidates_, calibration_.calibrated, firstRound_).find(std::move(selection_));

@@ -6,31 +6,36 @@ namespace btr {
 
 /// All numbers that decide what a gap analysis tries, fits, accepts and says. One set serves all scenes; nothing adapts
 /// them to a recording. Where a number came from stands behind it in brackets:
-/// [prototype] 150 simulated recordings of one joint, analysed by a throw-away program: BIC and F-test alone accepted a
-/// false effect in 6 of 7 healthy cases, these conditions none in 37;
-/// [case] came with a change that mended a kind of case, which the comment names, of blind trials (`btr gap prove`) or
-/// real recordings (resources/results.md);
-/// [statistics] follows from the named distribution; [order] from the integrator's order; [time] bounds the work,
-/// chosen by hand; [hand] chosen by hand, nothing more is known. Errors are mean squared errors in noise floors² (1:
-/// noise alone) unless a comment says otherwise, their excess is what lies above 1; costs are sums over all residuals
-/// (fit.h); gains are shares of the error without the effect.
+///
+/// - [prototype] 150 simulated recordings of one joint, analysed by a throw-away program: BIC and F-test alone accepted
+///   a false effect in 6 of 7 healthy cases, these conditions none in 37;
+/// - [case] came with a change that mended a kind of case, which the comment names, of blind trials (`btr gap prove`)
+///   or real recordings (resources/results.md);
+/// - [statistics] follows from the named distribution;
+/// - [order] follows from the integrator's order;
+/// - [numeric] keeps rounding errors out;
+/// - [time] bounds the work, chosen by hand;
+/// - [hand] chosen by hand, nothing more is known.
+///
+/// Errors are mean squared errors in noise floors² (1: noise alone) unless a comment says otherwise, their excess is
+/// what lies above 1; costs are sums over all residuals (fit.h); gains are shares of the error without the effect.
 struct SearchThresholds {
   /// The integration step that models are fitted, scored and compared with.
   struct Step {
     int iterations = 3;  ///< of what was fitted with another step [time]
-    double harmless =
-        0.3;               ///< noise floors, RMS: a coarser step may change so much where effects are looked for [hand]
-    double ofError = 0.1;  ///< or so much of the error that there is to explain [hand]
-    double muchError = 5;  ///< noise floors, RMS: from here on what is unexplained is much [hand]
+    /// noise floors, RMS: a coarser step may change so much where effects are looked for [hand]
+    double harmless = 0.3;
+    double ofError = 0.1;             ///< or so much of the error that there is to explain [hand]
+    double muchError = 5;             ///< noise floors, RMS: from here on what is unexplained is much [hand]
     double ofMuchError = 0.3;         ///< of that a coarser step may change so much [time]
     double hidden = 0.12;             ///< noise floors, RMS: what half the step may change of what is judged [hand]
     double hiddenOfError = 0.05;      ///< or so much of its error: a four hundredth of its square [hand]
     double hiddenOfMuchError = 0.15;  ///< the same where much is unexplained: a fiftieth of its square [time]
-    double mostError =
-        10;  ///< noise floors, RMS: with more left the step is not what matters, if it is the scene's [time]
+    /// noise floors, RMS: with more left the step is not what matters, if it is the scene's [time]
+    double mostError = 10;
     double settled = 0.7;   ///< of the change by half the step, left at the finest: more, and the step stays, as where
                             ///< feet land another way with each step [hand]
-    double coarser = 1.01;  ///< factor: steps nearer to each other are the same (numeric)
+    double coarser = 1.01;  ///< factor: steps nearer to each other are the same [numeric]
     double farWorse = 2;    ///< by cost, of the best: no winner at any step, so left at a coarse one [time]
     int withoutIterations = 12;  ///< of a model that lacks one of its effects [time]
   };
@@ -47,10 +52,9 @@ struct SearchThresholds {
                                   ///< less is held [hand]
     double unstableRatio = 1.5;   ///< held-out error over that of the fit; more in free runs asks for windows [hand]
     double unstableError = 1.3;   ///< and held-out error of at least this [hand]
-    double chiSquared95 =
-        3.84;                 ///< χ² of one number, 95 %: what going back to the value as given may cost [statistics]
-    double farFromGiven = 2;  ///< typical changes: a calibration that moved a number farther may have bent it [hand]
-    double muchLeft = 1;      ///< and excess from which effects are looked for from the numbers as given, too [hand]
+    double chiSquared95 = 3.84;   ///< χ² of one number: what going back to the value as given may cost [statistics]
+    double farFromGiven = 2;    ///< typical changes: a calibration that moved a number farther may have bent it [hand]
+    double muchLeft = 1;        ///< and excess from which effects are looked for from the numbers as given, too [hand]
     double leastToFitOn = 0.1;  ///< excess at which what was accepted is fitted on [case: curved valleys]
     int toTheEnd = 30;          ///< iterations of what was accepted and of its rivals [time]
   };
@@ -64,9 +68,9 @@ struct SearchThresholds {
     int heldIterations = 8;                          ///< of all else with the effect held [time]
     int alongRounds = 4;                             ///< steps at most [time]
     double alongBetter = 0.998;                      ///< for the next step along the valley [hand]
-    double alongInReach = 1.02;                      ///< with the effect held: more is set free no more [hand]
-    std::array<double, 3> farSizes{0.5, 2, 4};       ///< far off, as from a quarter of a play's width [case: play]
-    double farBetter = 0.98;                         ///< [hand]
+    double alongInReach = 1.02;                 ///< by cost, with the effect held: with more it is not set free [hand]
+    std::array<double, 3> farSizes{0.5, 2, 4};  ///< far off, as from a quarter of a play's width [case: play]
+    double farBetter = 0.98;                    ///< [hand]
     std::array<double, 6> neighbours{-3, -2, -1, 1, 2, 3};     ///< of a whole number [hand]
     int neighbourIterations = 3, neighbourBestIterations = 8;  ///< of each, of the best two [time]
     std::size_t neighboursFittedOn = 2;
@@ -83,7 +87,7 @@ struct SearchThresholds {
     int windowIterations = 8;      ///< in the first windows [time]
   };
 
-  /// Whole numbers (waves of a ripple in a turn) begun in short windows. [case: hard ripples, commit e4fe6a1]
+  /// Whole numbers (waves of a ripple in a turn) begun in short windows. [case: hard ripples]
   struct WholeNumbers {
     double leastLeft = 4;    ///< error of a candidate from which they are looked for again [case]
     double widest = 1.3;     ///< from the fit's own number by this factor down and up [hand]
@@ -123,10 +127,10 @@ struct SearchThresholds {
     double sensitiveMost = 25;           ///< no more is asked of all residuals together: five standard errors [hand]
     double indistinct = 1e-6;  ///< of a squared change that the fitted numbers leave: they can do as well [numeric]
     double largestStep = 20;   ///< linear, times the size that was tried [hand]
-    std::array<double, 2> insensitiveSizes{50,
-                                           500};  ///< tried where a usual size changes nothing [case: creep on carpet]
-    std::size_t insensitiveVariants = 2;          ///< in these sizes [time]
-    double worthLooking = 0.005;  ///< promised gain from which a replay looks at what was promised [hand]
+    /// times the usual size, tried where that changes nothing [case: creep on carpet]
+    std::array<double, 2> insensitiveSizes{50, 500};
+    std::size_t insensitiveVariants = 2;  ///< in these sizes [time]
+    double worthLooking = 0.005;          ///< promised gain from which a replay looks at what was promised [hand]
     std::array<double, 4> lookedAt{1.0, 0.1, 0.3, 3.0};  ///< times the promised size; the first as promised [hand]
     std::size_t many = 60;           ///< candidates: then a third of the segments is looked at first [time]
     std::size_t promising = 40;      ///< that are screened in full then [time]
@@ -170,10 +174,10 @@ struct SearchThresholds {
     int iterations = 15;          ///< of the last fits [time]
     double worthMore = 1.5;       ///< by cost, of the best: restarts are tried; where feet walk, [time]
     double worthMoreOfWalks = 1;  ///< only of the best itself [time]
-    double leastToLeap = 1.3, mostToLeap = 10;  ///< error: between them far sizes are tried; with more, a better start
-                                                ///< does not help [hand]
-    double leastToFollow = 1.03, mostToFollow = 4;  ///< error: between them valleys are followed; with less nothing is
-                                                    ///< missed, with more it is no valley's bottom [hand]
+    double leastForFarSizes = 1.3, mostForFarSizes = 10;  ///< error: between them far sizes are tried; with more, a
+                                                          ///< better start does not help [hand]
+    double leastForValley = 1.03, mostForValley = 4;  ///< error: between them valleys are followed; with less nothing
+                                                      ///< is missed, with more it is no valley's bottom [hand]
     std::size_t decideStep = 2;  ///< candidates, the most promising ones, that may ask for a finer step [time]
     double missedT = 2;          ///< t from which a model without something predicts worse: it stays. Less is asked
                                  ///< than to come in, about 2.5 % one-sided [statistics]
@@ -181,11 +185,11 @@ struct SearchThresholds {
 
   /// What would explain the recordings as well, and what stands in another's place.
   struct Rivals {
-    double worseT = 2,
-           worseGain = 0.01;    ///< of a paired comparison: another one is refuted (t as missedT) [statistics]
+    /// of a paired comparison: another one is refuted (t as missedT) [statistics]
+    double worseT = 2, worseGain = 0.01;
     double gainOfNoise = 0.05;  ///< where another leaves no more than noise, less than this does not refute it:
                                 ///< sensors of counts are no dice [case]
-    double fitsWorse = 1.005;   ///< by cost: what fits as well and predicts worse only pays for a number more [trials:
+    double fitsWorse = 1.005;   ///< by cost: what fits as well and predicts worse only pays for a number more [case:
                                 ///< gravity that leans and a sensor's offset are one law]
     double equals = 1.25;       ///< by error, where a paired test does not tell them apart [case: simpler laws]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
@@ -200,9 +204,8 @@ struct SearchThresholds {
     double small = 0.1;                        ///< of a typical size, where the way begins: all is linear there [hand]
     int wayIterations = 18;                    ///< a step of the way; what arrives is fitted on [time]
     double wayTolerance = 2e-3;                ///< of its cost [time]
-    double smallestForm = 0.02, largestForm = 50,
-           formRatio = 1.15;                                   ///< of a typical size: simpler forms are tried in all
-                                                               ///< these, as no fit finds them [case: dry friction]
+    /// of a typical size: simpler forms are tried in all these, as no fit finds them [case: dry friction]
+    double smallestForm = 0.02, largestForm = 50, formRatio = 1.15;
     std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
     double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
   };
@@ -250,14 +253,14 @@ struct SearchThresholds {
     double insteadError = 1.3;  ///< left by named effects, from which a curve in their place is tried [hand]
     double instead = 0.7;       ///< its error over theirs: names that a curve beats by 30 % are wrong [prototype]
     int insteadIterations = 8;  ///< of the calibration without them, before [time]
-    double jointForce = 0.02,
-           ballForce = 0.01;  ///< a typical force, of the drive's strength, of the ball's weight [hand]
+    /// a typical force: of the drive's strength, of the ball's weight [hand]
+    double jointForce = 0.02, ballForce = 0.01;
   };
 
   /// The recording that would distinguish rivals (next_recording.h).
   struct NextRecording {
-    double length_s = 8, sample_s = 0.008,
-           rest_s = 0.5;  ///< of the sequence, its samples, its beginning at rest [hand]
+    /// of the sequence, its samples, its beginning at rest [hand]
+    double length_s = 8, sample_s = 0.008, rest_s = 0.5;
     double beyond = 0.1;  ///< of the range in which a pushed joint was seen: it may go so much farther [hand]
     double reach = 0.95;  ///< of the recorded commands' reach [hand]
     std::array<double, 4> pushes{1, 0.5, 0.25, 0.1};  ///< of the reach of a push [hand]
@@ -277,9 +280,9 @@ struct SearchThresholds {
     double muchLeft = 25;  ///< error, five noise floors: too much whatever the share. Beside a large error that of
                            ///< a wrong name is a small one [case]
     /// Of what is left, a share that a learned curve takes (and a paired test sees): noise has no shape. In 763 cases
-    /// of two blind trials (seeds 20261165 and 20261168) named effects left such a curve five times. It took 46 to 100
-    /// %; four of the names were wrong (two for effects outside the library), and in one the truth stood among their
-    /// rivals.
+    /// of two blind trials (seeds 20261165 and 20261168) named effects left such a curve five times. It took 46 to
+    /// 100 %; four of the names were wrong (two for effects outside the library), and in one the truth stood among
+    /// their rivals.
     double shapeLeft = 0.4;
     double leastMotion = 10;        ///< noise floors that something must move [hand]
     double calibrationT = 2.5;      ///< paired: calibration helps [prototype]
@@ -289,8 +292,8 @@ struct SearchThresholds {
     double unseenWorse = 1.05;  ///< error (RMS) of recordings that no fit saw, over the one before: it got worse [hand]
     double strongCorrelation = 0.98;  ///< of two numbers that the recordings hardly separate [hand]
     double atBound = 1e-3;            ///< of its range: a number is at its bound [numeric]
-    double manyMissing =
-        0.05;  ///< share of a recording's samples: may itself be what the simulator does not show [hand]
+    /// share of a recording's samples: may itself be what the simulator does not show [hand]
+    double manyMissing = 0.05;
   };
 
   Step step;

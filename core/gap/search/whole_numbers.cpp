@@ -97,7 +97,7 @@ void climbWholeNumbers(const FitService& service, Fit& fit, const std::string& s
       std::vector<Fit> fits = completed(service.tryFits(jobs, limits.neighbourIterations, stage, at, at));
       std::ranges::sort(fits, costsLess);
       if (fits.size() > limits.neighboursFittedOn) fits.resize(limits.neighboursFittedOn);
-      fits = service.fitOn(fits, limits.neighbourBestIterations, stage, at, at);
+      fits = service.refit(fits, limits.neighbourBestIterations, stage, at, at);
       const auto least = std::ranges::min_element(fits, costsLess);
       if (least == fits.end() || !(least->cost < limits.better * fit.cost)) break;
       fit = *least;

@@ -76,6 +76,29 @@ class TestControllers : public QObject {
     QCOMPARE(selected.count(), 1);
   }
 
+  void aRunThatCannotBeReadLeavesTheOneBefore() {
+    Desk desk;
+    const Id run = desk.stored.addRun(desk.stored.addExperiment(), 1);
+    Workbench bench(desk.host, desk.options, desk.window);
+    QVERIFY(bench.open(desk.stored.qpath(), Workbench::Absent::ask));
+    // Also one that was not shown yet.
+    QSignalSpy errors(&bench, &Workbench::reported);
+    bench.selectRun(77);
+    bool shown = false;
+    bench.whenSelected([&] { shown = true; });
+    bench.reader().waitUntilIdle();
+    QCOMPARE(errors.count(), 1);
+    QVERIFY(errors.first().first().toString().contains("run 77"));
+    QCOMPARE(bench.run().id, run);
+    QVERIFY(!shown);
+    // What is stored meanwhile is still told.
+    desk.stored.addRun(desk.stored.database.experiments().front().id, 2);
+    bench.watcher().poll();
+    bench.reader().waitUntilIdle();
+    QCOMPARE(bench.watcher().runs().size(), std::size_t(2));
+    QCOMPARE(errors.count(), 1);
+  }
+
   void anExperimentsNameIsTheUsersAndTheStoredOneStays() {
     Desk desk;
     const Id experiment = desk.stored.addExperiment("Kick");

@@ -724,6 +724,7 @@ class TestMainWindow : public QObject {
     QVERIFY(window->openReport(QString::fromStdString(files.report)));
     // An analysis of this scene may begin with it.
     window->gapPage().setup().setScene(QString::fromStdString(files.scene));
+    settle(*window);
     QCOMPARE(window->gapPage().setup().findChild<QComboBox*>("simulator")->itemText(1),
              QString("rig bench, version 1 by gap analysis"));
 

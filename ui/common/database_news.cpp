@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/run/grid/grid.h"
+#include "core/spec/error.h"
 
 namespace btr::ui {
 namespace {
@@ -67,7 +68,14 @@ DatabaseNews readNews(const Database& database, const SeenBefore& seen, const Da
     for (const RunRecord& run : news.runs)
       if (const auto told = seen.stages.find(run.id); told == seen.stages.end() || told->second != run.stage)
         news.versions[run.id] = database.simulators(run.id);
-    if (seen.run != 0) news.run = readRun(database, seen, news.runs);
+    try {
+      if (seen.run != 0) news.run = readRun(database, seen, news.runs);
+    } catch (const InputError& error) {
+      // One that is followed already is read again with the next look; another one hides no other news.
+      if (!seen.fresh) throw;
+      news.failedRun = seen.run;
+      news.runProblem = error.what();
+    }
   }
   readLocks(database, seen, isActive, news);
   return news;

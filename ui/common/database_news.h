@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "ui/common/database_watcher.h"
@@ -43,10 +44,12 @@ struct DatabaseNews {
   std::vector<SimulatorRecord> rigs;
   std::map<Id, std::vector<SimulatorRecord>> versions;  ///< of runs that have adapted since they were told
   std::optional<RunNews> run;
+  Id failedRun = 0;        ///< was to be followed from now on and cannot be read
+  std::string runProblem;  ///< why
   std::set<Id> locked, lockedGrids;
 };
 
-/// Reads what became new, in the reader's thread. Throws InputError, also when the run to follow is not there.
+/// Reads what became new, in the reader's thread. Throws InputError.
 DatabaseNews readNews(const Database& database, const SeenBefore& seen, const DatabaseWatcher::ActiveTest& isActive);
 
 /// A process can work on such a run.

@@ -165,6 +165,8 @@ void DatabaseWatcher::tellNews(DatabaseNews& news) {
     }
     if (news.run && run.id == news.run->record.id) tellRun(*news.run, versions != news.versions.end());
   }
+  if (news.failedRun != 0 && news.failedRun == run_ && fresh_)
+    emit followFailed(std::exchange(run_, 0), QString::fromStdString(news.runProblem));
 }
 
 // A process of ours counts from its start on. True if somebody began or ended.

@@ -73,6 +73,7 @@ class DatabaseWatcher : public QObject {
   /// Before and after all that is told about another run to follow.
   void followedRun(const btr::RunRecord& run);
   void followedRunTold();
+  void followFailed(btr::Id run, const QString& why);  ///< it cannot be read; nothing is followed
   // About the followed run:
   void runChanged(const btr::RunRecord& run, const btr::RunProgress& progress, bool active);
   void generationsReset(btr::Id run, const std::vector<btr::GenerationRecord>& all);

@@ -24,6 +24,10 @@ Workbench::Workbench(std::shared_ptr<const PluginHost> host, const WindowOptions
   connect(&reader_, &DatabaseReader::failed, this, &Workbench::report);
   connect(&watcher_, &DatabaseWatcher::failed, this, &Workbench::report);
   connect(&watcher_, &DatabaseWatcher::followedRun, this, &Workbench::show);
+  connect(&watcher_, &DatabaseWatcher::followFailed, this, [this](Id run, const QString& why) {
+    report(why);
+    if (before_ != run) selectRun(std::exchange(before_, 0));
+  });
   connect(&watcher_, &DatabaseWatcher::followedRunTold, this, [this] {
     for (const auto& then : std::exchange(whenSelected_, {})) then();
   });
@@ -103,6 +107,7 @@ Database& Workbench::writer() {
 void Workbench::selectRun(Id run) {
   if (!watcher_.isOpen() || (run != 0 && watcher_.followed() == run)) return;
   whenSelected_.clear();
+  before_ = watcher_.followed();
   if (run != 0) settings_.setSelectedRun(path(), run);
   watcher_.follow(run);
   if (run == 0) show({});

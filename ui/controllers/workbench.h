@@ -50,7 +50,8 @@ class Workbench : public QObject {
   /// The connection for what the user enters, of the window's thread.
   Database& writer();
 
-  /// Shows another run, as soon as everything about it is read: until then all pages, and run(), keep the old one.
+  /// Shows another run, as soon as everything about it is read: until then all pages, and run(), keep the old one. One
+  /// that cannot be read is reported, and the one before stays selected.
   void selectRun(Id run);
   /// Calls `then` when the run that was selected last is shown, which may be now; never if another one is selected
   /// before.
@@ -98,6 +99,7 @@ class Workbench : public QObject {
   QString lastError_;
   RunRecord run_;
   bool runActive_ = false;
+  Id before_ = 0;  ///< selected before the one that is being read
   std::vector<std::function<void()>> whenSelected_;
 };
 

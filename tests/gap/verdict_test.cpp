@@ -206,7 +206,7 @@ TEST(Verdict, WhatMovesButFeelsNoNumberAndNoEffectTellsNothing) {
   for (Attempt& attempt : found.attempts) attempt.excited = false;
   const GapReport report = judged(1.1, 1.1, 1.1, false, false, recorded(), found);
   EXPECT_EQ(report.verdict, Verdict::notExcited);
-  EXPECT_THAT(report.sentence, HasSubstr("no effect at a typical size"));
+  EXPECT_THAT(report.sentence, HasSubstr("no effect of a typical size"));
   found.attempts[1].excited = true;
   EXPECT_EQ(judged(1.1, 1.1, 1.1, false, false, recorded(), found).verdict, Verdict::noMismatch);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # clang-tidy on the sources that changed since a commit, by default the one at which this branch left its upstream, or
-# the last one. Nothing to compare with (no history): nothing is checked, and that is said.
+# the last one. Run by hand; needs clang-tidy. Nothing to compare with (no history): nothing is checked, and that is said.
 #   bash tests/tidy.sh [COMMIT]
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -74,6 +74,7 @@ std::vector<Recording> runPredict(const PredictRequest& request, const EffectFac
   const std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
   const std::vector<std::string> inputs =
       withNamedFiles({request.scene, request.simulator, request.recording, request.mapping});
+  const std::vector<std::string> losses = modelLosses(scenes.spec, scenes.models);
   std::vector<Recording> written;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     std::filesystem::path out(request.out);
@@ -82,7 +83,6 @@ std::vector<Recording> runPredict(const PredictRequest& request, const EffectFac
     checkOutputFile(out.string(), inputs);
     written.push_back(predict(scenes.of(trials[i], effects), trials[i], goesOn));
     written.back().source = out.string();
-    const std::vector<std::string> losses = modelLosses(scenes.spec, scenes.models);
     written.back().notes.insert(written.back().notes.begin(), losses.begin(), losses.end());
   }
   for (const Recording& predicted : written)

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <numeric>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -38,25 +40,26 @@ std::string nameOf(const Recording& recording) { return std::filesystem::path(re
 struct Simulated {
   /// By trial and measured channel; NaN where nothing is simulated, or a fault ended the simulation.
   std::vector<std::vector<std::vector<double>>> values;
-  std::vector<std::size_t> missed;  ///< by trial: samples that a fault took away
+  std::vector<std::vector<std::size_t>> missed;  ///< by trial and channel: samples that a fault took away
 };
 
 Simulated simulateAll(const FitProblem& problem, const FitModel& model,
                       const std::vector<std::vector<double>>& shifts) {
   Simulated simulated;
-  for (const FitTrial& trial : problem.trials)
+  for (const FitTrial& trial : problem.trials) {
     simulated.values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
-  simulated.missed.assign(problem.trials.size(), 0);
+    simulated.missed.emplace_back(trial.binding.measured.size(), 0);
+  }
   const Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
-      if (residuals[at] == afterFault) {
-        ++simulated.missed[segment.trial];
-        continue;
-      }
       const FitTrial& trial = problem.trials[segment.trial];
       const std::size_t c = segment.channel[k];
+      if (residuals[at] == afterFault) {
+        ++simulated.missed[segment.trial][c];
+        continue;
+      }
       simulated.values[segment.trial][c][segment.row[k]] =
           trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] +
           residuals[at] * trial.noiseFloor[c];
@@ -67,16 +70,19 @@ Simulated simulateAll(const FitProblem& problem, const FitModel& model,
 /// The model with its numbers fixed, for other recordings.
 Fit carriedOver(const FitProblem& problem, const FitModel& model) { return scoreAsIs(problem, {model, {}, 0}).fit; }
 
+/// Of one channel; NaN, for none, where a fault took one of its samples away.
 struct Errors {
   double square = 0, absolute = 0, count = 0;
+  bool faulted = false;
+  /// `error` is NaN where nothing is simulated, and not counted.
   void add(double error) {
     if (!std::isfinite(error)) return;
     square += error * error;
     absolute += std::abs(error);
     ++count;
   }
-  double rms() const { return count > 0 ? std::sqrt(square / count) : 0; }
-  double mean() const { return count > 0 ? absolute / count : 0; }
+  double rms() const { return faulted ? NAN : count > 0 ? std::sqrt(square / count) : 0; }
+  double mean() const { return faulted ? NAN : count > 0 ? absolute / count : 0; }
 };
 
 GapReport::Channel& channelOf(GapReport& report, const std::string& name, double noiseFloor) {
@@ -101,7 +107,10 @@ void addErrors(GapReport& report, const FitProblem& problem, const Eigen::Vector
       const std::size_t c = segment.channel[k];
       auto& entry = byName[trial.recording.channels[trial.binding.measured[c].column]];
       entry.second = trial.noiseFloor[c];
-      entry.first.add(residuals[at] * trial.noiseFloor[c]);
+      if (residuals[at] == afterFault)
+        entry.first.faulted = true;
+      else
+        entry.first.add(residuals[at] * trial.noiseFloor[c]);
     }
   for (const auto& [name, entry] : byName) {
     GapReport::Channel& channel = channelOf(report, name, entry.second);
@@ -181,6 +190,9 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
       series.calibrated = asCalibrated.values[t][c];
       series.withEffects = withEffects.values[t][c];
       auto& sums = errors[series.channel];
+      sums[0].faulted |= asGiven.missed[t][c] > 0;
+      sums[1].faulted |= asCalibrated.missed[t][c] > 0;
+      sums[2].faulted |= withEffects.missed[t][c] > 0;
       for (std::size_t row = 0; row < series.recorded.size(); ++row) {
         sums[0].add(series.asGiven[row] - series.recorded[row]);
         sums[1].add(series.calibrated[row] - series.recorded[row]);
@@ -190,11 +202,13 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
       out.series.push_back(std::move(series));
     }
     for (const auto& [whose, simulated] :
-         {std::pair{"as given", &asGiven}, {"calibrated", &asCalibrated}, {"in the end", &withEffects}})
-      if (simulated->missed[t] > 0)
-        report.notes.push_back(out.name + ": " + whose +
-                               ", a fault ended the simulation: " + std::to_string(simulated->missed[t]) +
-                               " samples have no simulated value, and errors leave them out");
+         {std::pair{"as given", &asGiven}, {"calibrated", &asCalibrated}, {"in the end", &withEffects}}) {
+      const auto& missed = simulated->missed[t];
+      const std::size_t samples = std::accumulate(missed.begin(), missed.end(), std::size_t{0});
+      if (samples > 0)
+        report.notes.push_back(out.name + ": " + whose + ", a fault ended the simulation: " + std::to_string(samples) +
+                               " samples have no simulated value, and their channels have no error");
+    }
     report.trials.push_back(std::move(out));
   }
   if (!heldOut) return;

@@ -91,7 +91,7 @@ void addDataCommands(CLI::App& app, Shell& shell) {
       ->add_option("--largest-trace-kib", a->largestTrace_kib, "larger traces stay behind; a replay makes them again")
       ->transform(wholeNumber(0, 1 << 20))
       ->capture_default_str();
-  mergeApp->add_option("--runs", a->runs, "these runs of it alone, with their experiments and recordings")
+  mergeApp->add_option("--runs", a->runs, "only these runs of it, with their experiments and recordings")
       ->transform(wholeNumber(1));
   mergeApp->callback([a, &shell] { mergeCommand(*a, shell); });
 }

@@ -30,7 +30,7 @@ std::string operatorName() {
   return name ? name : "";
 }
 
-// A typed value is in the file itself when the command is over, not in the log beside it: people copy the file alone.
+// A typed value is in the file itself when the command is over, not in the log beside it: people copy only the file.
 void keepInFile(const Database& db) {
   if (!db.moveLogIntoFile())
     std::fprintf(stderr,

@@ -86,7 +86,7 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
                      {"report.json", "report.html", "simulator.json", "next_command.csv", "remainder.csv"});
   analyse->add_option("--jobs", request->options.jobs, "worker processes")->transform(wholeNumber(1, 256));
   analyse->add_option("--seed", request->options.seed, "of the fits' starting points")->transform(seedNumber());
-  analyse->add_option("--effects", request->options.effects, "consider these alone")->take_all();
+  analyse->add_option("--effects", request->options.effects, "consider only these")->take_all();
   analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added")
       ->transform(wholeNumber(0, 8));
   analyse->add_flag("--as-recorded", request->options.asRecorded,

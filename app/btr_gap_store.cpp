@@ -145,7 +145,7 @@ void addClues(CLI::App& gap, Shell& shell) {
   CLI::App* app = gap.add_subcommand("clues", "what measured fitness alone says of missing physics");
   app->add_option("--db", a->database, "experiment database")->required();
   app->add_option("--run", a->run, "number of the run")->required()->transform(wholeNumber(1));
-  app->add_option("--effects", a->options.names, "consider these alone")->take_all();
+  app->add_option("--effects", a->options.names, "consider only these")->take_all();
   app->add_option("--jobs", a->options.workers, "worker processes")->transform(wholeNumber(1, 256));
   app->add_option("--seed", a->options.seed, "of the differences dealt out at random")
       ->transform(seedNumber())

@@ -85,9 +85,9 @@ void addGapProveCommands(CLI::App& gap, Shell& shell) {
       ->capture_default_str();
   prove->add_option("--engine", request->engine, "who is reality: ode or mujoco")
       ->check(CLI::IsMember({"ode", "mujoco"}));
-  prove->add_option("--scene", request->scene, "one kind of scene alone")
+  prove->add_option("--scene", request->scene, "only this kind of scene")
       ->check(CLI::IsMember({"pendulum", "leg", "carpet", "flight", "walk"}));
-  prove->add_option("--kind", request->kind, "one kind of case alone")
+  prove->add_option("--kind", request->kind, "only this kind of case")
       ->check(CLI::IsMember({"nothing", "parameters", "one", "two", "outside"}));
   prove->callback([request, &shell] { proveCommand(*request, shell); });
   addTally(gap, shell);

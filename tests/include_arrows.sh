@@ -62,7 +62,7 @@ while IFS=: read -r file target; do
     { echo "$file includes \"$target\": no public header of core for the window"; bad=1; }
 done < <(grep -rE '^[[:space:]]*#include "core/' ui --include=*.cpp --include=*.h |
            sed -nE 's/^([^:]+):[[:space:]]*#include "([^"]+)".*/\1:\2/p')
-# core never names a widget toolkit, and a plugin sees plugin.h alone.
+# core never names a widget toolkit, and a plugin sees only plugin.h.
 grep -rnE '#include <(Q|osg)' core app/btr*.cpp plugins --include=*.cpp --include=*.h && { echo "Qt or OSG outside ui/"; bad=1; }
-grep -rnP '#include "core/plugin/(?!plugin\.h)' plugins --include=*.cpp && { echo "a plugin may include core/plugin/plugin.h alone"; bad=1; }
+grep -rnP '#include "core/plugin/(?!plugin\.h)' plugins --include=*.cpp && { echo "a plugin may include only core/plugin/plugin.h"; bad=1; }
 exit $bad

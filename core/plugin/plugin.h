@@ -49,7 +49,7 @@ struct PluginAbout {
   const char* licence = BTR_PLUGIN_LICENCE;
 };
 
-/// Found by dlsym("btr_plugin"). The first member stays where it is: modules of every version can be told.
+/// Found by dlsym("btr_plugin"). The first member stays where it is: modules of every version can be recognised.
 struct PluginModule {
   int apiVersion;
   PluginBuild build;

@@ -55,7 +55,7 @@ struct ComparedExperiments {
 ComparedExperiments loadArms(const ComparisonSpec& spec, const PluginHost& host);
 
 /// Runs every arm with every seed, or resumes what is stored and not finished, one run after the other; then compares.
-/// `loaded` are the spec's arms, from loadArms(). `began(arm, seed)` is told before each. Throws InputError as
+/// `loaded` are the spec's arms, from loadArms(). `began(arm, seed)` is called before each. Throws InputError as
 /// startRun() does.
 Comparison runComparison(Database& database, const PluginHost& host, const ComparisonSpec& spec,
                          const ComparedExperiments& loaded, const StopFlag& stop, const RunOptions& options,

@@ -31,7 +31,7 @@ PreparedExperiment asReality(PreparedExperiment prepared, std::uint64_t runSeed)
 /// where the starting value is 0), within its bounds; `hidden_effects` effects at places of the scene's first robot,
 /// floor or ball, each parameter of half to one and a half times `effect_size` times the typical size that its effect
 /// declares as default; the experiment's block "concealed" says which effects and places are drawn from. A function of
-/// the experiment's stand-in settings alone. Redraws while the arranged scene cannot be built.
+/// only the experiment's stand-in settings. Redraws while the arranged scene cannot be built.
 Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& host);
 
 /// Where a recording goes, "" for none.

@@ -126,7 +126,7 @@ void World::Impl::brakeRolling(WorldBall& ball, double h) {
       dBodyAddTorque(ball.id, -aside.y(), aside.x(), 0);
     }
   }
-  // It turns against the motion alone: what pushes aside bends the way. A ball that stops within a few steps is held.
+  // It turns only against the motion: what pushes aside bends the way. A ball that stops within a few steps is held.
   const double across = spin * inertia > 3 * h * most ? 0 : most;
   dJointSetAMotorAxis(ball.rolling, 0, 0, along.x(), along.y(), 0);
   dJointSetAMotorAxis(ball.rolling, 1, 0, -along.y(), along.x(), 0);

@@ -14,7 +14,7 @@ void rememberCode(const void* begin, const void* end, const std::string& name);
 /// (signal 11)", not called where no plugin is on the stack. Only what a signal handler may do.
 using CrashTeller = void (*)(const char* text, std::size_t size);
 
-/// From now on crashes are told; only signals that nobody else handles if `unlessHandled` (a sanitizer, say).
+/// From now on crashes are reported; only signals that nobody else handles if `unlessHandled` (a sanitizer, say).
 void tellCrashes(CrashTeller tell, bool unlessHandled);
 
 }  // namespace btr

@@ -19,7 +19,7 @@ RobotPose robotPose(const std::string& word, const std::string& place);
 
 /// The block "recordings" of an experiment: after one measurement stage the measured individuals are recorded as well,
 /// gap analysis compares the recordings with the simulator, and the repaired simulator becomes its next version. With
-/// all at its defaults (after_stage 0) nothing is recorded and L3 changes parameters alone. Recorded in both poses,
+/// all at its defaults (after_stage 0) nothing is recorded and L3 changes only parameters. Recorded in both poses,
 /// each gets an analysis of its own: what the hanging pose identifies of servos and gears stays, and the floor's
 /// recordings, which depend on the smallest detail, are used for the floor only.
 struct RecordingsSpec {

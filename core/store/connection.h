@@ -19,7 +19,8 @@ namespace btr {
 
 struct Cell;
 
-/// One open database file, for core/store alone. What SQLite reports comes out as one InputError that names the file.
+/// One open database file, used only by core/store. What SQLite reports comes out as one InputError that names the
+/// file.
 class Connection {
  public:
   Connection(std::string path, std::unique_ptr<SQLite::Database> database, int patience_ms);

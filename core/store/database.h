@@ -13,7 +13,7 @@ namespace btr {
 
 class Connection;
 
-/// Traces above this are stored as their hash alone: 20 s of walking are a megabyte, which a replay makes again.
+/// Traces above this are stored only as their hash: 20 s of walking are a megabyte, which a replay makes again.
 inline constexpr std::size_t largestKeptTrace_bytes = 256 * 1024;
 
 /// What a merge has added.
@@ -88,7 +88,7 @@ class Database {
   ///< distinct (identityOf), best first, ties by generation and slot; lastGeneration 0: no limit
   IndividualRecord individual(Id id) const;
   /// Refuses a hash that differs from the one stored with the individual: that would be another trial. Of a trace that
-  /// is not to be kept (`packed` empty) the hash alone is stored: a replay makes it again and is checked by it.
+  /// is not to be kept (`packed` empty) only the hash is stored: a replay makes it again and is checked by it.
   void setTrace(Id individual, const std::string& packed, const std::string& sha256);
   std::optional<std::string> trace(Id individual) const;  ///< packed bytes
 
@@ -168,7 +168,7 @@ class Database {
   /// Copies all experiments, runs, grids and recordings of another database, with new numbers; experiments of the same
   /// name and specification become one. The other file is only read. Traces of more than `largestTrace` bytes stay
   /// behind (their hashes come along: a replay makes them again). Refuses, and copies nothing, where a run or grid is
-  /// in both. With `runs` (the other database's numbers) these alone come along, with their experiments and recordings,
+  /// in both. With `runs` (the other database's numbers) only these come along, with their experiments and recordings,
   /// and no grid or rig; one that is not there is refused.
   MergedRuns merge(const std::string& path, std::size_t largestTrace, const std::vector<Id>& runs = {});
 

@@ -1,5 +1,5 @@
 // Rows that take less room: bits as bits, hashes as bytes, parameters that follow from their chromosome left out, texts
-// and tables compressed, and of the states of learners the latest alone. Tables are made anew, filled and renamed, as
+// and tables compressed, and of the states of learners only the latest. Tables are made anew, filled and renamed, as
 // https://www.sqlite.org/lang_altertable.html#otheralter says.
 #include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Database.h>

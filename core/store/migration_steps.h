@@ -26,7 +26,7 @@ void evidenceOfAdaptations(SQLite::Database& database);
 /// Simulator versions of scenes that no run belongs to.
 void simulatorsOfRigs(SQLite::Database& database);
 
-/// Bits, hashes, parameters, recordings and files in fewer bytes; of learners' states the latest alone.
+/// Bits, hashes, parameters, recordings and files in fewer bytes; of learners' states only the latest.
 void packedRows(SQLite::Database& database);
 
 /// Runs and measurements take any name of who enters real fitness.

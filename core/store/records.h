@@ -93,7 +93,7 @@ struct GenerationRecord {
   double best = 0, mean = 0, worst = 0;
   int trials = 0, reused = 0, failed = 0;
   double seconds = 0;                     ///< wall time; informative, not part of the result
-  std::string randomState, learnerState;  ///< after tell: where a resumed run goes on; kept of the latest alone
+  std::string randomState, learnerState;  ///< after tell: where a resumed run goes on; kept only of the latest
   std::string finishedAt;
   std::vector<IndividualRecord> individuals;  ///< may be empty when read back, see Database
 };
@@ -160,7 +160,7 @@ struct AdaptationRecord {
   int stage = 0;
   int number = 0;  ///< 1, 2, …
   double bestError = 0, meanError = 0;
-  std::string randomState, learnerState;  ///< kept of the run's latest alone
+  std::string randomState, learnerState;  ///< kept only of the run's latest
   std::vector<AdaptationCandidate> candidates;
   std::string evidenceSha256;  ///< of the measured values that the errors come from; empty: stored before it was
 };

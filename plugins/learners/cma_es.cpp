@@ -1,6 +1,6 @@
 /// Covariance matrix adaptation evolution strategy, (μ/μ_w, λ)-CMA-ES with rank-one and rank-μ update and cumulative
 /// step-size adaptation, after Hansen, The CMA Evolution Strategy: A Tutorial (arXiv 1604.00772), with the tutorial's
-/// default numbers and weights of the better half alone.
+/// default numbers and weights of the better half only.
 ///
 /// Coordinates u = (p − minimum)/(maximum − minimum), so that a step means the same share of every parameter's range.
 ///   x_k = m + σ·y_k,  y_k ~ N(0, C);   the better half is weighted by w_1 ≥ … ≥ w_μ > 0, Σw = 1

@@ -11,6 +11,7 @@
 #include "core/gap/proof/proof_marks.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/report_words.h"
 #include "core/spec/random.h"
 
 namespace btr {
@@ -121,6 +122,14 @@ TEST(Verdict, SaysWhatRecordingsThatNoFitSawAreLeftBy) {
               HasSubstr("Recordings that no fit saw are left by 18 noise floors as given, 9 calibrated, "
                         "1.5 with what was found. "));
   EXPECT_THAT(better.sentence, Not(HasSubstr("worse")));
+  const GapReport faulted = judged(400, 100, 1, true, false, recorded(), {}, unseen(18, 9, NAN));
+  EXPECT_THAT(
+      faulted.sentence,
+      HasSubstr("left by 18 noise floors as given, 9 calibrated, a fault with what was found. There it does worse"));
+  EXPECT_EQ(unseenWarning(faulted), "a fault ends the simulation of the recordings that were held out");
+  const GapReport mended = judged(400, 100, 1, true, false, recorded(), {}, unseen(NAN, 9, 1.5));
+  EXPECT_THAT(mended.sentence, HasSubstr("left by a fault of the simulation as given, 9 calibrated, 1.5 with"));
+  EXPECT_EQ(unseenWarning(mended), "");
   const GapReport worse = judged(400, 100, 1, true, false, recorded(), {}, unseen(18, 9, 14));
   EXPECT_THAT(worse.sentence, HasSubstr("There it does worse than calibration alone"));
   const GapReport misled = judged(400, 1, 1, false, false, recorded(), {}, unseen(2, 9, 9));

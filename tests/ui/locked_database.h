@@ -8,7 +8,7 @@
 namespace btr::ui {
 
 /// A database in rollback mode, which another connection can keep to itself: then not even a reader gets in. (With a
-/// write-ahead log readers are always let in.) Such a file is opened for reading alone.
+/// write-ahead log readers are always let in.) Such a file is opened only for reading.
 class LockedDatabase {
  public:
   /// Two runs of three generations.

@@ -17,9 +17,9 @@ struct SeenBefore {
   std::vector<Id> mayBeActive;  ///< runs that a process can hold
   std::set<Id> active;
   std::size_t runs = 0;
-  std::map<Id, int> stages;  ///< of each run, when its simulators were told
+  std::map<Id, int> stages;  ///< of each run, when its simulators were reported
   Id run = 0;                ///< to follow
-  bool fresh = true;         ///< nothing of it was told yet
+  bool fresh = true;         ///< nothing of it was reported yet
   int lastGeneration = 0;
 };
 
@@ -42,7 +42,7 @@ struct DatabaseNews {
   std::vector<ExperimentRecord> experiments;
   std::shared_ptr<const std::vector<DatabaseWatcher::Grid>> grids;
   std::vector<SimulatorRecord> rigs;
-  std::map<Id, std::vector<SimulatorRecord>> versions;  ///< of runs that have adapted since they were told
+  std::map<Id, std::vector<SimulatorRecord>> versions;  ///< of runs that have adapted since they were reported
   std::optional<RunNews> run;
   Id failedRun = 0;        ///< was to be followed from now on and cannot be read
   std::string runProblem;  ///< why

@@ -92,7 +92,7 @@ class DatabaseReader::Worker final : public QThread {
 
   Answer answer_;
   std::atomic<bool> stop_ = false;
-  std::optional<Database> database_;  ///< of the thread alone
+  std::optional<Database> database_;  ///< used only by the thread
   std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<Task> queue_;

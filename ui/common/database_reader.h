@@ -41,7 +41,7 @@ class DatabaseReader : public QObject {
   /// Asks `query(database)` and gives its value to `done` in the window's thread, or to `failed` why there is none
   /// (left empty: by the signal); also what `done` throws. Nobody is answered when `receiver` is gone or has asked for
   /// the same `kind` again: a late answer never replaces a newer one, and what nobody waits for any more is not read.
-  /// `query` runs in the other thread and must hold values alone. `what` says to the user what is waited for.
+  /// `query` runs in the other thread and must hold only values. `what` says to the user what is waited for.
   template <class Query, class Done>
   void read(QObject* receiver, const QString& kind, const QString& what, Query query, Done done, Failed failed = {}) {
     using Result = std::invoke_result_t<Query, const Database&>;

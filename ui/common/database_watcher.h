@@ -18,7 +18,7 @@ struct DatabaseNews;
 struct RunNews;
 
 /// Looks at a database that other processes write: every quarter of a second it asks the reader for the data version
-/// and tells, as plain values, what became new. One run at a time is followed in detail. Errors of reading are told
+/// and tells, as plain values, what became new. One run at a time is followed in detail. Errors of reading are reported
 /// once by failed(), until reading succeeds again.
 class DatabaseWatcher : public QObject {
   Q_OBJECT
@@ -41,8 +41,8 @@ class DatabaseWatcher : public QObject {
   bool isOpen() const { return reader_.isOpen(); }
   QString path() const { return reader_.path(); }
 
-  /// The run to follow, 0 for none; everything about it is told anew, after followed(). What is not told by then of the
-  /// run that was followed before never is.
+  /// The run to follow, 0 for none; everything about it is reported anew, after followed(). What is not told by then of
+  /// the run that was followed before never is.
   void follow(Id run);
   Id followed() const { return run_; }
   std::set<Id> activeRuns() const { return active_; }  ///< also those of active grids that are not finished
@@ -59,7 +59,7 @@ class DatabaseWatcher : public QObject {
   const Grid* grid(Id id) const;  ///< or nothing
 
   /// What the timer does; also asked for after an own write, so that it is seen soon. `then` is called when what was
-  /// stored by now has been told.
+  /// stored by now has been reported.
   void poll(std::function<void()> then = {});
 
  signals:
@@ -70,7 +70,7 @@ class DatabaseWatcher : public QObject {
   /// The versions of all rigs, by rig and number: at first, and when one came along.
   void rigsChanged(const std::vector<btr::SimulatorRecord>& versions);
   void activeChanged(const std::set<btr::Id>& active);  ///< runs or grids
-  /// Before and after all that is told about another run to follow.
+  /// Before and after all that is reported of another run to follow.
   void followedRun(const btr::RunRecord& run);
   void followedRunTold();
   void followFailed(btr::Id run, const QString& why);  ///< it cannot be read; nothing is followed
@@ -107,12 +107,12 @@ class DatabaseWatcher : public QObject {
   std::vector<ExperimentRecord> experiments_;  ///< as stored
   Names names_;
   std::shared_ptr<const std::vector<Grid>> grids_ = std::make_shared<const std::vector<Grid>>();
-  std::map<Id, int> stages_;           ///< of each run, when its simulators were told
+  std::map<Id, int> stages_;           ///< of each run, when its simulators were reported
   std::set<Id> locked_, lockedGrids_;  ///< by some process
   std::set<Id> active_, activeGrids_;
   Id run_ = 0;
-  std::optional<std::size_t> rigVersions_;  ///< that were told
-  bool fresh_ = true;                       ///< nothing of the followed run was told yet
+  std::optional<std::size_t> rigVersions_;  ///< that were reported
+  bool fresh_ = true;                       ///< nothing of the followed run was reported yet
   bool wasFailing_ = false;
   int lastGeneration_ = 0;
   std::size_t simulators_ = 0, gaps_ = 0;

@@ -224,7 +224,7 @@ void MeasureController::endRealityLearning() {
   });
 }
 
-// People copy the file alone: what was typed is in it, or it is said that it is not.
+// People copy only the file: what was typed is in it, or it is said that it is not.
 QString MeasureController::whereItStands() {
   bool inFile = false;
   bench_.guard([&] { inFile = bench_.writer().moveLogIntoFile(0); });

@@ -285,7 +285,7 @@ void AnalysisSetup::setHeldOut(int row, bool on) {
 }
 
 void AnalysisSetup::setSimulators(const QStringList& names, const QStringList& texts) {
-  // Told again and again while a run works: an open list is left alone.
+  // Called again and again while a run works: an open list is left alone.
   bool same = simulator_->count() == int(names.size()) + 1;
   for (int i = 1; same && i < simulator_->count(); ++i)
     same = simulator_->itemText(i) == names[i - 1] && simulator_->itemData(i).toString() == texts[i - 1];

@@ -60,7 +60,7 @@ class AnalysisSetup : public QWidget {
   void startRequested();
   void cancelRequested();
   void failed(const QString& message);
-  void mended(const QString& message);  ///< what was told by failed() holds no longer
+  void mended(const QString& message);  ///< what failed() reported no longer holds
   void changed();
   void sceneChanged(const QString& path);
   /// Recordings of the database are wanted; these files are to be kept in it.
@@ -90,7 +90,7 @@ class AnalysisSetup : public QWidget {
   QProgressBar* progress_;
   QPushButton *start_, *cancel_;
   SceneSpec spec_;
-  QString sceneProblem_;  ///< why the scene cannot be read, as it was told
+  QString sceneProblem_;  ///< why the scene cannot be read, as it was reported
   QString sceneRead_;     ///< that spec_ was read from; what is being typed is another
   ModelSet models_;
   RecordingDoctor doctor_;

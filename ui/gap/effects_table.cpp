@@ -176,7 +176,7 @@ void ErrorsTable::setReport(const GapReport& report) {
     for (const double error : {c.noiseFloor, c.asGiven, c.calibrated, c.withEffects, c.heldoutAsGiven,
                                c.heldoutCalibrated, c.heldoutWithEffects})
       fillCell(*this, row, column++, word(brief(error)), true);
-    if (c.heldoutWithEffects > 1.05 * c.heldoutAsGiven)
+    if (unseenGotWorse(c.heldoutAsGiven, c.heldoutWithEffects))
       item(row, heldWithEffects)->setForeground(tonesOf(palette()).bad);
   }
 }

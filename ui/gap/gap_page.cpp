@@ -192,7 +192,7 @@ void GapPage::setTargets(std::vector<AdoptionTarget> targets, std::size_t first)
     texts << (one.versions.empty() ? one.name
                                    : tr("%1, simulator version %2").arg(one.name).arg(one.versions.back().number));
   for (int i = 0; i < into_->count(); ++i) known << into_->itemText(i);
-  // Told again and again while a run works: an open list is left alone.
+  // Called again and again while a run works: an open list is left alone.
   if (texts != known) {
     into_->clear();
     into_->addItems(texts);

@@ -60,7 +60,7 @@ class GapPage : public QWidget {
   void timeChosen(std::size_t trial, double time_s);
   void reportOpened(const QString& folder);
   void failed(const QString& message);
-  void mended(const QString& message);  ///< what was told by failed() holds no longer
+  void mended(const QString& message);  ///< what failed() reported no longer holds
   void informed(const QString& message);
 
  private:

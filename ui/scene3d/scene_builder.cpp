@@ -63,7 +63,7 @@ osg::ref_ptr<osg::Geometry> toGeometry(const LineSegments& lines, const Colour& 
   return geometry;
 }
 
-/// Blended in a bin of its own after everything solid. With `depthOnly` it first fills the depth buffer alone, so that
+/// Blended in a bin of its own after everything solid. With `depthOnly` it first fills only the depth buffer, so that
 /// only the nearest surface of a ghost shows and not its insides.
 void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
   osg::StateSet& state = *node.getOrCreateStateSet();

@@ -34,7 +34,7 @@ struct FitModel {
   FitModel without(std::size_t effect) const;
 };
 
-/// The calibrated numbers alone, as given.
+/// Only the calibrated numbers, as given.
 FitModel givenModel(const FitProblem& problem);
 
 /// What an effect's parameters are for a fit: those that are not whole numbers, with their bounds and typical sizes.

@@ -68,7 +68,7 @@ struct FitProblem {
   bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
   bool walks = false;       ///< a robot with a free base and joints: free runs, compared over their first steps
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
-  /// Of a parameter's scale, for derivatives. Where feet land, small differences show the landing's roughness alone.
+  /// Of a parameter's scale, for derivatives. Where feet land, small differences show only the landing's roughness.
   double differenceStep = 1e-2;
   /// Of the scene's step, the finest that fits go to: an eighth, as a servo in and out of saturation needs it. (Of
   /// three walks, the true simulator's error at 2, 1, 0.5 and 0.25 ms is 1.10, 1.12, 1.14

@@ -36,7 +36,7 @@ class SegmentCost final : public ceres::CostFunction {
   /// Columns of the Jacobian that Evaluate would difference: of parameters, then of the initial state.
   Eigen::Index columns() const;
   /// What Evaluate would simulate at these numbers: residuals, then columns [from, to) of its Jacobian; of later parts
-  /// (from > 0) the columns alone. Changes nothing.
+  /// (from > 0) only the columns. Changes nothing.
   std::vector<double> simulated(double const* const* blocks, Eigen::Index from, Eigen::Index to) const;
   /// Takes what other processes simulated, all parts of it in order.
   void take(double const* const* blocks, const std::vector<double>& simulated);

@@ -23,7 +23,7 @@ struct MappedColumn {
   bool compare = true;       ///< false: a measurement that gives the start and the motion but is not compared
   std::vector<Added> added;  ///< the other terms, e.g. a relative angle from two absolute ones
 };
-/// Numbers of the scene that were set differently from trial to trial and stand in the file's name alone.
+/// Numbers of the scene that were set differently from trial to trial and stand only in the file's name.
 struct TrialSetting {
   std::string fileContains;
   Values values;  ///< by path into the scene, e.g. "robots.leg.servos.knee.p"

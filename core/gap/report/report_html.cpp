@@ -198,7 +198,7 @@ std::string provenance(const GapReport& report) {
                      brief(report.seconds) + " s.</p>\n<div class=\"wide\"><table>" +
                      headerRow({"recording", "used for", "SHA-256"}, 3);
   for (const GapReport::Trial& t : report.trials)
-    html += "<tr>" + cell(t.name) + cell(t.heldOut ? "scoring alone" : "fitting and cross-validation") + "<td><code>" +
+    html += "<tr>" + cell(t.name) + cell(t.heldOut ? "scoring only" : "fitting and cross-validation") + "<td><code>" +
             escaped(t.sha256) + "</code></td></tr>\n";
   return html + "</table></div>\n";
 }

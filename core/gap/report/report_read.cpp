@@ -121,7 +121,7 @@ GapReport::Trial trialFrom(JsonReader& r, std::vector<std::string>& overlays) {
   trial.sha256 = r.text("sha256");
   trial.heldOut = r.flag("held_out", false);
   const std::string overlay = r.text("overlay");
-  // A report may come from anywhere: it names files of its own folder alone.
+  // A report may come from anywhere: it may name only files of its own folder.
   if (!overlay.starts_with("overlay/") || overlay.size() == 8 || overlay.find('/', 8) != std::string::npos)
     r.refuse("overlay", "a file of the report's own folder, overlay/NAME.csv");
   overlays.push_back(overlay);

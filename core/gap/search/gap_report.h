@@ -76,7 +76,7 @@ struct GapReport {
   };
   /// "Cross-validated": alternate blocks of the trials predict each other, with the numbers as either half would have
   /// them, one linear step from the fit to everything (score.h). Initial states, and which effects there are, were
-  /// found on everything. As given, nothing but initial states is fitted.
+  /// found on everything. As given, nothing but initial states is fitted. NaN where a fault ended a simulation.
   struct Channel {
     std::string name, unit;
     double noiseFloor = 0;

@@ -80,9 +80,16 @@ std::optional<UnseenError> unseenError(const GapReport& report) {
                      std::sqrt(sum.withEffects / channels)};
 }
 
+bool unseenGotWorse(double before, double after, double worse) {
+  return std::isnan(after) ? !std::isnan(before) : after > worse * before;
+}
+
+bool UnseenError::gotWorse() const { return unseenGotWorse(asGiven, withEffects); }
+
 std::string unseenWarning(const GapReport& report) {
   const auto unseen = unseenError(report);
   if (!unseen || !unseen->gotWorse()) return "";
+  if (std::isnan(unseen->withEffects)) return "a fault ends the simulation of the recordings that were held out";
   return "the recordings that were held out got worse: " + digits(unseen->asGiven) + " → " +
          digits(unseen->withEffects) + " noise floors";
 }

@@ -21,11 +21,14 @@ std::string intervalsOf(const GapReport::Number& number);
 /// What the verdict means, a few words.
 std::string headline(GapReport::Verdict verdict);
 /// Error of the recordings that no fit saw, root mean square over their channels in noise floors; nothing if none was
-/// held out. It got worse where the simulator to adopt is off by 5 % more than the one as given.
+/// held out; NaN where a fault ended a simulation. It got worse where the simulator to adopt is off by 5 % more than
+/// the one as given, or ends in a fault where that one did not.
 struct UnseenError {
   double asGiven = 0, calibrated = 0, withEffects = 0;
-  bool gotWorse() const { return withEffects > SearchThresholds::Verdict{}.unseenWorse * asGiven; }
+  bool gotWorse() const;
 };
+/// The same of any two errors, NaN where a fault ended the simulation.
+bool unseenGotWorse(double before, double after, double worse = SearchThresholds::Verdict{}.unseenWorse);
 std::optional<UnseenError> unseenError(const GapReport& report);
 /// "the recordings that were held out got worse: 259 → 278 noise floors"; "" if they did not.
 std::string unseenWarning(const GapReport& report);

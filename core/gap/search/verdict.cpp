@@ -218,15 +218,20 @@ std::string colourText(const Findings& e) {
 /// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
 /// recordings cannot: a number or an effect that fits, and misleads.
 std::string unseenText(const GapReport& report, bool named, const SearchThresholds::Verdict& limits) {
-  const double worse = limits.unseenWorse;
   const auto unseen = unseenError(report);
   if (!unseen) return "";  // none was held out
-  std::string text = "Recordings that no fit saw are left by " + inFloors(unseen->asGiven * unseen->asGiven) +
-                     " as given, " + digits(unseen->calibrated) + " calibrated";
-  if (named) text += ", " + digits(unseen->withEffects) + " with what was found";
+  const auto floors = [](double error) {
+    return std::isnan(error) ? "a fault of the simulation" : inFloors(error * error);
+  };
+  const auto number = [](double error) { return std::isnan(error) ? "a fault" : digits(error); };
+  std::string text = "Recordings that no fit saw are left by " + floors(unseen->asGiven) + " as given, " +
+                     number(unseen->calibrated) + " calibrated";
+  if (named) text += ", " + number(unseen->withEffects) + " with what was found";
   text += ". ";
-  const bool byEffects = named && unseen->withEffects > worse * unseen->calibrated;
-  const bool misleads = byEffects || unseen->gotWorse() || (!named && unseen->calibrated > worse * unseen->asGiven);
+  const auto gotWorse = [&](double before, double after) { return unseenGotWorse(before, after, limits.unseenWorse); };
+  const bool byEffects = named && gotWorse(unseen->calibrated, unseen->withEffects);
+  const bool misleads = byEffects || gotWorse(unseen->asGiven, unseen->withEffects) ||
+                        (!named && gotWorse(unseen->asGiven, unseen->calibrated));
   if (misleads)
     text += std::string(byEffects ? "There it does worse than calibration alone: it"
                                   : "There the numbers as given do better: what was calibrated") +

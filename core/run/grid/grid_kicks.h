@@ -34,7 +34,7 @@ struct GridMap {
 inline constexpr const char* cellsWay = "cells_way_m";
 /// `columns` bearings and `rows` directions, 1 … 1000 each, from one end of the grid's axes to the other (an axis
 /// of one value gives that). Nothing if
-/// `stop` was raised. `done(share)` is told from time to time.
+/// `stop` was raised. `done(share)` is called from time to time.
 std::optional<GridMap> gridMap(const Database& database, const PluginHost& host, Id grid, double distance_m,
                                int columns, int rows, int workers, const StopFlag& stop,
                                const std::function<void(double share)>& done = {});

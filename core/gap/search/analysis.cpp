@@ -292,6 +292,19 @@ void addCorrelations(GapReport& report, const FitModel& model, const Uncertainty
     }
 }
 
+/// What ends in a fault with the numbers that were found explains nothing, and nobody should adopt it.
+void restNothingOnFaults(GapReport& report) {
+  const bool ends = std::ranges::any_of(report.channels, [](const auto& c) { return std::isnan(c.withEffects); });
+  if (!ends) return;
+  report.verdict = GapReport::Verdict::unexplained;
+  report.after = report.before;
+  report.sentence =
+      "With the best numbers that were found the simulation still ends in a fault before its recording does (see the "
+      "notes), so nothing is shown to be missing, or to suffice. A step_s that is too long, a mass that is too small "
+      "and "
+      "a gain that is too high are the usual causes. ";
+}
+
 /// The integration's own error in the final simulator: against half the step.
 void addStepErrors(GapReport& report, const FitProblem& problem, const SearchResult& found) {
   const Eigen::VectorXd difference = 4.0 / 3.0 * found.stepChange;
@@ -394,6 +407,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   if (options.designNext) report.next = designNext(problem, found, options.seed, limits.nextRecording);
   judge(report, problem, found, curveIsBetter, limits);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
+  restNothingOnFaults(report);
   report.sentence = consultation.caveat + report.sentence;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (progress) progress("done", 1);

@@ -31,7 +31,8 @@ Polygons ShapeReader::faceSet(const Node& geometry, std::vector<std::array<float
   Polygons result;
   const Node* coordinate = nodeField(geometry, "coord");
   if (!coordinate) {
-    document_.warn(geometry.file, geometry.line, "an IndexedFaceSet without coord is not drawn");
+    document_.warn(geometry.file, geometry.line, "an IndexedFaceSet without coord: there is no shape",
+                   Warning::Loss::collision);
     return result;
   }
   result.points = triples(coordinate, "point");
@@ -67,7 +68,8 @@ Polygons ShapeReader::faceSet(const Node& geometry, std::vector<std::array<float
   if (dropped)
     document_.warn(geometry.file, geometry.line,
                    std::to_string(dropped) + " faces were dropped: their coordIndex is outside the " +
-                       std::to_string(result.points.size()) + " points");
+                       std::to_string(result.points.size()) + " points",
+                   Warning::Loss::collision);
   if (tooShort)
     document_.warn(geometry.file, geometry.line,
                    std::to_string(tooShort) + " faces of fewer than 3 corners were dropped");

@@ -200,7 +200,7 @@ const Value* Node::find(std::string_view field) const {
   return description ? description->byDefault.get() : nullptr;
 }
 
-void Document::warn(int file, int line, const std::string& text) {
+void Document::warn(int file, int line, const std::string& text, Warning::Loss loss) {
   constexpr std::size_t most = 200;
   if (warnings.size() > most) return;
   if (warnings.size() == most) {
@@ -208,7 +208,7 @@ void Document::warn(int file, int line, const std::string& text) {
     return;
   }
   const std::string where = file > 0 ? places[static_cast<std::size_t>(file)] + ":" + std::to_string(line) + ": " : "";
-  warnings.push_back({line, where + text});
+  warnings.push_back({line, where + text, loss});
 }
 
 void Document::fail(const Node& node, const std::string& message) const {

@@ -110,7 +110,8 @@ const Node* Parser::readNode(const std::string& type, const std::string& def, in
   const NodeType* nodeType = known ? proto->type : builtIn(type);
   scanner_->take(TokenKind::openBrace, ("{ after " + shorten(type)).c_str());
   if (!nodeType) {
-    if (type != "Script") warn(line, "the node " + shorten(type) + " is not known and was skipped");
+    if (type != "Script")
+      warn(line, "the node " + shorten(type) + " is not known and was skipped", Warning::Loss::collision);
     skipBraces();
     return nullptr;
   }
@@ -215,7 +216,7 @@ void Parser::measure(Node& node) const {
 
 const Node* Parser::expandInline(const Node& node) {
   const auto refuse = [&](const std::string& url, const std::string& why) -> const Node* {
-    warn(node.line, "Inline \"" + shorten(url) + "\" was not followed: " + why);
+    warn(node.line, "Inline \"" + shorten(url) + "\" was not followed: " + why, Warning::Loss::collision);
     return nullptr;
   };
   const Value* urls = node.given("url");

@@ -82,7 +82,9 @@ class Parser {
   void copyField(Field& field, const Node& instance, std::unordered_map<const Node*, const Node*>& done);
 
   [[noreturn]] void fail(int line, const std::string& message) const { scanner_->fail(line, message); }
-  void warn(int line, const std::string& text) { document_.warn(file_, line, text); }
+  void warn(int line, const std::string& text, Warning::Loss loss = Warning::Loss::none) {
+    document_.warn(file_, line, text, loss);
+  }
 
   Document& document_;
   const ModelBudget& budget_;

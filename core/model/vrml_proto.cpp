@@ -91,7 +91,8 @@ void Parser::readExternProto() {
   type.name = name;
   readInterface(*proto, type, false);
   readValue(FieldType::MFString, type, "url");
-  warn(line, "EXTERNPROTO " + shorten(name) + " was not followed: only Inline may name another file");
+  warn(line, "EXTERNPROTO " + shorten(name) + " was not followed: only Inline may name another file",
+       Warning::Loss::collision);
   scope_->protos[name] = std::move(proto);
 }
 

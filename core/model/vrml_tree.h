@@ -92,7 +92,7 @@ struct Document {
   std::vector<Warning> warnings;
 
   /// Remembers a warning; of very many only the first 200 are kept.
-  void warn(int file, int line, const std::string& text);
+  void warn(int file, int line, const std::string& text, Warning::Loss loss = Warning::Loss::none);
   [[noreturn]] void fail(const Node& node, const std::string& message) const;
 };
 

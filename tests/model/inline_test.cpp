@@ -111,12 +111,16 @@ TEST_F(Inline, ExternProtoIsNotFetchedAndFallsBackToTheVocabulary) {
   const auto model = loadModel((outside_ / "robot" / "main.wrl").string());
   ASSERT_EQ(3u, model.warnings.size());
   EXPECT_THAT(model.warnings[0].text, HasSubstr("EXTERNPROTO Joint was not followed"));
+  EXPECT_EQ(model.warnings[0].loss, Warning::Loss::none);  // the Joint of the vocabulary stands for it
+  EXPECT_EQ(model.warnings[2].loss, Warning::Loss::collision) << model.warnings[2].text;  // and nothing for Foo
   EXPECT_EQ("BASE", model.links.at(0).name);
 }
 
 TEST_F(Inline, IsRefusedInTextsFromMemory) {
   const auto model = parseVrml(robotWith("Inline { url \"robot/main.wrl\" }"), "memory");
   EXPECT_THAT(model.warnings.at(0).text, HasSubstr("was not followed"));
+  // What it held collides with nothing: that is said where the robot is simulated.
+  EXPECT_EQ(model.warnings.at(0).loss, Warning::Loss::collision);
 }
 
 TEST_F(Inline, UrlGivenThroughAProtoIsCheckedToo) {

@@ -91,8 +91,7 @@ void Parser::readExternProto() {
   type.name = name;
   readInterface(*proto, type, false);
   readValue(FieldType::MFString, type, "url");
-  warn(line, "EXTERNPROTO " + shorten(name) + " was not followed: only Inline may name another file",
-       Warning::Loss::collision);
+  warn(line, "EXTERNPROTO " + shorten(name) + " was not followed: only Inline may name another file");
   scope_->protos[name] = std::move(proto);
 }
 

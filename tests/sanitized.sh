@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Runs the tests of a sanitized build, but for what takes longest there: of whole analyses one, of whole runs those that
+# stop and go on.
+#   bash tests/sanitized.sh FOLDER "PART…" "WINDOW TEST…"
+set -euo pipefail
+export bin=$1 parts=$2 windows=$3
+export logs=$(mktemp -d)
+trap 'rm -rf "$logs"' EXIT
+# libode, libsqlite, Qt and OpenSceneGraph are not ours: their one-time allocations are not leaks of this program.
+export ASAN_OPTIONS=detect_leaks=0
+long="Xl330*:JointSpace.Driven*:JointSpace.TheStep*:JointSpace.ASwinging*:Locate.*:NextRecording.PushesAJoint*:TossedBody.WhatThe*:Consultation.LeadsTheReport*:Residual*:Analysis*:JobFailures.AnEffect*:JobFailures.NoVerdict*:Fit.*:JointDoctor*:All/EffectTrials*:KickTrial*:KickReach*:Dog.LeftAndRight*:WalkTrial.WalksWhere*:WalkTrial.TheStart*"
+analysis="Analysis.HiddenDryFrictionIsNamedPlacedAndMeasured"
+resume="KilledRun.StopsCleanlyOnInterruptAndGoesOn:PreparedExperiment.*"
+
+sanitized_part() {  # program, filter, part, of how many: every so-manieth test
+  local log=$logs/$1.$3 began=$SECONDS
+  GTEST_SHARD_INDEX=$3 GTEST_TOTAL_SHARDS=$4 "$bin/$1" --gtest_brief=1 "--gtest_filter=$2" > "$log" 2>&1 ||
+    { cat "$log"; echo "FAILED: $1"; return 1; }
+  echo "$1 part $3: $(tail -n 1 "$log") in $((SECONDS - began)) s"
+}
+sanitized_window() {
+  local log=$logs/$1 began=$SECONDS
+  XDG_RUNTIME_DIR=/tmp "$bin/$1" > "$log" 2>&1 || { cat "$log"; echo "FAILED: $1"; return 1; }
+  echo "$1: $(grep '^Totals' "$log") in $((SECONDS - began)) s"
+}
+sanitized() { if [ $# = 1 ]; then sanitized_window "$@"; else sanitized_part "$@"; fi; }
+export -f sanitized sanitized_part sanitized_window
+{
+  echo "test_gap $analysis 0 1"
+  for part in 0 1 2 3; do echo "test_gap -$long $part 4"; done  # longer than all others together
+  echo "test_runs $resume 0 1"
+  for name in $parts; do
+    case $name in gap | runs) ;; *) echo "test_$name -$long 0 1" ;; esac
+  done
+  printf '%s\n' $windows
+} | xargs -P "$(nproc)" -L 1 bash -c 'sanitized "$@"' _

@@ -1,4 +1,5 @@
 // A gap report for a terminal.
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -16,6 +17,12 @@ std::string line(const char* format, Numbers... numbers) {
   return text;
 }
 
+/// A number with so many significant digits in so many columns; "–" where there is none.
+std::string column(double value, int width, int precision) {
+  if (std::isfinite(value)) return line("%*.*g", width, precision, value);
+  return std::string(static_cast<std::size_t>(width - 1), ' ') + "–";
+}
+
 std::string intervalText(const GapReport::Number& number) {
   const auto text = [](const GapReport::Interval& i) { return line(" [%.4g … %.4g]", i.low, i.high); };
   return (number.ci95.known() ? text(number.ci95) : "") +
@@ -26,14 +33,19 @@ std::string intervalText(const GapReport::Number& number) {
 
 std::string toPlainText(const GapReport& report) {
   std::string text = std::string(toText(report.verdict)) + ": " + report.sentence + "\n\n";
-  text += "error in noise floors, cross-validated\n";
+  if (!report.ladder.empty()) text += "error in noise floors, cross-validated\n";
   for (const auto& step : report.ladder)
     text += line("  %8.3f ± %.3f  %s\n", step.error, step.standardError, step.what.c_str());
   text += "\nRMSE by channel        noise floor    as given  calibrated  with effects   (held-out recordings)\n";
-  for (const auto& channel : report.channels)
-    text += line("  %-28s %9.3g %9.3g %9.3g %9.3g   %9.3g %9.3g %9.3g %s\n", channel.name.c_str(), channel.noiseFloor,
-                 channel.asGiven, channel.calibrated, channel.withEffects, channel.heldoutAsGiven,
-                 channel.heldoutCalibrated, channel.heldoutWithEffects, channel.unit.c_str());
+  for (const auto& channel : report.channels) {
+    text += line("  %-28s", channel.name.c_str());
+    for (const double number : {channel.noiseFloor, channel.asGiven, channel.calibrated, channel.withEffects})
+      text += column(number, 10, 3);
+    text += "  ";
+    for (const double number : {channel.heldoutAsGiven, channel.heldoutCalibrated, channel.heldoutWithEffects})
+      text += column(number, 10, 3);
+    text += " " + channel.unit + "\n";
+  }
   text += "\neffects tried\n";
   for (const auto& effect : report.tried) {
     text +=

@@ -207,7 +207,9 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
       const std::size_t samples = std::accumulate(missed.begin(), missed.end(), std::size_t{0});
       if (samples > 0)
         report.notes.push_back(out.name + ": " + whose + ", a fault ended the simulation: " + std::to_string(samples) +
-                               " samples have no simulated value, and their channels have no error");
+                               " samples have no simulated value; their channels have no error, and where steps are "
+                               "compared each of them counts as " +
+                               toText(afterFault) + " noise floors");
     }
     report.trials.push_back(std::move(out));
   }
@@ -298,6 +300,7 @@ void restNothingOnFaults(GapReport& report) {
   if (!ends) return;
   report.verdict = GapReport::Verdict::unexplained;
   report.after = report.before;
+  report.ladder.clear();
   report.sentence =
       "With the best numbers that were found the simulation still ends in a fault before its recording does (see the "
       "notes), so nothing is shown to be missing, or to suffice. A step_s that is too long, a mass that is too small "

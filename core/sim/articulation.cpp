@@ -192,6 +192,24 @@ void Articulation::set(const Isometry3d& base, const Vector3d& velocity, const V
   updateRings();
 }
 
+void Articulation::remember(const std::vector<BodyMemory>& memory, const std::vector<Vector3d>& ringAxes) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    RobotBody& body = bodies[i];
+    const BodyMemory& was = memory[i];
+    Isometry3d pose = Isometry3d::Identity();
+    pose.translation() = was.position_m;
+    pose.linear() = was.axes;
+    setPose(body.id, pose);
+    dBodySetLinearVel(body.id, was.velocity_m_s.x(), was.velocity_m_s.y(), was.velocity_m_s.z());
+    dBodySetAngularVel(body.id, was.spin_rad_s.x(), was.spin_rad_s.y(), was.spin_rad_s.z());
+    if (body.ringJoint < 0) continue;
+    body.ringAxis = ringAxes[i];
+    setMass(body.id, body.mass_kg,
+            body.inertia_kg_m2 + body.ringInertia_kg_m2 * body.ringAxis * body.ringAxis.transpose());
+  }
+  refresh();
+}
+
 void Articulation::refresh() {
   for (auto& body : bodies) {
     const dReal* p = dBodyGetPosition(body.id);

@@ -7,6 +7,7 @@
 
 #include "core/sim/collision.h"
 #include "core/sim/scene.h"
+#include "core/sim/world_memory.h"
 
 namespace btr {
 
@@ -76,6 +77,8 @@ class Articulation {
   /// `positions` and `rates` by joint of the model; those of joints that follow another one are computed instead.
   void set(const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin,
            std::span<const double> positions, std::span<const double> rates);
+  /// Puts each body where it was, joints that may have turned round included. `ringAxes` by body.
+  void remember(const std::vector<BodyMemory>& memory, const std::vector<Eigen::Vector3d>& ringAxes);
   /// Reads poses, velocities, joint positions and rates from ODE.
   void refresh();
   void addTorque(const RobotJoint& joint, double torque);

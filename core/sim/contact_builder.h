@@ -24,6 +24,9 @@ struct ContactSurface {
 /// A ball and a robot's shell, both smooth plastic.
 inline constexpr double shellFriction = 0.3;
 
+/// The floor against something of this restitution, at least.
+ContactSurface floorSurface(const FloorSpec& floor, double restitution);
+
 /// How long a hit lasts whose momentum is given over within one step, however short: half a period of 0.1 kg on the
 /// floor's spring of 2·10⁴ N/m is 7 ms; it is the standard worlds' step.
 inline constexpr double hitDuration_s = 0.008;

@@ -185,6 +185,17 @@ void JointEffects::reset() {
   for (auto& placed : placed_) std::fill(placed.state.begin(), placed.state.end(), 0.0);
 }
 
+std::vector<std::vector<double>> JointEffects::memory() const {
+  std::vector<std::vector<double>> memory;
+  for (const auto& placed : placed_) memory.push_back(placed.state);
+  return memory;
+}
+
+void JointEffects::remember(const std::vector<std::vector<double>>& memory) {
+  for (std::size_t i = 0; i < placed_.size() && i < memory.size(); ++i)
+    if (memory[i].size() == placed_[i].state.size()) placed_[i].state = memory[i];
+}
+
 void JointEffects::rest(const JointState& state) {
   for (auto& placed : placed_) placed.effect->rest(state, *placed.values, placed.state);
 }

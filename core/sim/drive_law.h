@@ -89,6 +89,9 @@ class JointEffects {
   /// the end of the step (secant), so that it cannot reverse it; other torques are linearised in position.
   void addPassive(DriveRow& row, const JointState& state, const StepOf& step) const;
   double frictionLimit(const JointState& state) const;
+  /// What they remember, in the order of the simulator's list.
+  std::vector<std::vector<double>> memory() const;
+  void remember(const std::vector<std::vector<double>>& memory);
   double measured(double position, const JointState& state, double dt);
 
  private:

@@ -51,6 +51,12 @@ void JointSpace::begin(const Articulation& robot) {
   push_.resize(robot.joints.size());
 }
 
+void JointSpace::setRates(const Eigen::VectorXd& middle, const Eigen::VectorXd& end) {
+  rate_ = middle;
+  beginRate_ = end;
+  massKnown_ = false;
+}
+
 void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
   const bool several = moving_.size() > 1;  // a single joint has no bias
   for (std::size_t j = 0; j < moving_.size(); ++j) {

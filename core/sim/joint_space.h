@@ -35,6 +35,10 @@ class JointSpace {
   void begin(const Articulation& robot);
   /// Mass matrix, weight and bias where the robot is now; gravity in m/s². Before each step().
   void prepare(const Articulation& robot, const Eigen::Vector3d& gravity);
+  /// Rates of the last step's middle, and at its end.
+  const Eigen::VectorXd& middleRates() const { return rate_; }
+  const Eigen::VectorXd& endRates() const { return beginRate_; }
+  void setRates(const Eigen::VectorXd& middle, const Eigen::VectorXd& end);
   /// Moment of the weight of all that a joint carries, about its axis [N·m or N].
   double weight(std::size_t joint) const { return weight_[static_cast<Eigen::Index>(joint)]; }
   /// One step of h seconds: positions and rates of the robot's joints, poses and velocities of its bodies. `kick` is

@@ -63,6 +63,8 @@ struct Scene {
   std::optional<FloorSpec> floor;
   std::vector<SceneRobot> robots;
   std::vector<BallSpec> balls;
+  std::vector<ObstacleSpec> obstacles;
+  bool robotsCollide = false;  ///< with each other
   std::vector<SceneEffect> effects;
 };
 

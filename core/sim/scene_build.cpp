@@ -177,6 +177,8 @@ Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models) {
   scene.controlPeriod_s = spec.controlPeriod_s;
   scene.floor = spec.floor;
   scene.balls = spec.balls;
+  scene.obstacles = spec.obstacles;
+  scene.robotsCollide = spec.robotsCollide;
   for (const auto& robot : spec.robots) {
     const auto model = models.find(robot.model);
     if (model == models.end())

@@ -59,6 +59,9 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     balls.push_back(std::move(ball));
   }
 
+  makeObstacles();
+  makeSolids();
+
   // Effects to the joints and balls that they act on; those of floor and world that push balls act on all of them.
   for (const auto& effect : scene.effects) {
     for (auto& robot : robots)
@@ -73,7 +76,8 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     for (auto& ball : balls)
       if (effect.at == ball.spec->name || effect.at == "floor" || effect.at == "world") ball.effects.push_back(&effect);
   }
-  inOde = !balls.empty() || std::ranges::any_of(robots, [](const WorldRobot& robot) { return !robot.alone; });
+  inOde = !balls.empty() || std::ranges::any_of(obstacles, [](const WorldObstacle& o) { return o.id != nullptr; }) ||
+          std::ranges::any_of(robots, [](const WorldRobot& robot) { return !robot.alone; });
   for (auto& robot : robots) sense(robot, 0);
   checkFault();
 }
@@ -126,6 +130,7 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
   if (inOde) {
     makeContacts(h);
     for (auto& ball : balls) driveBall(ball, now, h);
+    pullAll(h);
     try {
       session.step(h);
     } catch (const OdeFailure& failure) {
@@ -172,6 +177,7 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     dBodySetPosition(ball.id, p.x(), p.y(), p.z());
     ball.pose.translation() = p;
   }
+  settleObstacles(h);
   checkFault();
 }
 
@@ -238,6 +244,11 @@ void World::rest(std::size_t index) {
     drive.effects.rest(impl_->stateOf(robot, j, 0));
     drive.motorAhead = -drive.load * spec.gearCompliance;
   }
+}
+
+void World::setObstacle(std::size_t index, const ObstacleState& state) {
+  impl_->placeObstacle(impl_->obstacles.at(index), state);
+  impl_->checkFault();
 }
 
 void World::setBall(std::size_t index, const BallState& state) {

@@ -10,8 +10,26 @@
 #include "core/sim/readings.h"
 #include "core/sim/scene.h"
 #include "core/sim/trace.h"
+#include "core/sim/world_memory.h"
 
 namespace btr {
+
+/// Where an obstacle's frame (its middle) is and how it moves; of one that never moves only the pose counts.
+struct ObstacleState {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero(), spin_rad_s = Eigen::Vector3d::Zero();
+};
+
+/// A spring that pulls a point of a body towards a place, as a hand would: F = k·(target − point) − d·velocity, at most
+/// `most_n`, with d critical for the body's own mass; as it is at the end of the step, so that it stays stable.
+struct Pull {
+  enum class What { link, ball, obstacle };
+  What what = What::ball;
+  std::size_t object = 0, link = 0;                   ///< robot and its link, ball or obstacle
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< in the frame of the link, ball or obstacle
+  Eigen::Vector3d target_m = Eigen::Vector3d::Zero();
+  double stiffness_n_m = 100, most_n = 20;
+};
 
 /// One ODE world. ODE keeps process-wide state (its random numbers), so only one World may exist in a process at a time
 /// (checked), and it belongs to one thread. A robot whose base is fixed and that can touch nothing moves beside ODE, in
@@ -38,6 +56,19 @@ class World {
   /// slack.)
   void rest(std::size_t robot);
   void setBall(std::size_t ball, const BallState& state);
+  void setObstacle(std::size_t obstacle, const ObstacleState& state);
+
+  /// From now on these pull, and no others.
+  void setPulls(std::vector<Pull> pulls);
+  /// The mean force of one of them over the last step [N], world axes.
+  Eigen::Vector3d pullForce_n(std::size_t pull) const;
+
+  /// See WorldMemory. Belongs between two calls of advance().
+  WorldMemory memory() const;
+  /// Takes over what is remembered of the objects with the same names (and, of robots, with as many bodies and joints);
+  /// others stay as they are. Only a world that was just built goes on with the bits that another one has, which got
+  /// the same. Throws std::logic_error where a robot of the same name is another one.
+  void remember(const WorldMemory& memory);
 
   /// Advances by `duration` with inputs held: inputs[robot][joint of the model]. A whole number of the scene's steps is
   /// taken in exactly these; any other duration (recordings are sampled when they are) in equal, slightly smaller
@@ -49,6 +80,7 @@ class World {
   void read(std::size_t index, RobotReadings& readings) const;
   BallState ball(std::size_t index) const;
   Eigen::Isometry3d ballPose(std::size_t index) const;
+  const ObstacleState& obstacle(std::size_t index) const;
   /// Poses of all links of a robot in the world.
   std::vector<Eigen::Isometry3d> linkPoses(std::size_t robot) const;
   /// True while any link of any robot touches the ball.

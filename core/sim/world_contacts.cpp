@@ -9,6 +9,7 @@ namespace btr {
 namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+}  // namespace
 
 ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
   ContactSurface surface{floor.friction,      restitution + (1 - restitution) * floor.bounce,
@@ -25,8 +26,6 @@ ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
   }
   return surface;
 }
-
-}  // namespace
 
 void World::Impl::touchFloor(WorldRobot& robot, RobotBody& body, double h) {
   const double margin = contacts.margin(body.velocity_m_s.norm() + body.spin_rad_s.norm() * body.reach_m, h);
@@ -98,6 +97,7 @@ void World::Impl::makeContacts(double h) {
     touchBalls(robot, nullptr, h);
   }
   for (std::size_t i = 0; i < balls.size(); ++i) touchOthers(i, h);
+  touchSolids(h);
 }
 
 // Rolling resistance: a moment M against horizontal spin. A ball that rolls freely (I = f·m·r²) loses a =

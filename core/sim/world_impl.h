@@ -5,6 +5,7 @@
 #include "core/sim/elastic_gear.h"
 #include "core/sim/joint_space.h"
 #include "core/sim/ode_session.h"
+#include "core/sim/solid_contacts.h"
 #include "core/sim/world.h"
 
 namespace btr {
@@ -38,12 +39,14 @@ struct WorldRobot {
   std::vector<JointRows> rows;        ///< of this step, by moving joint; for `alone`
   std::vector<JointDrive> drives;     ///< by moving joint
   std::vector<char> contact;          ///< by link
-  double kick = 1;                    ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
-  bool first = true;                  ///< no step since its state was set
-  bool touches = false;               ///< anything, in the last step
-  bool hasEffects = false;            ///< at any joint
-  bool couples = false;               ///< a joint follows another one
-  double allDrives = 0;               ///< sum of |torque| of all drives in the last step
+  /// By body, colliders as they meet other solids; the last ones are the fixed base's. Empty where there are none.
+  std::vector<std::vector<SolidGeom>> solids;
+  double kick = 1;          ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
+  bool first = true;        ///< no step since its state was set
+  bool touches = false;     ///< anything, in the last step
+  bool hasEffects = false;  ///< at any joint
+  bool couples = false;     ///< a joint follows another one
+  double allDrives = 0;     ///< sum of |torque| of all drives in the last step
   int accelerometerLink = -1;
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
   Eigen::Vector3d accelerometerVelocity_m_s = Eigen::Vector3d::Zero();
@@ -60,6 +63,14 @@ struct WorldBall {
   std::vector<const SceneEffect*> effects;
 };
 
+struct WorldObstacle {
+  const ObstacleSpec* spec = nullptr;
+  dBodyID id = nullptr;  ///< none: it never moves
+  std::unique_ptr<SolidGeom> solid;
+  ObstacleState state;
+  bool touched = false;  ///< in the last step, by anything
+};
+
 struct World::Impl {
   Impl(const Scene& givenScene, std::uint64_t seed);
 
@@ -68,6 +79,9 @@ struct World::Impl {
   ContactBuilder contacts{session};
   std::vector<WorldRobot> robots;
   std::vector<WorldBall> balls;
+  std::vector<WorldObstacle> obstacles;
+  std::vector<Pull> pulls;
+  std::vector<Eigen::Vector3d> pullForces_n;
   std::vector<ContactPoint> points;  ///< scratch
   double start_s = 0;                ///< time at which `steps` was zero
   long steps = 0;
@@ -100,6 +114,17 @@ struct World::Impl {
   void brakeRolling(WorldBall& ball, double h);
   void readBall(WorldBall& ball, double now);
   void placeBall(WorldBall& ball, const BallState& state);
+  // world_solids.cpp
+  void makeObstacles();
+  void makeSolids();
+  void touchSolids(double h);
+  void touchObstacle(std::size_t obstacle, double h);
+  void meet(WorldRobot& robot, WorldRobot& other);
+  void placeObstacle(WorldObstacle& obstacle, const ObstacleState& state);
+  void readObstacle(WorldObstacle& obstacle);
+  void settleObstacles(double h);
+  // world_hands.cpp
+  void pullAll(double h);
   // world_sense.cpp
   void sense(WorldRobot& robot, double dt);
   void checkFault();

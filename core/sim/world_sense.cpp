@@ -1,6 +1,7 @@
 // What can be known of the world from outside: sensors, poses, energy, faults, rows of a trace.
 #include <cmath>
 
+#include "core/sim/obstacle_shape.h"
 #include "core/sim/world_impl.h"
 
 namespace btr {
@@ -59,6 +60,12 @@ void World::Impl::checkFault() {
     fault = faultOf(ball.spec->name, ball.state.position_m, ball.state.velocity_m_s, ball.state.spin_rad_s);
     if (!fault.empty()) return;
   }
+  for (const auto& obstacle : obstacles) {
+    if (!obstacle.id) continue;
+    const ObstacleState& state = obstacle.state;
+    fault = faultOf(obstacle.spec->name, state.pose.translation(), state.velocity_m_s, state.spin_rad_s);
+    if (!fault.empty()) return;
+  }
 }
 
 void World::Impl::sense(WorldRobot& robot, double dt) {
@@ -106,6 +113,7 @@ void World::read(std::size_t index, RobotReadings& readings) const {
 std::vector<Isometry3d> World::linkPoses(std::size_t robot) const { return impl_->robots.at(robot).body->linkPoses(); }
 BallState World::ball(std::size_t index) const { return impl_->balls.at(index).state; }
 Isometry3d World::ballPose(std::size_t index) const { return impl_->balls.at(index).pose; }
+const ObstacleState& World::obstacle(std::size_t index) const { return impl_->obstacles.at(index).state; }
 bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index).touched; }
 double World::time() const { return impl_->time(); }
 std::string World::fault() const { return impl_->fault; }
@@ -137,6 +145,16 @@ double World::energy() const {
     sum += m * (ball.state.velocity_m_s.squaredNorm() / 2 - gravity.dot(ball.state.position_m)) +
            ball.spec->inertiaFactor * m * r * r * ball.state.spin_rad_s.squaredNorm() / 2;
   }
+  for (const auto& obstacle : impl_->obstacles) {
+    if (!obstacle.id) continue;
+    const ObstacleState& state = obstacle.state;
+    const Inertial inertial = obstacleInertial(*obstacle.spec);
+    const Vector3d spin = state.pose.linear().transpose() * state.spin_rad_s;
+    const Vector3d centre = state.pose.linear() * inertial.centreOfMass_m;
+    const Vector3d velocity = state.velocity_m_s + state.spin_rad_s.cross(centre);
+    sum += inertial.mass_kg * (velocity.squaredNorm() / 2 - gravity.dot(state.pose.translation() + centre)) +
+           spin.dot(inertial.inertia_kg_m2 * spin) / 2;
+  }
   return sum;
 }
 
@@ -163,6 +181,10 @@ std::vector<std::string> World::channels() const {
   for (const auto& ball : impl_->balls)
     for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
       names.push_back(ball.spec->name + "." + quantity);
+  for (const auto& obstacle : impl_->obstacles)
+    if (obstacle.id)
+      for (const char* quantity : {"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"})
+        names.push_back(obstacle.spec->name + "." + quantity);
   return names;
 }
 
@@ -184,6 +206,11 @@ void World::sample(std::vector<double>& row) const {
   for (const auto& ball : impl_->balls) {
     push(row, ball.state.position_m);
     push(row, Eigen::Quaterniond(ball.pose.linear()));
+  }
+  for (const auto& obstacle : impl_->obstacles) {
+    if (!obstacle.id) continue;
+    push(row, obstacle.state.pose.translation());
+    push(row, Eigen::Quaterniond(obstacle.state.pose.linear()));
   }
 }
 

@@ -45,7 +45,7 @@ std::string nameOf(JsonReader& reader, std::set<std::string>& taken) {
   if (name.empty() || name.size() > 64 || !std::all_of(name.begin(), name.end(), plain) || name == "floor" ||
       name == "world")
     reader.refuse("name", "1 to 64 letters, digits, _ or -, not floor or world");
-  if (!taken.insert(name).second) reader.refuse("name", "a name that no other robot or ball has");
+  if (!taken.insert(name).second) reader.refuse("name", "a name that no other robot, ball or obstacle has");
   return name;
 }
 
@@ -106,6 +106,39 @@ BallSpec ballFrom(JsonReader& reader, std::set<std::string>& taken) {
   return ball;
 }
 
+ObstacleSpec obstacleFrom(JsonReader& reader, std::set<std::string>& taken) {
+  ObstacleSpec obstacle;
+  obstacle.name = nameOf(reader, taken);
+  obstacle.shape = reader.word("shape", {"box", "cylinder", "sphere", "ramp"}, obstacle.shape);
+  const bool round = obstacle.shape == "cylinder" || obstacle.shape == "sphere";
+  constexpr double thinnest_m = 1e-3, largest_m = 100;
+  if (obstacle.shape == "cylinder") {
+    obstacle.size_m[2] = reader.number("height_m", thinnest_m, largest_m, obstacle.size_m[2]);
+  } else if (!round) {
+    obstacle.size_m = vectorOf<3>(reader, "size_m", largest_m, obstacle.size_m);
+    for (const double edge : obstacle.size_m)
+      if (edge < thinnest_m) reader.refuse("size_m", "edges from " + toText(thinnest_m) + " to " + toText(largest_m));
+  }
+  if (round) obstacle.radius_m = reader.number("radius_m", thinnest_m, largest_m, obstacle.radius_m);
+  obstacle.mass_kg = reader.number("mass_kg", 0, 1000, obstacle.mass_kg);
+  if (obstacle.mass_kg > 0 && obstacle.mass_kg < 1e-4)
+    reader.refuse("mass_kg", "0 (it never moves), or 0.0001 to 1000");
+  obstacle.friction = reader.number("friction", 0, 100, obstacle.friction);
+  obstacle.restitution = reader.number("restitution", 0, 1, obstacle.restitution);
+  const double below = obstacle.shape == "sphere" ? obstacle.radius_m : obstacle.size_m[2] / 2;
+  obstacle.position_m = vectorOf<3>(reader, "position_m", farthest_m, {0, 0, below});
+  obstacle.orientation_wxyz = orientationOf(reader);
+  obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, obstacle.velocity_m_s);
+  obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, obstacle.spin_rad_s);
+  obstacle.colour = reader.text("colour", obstacle.colour);
+  const auto hexadecimal = [](unsigned char c) { return std::isxdigit(c) != 0; };
+  if (obstacle.colour.size() != 7 || obstacle.colour[0] != '#' ||
+      !std::all_of(obstacle.colour.begin() + 1, obstacle.colour.end(), hexadecimal))
+    reader.refuse("colour", "# and six hexadecimal digits, as #8c8c96");
+  reader.finish();
+  return obstacle;
+}
+
 FloorSpec floorFrom(JsonReader reader) {
   FloorSpec floor;
   floor.friction = reader.number("friction", 0, 100, floor.friction);
@@ -148,7 +181,58 @@ json robotToJson(const RobotSpec& robot) {
   return object;
 }
 
+json ballToJson(const BallSpec& ball) {
+  return {{"name", ball.name},
+          {"radius_m", ball.radius_m},
+          {"mass_kg", ball.mass_kg},
+          {"inertia_factor", ball.inertiaFactor},
+          {"rolling_deceleration_m_s2", ball.rollingDeceleration_m_s2},
+          {"restitution", ball.restitution},
+          {"position_m", ball.position_m},
+          {"velocity_m_s", ball.velocity_m_s},
+          {"spin_rad_s", ball.spin_rad_s}};
+}
+
+json obstacleToJson(const ObstacleSpec& obstacle) {
+  json object{{"name", obstacle.name},
+              {"shape", obstacle.shape},
+              {"mass_kg", obstacle.mass_kg},
+              {"friction", obstacle.friction},
+              {"restitution", obstacle.restitution},
+              {"position_m", obstacle.position_m},
+              {"orientation_wxyz", obstacle.orientation_wxyz},
+              {"velocity_m_s", obstacle.velocity_m_s},
+              {"spin_rad_s", obstacle.spin_rad_s},
+              {"colour", obstacle.colour}};
+  if (obstacle.shape == "box" || obstacle.shape == "ramp") object["size_m"] = obstacle.size_m;
+  if (obstacle.shape == "cylinder") object["height_m"] = obstacle.size_m[2];
+  if (obstacle.shape == "cylinder" || obstacle.shape == "sphere") object["radius_m"] = obstacle.radius_m;
+  return object;
+}
+
 }  // namespace
+
+RobotSpec robotFromJson(const std::string& text, const std::string& place) {
+  JsonReader reader = JsonReader::parse(text, place);
+  std::set<std::string> taken;
+  return robotFrom(reader, taken);
+}
+
+BallSpec ballFromJson(const std::string& text, const std::string& place) {
+  JsonReader reader = JsonReader::parse(text, place);
+  std::set<std::string> taken;
+  return ballFrom(reader, taken);
+}
+
+ObstacleSpec obstacleFromJson(const std::string& text, const std::string& place) {
+  JsonReader reader = JsonReader::parse(text, place);
+  std::set<std::string> taken;
+  return obstacleFrom(reader, taken);
+}
+
+std::string toJsonText(const RobotSpec& robot) { return robotToJson(robot).dump(); }
+std::string toJsonText(const BallSpec& ball) { return ballToJson(ball).dump(); }
+std::string toJsonText(const ObstacleSpec& obstacle) { return obstacleToJson(obstacle).dump(); }
 
 SceneSpec sceneFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
@@ -165,6 +249,8 @@ SceneSpec sceneFromJson(const std::string& text, const std::string& place, const
   std::set<std::string> taken;
   reader.array("robots", [&](JsonReader entry) { scene.robots.push_back(robotFrom(entry, taken)); });
   reader.array("balls", [&](JsonReader entry) { scene.balls.push_back(ballFrom(entry, taken)); });
+  reader.array("obstacles", [&](JsonReader entry) { scene.obstacles.push_back(obstacleFrom(entry, taken)); });
+  scene.robotsCollide = reader.flag("robots_collide", scene.robotsCollide);
   std::set<std::string> paths;
   reader.array("calibrate", [&](JsonReader entry) {
     scene.calibrate.push_back(pathFrom(entry));
@@ -188,16 +274,10 @@ std::string toJsonText(const SceneSpec& scene) {
                          {"slip1_m_s_n", scene.floor->slip1_m_s_n},     {"slip2_m_s_n", scene.floor->slip2_m_s_n},
                          {"stiffness_n_m", scene.floor->stiffness_n_m}, {"damping_n_s_m", scene.floor->damping_n_s_m}};
   for (const RobotSpec& robot : scene.robots) document["robots"].push_back(robotToJson(robot));
-  for (const BallSpec& ball : scene.balls)
-    document["balls"].push_back({{"name", ball.name},
-                                 {"radius_m", ball.radius_m},
-                                 {"mass_kg", ball.mass_kg},
-                                 {"inertia_factor", ball.inertiaFactor},
-                                 {"rolling_deceleration_m_s2", ball.rollingDeceleration_m_s2},
-                                 {"restitution", ball.restitution},
-                                 {"position_m", ball.position_m},
-                                 {"velocity_m_s", ball.velocity_m_s},
-                                 {"spin_rad_s", ball.spin_rad_s}});
+  for (const BallSpec& ball : scene.balls) document["balls"].push_back(ballToJson(ball));
+  // Left out where there is nothing to say: scenes that are stored keep their text.
+  for (const ObstacleSpec& obstacle : scene.obstacles) document["obstacles"].push_back(obstacleToJson(obstacle));
+  if (scene.robotsCollide) document["robots_collide"] = true;
   for (const CalibratePath& path : scene.calibrate)
     document["calibrate"].push_back({{"path", path.path}, {"min", path.minimum}, {"max", path.maximum}});
   return document.dump(2) + "\n";

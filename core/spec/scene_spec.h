@@ -50,6 +50,23 @@ struct BallSpec {
   bool operator==(const BallSpec&) const = default;
 };
 
+/// A solid on the field that belongs to no robot: a wall, a goal post, a box to be pushed.
+struct ObstacleSpec {
+  /// "box"; "cylinder", upright; "sphere"; "ramp": a wedge that rises along its x from nothing to size_m[2].
+  std::string name, shape = "box";
+  std::array<double, 3> size_m{0.1, 0.1, 0.1};  ///< box, ramp: edges along x, y, z; cylinder: [2] is its height
+  double radius_m = 0.05;                       ///< cylinder, sphere
+  double mass_kg = 0;                           ///< uniformly spread; 0: it never moves
+  double friction = 0.6;                        ///< against robots, balls and each other; on the floor the smaller one
+  double restitution = 0;
+  std::array<double, 3> position_m{0, 0, 0};  ///< of its middle (ramp: of the box around it), world frame
+  std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
+  std::array<double, 3> velocity_m_s{0, 0, 0};
+  std::array<double, 3> spin_rad_s{0, 0, 0};
+  std::string colour = "#8c8c96";  ///< as it is drawn, #rrggbb
+  bool operator==(const ObstacleSpec&) const = default;
+};
+
 /// A carpet or a hard floor at z = 0. `slip` is force-dependent slip: sliding speed per tangential force [m/(s·N)],
 /// along the floor's x (slip1) and y (slip2). Stiffness and damping are those of the contact normal.
 struct FloorSpec {
@@ -80,6 +97,8 @@ struct SceneSpec {
   std::optional<FloorSpec> floor;
   std::vector<RobotSpec> robots;
   std::vector<BallSpec> balls;
+  std::vector<ObstacleSpec> obstacles;
+  bool robotsCollide = false;  ///< with each other; with obstacles and balls they always do
   std::vector<CalibratePath> calibrate;
   std::string directory;  ///< of the scene file; relative model paths start here
   bool operator==(const SceneSpec&) const = default;
@@ -90,6 +109,14 @@ struct SceneSpec {
 SceneSpec sceneFromJson(const std::string& text, const std::string& place, const std::string& directory);
 SceneSpec loadScene(const std::string& path);
 std::string toJsonText(const SceneSpec& scene);
+
+/// One of its objects as it stands in a scene file. `place` begins error messages.
+RobotSpec robotFromJson(const std::string& text, const std::string& place);
+BallSpec ballFromJson(const std::string& text, const std::string& place);
+ObstacleSpec obstacleFromJson(const std::string& text, const std::string& place);
+std::string toJsonText(const RobotSpec& robot);
+std::string toJsonText(const BallSpec& ball);
+std::string toJsonText(const ObstacleSpec& obstacle);
 
 /// The numbers that a servo entry may carry, with units and bounds.
 const std::vector<Parameter>& servoNumbers();

@@ -1,0 +1,198 @@
+// Obstacles, and robots that run into them and into each other.
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/obstacle_shape.h"
+#include "core/sim/world_impl.h"
+
+namespace btr {
+namespace {
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d poseOf(const ObstacleSpec& spec) {
+  const auto& q = spec.orientation_wxyz;
+  return Eigen::Translation3d(spec.position_m[0], spec.position_m[1], spec.position_m[2]) *
+         Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+Vector3d centreOf(const ObstacleSpec& spec) { return obstacleInertial(spec).centreOfMass_m; }
+
+}  // namespace
+
+void World::Impl::makeObstacles() {
+  for (const ObstacleSpec& spec : scene.obstacles) {
+    WorldObstacle obstacle;
+    obstacle.spec = &spec;
+    Isometry3d place = Isometry3d::Identity();
+    if (spec.mass_kg > 0) {
+      const Inertial inertial = obstacleInertial(spec);
+      place = Eigen::Translation3d(-inertial.centreOfMass_m);
+      obstacle.id = dBodyCreate(session.world());
+      dBodySetFiniteRotationMode(obstacle.id, 1);
+      const Eigen::Matrix3d& i = inertial.inertia_kg_m2;
+      dMass mass;
+      dMassSetParameters(&mass, inertial.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+      dBodySetMass(obstacle.id, &mass);
+    }
+    obstacle.solid = std::make_unique<SolidGeom>(makeCollider(obstacleShape(spec), place, -1));
+    ObstacleState state;
+    state.pose = poseOf(spec);
+    state.velocity_m_s << spec.velocity_m_s[0], spec.velocity_m_s[1], spec.velocity_m_s[2];
+    state.spin_rad_s << spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2];
+    placeObstacle(obstacle, state);
+    obstacles.push_back(std::move(obstacle));
+  }
+}
+
+void World::Impl::makeSolids() {
+  if (obstacles.empty() && !(scene.robotsCollide && robots.size() > 1)) return;
+  for (auto& robot : robots) {
+    robot.solids.resize(robot.body->bodies.size() + 1);
+    for (std::size_t b = 0; b < robot.body->bodies.size(); ++b)
+      for (const Collider& collider : robot.body->bodies[b].colliders) robot.solids[b].emplace_back(collider);
+    for (const Collider& collider : robot.body->baseColliders) robot.solids.back().emplace_back(collider);
+  }
+}
+
+// The body stands at the middle of mass, the obstacle's frame at its middle.
+void World::Impl::placeObstacle(WorldObstacle& obstacle, const ObstacleState& state) {
+  obstacle.state = state;
+  if (!obstacle.id) {
+    obstacle.state.velocity_m_s.setZero();
+    obstacle.state.spin_rad_s.setZero();
+    obstacle.solid->place(state.pose);
+    return;
+  }
+  const Vector3d centre = state.pose * centreOf(*obstacle.spec);
+  const Vector3d velocity = state.velocity_m_s + state.spin_rad_s.cross(centre - state.pose.translation());
+  dBodySetPosition(obstacle.id, centre.x(), centre.y(), centre.z());
+  const Eigen::Matrix3d& r = state.pose.linear();
+  const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0, r(1, 0), r(1, 1), r(1, 2), 0, r(2, 0), r(2, 1), r(2, 2), 0};
+  dBodySetRotation(obstacle.id, rotation);
+  dBodySetLinearVel(obstacle.id, velocity.x(), velocity.y(), velocity.z());
+  dBodySetAngularVel(obstacle.id, state.spin_rad_s.x(), state.spin_rad_s.y(), state.spin_rad_s.z());
+  readObstacle(obstacle);
+}
+
+void World::Impl::readObstacle(WorldObstacle& obstacle) {
+  const dReal* p = dBodyGetPosition(obstacle.id);
+  const dReal* r = dBodyGetRotation(obstacle.id);
+  const dReal* v = dBodyGetLinearVel(obstacle.id);
+  const dReal* w = dBodyGetAngularVel(obstacle.id);
+  ObstacleState& state = obstacle.state;
+  state.pose.linear() << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
+  const Vector3d centre = state.pose.linear() * centreOf(*obstacle.spec);
+  state.spin_rad_s << w[0], w[1], w[2];
+  state.pose.translation() = Vector3d(p[0], p[1], p[2]) - centre;
+  state.velocity_m_s = Vector3d(v[0], v[1], v[2]) - state.spin_rad_s.cross(centre);
+  Isometry3d body = state.pose;
+  body.translation() << p[0], p[1], p[2];
+  obstacle.solid->place(body);
+}
+
+// After ODE's step. Where only gravity acted the mean of both velocities is the exact parabola, as for robots.
+void World::Impl::settleObstacles(double h) {
+  for (auto& obstacle : obstacles) {
+    if (!obstacle.id) continue;
+    if (!obstacle.touched) {
+      const dReal* p = dBodyGetPosition(obstacle.id);
+      const Vector3d moved = Vector3d(p[0], p[1], p[2]) - h * h / 2 * scene.gravity_m_s2;
+      dBodySetPosition(obstacle.id, moved.x(), moved.y(), moved.z());
+    }
+    readObstacle(obstacle);
+  }
+}
+
+void World::Impl::touchObstacle(std::size_t index, double h) {
+  WorldObstacle& obstacle = obstacles[index];
+  const SolidGeom& solid = *obstacle.solid;
+  const ObstacleSpec& spec = *obstacle.spec;
+  const auto with = [&](double friction, double restitution) {
+    return ContactSurface{friction, std::max(restitution, spec.restitution)};
+  };
+  const auto speedOf = [](const ObstacleState& state, double reach) {
+    return state.velocity_m_s.norm() + reach * state.spin_rad_s.norm();
+  };
+
+  if (obstacle.id && scene.floor) {
+    ContactSurface surface = floorSurface(*scene.floor, std::max(scene.floor->restitution, spec.restitution));
+    surface.friction = std::min(surface.friction, spec.friction);
+    const double margin = contacts.margin(speedOf(obstacle.state, solid.collider().bound_m), h);
+    floorContacts({solid.collider().kind, Isometry3d::Identity(), solid.collider().size_m, solid.collider().bound_m,
+                   solid.collider().hull, -1},
+                  solid.pose(), margin, points);
+    for (const auto& point : points) obstacle.touched |= contacts.add(point, obstacle.id, nullptr, surface);
+  }
+  for (auto& ball : balls) {
+    const double speed = ball.state.velocity_m_s.norm() + speedOf(obstacle.state, solid.collider().bound_m);
+    ContactPoint point;
+    if (!sphereContact(solid.collider(), solid.pose() * solid.collider().pose.inverse(), ball.state.position_m,
+                       ball.spec->radius_m, contacts.margin(speed, h), point))
+      continue;
+    if (!contacts.add(point, ball.id, obstacle.id, with(spec.friction, ball.spec->restitution))) continue;
+    ball.touched = obstacle.touched = true;
+  }
+  for (auto& robot : robots)
+    for (std::size_t b = 0; b < robot.solids.size(); ++b) {
+      const bool base = b == robot.body->bodies.size();
+      if (base && !obstacle.id) continue;  // neither of them moves
+      for (const SolidGeom& part : robot.solids[b]) {
+        if (!solidContacts(part, solid, points)) continue;
+        for (const auto& point : points)
+          contacts.add(point, base ? nullptr : robot.body->bodies[b].id, obstacle.id, with(spec.friction, 0));
+        robot.contact[static_cast<std::size_t>(part.collider().link)] = 1;
+        robot.touches = obstacle.touched = true;
+      }
+    }
+  for (std::size_t j = 0; j < index; ++j) {
+    WorldObstacle& other = obstacles[j];
+    if (!obstacle.id && !other.id) continue;
+    const bool turned = !obstacle.id;
+    if (!(turned ? solidContacts(*other.solid, solid, points) : solidContacts(solid, *other.solid, points))) continue;
+    const ContactSurface surface = with(std::min(spec.friction, other.spec->friction), other.spec->restitution);
+    for (const auto& point : points)
+      contacts.add(point, turned ? other.id : obstacle.id, turned ? nullptr : other.id, surface);
+    obstacle.touched = other.touched = true;
+  }
+}
+
+/// Two robots: shells of smooth plastic.
+void World::Impl::meet(WorldRobot& robot, WorldRobot& other) {
+  for (std::size_t a = 0; a < robot.solids.size(); ++a)
+    for (std::size_t b = 0; b < other.solids.size(); ++b) {
+      const bool still = a == robot.body->bodies.size(), otherStill = b == other.body->bodies.size();
+      if (still && otherStill) continue;
+      if (!still && !otherStill) {
+        const RobotBody &mine = robot.body->bodies[a], &its = other.body->bodies[b];
+        const double reach = mine.reach_m + its.reach_m;
+        if ((mine.pose.translation() - its.pose.translation()).squaredNorm() > reach * reach) continue;
+      }
+      for (const SolidGeom& part : robot.solids[a])
+        for (const SolidGeom& facing : other.solids[b]) {
+          if (!(still ? solidContacts(facing, part, points) : solidContacts(part, facing, points))) continue;
+          const dBodyID mine = still ? nullptr : robot.body->bodies[a].id;
+          const dBodyID its = otherStill ? nullptr : other.body->bodies[b].id;
+          for (const auto& point : points)
+            contacts.add(point, still ? its : mine, still ? nullptr : its, {shellFriction, 0});
+          robot.contact[static_cast<std::size_t>(part.collider().link)] = 1;
+          other.contact[static_cast<std::size_t>(facing.collider().link)] = 1;
+          robot.touches = other.touches = true;
+        }
+    }
+}
+
+void World::Impl::touchSolids(double h) {
+  for (auto& obstacle : obstacles) obstacle.touched = false;
+  for (auto& robot : robots)
+    for (std::size_t b = 0; b < robot.solids.size(); ++b) {
+      const bool base = b == robot.body->bodies.size();
+      for (SolidGeom& part : robot.solids[b]) part.place(base ? robot.body->poseOf(-1) : robot.body->bodies[b].pose);
+    }
+  for (std::size_t i = 0; i < obstacles.size(); ++i) touchObstacle(i, h);
+  if (!scene.robotsCollide) return;
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) meet(robots[i], robots[j]);
+}
+
+}  // namespace btr

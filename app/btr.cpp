@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   btr::cli::addBenchCommand(app, shell);
   btr::cli::addGaitCommands(app, shell);
   btr::cli::addGridCommands(app, shell);
+  btr::cli::addLiveCommand(app, shell);
   btr::cli::warnOfNetworkFiles(app);
 
   try {

@@ -62,6 +62,7 @@ void addGapProveCommands(CLI::App& gap, Shell& shell);  ///< gap prove|tally
 void addBenchCommand(CLI::App& app, Shell& shell);      ///< bench
 void addGaitCommands(CLI::App& app, Shell& shell);      ///< gait check
 void addGridCommands(CLI::App& app, Shell& shell);      ///< grid, grid table|map|kick
+void addLiveCommand(CLI::App& app, Shell& shell);       ///< live
 
 /// One JSON document on standard output. Bytes that are no UTF-8 come out as U+FFFD.
 void printJson(const nlohmann::json& document);

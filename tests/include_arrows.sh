@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → run → gap, store, plugin → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → live, run → gap, store, plugin → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -18,6 +18,7 @@ declare -A may=(
   [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [core/live]="core/spec core/model core/sim core/plugin core/live"
   [plugins]="core/plugin"
   [ui]="core ui"
   [app]="core ui app"
@@ -43,7 +44,8 @@ declare -A public=(
     reality_report replay resting_simulator rig spec_changes spread stored_recordings"
   [run/grid]="grid grid_cells grid_kicks grid_losses grid_table"
   [model]="kinematics robot_model"
-  [sim]="scene trace trial"
+  [sim]="scene trace trial world"
+  [live]="act game session session_log"
   [gap/recordings]="channel_name doctor mapping objection recording recording_health"
   [gap/replay]="number_table residual trial_scenes"
   [gap/search]="gap_report report_words"

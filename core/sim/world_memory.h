@@ -22,7 +22,7 @@ struct JointMemory {
   double motorAhead = 0, motorRate = 0, couplingLoad = 0;
   double middleRate = 0, endRate = 0;  ///< of a robot in joint coordinates
   bool fresh = true, enabled = true;
-  std::vector<std::vector<double>> effects;  ///< states, in the order of the simulator's list
+  std::vector<std::vector<double>> effects{};  ///< states, in the order of the simulator's list
 };
 
 struct RobotMemory {
@@ -47,8 +47,8 @@ struct WorldMemory {
   double start_s = 0;  ///< time = start + steps · the scene's step
   long steps = 0;
   unsigned long odeSeed = 0;  ///< of ODE's own random numbers
-  std::vector<RobotMemory> robots;
-  std::vector<ThingMemory> balls, obstacles;
+  std::vector<RobotMemory> robots{};
+  std::vector<ThingMemory> balls{}, obstacles{};
 };
 
 }  // namespace btr

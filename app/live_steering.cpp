@@ -1,0 +1,153 @@
+#include "app/live_steering.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_commands.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr::cli {
+namespace {
+
+constexpr double rowEvery_s = 0.02;     ///< 50 pictures a second are enough for an eye
+constexpr double workAtMost_s = 0.03;   ///< then standard input is looked at again
+constexpr double behindAtMost_s = 0.2;  ///< what cannot be caught up is given up: the factor tells
+constexpr double measured_s = 0.5;      ///< the real-time factor's window
+constexpr std::size_t longestLine = 1u << 20;
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+void say(const nlohmann::json& line) {
+  std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n' << std::flush;
+}
+
+}  // namespace
+
+LiveSteering::LiveSteering(Session& session, std::function<void(const std::string&)> save)
+    : session_(session), save_(std::move(save)) {}
+
+void LiveSteering::run(const std::atomic<bool>& stop) {
+  tellGame();
+  tellRow();
+  while (!ended_ && !stop && std::cout.good()) {
+    if (!readInput(untilNext_ms())) break;
+    if (playing_) advance();
+  }
+}
+
+int LiveSteering::untilNext_ms() const {
+  if (!playing_) return 200;  // Ctrl-C is noticed
+  if (speed_ <= 0) return 0;
+  const double period = session_.game().scene.controlPeriod_s / speed_;
+  const double due = anchor_s_ + static_cast<double>(session_.periods() - anchorPeriods_ + 1) * period;
+  return std::clamp(static_cast<int>(1000 * (due - now_s())), 0, 200);
+}
+
+bool LiveSteering::readInput(int wait_ms) {
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  const int ready = poll(&input, 1, wait_ms);
+  if (ready <= 0) return ready == 0 || errno == EINTR;
+  char bytes[65536];
+  const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+  if (count <= 0) return count < 0 && errno == EINTR;
+  pending_.append(bytes, static_cast<std::size_t>(count));
+  std::size_t begin = 0;
+  for (std::size_t end; !ended_ && (end = pending_.find('\n', begin)) != std::string::npos; begin = end + 1)
+    obey(pending_.substr(begin, end - begin));
+  pending_.erase(0, begin);
+  if (pending_.size() <= longestLine) return true;
+  say({{"refused", "a line of more than a megabyte"}});
+  return false;
+}
+
+void LiveSteering::obey(const std::string& line) {
+  if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+  try {
+    JsonReader reader = JsonReader::parse(line, "line");
+    if (reader.has("act")) {
+      const auto channels = session_.world().channels();
+      session_.apply(actFromJson(line, "line"));
+      if (session_.world().channels() != channels) tellGame();
+      tellRow();
+      return;
+    }
+    const std::string wanted = reader.word("do", {"play", "pause", "step", "speed", "save", "game", "end"});
+    if (wanted == "play") playing_ = true;
+    if (wanted == "pause") playing_ = false;
+    if (wanted == "end") ended_ = true;
+    if (wanted == "game") tellGame();
+    if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
+    if (wanted == "save") {
+      const std::string path = reader.text("path");
+      save_(path);
+      say({{"saved", path}});
+    }
+    const long periods = wanted == "step" ? static_cast<long>(reader.integer("periods", 1, 10000, 1)) : 0;
+    reader.finish();
+    for (long i = 0; i < periods; ++i) session_.step();
+    anchor_s_ = measuredFrom_s_ = now_s();
+    anchorPeriods_ = measuredPeriods_ = session_.periods();
+    factor_ = 0;
+    tellRow();
+  } catch (const InputError& error) {
+    say({{"refused", error.what()}});
+  }
+}
+
+void LiveSteering::advance() {
+  const double begin = now_s(), period = session_.game().scene.controlPeriod_s;
+  const auto due = [&] {
+    if (speed_ <= 0) return session_.periods() + 1;
+    return anchorPeriods_ + static_cast<long>(std::floor((now_s() - anchor_s_) * speed_ / period));
+  };
+  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty()) session_.step();
+  const double now = now_s();
+  if (speed_ > 0 && static_cast<double>(due() - session_.periods()) * period / speed_ > behindAtMost_s) {
+    anchor_s_ = now;
+    anchorPeriods_ = session_.periods();
+  }
+  if (now - measuredFrom_s_ >= measured_s) {
+    factor_ = static_cast<double>(session_.periods() - measuredPeriods_) * period / (now - measuredFrom_s_);
+    measuredFrom_s_ = now;
+    measuredPeriods_ = session_.periods();
+  }
+  if (!session_.fault().empty()) playing_ = false;
+  if (now < nextRow_s_ && playing_) return;
+  nextRow_s_ = now + rowEvery_s;
+  tellRow();
+}
+
+void LiveSteering::tellGame() {
+  say({{"game", nlohmann::json::parse(toJsonText(session_.game()))},
+       {"directory", session_.game().scene.directory},
+       {"channels", session_.world().channels()}});
+}
+
+void LiveSteering::tellRow() {
+  std::vector<double> row;
+  session_.world().sample(row);
+  nlohmann::json line{
+      {"row", row}, {"period", session_.periods()}, {"playing", playing_}, {"real_time_factor", factor_}};
+  nlohmann::json bases = nlohmann::json::array();
+  // Obstacles that never move have no columns in a trace.
+  for (std::size_t i = 0; i < session_.game().scene.obstacles.size(); ++i) {
+    if (session_.game().scene.obstacles[i].mass_kg > 0) continue;
+    const ObstacleState& state = session_.world().obstacle(i);
+    const Eigen::Quaterniond q(state.pose.linear());
+    const Eigen::Vector3d p = state.pose.translation();
+    bases.push_back({i, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
+  }
+  line["fixed"] = std::move(bases);
+  if (!session_.fault().empty()) line["fault"] = session_.fault();
+  say(line);
+}
+
+}  // namespace btr::cli

@@ -1,0 +1,38 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "core/live/session.h"
+
+namespace btr::cli {
+
+/// A session that is steered by lines of JSON on standard input and tells what it does on standard output; see
+/// manual/formats/game.md. Ends with standard input, with {"do": "end"}, or when `stop` is raised.
+class LiveSteering {
+ public:
+  /// `save(path)` writes the game; what it throws as InputError is answered as a refusal.
+  LiveSteering(Session& session, std::function<void(const std::string& path)> save);
+  void run(const std::atomic<bool>& stop);
+
+ private:
+  bool readInput(int wait_ms);
+  void obey(const std::string& line);
+  void advance();
+  void tellGame();
+  void tellRow();
+  int untilNext_ms() const;
+
+  Session& session_;
+  std::function<void(const std::string&)> save_;
+  std::string pending_;  ///< of standard input, without its last line's end
+  bool playing_ = false, ended_ = false;
+  double speed_ = 1;        ///< simulated seconds a second; 0: as fast as possible
+  double anchor_s_ = 0;     ///< wall time …
+  long anchorPeriods_ = 0;  ///< … at which this period was due
+  double measuredFrom_s_ = 0, factor_ = 0;
+  long measuredPeriods_ = 0;
+  double nextRow_s_ = 0;
+};
+
+}  // namespace btr::cli

@@ -1,0 +1,95 @@
+#pragma once
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/live/game.h"
+#include "core/spec/scene_spec.h"
+
+namespace btr {
+
+/// Where an object is put, at rest. Of a robot: its root link's frame, and those of its joints that are named [rad, m].
+struct PlaceAct {
+  std::string object;
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
+  Values joints;
+};
+
+/// The velocity of an object from now on; of a robot: of its root frame's origin, joints at rest.
+struct ThrowAct {
+  std::string object;
+  std::array<double, 3> velocity_m_s{}, spin_rad_s{};
+};
+
+/// A new object. Its name must be free.
+struct AddAct {
+  std::variant<RobotSpec, BallSpec, ObstacleSpec> what;
+  GameRobot player;  ///< of a robot: team, controller, simulator
+};
+
+struct RemoveAct {
+  std::string object;
+};
+
+/// A hand's spring from a point of an object to a place, see Pull; one an object. A further act moves it on.
+struct PullAct {
+  std::string object, link;          ///< link: of a robot, "" its root
+  std::array<double, 3> point_m{};   ///< in the frame of the link, ball or obstacle
+  std::array<double, 3> target_m{};  ///< in the world
+  double stiffness_n_m = 100, most_n = 20;
+};
+
+struct LetGoAct {
+  std::string object;
+};
+
+/// A joint's command from now on, whatever its controller says; without a position the controller has it again.
+struct HoldAct {
+  std::string robot, joint;
+  std::optional<double> position;  ///< rad or m
+};
+
+/// One of a controller's parameters; the motion goes on from the same time.
+struct ParameterAct {
+  std::string robot, name;
+  double value = 0;
+};
+
+/// Another controller, which begins now; none: the robot holds where it is.
+struct ControllerAct {
+  std::string robot;
+  std::optional<GameController> controller;
+};
+
+/// A number of the simulator (see SimulatorSpec::values); of one robot's own simulator, or of all that have none.
+/// Without a value it is again what scene and models say.
+struct NumberAct {
+  std::string robot;  ///< "": of all
+  std::string name;
+  std::optional<double> value;
+};
+
+/// An effect of the simulator: added, or with other numbers; without numbers taken away.
+struct EffectAct {
+  std::string robot;  ///< as in NumberAct
+  PlacedEffect effect;
+  bool there = true;
+};
+
+/// The world is written down and begun anew from what was written: what is saved here goes on with the same bits.
+struct CheckpointAct {};
+
+/// Whatever reaches into a running world from outside: a hand, a slider, another program.
+using Act = std::variant<PlaceAct, ThrowAct, AddAct, RemoveAct, PullAct, LetGoAct, HoldAct, ParameterAct, ControllerAct,
+                         NumberAct, EffectAct, CheckpointAct>;
+
+/// {"act": "place", "object": "ball", "position_m": [0, 0, 0.5]} …; see manual/formats/game.md. `place` begins
+/// messages.
+Act actFromJson(const std::string& text, const std::string& place);
+nlohmann::json toJson(const Act& act);
+
+}  // namespace btr

@@ -1,0 +1,213 @@
+#include "core/live/game.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/live/memory_json.h"
+#include "core/model/load_model.h"
+#include "core/sim/collision.h"
+#include "core/sim/scene.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+
+namespace btr {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+using Positions = std::map<std::string, std::map<std::string, double>>;
+
+Positions positionsFrom(JsonReader& reader, const std::string& key) {
+  Positions positions;
+  reader.members(key, [&](const std::string& robot, JsonReader joints) {
+    for (const auto& [joint, value] : joints.node().items()) {
+      if (!value.is_number()) joints.refuse(joint, "a position in rad or m");
+      positions[robot][joint] = joints.number(joint, -1e6, 1e6);
+    }
+    joints.finish();
+  });
+  return positions;
+}
+
+GameState stateFrom(JsonReader reader) {
+  GameState state;
+  state.world = worldMemoryFromReader(reader.object("world"));
+  constexpr long most = 1'000'000'000'000;
+  state.periods = static_cast<long>(reader.integer("periods", 0, most));
+  state.clocks = reader.anyValues("clocks");
+  state.held = positionsFrom(reader, "held");
+  reader.finish();
+  return state;
+}
+
+json toJson(const GameState& state) {
+  return {
+      {"world", btr::toJson(state.world)}, {"periods", state.periods}, {"clocks", state.clocks}, {"held", state.held}};
+}
+
+/// Models of a scene file that is somewhere else than the game keep their place.
+void moveModels(SceneSpec& scene, const std::string& directory) {
+  for (RobotSpec& robot : scene.robots)
+    if (const fs::path path = robot.model; path.is_relative() && scene.directory != directory)
+      robot.model = (fs::path(scene.directory) / path).lexically_normal().string();
+  scene.directory = directory;
+}
+
+/// A field's floor, obstacles and balls.
+void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path) {
+  std::set<std::string> names;
+  for (const RobotSpec& robot : scene.robots) names.insert(robot.name);
+  for (const BallSpec& ball : scene.balls) names.insert(ball.name);
+  for (const ObstacleSpec& obstacle : scene.obstacles) names.insert(obstacle.name);
+  const auto add = [&](auto& all, const auto& more) {
+    for (const auto& each : more) {
+      if (!names.insert(each.name).second)
+        throw InputError(path, "\"" + each.name + "\"", "names that the game's scene does not have");
+      all.push_back(each);
+    }
+  };
+  add(scene.obstacles, field.obstacles);
+  add(scene.balls, field.balls);
+  if (field.floor) scene.floor = field.floor;
+}
+
+/// So that the lowest point of what collides just touches the floor, joints at zero.
+double standingHeight(const RobotModel& model) {
+  std::vector<Eigen::Isometry3d> poses(model.links.size(), Eigen::Isometry3d::Identity());
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    poses[j + 1] = poses[static_cast<std::size_t>(model.joints[j].parentLink)] * model.joints[j].origin;
+  double lowest = 0;
+  bool any = false;
+  std::vector<ContactPoint> points;
+  for (std::size_t l = 0; l < model.links.size(); ++l)
+    for (const Shape& shape : model.links[l].shapes) {
+      if (!collidesIn(model, model.links[l], shape, "primitives")) continue;
+      constexpr double anywhere = 1e6;
+      floorContacts(makeCollider(shape, Eigen::Isometry3d::Identity(), 0), poses[l], anywhere, points);
+      for (const ContactPoint& point : points) {
+        lowest = any ? std::min(lowest, point.position_m.z()) : point.position_m.z();
+        any = true;
+      }
+    }
+  return -lowest;
+}
+
+Game gameOfRobot(const std::string& path) {
+  const fs::path file(path);
+  Game game;
+  game.scene.directory = file.parent_path().string();
+  game.scene.floor = FloorSpec{};
+  game.scene.robotsCollide = true;
+  RobotSpec robot;
+  robot.name = "robot";
+  robot.model = file.filename().string();
+  game.scene.robots = {robot};
+  const ModelSet models = loadModels(game.scene);
+  const RobotModel& model = *models.begin()->second;
+  RobotSpec& placed = game.scene.robots.front();
+  placed.base = model.freeBase ? "free" : "fixed";
+  placed.position_m = {0, 0, standingHeight(model)};
+  return game;
+}
+
+}  // namespace
+
+GameController gameControllerFromReader(JsonReader& reader) {
+  GameController controller;
+  controller.plugin = reader.text("plugin");
+  controller.settings = reader.anyValues("settings");
+  controller.parameters = reader.anyValues("parameters");
+  controller.repeats = reader.flag("repeats", true);
+  reader.finish();
+  return controller;
+}
+
+json toJson(const GameController& controller) {
+  return {{"plugin", controller.plugin},
+          {"settings", controller.settings},
+          {"parameters", controller.parameters},
+          {"repeats", controller.repeats}};
+}
+
+GameRobot gameRobotFromReader(JsonReader& reader) {
+  GameRobot robot;
+  robot.team = reader.word("team", {"red", "blue", ""}, "");
+  if (auto controller = reader.objectIfAny("controller")) robot.controller = gameControllerFromReader(*controller);
+  if (auto simulator = reader.objectIfAny("simulator")) {
+    robot.simulator = simulatorFromReader(*simulator);
+    simulator->finish();
+  }
+  robot.posture = reader.flag("posture", true);
+  reader.finish();
+  return robot;
+}
+
+json toJson(const GameRobot& robot) {
+  json object{{"team", robot.team}, {"posture", robot.posture}};
+  if (robot.controller) object["controller"] = toJson(*robot.controller);
+  if (robot.simulator) object["simulator"] = simulatorToJson(*robot.simulator);
+  return object;
+}
+
+Game gameFromJson(const std::string& text, const std::string& place, const std::string& directory) {
+  JsonReader reader = JsonReader::parse(text, place);
+  reader.word("format", {"uchilsim-game-1"});
+  Game game;
+  const json* scene = reader.any("scene");
+  if (!scene) reader.refuse("scene", "a scene, or the path of a scene file");
+  if (scene->is_string()) {
+    const std::string path = (fs::path(directory) / scene->get<std::string>()).string();
+    game.scene = loadScene(path);
+    moveModels(game.scene, directory);
+  } else {
+    game.scene = sceneFromJson(scene->dump(), reader.at("scene"), directory);
+  }
+  if (reader.has("field")) {
+    const std::string path = (fs::path(directory) / reader.text("field")).string();
+    const SceneSpec field = loadScene(path);
+    if (!field.robots.empty()) throw InputError(path, "a robot", "a field: floor, obstacles and balls");
+    addField(game.scene, field, path);
+  }
+  game.seed = reader.seed("seed", game.seed);
+  if (auto simulator = reader.objectIfAny("simulator")) {
+    game.simulator = simulatorFromReader(*simulator);
+    simulator->finish();
+  }
+  reader.members("robots", [&](const std::string& name, JsonReader robot) {
+    if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& r) { return r.name == name; }))
+      reader.refuse("robots", "names of the scene's robots; it has none called \"" + name + "\"");
+    game.robots[name] = gameRobotFromReader(robot);
+  });
+  if (auto state = reader.objectIfAny("state")) game.state = stateFrom(*state);
+  if (const json* view = reader.any("view")) game.view = view->dump();
+  reader.finish();
+  return game;
+}
+
+std::string toJsonText(const Game& game) {
+  json document{{"format", "uchilsim-game-1"},
+                {"scene", json::parse(toJsonText(game.scene))},
+                {"seed", game.seed},
+                {"simulator", simulatorToJson(game.simulator)},
+                {"robots", json::object()}};
+  for (const auto& [name, robot] : game.robots) document["robots"][name] = toJson(robot);
+  if (game.state) document["state"] = toJson(*game.state);
+  if (!game.view.empty()) document["view"] = json::parse(game.view);
+  return document.dump(1) + "\n";
+}
+
+Game loadGame(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  if (ending == ".wrl" || ending == ".urdf" || ending == ".xacro") return gameOfRobot(path);
+  const std::string text = readFile(path), directory = fs::path(path).parent_path().string();
+  JsonReader reader = JsonReader::parse(text, path);
+  const std::string format = reader.word("format", {"uchilsim-game-1", "uchilsim-scene-1"});
+  if (format == "uchilsim-game-1") return gameFromJson(text, path, directory);
+  Game game;
+  game.scene = sceneFromJson(text, path, directory);
+  return game;
+}
+
+}  // namespace btr

@@ -1,0 +1,80 @@
+// From a game to the world's numbers: every robot with its own simulator, in its starting posture, at its place.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/live/session.h"
+#include "core/model/four_legs.h"
+#include "core/sim/gait.h"
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+using Eigen::Isometry3d;
+
+bool isOf(const std::string& at, const std::string& robot) { return at.starts_with(robot + "."); }
+
+/// One robot's numbers and effects as its own simulator makes them.
+void simulateAlone(Scene& scene, std::size_t index, const SceneSpec& spec, const ModelSet& models,
+                   const SimulatorSpec& simulator, const PluginHost& host) {
+  SceneSpec alone = spec;
+  alone.robots = {spec.robots[index]};
+  alone.calibrate.clear();
+  Scene own = makeScene(alone, models, simulator, host.effectFactory());
+  const std::string& name = spec.robots[index].name;
+  scene.robots[index] = std::move(own.robots.front());
+  std::erase_if(scene.effects, [&](const SceneEffect& effect) { return isOf(effect.at, name); });
+  for (SceneEffect& effect : own.effects)
+    if (isOf(effect.at, name)) scene.effects.push_back(std::move(effect));
+}
+
+bool hasFourLegs(const RobotModel& model) {
+  for (const char* leg : FourLegs::names)
+    for (const char* joint : {"_J1", "_J2", "_J3"})
+      if (model.findJoint(std::string(leg) + joint) < 0) return false;
+  return true;
+}
+
+/// The posture at the place of the scene: x, y and heading from there, height and tilt from the posture.
+void takePosture(SceneRobot& robot, const SceneRobot& arranged) {
+  const Eigen::Matrix3d& r = robot.start.linear();
+  const double heading = std::atan2(r(1, 0), r(0, 0));
+  const Eigen::Vector3d place = robot.start.translation();
+  Isometry3d posture = arranged.start;
+  posture.translation().x() = posture.translation().y() = 0;
+  robot.jointStart = arranged.jointStart;
+  robot.jointStartRate = arranged.jointStartRate;
+  robot.start =
+      Eigen::Translation3d(place.x(), place.y(), 0) * Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * posture;
+}
+
+}  // namespace
+
+Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) {
+  for (const auto& [name, player] : game.robots)
+    if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& robot) { return robot.name == name; }))
+      throw InputError("robots", name, "a robot of the game's scene");
+  // A robot that stands alone is known to its own simulator alone: numbers of others' paths are left out for all.
+  Scene scene = makeScene(game.scene, models, game.simulator, host.effectFactory());
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    const auto player = game.robots.find(game.scene.robots[i].name);
+    const GameRobot plays = player == game.robots.end() ? GameRobot{} : player->second;
+    if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
+    SceneRobot& robot = scene.robots[i];
+    if (!plays.posture || !robot.freeBase || !scene.floor) continue;
+    if (!plays.controller && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model))) continue;
+    // A controller arranges the first robot of a scene.
+    Scene posture = scene;
+    std::swap(posture.robots.front(), posture.robots[i]);
+    const std::string who = "robots " + robot.name;
+    if (plays.controller)
+      host.controller(plays.controller->plugin)->arrange(posture, plays.controller->settings);
+    else
+      arrangeStance(posture, who);
+    takePosture(robot, posture.robots.front());
+  }
+  return scene;
+}
+
+}  // namespace btr

@@ -1,0 +1,453 @@
+#include "core/live/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <utility>
+
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr long goodEvery = 12;  ///< control periods, a tenth of a second of the standard ones
+
+Vector3d vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+Isometry3d poseOf(const std::array<double, 3>& p, const std::array<double, 4>& q) {
+  return Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+template <class Specs>
+std::size_t indexOf(const Specs& specs, const std::string& name) {
+  const auto found = std::ranges::find_if(specs, [&](const auto& spec) { return spec.name == name; });
+  return static_cast<std::size_t>(found - specs.begin());
+}
+
+/// Where a name belongs.
+struct Found {
+  enum class Kind { robot, ball, obstacle } kind;
+  std::size_t index;
+};
+
+Found find(const SceneSpec& scene, const std::string& name, const std::string& place) {
+  if (const auto i = indexOf(scene.robots, name); i < scene.robots.size()) return {Found::Kind::robot, i};
+  if (const auto i = indexOf(scene.balls, name); i < scene.balls.size()) return {Found::Kind::ball, i};
+  if (const auto i = indexOf(scene.obstacles, name); i < scene.obstacles.size()) return {Found::Kind::obstacle, i};
+  throw InputError(place, "\"" + name + "\"", "a robot, ball or obstacle of this game");
+}
+
+/// The controller's parameters as a vector; throws InputError.
+std::vector<double> vectorOf(const Controller& controller, const GameController& spec, const std::string& place) {
+  return resolve(controller.genotype(), spec.parameters, place + "/parameters");
+}
+
+/// What makeScene() would say of it later: a controller that is not there, settings or parameters out of bounds.
+void check(const Game& game, const PluginHost& host) {
+  for (const auto& [name, player] : game.robots)
+    if (player.controller) {
+      const auto controller = host.controller(player.controller->plugin);
+      resolve(controller->settings(), player.controller->settings, "robots " + name + "/controller/settings");
+      vectorOf(*controller, *player.controller, "robots " + name + "/controller");
+    }
+}
+
+}  // namespace
+
+Session::Session(Game game, const PluginHost& host) : host_(host) {
+  check(game, host);
+  models_ = loadModels(game.scene);
+  Scene scene = sceneOf(game, models_, host);
+  world_ = std::make_unique<World>(scene, game.seed);
+  scene_ = std::move(scene);
+  game_ = std::move(game);
+  if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
+  std::map<std::string, double> clocks;
+  if (game_.state) {
+    for (const RobotMemory& robot : game_.state->world.robots)
+      if (const auto i = indexOf(game_.scene.robots, robot.name); i == game_.scene.robots.size())
+        throw InputError("state/world/robots", robot.name, "a robot of the game's scene");
+    try {
+      world_->remember(game_.state->world);
+    } catch (const std::logic_error& error) {
+      throw InputError("state/world/robots", error.what(), "what was saved with the same robot files");
+    }
+    periods_ = game_.state->periods;
+    clocks = game_.state->clocks;
+    held_ = game_.state->held;
+    game_.state.reset();
+  }
+  lastGood_ = world_->memory();
+  holdCommands(lastGood_);
+  for (const auto& [name, player] : game_.robots)
+    if (player.controller) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
+  hashChannels();
+}
+
+Session::~Session() = default;
+
+std::size_t Session::robotOf(const std::string& name) const {
+  const auto i = indexOf(game_.scene.robots, name);
+  if (i == game_.scene.robots.size()) throw InputError("robot", "\"" + name + "\"", "a robot of this game");
+  return i;
+}
+
+std::size_t Session::jointOf(std::size_t robot, const std::string& joint) const {
+  const RobotModel& model = scene_.robots[robot].model;
+  const int index = model.findJoint(joint);
+  if (index < 0 || model.joints[static_cast<std::size_t>(index)].type == Joint::Type::fixed)
+    throw InputError("joint", "\"" + joint + "\"", "a joint of " + game_.scene.robots[robot].name + " that moves");
+  return static_cast<std::size_t>(index);
+}
+
+Session::Player Session::playerOf(const Game& game, const Scene& scene, const std::string& robot, double clock) const {
+  const GameController& spec = *game.robots.at(robot).controller;
+  Player player;
+  player.controller = host_.controller(spec.plugin);
+  player.settings = spec.settings;
+  // A controller drives the first robot of a scene.
+  Scene mine = scene;
+  std::swap(mine.robots.front(), mine.robots.at(indexOf(game.scene.robots, robot)));
+  player.motion =
+      player.controller->begin(mine, player.settings, vectorOf(*player.controller, spec, "robots " + robot));
+  player.clock = clock;
+  return player;
+}
+
+// Inputs go on as they were; a joint that was never driven holds where it starts.
+void Session::holdCommands(const WorldMemory& memory) {
+  inputs_.clear();
+  for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
+    const SceneRobot& robot = scene_.robots[i];
+    std::vector<JointInput> inputs(robot.model.joints.size());
+    for (std::size_t j = 0; j < inputs.size(); ++j)
+      if (robot.drives[j].kind != Drive::Kind::torque && j < robot.jointStart.size())
+        inputs[j].command = robot.jointStart[j];
+    const auto was = std::ranges::find_if(memory.robots, [&](const auto& r) { return r.name == robot.name; });
+    if (was != memory.robots.end()) {
+      std::size_t moving = 0;
+      for (std::size_t j = 0; j < inputs.size(); ++j) {
+        if (robot.model.joints[j].type == Joint::Type::fixed) continue;
+        if (moving < was->joints.size() && !was->joints[moving].fresh) inputs[j].command = was->joints[moving].command;
+        ++moving;
+      }
+    }
+    inputs_.push_back(std::move(inputs));
+  }
+}
+
+void Session::hashChannels() {
+  for (const std::string& channel : world_->channels()) hash_.add(channel + "\n");
+}
+
+void Session::setPulls() {
+  std::vector<Pull> pulls;
+  for (const auto& [name, act] : pulls_) {
+    const Found found = find(game_.scene, name, "object");
+    Pull pull;
+    pull.what = found.kind == Found::Kind::robot  ? Pull::What::link
+                : found.kind == Found::Kind::ball ? Pull::What::ball
+                                                  : Pull::What::obstacle;
+    pull.object = found.index;
+    if (found.kind == Found::Kind::robot && !act.link.empty())
+      pull.link = static_cast<std::size_t>(scene_.robots[found.index].model.findLink(act.link));
+    pull.point_m = vectorOf(act.point_m);
+    pull.target_m = vectorOf(act.target_m);
+    pull.stiffness_n_m = act.stiffness_n_m;
+    pull.most_n = act.most_n;
+    pulls.push_back(pull);
+  }
+  world_->setPulls(std::move(pulls));
+}
+
+Vector3d Session::handForce_n(const std::string& object) const {
+  std::size_t i = 0;
+  for (const auto& [name, act] : pulls_) {
+    if (name == object) return world_->pullForce_n(i);
+    ++i;
+  }
+  return Vector3d::Zero();
+}
+
+void Session::step() {
+  if (!fault_.empty()) return;
+  const double half = scene_.controlPeriod_s / 2;
+  RobotReadings readings;
+  for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
+    const std::string& name = scene_.robots[i].name;
+    if (const auto found = players_.find(name); found != players_.end()) {
+      Player& player = found->second;
+      const bool over = player.clock >= player.motion->duration() - half;
+      if (over && game_.robots.at(name).controller->repeats) player = playerOf(game_, scene_, name, 0);
+      if (!over || player.clock < half) {
+        world_->read(i, readings);
+        player.motion->command(player.clock, readings, inputs_[i]);
+      }
+      player.clock += scene_.controlPeriod_s;
+    }
+    if (const auto found = held_.find(name); found != held_.end())
+      for (const auto& [joint, position] : found->second) inputs_[i][jointOf(i, joint)].command = position;
+    for (std::size_t j = 0; j < inputs_[i].size(); ++j)
+      if (!std::isfinite(inputs_[i][j].command)) {
+        fault_ = name + ": its controller gave a command for " + scene_.robots[i].model.joints[j].name +
+                 " that is no number, at " + toText(time_s()) + " s";
+        inputs_[i][j].command = 0;
+      }
+  }
+  if (fault_.empty()) {
+    world_->advance(inputs_, scene_.controlPeriod_s);
+    if (!world_->fault().empty()) fault_ = world_->fault() + " at " + toText(time_s()) + " s";
+  }
+  if (!fault_.empty()) {
+    // The last good state is kept, to be looked at and saved.
+    world_.reset();
+    world_ = std::make_unique<World>(scene_, game_.seed);
+    world_->remember(lastGood_);
+    return;
+  }
+  ++periods_;
+  row_.clear();
+  world_->sample(row_);
+  hash_.add({reinterpret_cast<const char*>(row_.data()), row_.size() * sizeof(double)});
+  if (periods_ % goodEvery == 0) lastGood_ = world_->memory();
+}
+
+void Session::apply(const Act& act) {
+  if (!fault_.empty()) throw InputError("session", fault_, "a session that goes on; open the game again");
+  std::visit([this](const auto& each) { change(each); }, act);
+  if (logged_) logged_(periods_, act);
+}
+
+void Session::rebuild(Game game, const WorldMemory& memory) {
+  check(game, host_);
+  ModelSet models = loadModels(game.scene);
+  Scene scene = sceneOf(game, models, host_);
+  std::map<std::string, Player> players;
+  for (const auto& [name, player] : game.robots)
+    if (player.controller)
+      players[name] = playerOf(game, scene, name, players_.contains(name) ? players_.at(name).clock : 0);
+  // One world a process: the old one goes first, and comes back if the new one cannot be.
+  world_.reset();
+  try {
+    world_ = std::make_unique<World>(scene, game.seed);
+    world_->remember(memory);
+    if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
+  } catch (...) {
+    world_.reset();
+    world_ = std::make_unique<World>(scene_, game_.seed);
+    world_->remember(memory);
+    setPulls();
+    throw;
+  }
+  game_ = std::move(game);
+  models_ = std::move(models);
+  scene_ = std::move(scene);
+  players_ = std::move(players);
+  holdCommands(memory);
+  setPulls();
+  lastGood_ = world_->memory();
+  hashChannels();
+}
+
+void Session::change(const CheckpointAct&) { rebuild(game_, world_->memory()); }
+
+Game Session::save() {
+  if (fault_.empty()) apply(CheckpointAct{});
+  Game saved = game_;
+  GameState state;
+  state.world = world_->memory();
+  state.periods = periods_;
+  for (const auto& [name, player] : players_) state.clocks[name] = player.clock;
+  state.held = held_;
+  saved.state = std::move(state);
+  return saved;
+}
+
+void Session::change(const PlaceAct& act) {
+  const Found found = find(game_.scene, act.object, "object");
+  const Isometry3d pose = poseOf(act.position_m, act.orientation_wxyz);
+  if (!act.joints.empty() && found.kind != Found::Kind::robot)
+    throw InputError("joints", act.object, "joints of a robot only");
+  if (found.kind == Found::Kind::ball) {
+    BallState state;
+    state.position_m = pose.translation();
+    state.time = world_->time();
+    world_->setBall(found.index, state);
+  } else if (found.kind == Found::Kind::obstacle) {
+    ObstacleState state;
+    state.pose = pose;
+    world_->setObstacle(found.index, state);
+  } else {
+    const RobotReadings now = world_->robot(found.index);
+    std::vector<double> positions = now.position;
+    for (const auto& [joint, position] : act.joints) {
+      const std::size_t j = jointOf(found.index, joint);
+      positions[j] = position;
+      if (!players_.contains(act.object)) inputs_[found.index][j].command = position;
+    }
+    world_->setRobot(found.index, pose, Vector3d::Zero(), Vector3d::Zero(), positions,
+                     std::vector<double>(positions.size(), 0));
+  }
+}
+
+void Session::change(const ThrowAct& act) {
+  const Found found = find(game_.scene, act.object, "object");
+  const Vector3d velocity = vectorOf(act.velocity_m_s), spin = vectorOf(act.spin_rad_s);
+  if (found.kind == Found::Kind::ball) {
+    BallState state = world_->ball(found.index);
+    state.velocity_m_s = velocity;
+    state.spin_rad_s = spin;
+    world_->setBall(found.index, state);
+  } else if (found.kind == Found::Kind::obstacle) {
+    if (game_.scene.obstacles[found.index].mass_kg == 0)
+      throw InputError("object", act.object, "something that moves; this obstacle has no mass");
+    world_->setObstacle(found.index, {world_->obstacle(found.index).pose, velocity, spin});
+  } else {
+    if (!scene_.robots[found.index].freeBase)
+      throw InputError("object", act.object, "something that moves; its base is fixed");
+    const RobotReadings now = world_->robot(found.index);
+    world_->setRobot(found.index, now.base, velocity, spin, now.position, std::vector<double>(now.position.size(), 0));
+  }
+}
+
+void Session::change(const AddAct& act) {
+  Game game = game_;
+  const std::string name = std::visit([](const auto& spec) { return spec.name; }, act.what);
+  const auto taken = [&](const auto& specs) { return indexOf(specs, name) < specs.size(); };
+  if (taken(game.scene.robots) || taken(game.scene.balls) || taken(game.scene.obstacles))
+    throw InputError("name", "\"" + name + "\"", "a name that no other object of this game has");
+  if (const auto* robot = std::get_if<RobotSpec>(&act.what)) {
+    game.scene.robots.push_back(*robot);
+    game.robots[name] = act.player;
+  } else if (const auto* ball = std::get_if<BallSpec>(&act.what)) {
+    game.scene.balls.push_back(*ball);
+  } else {
+    game.scene.obstacles.push_back(std::get<ObstacleSpec>(act.what));
+  }
+  rebuild(std::move(game), world_->memory());
+}
+
+void Session::change(const RemoveAct& act) {
+  const Found found = find(game_.scene, act.object, "object");
+  Game game = game_;
+  const auto at = static_cast<std::ptrdiff_t>(found.index);
+  if (found.kind == Found::Kind::robot) game.scene.robots.erase(game.scene.robots.begin() + at);
+  if (found.kind == Found::Kind::ball) game.scene.balls.erase(game.scene.balls.begin() + at);
+  if (found.kind == Found::Kind::obstacle) game.scene.obstacles.erase(game.scene.obstacles.begin() + at);
+  game.robots.erase(act.object);
+  const auto pull = pulls_.extract(act.object);
+  const auto held = held_.extract(act.object);
+  try {
+    rebuild(std::move(game), world_->memory());
+  } catch (const InputError&) {
+    // An effect, say, that acts at what should go.
+    if (pull) pulls_[act.object] = pull.mapped();
+    if (held) held_[act.object] = held.mapped();
+    setPulls();
+    throw;
+  }
+}
+
+void Session::change(const PullAct& act) {
+  const Found found = find(game_.scene, act.object, "object");
+  if (!act.link.empty() &&
+      (found.kind != Found::Kind::robot || scene_.robots[found.index].model.findLink(act.link) < 0))
+    throw InputError("link", "\"" + act.link + "\"", "a link of the robot that is pulled");
+  pulls_[act.object] = act;
+  setPulls();
+}
+
+void Session::change(const LetGoAct& act) {
+  if (pulls_.erase(act.object) == 0) throw InputError("object", "\"" + act.object + "\"", "an object that is pulled");
+  setPulls();
+}
+
+void Session::change(const HoldAct& act) {
+  const std::size_t robot = robotOf(act.robot), joint = jointOf(robot, act.joint);
+  if (act.position) {
+    held_[act.robot][act.joint] = *act.position;
+    return;
+  }
+  if (!held_.contains(act.robot) || held_[act.robot].erase(act.joint) == 0)
+    throw InputError("joint", act.robot + "." + act.joint, "a joint that is held");
+  if (held_[act.robot].empty()) held_.erase(act.robot);
+  if (!players_.contains(act.robot)) inputs_[robot][joint].command = world_->robot(robot).position[joint];
+}
+
+void Session::change(const ParameterAct& act) {
+  robotOf(act.robot);
+  const auto player = players_.find(act.robot);
+  if (player == players_.end()) throw InputError("robot", act.robot, "a robot that has a controller");
+  const std::vector<Parameter> genotype = player->second.controller->genotype();
+  const auto declared = std::ranges::find_if(genotype, [&](const Parameter& p) { return p.name == act.name; });
+  if (declared == genotype.end())
+    throw InputError("name", "\"" + act.name + "\"",
+                     "a parameter of the controller " + game_.robots[act.robot].controller->plugin);
+  btr::check(*declared, act.value, "value");
+  game_.robots[act.robot].controller->parameters[act.name] = act.value;
+  player->second = playerOf(game_, scene_, act.robot, player->second.clock);
+}
+
+void Session::change(const ControllerAct& act) {
+  const std::size_t robot = robotOf(act.robot);
+  Game game = game_;
+  game.robots[act.robot].controller = act.controller;
+  check(game, host_);
+  if (act.controller) {
+    Player player = playerOf(game, scene_, act.robot, 0);
+    game_ = std::move(game);
+    players_[act.robot] = std::move(player);
+    return;
+  }
+  game_ = std::move(game);
+  players_.erase(act.robot);
+  const RobotReadings now = world_->robot(robot);
+  for (std::size_t j = 0; j < inputs_[robot].size(); ++j)
+    inputs_[robot][j].command = scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j];
+}
+
+void Session::change(const NumberAct& act) {
+  Game game = game_;
+  if (!act.robot.empty()) {
+    robotOf(act.robot);
+    GameRobot& player = game.robots[act.robot];
+    if (!player.simulator) player.simulator = game.simulator;
+  }
+  SimulatorSpec& simulator = act.robot.empty() ? game.simulator : *game.robots[act.robot].simulator;
+  if (act.value)
+    simulator.values[act.name] = *act.value;
+  else if (simulator.values.erase(act.name) == 0)
+    throw InputError("name", "\"" + act.name + "\"", "a number that was changed");
+  rebuild(std::move(game), world_->memory());
+}
+
+void Session::change(const EffectAct& act) {
+  Game game = game_;
+  if (!act.robot.empty()) {
+    robotOf(act.robot);
+    GameRobot& player = game.robots[act.robot];
+    if (!player.simulator) player.simulator = game.simulator;
+  }
+  SimulatorSpec& simulator = act.robot.empty() ? game.simulator : *game.robots[act.robot].simulator;
+  const auto same = [&](const PlacedEffect& each) {
+    return each.effect == act.effect.effect && each.at == act.effect.at;
+  };
+  const auto found = std::ranges::find_if(simulator.effects, same);
+  if (act.there) {
+    if (found != simulator.effects.end())
+      found->parameters = act.effect.parameters;
+    else
+      simulator.effects.push_back(act.effect);
+  } else if (found == simulator.effects.end()) {
+    throw InputError("effect", act.effect.text(), "an effect that is there");
+  } else {
+    simulator.effects.erase(found);
+  }
+  rebuild(std::move(game), world_->memory());
+}
+
+}  // namespace btr

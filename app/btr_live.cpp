@@ -1,6 +1,7 @@
 // btr live: a running world without a window.
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -90,7 +91,9 @@ class LiveRun {
   }
 
  private:
-  void save(const std::string& path) { writeFile(path, toJsonText(session_.save())); }
+  void save(const std::string& path) {
+    writeFile(path, toJsonText(movedTo(session_.save(), std::filesystem::path(path).parent_path().string())));
+  }
 
   void act() {
     if (!replayed_) return;

@@ -198,6 +198,16 @@ std::string toJsonText(const Game& game) {
   return document.dump(1) + "\n";
 }
 
+Game movedTo(Game game, const std::string& directory) {
+  const fs::path from = fs::absolute(game.scene.directory.empty() ? "." : game.scene.directory);
+  const fs::path to = fs::absolute(directory.empty() ? "." : directory);
+  for (RobotSpec& robot : game.scene.robots)
+    if (const fs::path path = robot.model; path.is_relative())
+      robot.model = (from / path).lexically_normal().lexically_relative(to.lexically_normal()).string();
+  game.scene.directory = directory;
+  return game;
+}
+
 Game loadGame(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   if (ending == ".wrl" || ending == ".urdf" || ending == ".xacro") return gameOfRobot(path);

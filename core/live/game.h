@@ -54,6 +54,9 @@ struct Game {
 Game gameFromJson(const std::string& text, const std::string& place, const std::string& directory);
 std::string toJsonText(const Game& game);
 
+/// The same game for a file in another folder: paths of models that are relative stay relative, from there.
+Game movedTo(Game game, const std::string& directory);
+
 /// Opens a game, a scene, or a robot file (*.wrl, *.urdf), which then stands alone on a floor.
 Game loadGame(const std::string& path);
 

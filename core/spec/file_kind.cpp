@@ -39,6 +39,7 @@ bool looksLikeTable(const std::string& text) {
 FileKind kindOfFormat(const std::string& format) {
   if (format.starts_with("uchilsim-experiment-")) return FileKind::experiment;
   if (format.starts_with("uchilsim-scene-")) return FileKind::scene;
+  if (format.starts_with("uchilsim-game-")) return FileKind::game;
   if (format.starts_with("uchilsim-simulator-")) return FileKind::simulator;
   if (format == "uchilsim-grid-1") return FileKind::grid;
   return FileKind::otherFormat;
@@ -56,6 +57,8 @@ std::string inWords(FileKind kind) {
       return "an SQLite database";
     case FileKind::experiment:
       return "an experiment";
+    case FileKind::game:
+      return "a game";
     case FileKind::scene:
       return "a scene";
     case FileKind::simulator:
@@ -84,6 +87,8 @@ std::string expectedInWords(FileKind kind) {
   switch (kind) {
     case FileKind::experiment:
       return "an experiment (JSON with \"format\": \"uchilsim-experiment-1\")";
+    case FileKind::game:
+      return "a game (JSON with \"format\": \"uchilsim-game-1\")";
     case FileKind::scene:
       return "a scene (JSON with \"format\": \"uchilsim-scene-1\")";
     case FileKind::robot:

@@ -11,6 +11,7 @@ enum class FileKind {
   database,
   experiment,
   scene,
+  game,
   simulator,
   grid,
   mapping,

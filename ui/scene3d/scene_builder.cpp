@@ -158,6 +158,7 @@ struct SceneBuilder::Impl {
   std::vector<std::shared_ptr<const RobotModel>> furtherModels;
   std::vector<Figure> further;
   std::string jacket = "red";
+  std::vector<std::string> furtherJackets;
   Ground groundKind = Ground::field;
   bool collisionShapes = false, dark = false;
 
@@ -176,7 +177,10 @@ struct SceneBuilder::Impl {
   }
   void showJacket() {
     figure->showJacket(jacket);
-    for (Figure& other : further) other.showJacket(jacket);
+    for (std::size_t i = 0; i < further.size(); ++i) {
+      const bool own = i < furtherJackets.size() && !furtherJackets[i].empty();
+      further[i].showJacket(own ? furtherJackets[i] : jacket);
+    }
   }
 };
 
@@ -298,6 +302,11 @@ void SceneBuilder::setJacket(const std::string& part) {
   impl_->jacket = part;
   impl_->showJacket();
   impl_->rebuildGhosts();
+}
+
+void SceneBuilder::setFurtherJackets(std::vector<std::string> parts) {
+  impl_->furtherJackets = std::move(parts);
+  impl_->showJacket();
 }
 
 void SceneBuilder::setWireframe(bool on) {

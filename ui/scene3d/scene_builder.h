@@ -48,6 +48,8 @@ class SceneBuilder {
   void setGround(Ground ground);
   /// Shapes of a part with this word are drawn, those of the other jacket are not: "red" or "blue".
   void setJacket(const std::string& part);
+  /// Jackets of the further robots, for each its own; "" or none: the first robot's.
+  void setFurtherJackets(std::vector<std::string> parts);
   void setWireframe(bool on);
   /// Outlines of the shapes that collide.
   void setCollisionShapes(bool on);

@@ -80,6 +80,11 @@ void SceneView::setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> 
   redraw();
 }
 
+void SceneView::setFurtherJackets(std::vector<std::string> parts) {
+  scene_.setFurtherJackets(std::move(parts));
+  redraw();
+}
+
 void SceneView::setBalls(std::vector<double> radii_m) {
   scene_.setBalls(std::move(radii_m));
   redraw();

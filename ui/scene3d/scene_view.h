@@ -28,6 +28,7 @@ class SceneView : public QWidget {
 
   void setRobot(std::shared_ptr<const RobotModel> model);
   void setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models);
+  void setFurtherJackets(std::vector<std::string> parts);
   void setBalls(std::vector<double> radii_m);
   void setPose(const ScenePose& pose);
   void setGhosts(std::vector<Ghost> ghosts);

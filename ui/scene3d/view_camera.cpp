@@ -40,6 +40,14 @@ std::optional<QPointF> ViewCamera::project(const Eigen::Vector3d& point, QSize s
   return QPointF(size.width() / 2.0 + scale * p.x(), size.height() / 2.0 - scale * p.y());
 }
 
+Eigen::Vector3d ViewCamera::ray(QPointF pixel, QSize size) const {
+  const double scale = 2 * std::tan(fieldOfView / 2) / std::max(1, size.height());
+  const Eigen::Matrix3d frame = axes(*this);
+  return (scale * (pixel.x() - size.width() / 2.0) * frame.col(0) -
+          scale * (pixel.y() - size.height() / 2.0) * frame.col(1) - frame.col(2))
+      .normalized();
+}
+
 double ViewCamera::metresPerPixel(int height) const {
   return 2 * distance * std::tan(fieldOfView / 2) / std::max(1, height);
 }

@@ -22,6 +22,8 @@ struct ViewCamera {
   double farPlane() const;
   /// Pixel of a point in the world, from the picture's upper left corner; nothing if it lies behind the eye.
   std::optional<QPointF> project(const Eigen::Vector3d& point, QSize size) const;
+  /// Direction from the eye through a pixel, unit length, world.
+  Eigen::Vector3d ray(QPointF pixel, QSize size) const;
   /// Metres that one pixel spans at the focus.
   double metresPerPixel(int height) const;
 

@@ -47,6 +47,9 @@ void FileDrops::open(const QStringList& paths) {
       case FileKind::experiment:
         emit experimentGiven(path);
         break;
+      case FileKind::game:
+        emit gameGiven(path);
+        break;
       case FileKind::scene:
         emit sceneGiven(path);
         break;
@@ -65,7 +68,7 @@ void FileDrops::open(const QStringList& paths) {
   }
   if (!recordings.isEmpty()) emit recordingsGiven(recordings);
   if (!unknown.isEmpty())
-    emit refused(tr("%1; the window opens databases, experiments, scenes, robot models, recordings (CSV) and the "
+    emit refused(tr("%1; the window opens databases, experiments, scenes, games, robot models, recordings (CSV) and the "
                     "folders of gap reports.")
                      .arg(unknown.join("; ")));
 }

@@ -17,6 +17,7 @@ class FileDrops : public QObject {
   void databaseGiven(const QString& file);
   void experimentGiven(const QString& file);
   void sceneGiven(const QString& file);
+  void gameGiven(const QString& file);
   void robotGiven(const QString& file);
   void recordingsGiven(const QStringList& files);
   void reportGiven(const QString& folder);

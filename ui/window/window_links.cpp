@@ -11,6 +11,7 @@
 #include "ui/experiment/simulators_page.h"
 #include "ui/gap/analysis_setup.h"
 #include "ui/gap/gap_page.h"
+#include "ui/live/live_page.h"
 #include "ui/main_window.h"
 #include "ui/window/dock_layout.h"
 #include "ui/window/file_drops.h"
@@ -95,6 +96,7 @@ void linkDrops(const WindowLinks& to) {
   // Of the page that is open: an analysis, or else the experiment in the form.
   QObject::connect(drops, &FileDrops::sceneGiven, &window, [to](const QString& file) {
     if (to.layout.page() == "analysis") return to.pages.gapPage->setup().setScene(file);
+    if (to.layout.page() == "live") return to.pages.livePage->open(file);
     to.pages.draft->chooseScene(file);
     emit to.bench.dockWanted("draft");
   });
@@ -105,7 +107,14 @@ void linkDrops(const WindowLinks& to) {
   QObject::connect(drops, &FileDrops::reportGiven, &window, &MainWindow::openReport);
   QObject::connect(drops, &FileDrops::refused, &to.bench, &Workbench::report);
   RunLauncher& launcher = to.bench.launcher();
-  QObject::connect(drops, &FileDrops::robotGiven, &launcher, &RunLauncher::checkModel);
+  QObject::connect(drops, &FileDrops::robotGiven, &window, [to, &launcher](const QString& file) {
+    if (to.layout.page() == "live") return to.pages.livePage->open(file);
+    launcher.checkModel(file);
+  });
+  QObject::connect(drops, &FileDrops::gameGiven, &window, [to](const QString& file) {
+    to.window.showPage("live");
+    to.pages.livePage->open(file);
+  });
   QObject::connect(&launcher, &RunLauncher::modelChecked, &window, [&window](const QString& file, const QString& text) {
     auto* box = new QMessageBox(QMessageBox::Information, MainWindow::tr("Robot model"),
                                 MainWindow::tr("%1 is a robot model. A scene names it under “robots”.").arg(file),

@@ -204,6 +204,8 @@ void Menus::makeView() {
           tr("Recordings against simulation: what physics is missing (F8)"));
   addPage("showGridPage", "grid", "view-grid", tr("The &whole kick"), Qt::Key_F9,
           tr("Grids of experiments: cells, and the kicks between them (F9)"));
+  addPage("showLivePage", "live", "applications-games", tr("Sce&ne"), Qt::Key_F10,
+          tr("A world that runs: place, push, tune (F10)"));
   add(view_, "resetLayout", "view-restore", tr("&Reset layout"), {}, places_.resetLayout);
   QAction* full = add(view_, "fullScreen", "view-fullscreen", tr("&Full screen"), QKeySequence::FullScreen,
                       [this] { to_.window.setWindowState(to_.window.windowState() ^ Qt::WindowFullScreen); });

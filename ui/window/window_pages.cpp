@@ -1,7 +1,9 @@
 #include "ui/window/window_pages.h"
 
 #include <QDockWidget>
+#include <QFileInfo>
 #include <QMainWindow>
+#include <QStandardPaths>
 #include <QTableView>
 
 #include "core/plugin/plugin_host.h"
@@ -15,6 +17,7 @@
 #include "ui/experiment/simulators_page.h"
 #include "ui/gap/gap_page.h"
 #include "ui/grid/grid_page.h"
+#include "ui/live/live_page.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/policy_page.h"
@@ -51,6 +54,11 @@ WindowPages makePages(QMainWindow& window, DockLayout& layout, const PluginHost&
   dock("compare", tr("Compare runs"), "office-chart-line", p.comparePage, new ComparePage(&window));
   p.gridPage = new GridPage(program, &window);
   layout.addPage("grid", tr("The whole kick"), "view-grid", p.gridPage, {"tree", "replay"});
+  // Beside the settings that are used, so that tests leave nothing in the user's folders.
+  const QString data = settingsFile.isEmpty() ? QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)
+                                              : QFileInfo(settingsFile).absolutePath();
+  p.livePage = new LivePage(host, program, data + "/sessions", &window);
+  layout.addPage("live", tr("Scene"), "applications-games", p.livePage, {"tree"});
   dock("spec", tr("Settings of the run"), "document-properties", p.spec, new ExperimentForm(offers, &window));
   p.spec->setObjectName("spec");
   p.spec->setReadOnly(tr("A stored run never changes."));

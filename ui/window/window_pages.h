@@ -17,6 +17,7 @@ class GapChart;
 class GapPage;
 class GridPage;
 class IndividualsTable;
+class LivePage;
 class MeasurementSheet;
 class PolicyPage;
 class ReplayPanel;
@@ -38,6 +39,7 @@ struct WindowPages {
   ReplayPanel* replay = nullptr;
   GapPage* gapPage = nullptr;
   GridPage* gridPage = nullptr;
+  LivePage* livePage = nullptr;
   ComparePage* comparePage = nullptr;
   StartPage* start = nullptr;
   Alarm* alarm = nullptr;

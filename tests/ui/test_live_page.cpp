@@ -1,0 +1,218 @@
+// The page of a running world, through its widgets and with the real program: what hands did plays again bit for bit.
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QListWidget>
+#include <QMenu>
+#include <QProcess>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+#include <nlohmann/json.hpp>
+
+#include "core/plugin/plugin_host.h"
+#include "core/spec/json_reader.h"
+#include "ui/common/message_banner.h"
+#include "ui/experiment/parameter_field.h"
+#include "ui/experiment/parameter_form.h"
+#include "ui/live/live_page.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+const PluginHost& plugins() {
+  static const PluginHost host(PLUGIN_DIR);
+  return host;
+}
+
+/// A page with a small game: a walking dog, a ball, a crate.
+struct OpenPage {
+  QTemporaryDir folder;
+  LivePage page{plugins(), BTR_PROGRAM, folder.path() + "/sessions"};
+  QString file = folder.filePath("game.json");
+
+  OpenPage() {
+    nlohmann::json game = {
+        {"format", "uchilsim-game-1"},
+        {"scene",
+         {{"format", "uchilsim-scene-1"},
+          {"step_s", 0.008},
+          {"control_period_s", 0.008},
+          {"floor", {{"friction", 1}}},
+          {"robots",
+           {{{"name", "dog"}, {"model", SOURCE_DIR "/resources/robots/ers7.wrl"}, {"position_m", {-0.6, 0, 0}}}}},
+          {"balls", {{{"name", "ball"}, {"position_m", {0.1, 0, 0.0425}}, {"rolling_deceleration_m_s2", 0.4}}}},
+          {"obstacles", {{{"name", "crate"}, {"mass_kg", 0.2}, {"position_m", {0.1, 0.35, 0.05}}}}}}},
+        {"robots", {{"dog", {{"team", "blue"}, {"controller", {{"plugin", "walk"}}}}}}}};
+    writeFile(file.toStdString(), game.dump());
+    page.resize(1100, 700);
+    page.show();
+    page.open(file);
+  }
+
+  bool isThere() {
+    return QTest::qWaitFor([this] { return !page.row().values.empty(); }, 20000);
+  }
+  QAction* action(const char* name) { return page.findChild<QAction*>(name); }
+  QListWidget* list() { return page.findChild<QListWidget*>("liveObjects"); }
+  std::size_t indexOf(const std::string& name) {
+    for (int i = 0; i < list()->count(); ++i)
+      if (list()->item(i)->text().toStdString() == name) return std::size_t(i);
+    return 999;
+  }
+};
+
+QAction* entry(QMenu* menu, const QString& text) {
+  for (QAction* action : menu->actions())
+    if (action->text() == text) return action;
+  return nullptr;
+}
+
+}  // namespace
+
+class TestLivePage : public QObject {
+  Q_OBJECT
+ private slots:
+  void playsStepsAndWaits() {
+    OpenPage open;
+    QVERIFY2(open.isThere(), qPrintable(open.page.findChild<MessageBanner*>()->text()));
+    QCOMPARE(open.page.row().period, 0L);
+    QVERIFY(!open.page.row().playing);
+    QCOMPARE(open.list()->count(), 3);
+    open.action("liveStep")->trigger();
+    QTRY_COMPARE(open.page.row().period, 1L);
+    QTest::keyClick(&open.page.view(), Qt::Key_Period);
+    QTRY_COMPARE(open.page.row().period, 2L);
+    QTest::keyClick(&open.page.view(), Qt::Key_Space);
+    QTRY_VERIFY(open.page.row().playing);
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.row().period > 60, 20000);
+    QTest::keyClick(&open.page.view(), Qt::Key_Space);
+    QTRY_VERIFY(!open.page.row().playing);
+    const long at = open.page.row().period;
+    open.action("liveReset")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!open.page.row().values.empty() && open.page.row().period == 0, 20000);
+    QVERIFY(at > 60);
+  }
+
+  void whatIsUnderTheMouseIsPickedAndLed() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    LiveView& view = open.page.view();
+    const auto pixel = [&](double x, double y, double z) {
+      const auto at = view.camera().project({x, y, z}, view.size());
+      return at ? at->toPoint() : QPoint(-1, -1);
+    };
+    const QPoint ball = pixel(0.1, 0, 0.0425);
+    QVERIFY(view.rect().contains(ball));
+    QTest::mouseClick(&view, Qt::LeftButton, {}, ball);
+    QCOMPARE(view.selected(), std::string("ball"));
+    QCOMPARE(open.list()->currentItem()->text(), QString("ball"));
+    // Led while the world waits: it is put there.
+    const QPoint there = pixel(0.1, -0.2, 0.0425);
+    QTest::mousePress(&view, Qt::LeftButton, {}, ball);
+    QTest::mouseMove(&view, there);
+    QTest::mouseRelease(&view, Qt::LeftButton, {}, there);
+    QTRY_VERIFY(std::abs(open.page.findChildren<QDoubleSpinBox*>()[1]->value() + 0.2) < 0.02);
+    // Where nothing is the view turns.
+    const double azimuth = view.camera().azimuth;
+    QTest::mousePress(&view, Qt::LeftButton, {}, QPoint(5, 5));
+    QTest::mouseMove(&view, QPoint(60, 5));
+    QTest::mouseRelease(&view, Qt::LeftButton, {}, QPoint(60, 5));
+    QVERIFY(view.camera().azimuth != azimuth);
+  }
+
+  void whatHandsDidPlaysAgainBitForBit() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    LivePage& page = open.page;
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(page.row().period > 10, 20000);
+
+    open.list()->setCurrentRow(1);  // the ball
+    QCOMPARE(page.view().selected(), std::string("ball"));
+    page.findChild<QPushButton*>("liveThrow")->click();
+    QMenu* things = open.action("liveAdd")->menu();
+    entry(things, "Box that can be pushed")->trigger();
+    QTRY_COMPARE(open.list()->count(), 4);
+    QTRY_COMPARE(page.view().selected(), std::string("box"));
+    emit page.view().ledTo("box", {0.2, 0.2, 0.3});
+    QTest::qWait(50);
+    emit page.view().letGo("box");
+
+    open.list()->setCurrentRow(0);  // the dog
+    auto* form = page.findChild<ParameterForm*>();
+    QVERIFY(form);
+    Values values = form->values();
+    values["length_m"] = 0.05;
+    emit form->changed(values);
+    const long tuned = page.row().period;
+    QTRY_VERIFY_WITH_TIMEOUT(page.row().period > tuned + 20, 20000);
+    auto* controller = page.findChild<QComboBox*>("liveController");
+    controller->setCurrentIndex(0);
+    emit controller->activated(0);
+    open.list()->setCurrentRow(int(open.indexOf("crate")));
+    open.action("liveRemove")->trigger();
+    QTRY_COMPARE(open.list()->count(), 3);
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY(!page.row().playing);
+    const QString saved = open.folder.filePath("later/game.json");
+    QDir().mkpath(QFileInfo(saved).path());
+    QSignalSpy done(&page.process(), &LiveProcess::saved);
+    page.process().save(saved);
+    QTRY_COMPARE(done.count(), 1);
+    page.process().end();
+    QCOMPARE(page.findChild<MessageBanner*>()->text().section(':', 0, 0), QString("Saved"));
+
+    QProcess again;
+    again.start(BTR_PROGRAM, {"--json", "live", open.file, "--replay", page.log()});
+    QVERIFY(again.waitForFinished(60000));
+    const nlohmann::json result = nlohmann::json::parse(again.readAllStandardOutput().toStdString());
+    QVERIFY2(result.value("identical", false), result.dump().c_str());
+    const std::string log = readFile(page.log().toStdString());
+    for (const char* act : {"throw", "add", "pull", "let_go", "parameter", "controller", "remove", "checkpoint"})
+      QVERIFY2(log.find("\"act\":\"" + std::string(act) + "\"") != std::string::npos, act);
+    // What was saved opens again, and goes on.
+    QProcess later;
+    later.start(BTR_PROGRAM, {"--json", "live", saved, "--seconds", "0.5"});
+    QVERIFY(later.waitForFinished(60000));
+    QCOMPARE(later.exitCode(), 0);
+  }
+
+  void whatCannotBeOpenedIsSaidInOneSentence() {
+    QTemporaryDir folder;
+    LivePage page(plugins(), BTR_PROGRAM, {});
+    auto* banner = page.findChild<MessageBanner*>();
+    for (const auto& [content, why] : {std::pair{"{", "broken.json"},
+                                       {R"({"format": "uchilsim-game-1"})", "a scene, or the path of a scene file"},
+                                       {R"({"format": "uchilsim-grid-1"})", "uchilsim-game-1"}}) {
+      const QString file = folder.filePath("broken.json");
+      writeFile(file.toStdString(), content);
+      banner->clear();
+      page.open(file);
+      QTRY_VERIFY_WITH_TIMEOUT(banner->text().contains(why), 10000);
+      QVERIFY(!page.findChild<QAction*>("livePlay")->isEnabled());
+    }
+    LivePage lost(plugins(), folder.filePath("no-such-program"), {});
+    lost.open(folder.filePath("broken.json"));
+    QTRY_VERIFY(lost.findChild<MessageBanner*>()->text().contains("cannot be started"));
+  }
+
+  void aWorldThatStopsIsShownAsItWas() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.page.process().act(ThrowAct{"ball", {49, 0, 0}, {0, 0, 0}});
+    open.page.process().setSpeed(0);
+    open.page.process().play(true);
+    QTRY_VERIFY_WITH_TIMEOUT(!open.page.row().fault.isEmpty(), 20000);
+    QVERIFY(open.page.findChild<MessageBanner*>()->text().contains("The world stopped"));
+    QVERIFY(!open.action("livePlay")->isEnabled());
+    open.action("liveReset")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(open.action("livePlay")->isEnabled() && open.page.row().fault.isEmpty(), 20000);
+  }
+};
+
+QTEST_MAIN(TestLivePage)
+#include "test_live_page.moc"

@@ -1,0 +1,100 @@
+#include "ui/live/live_scene.h"
+
+#include <algorithm>
+
+#include "core/model/kinematics.h"
+#include "core/sim/obstacle_shape.h"
+
+namespace btr::ui {
+namespace {
+
+using Eigen::Isometry3d;
+
+std::shared_ptr<const RobotModel> modelOf(const ObstacleSpec& spec) {
+  auto model = std::make_shared<RobotModel>();
+  model->name = spec.name;
+  Link link;
+  link.name = spec.name;
+  link.shapes = {obstacleShape(spec)};
+  model->links = {link};
+  return model;
+}
+
+double radiusOf(const ObstacleSpec& spec) {
+  if (spec.shape == "sphere") return spec.radius_m;
+  const double across = spec.shape == "cylinder" ? spec.radius_m : std::max(spec.size_m[0], spec.size_m[1]) / 2;
+  return std::max(0.03, std::min(across, spec.size_m[2] / 2 + across / 2));
+}
+
+}  // namespace
+
+LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector<std::string>& channels) {
+  const auto column = [&](const std::string& name) {
+    const auto found = std::ranges::find(channels, name);
+    return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+  };
+  for (const RobotSpec& robot : game.scene.robots) {
+    const auto& model = models.at(robot.model);
+    numbers_.push_back(robots_.size());
+    Columns columns{column(robot.name + ".base.x_m"), {}};
+    for (const Joint& joint : model->joints) {
+      const int angle = column(robot.name + "." + joint.name + ".position_rad");
+      columns.joints.push_back(angle >= 0 ? angle : column(robot.name + "." + joint.name + ".position_m"));
+    }
+    robots_.push_back(std::move(columns));
+    models_.push_back(model);
+    const auto player = game.robots.find(robot.name);
+    jackets_.push_back(player == game.robots.end() || player->second.team.empty() ? "red" : player->second.team);
+    constexpr double dog_m = 0.13;
+    objects_.push_back({robot.name, LiveObject::Kind::robot, dog_m, robot.base == "free"});
+  }
+  for (const BallSpec& ball : game.scene.balls) {
+    numbers_.push_back(balls_.size());
+    balls_.push_back(column(ball.name + ".x_m"));
+    radii_.push_back(ball.radius_m);
+    objects_.push_back({ball.name, LiveObject::Kind::ball, ball.radius_m, true});
+  }
+  for (const ObstacleSpec& obstacle : game.scene.obstacles) {
+    numbers_.push_back(obstacles_.size());
+    obstacles_.push_back(column(obstacle.name + ".x_m"));
+    models_.push_back(modelOf(obstacle));
+    jackets_.emplace_back("red");
+    objects_.push_back({obstacle.name, LiveObject::Kind::obstacle, radiusOf(obstacle), obstacle.mass_kg > 0});
+  }
+}
+
+Isometry3d LiveScene::read(const LiveRow& row, int column) const {
+  const auto at = [&](int i) { return row.values[static_cast<std::size_t>(column + i)]; };
+  if (column < 0 || static_cast<std::size_t>(column) + 7 > row.values.size()) return Isometry3d::Identity();
+  return Eigen::Translation3d(at(0), at(1), at(2)) * Eigen::Quaterniond(at(3), at(4), at(5), at(6)).normalized();
+}
+
+Isometry3d LiveScene::poseOf(std::size_t object, const LiveRow& row) const {
+  const std::size_t number = numbers_[object];
+  if (objects_[object].kind == LiveObject::Kind::robot) return read(row, robots_[number].pose);
+  if (objects_[object].kind == LiveObject::Kind::ball) return read(row, balls_[number]);
+  if (obstacles_[number] >= 0) return read(row, obstacles_[number]);
+  for (const auto& [index, pose] : row.fixed)
+    if (index == number) return pose;
+  return Isometry3d::Identity();
+}
+
+ScenePose LiveScene::pose(const LiveRow& row) const {
+  ScenePose pose;
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    const Isometry3d own = poseOf(i, row);
+    if (objects_[i].kind == LiveObject::Kind::ball) {
+      pose.balls.push_back(own);
+    } else if (objects_[i].kind == LiveObject::Kind::obstacle) {
+      pose.others.push_back({own});
+    } else {
+      std::vector<double> joints;
+      for (const int column : robots_[numbers_[i]].joints)
+        joints.push_back(column < 0 ? 0 : row.values.at(static_cast<std::size_t>(column)));
+      pose.others.push_back(forwardKinematics(*models_[numbers_[i]], own, joints));
+    }
+  }
+  return pose;
+}
+
+}  // namespace btr::ui

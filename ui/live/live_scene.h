@@ -1,0 +1,65 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/live/game.h"
+#include "core/sim/scene.h"
+#include "ui/scene3d/scene_builder.h"
+
+namespace btr::ui {
+
+/// What a running session tells of one moment.
+struct LiveRow {
+  std::vector<double> values;  ///< by channel
+  long period = 0;
+  bool playing = false;
+  double realTimeFactor = 0;
+  std::vector<std::pair<std::size_t, Eigen::Isometry3d>> fixed;  ///< obstacles that never move: number and pose
+  QString fault;
+};
+
+/// An object of a game, as it is picked, moved and listed.
+struct LiveObject {
+  enum class Kind { robot, ball, obstacle };
+  std::string name;
+  Kind kind = Kind::robot;
+  double radius_m = 0.05;  ///< of a sphere about its place that holds most of it
+  bool moves = true;
+};
+
+/// A game's objects as the 3D view draws them, and the columns of its rows. Robots come first, then obstacles, as
+/// further robots of the view; the view's own robot is none.
+class LiveScene {
+ public:
+  LiveScene() = default;
+  LiveScene(const Game& game, const ModelSet& models, const std::vector<std::string>& channels);
+
+  const std::vector<LiveObject>& objects() const { return objects_; }
+  const std::vector<std::shared_ptr<const RobotModel>>& models() const { return models_; }
+  const std::vector<std::string>& jackets() const { return jackets_; }  ///< of each of the models
+  const std::vector<double>& radii() const { return radii_; }
+
+  ScenePose pose(const LiveRow& row) const;
+  /// Of an object's own frame; a robot's is its root link's.
+  Eigen::Isometry3d poseOf(std::size_t object, const LiveRow& row) const;
+  /// Time of the row [s].
+  double time_s(const LiveRow& row) const { return row.values.empty() ? 0 : row.values[0]; }
+
+ private:
+  struct Columns {
+    int pose = -1;  ///< the first of x, y, z, qw, qx, qy, qz
+    std::vector<int> joints;
+  };
+  Eigen::Isometry3d read(const LiveRow& row, int column) const;
+
+  std::vector<LiveObject> objects_;
+  std::vector<std::size_t> numbers_;  ///< among those of its kind, by object
+  std::vector<Columns> robots_;
+  std::vector<int> balls_, obstacles_;
+  std::vector<std::shared_ptr<const RobotModel>> models_;
+  std::vector<std::string> jackets_;
+  std::vector<double> radii_;
+};
+
+}  // namespace btr::ui

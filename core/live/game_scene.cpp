@@ -21,8 +21,16 @@ void simulateAlone(Scene& scene, std::size_t index, const SceneSpec& spec, const
   SceneSpec alone = spec;
   alone.robots = {spec.robots[index]};
   alone.calibrate.clear();
-  Scene own = makeScene(alone, models, simulator, host.effectFactory());
   const std::string& name = spec.robots[index].name;
+  // What it says of others is theirs.
+  SimulatorSpec mine = simulator;
+  std::erase_if(mine.values, [&](const auto& number) {
+    return number.first.starts_with("robots.") && !number.first.starts_with("robots." + name + ".");
+  });
+  std::erase_if(mine.effects, [&](const PlacedEffect& effect) {
+    return effect.at.find('.') != std::string::npos && !isOf(effect.at, name);
+  });
+  Scene own = makeScene(alone, models, mine, host.effectFactory());
   scene.robots[index] = std::move(own.robots.front());
   std::erase_if(scene.effects, [&](const SceneEffect& effect) { return isOf(effect.at, name); });
   for (SceneEffect& effect : own.effects)
@@ -55,7 +63,6 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
   for (const auto& [name, player] : game.robots)
     if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& robot) { return robot.name == name; }))
       throw InputError("robots", name, "a robot of the game's scene");
-  // A robot that stands alone is known to its own simulator alone: numbers of others' paths are left out for all.
   Scene scene = makeScene(game.scene, models, game.simulator, host.effectFactory());
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const auto player = game.robots.find(game.scene.robots[i].name);

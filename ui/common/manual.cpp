@@ -22,6 +22,7 @@ QString Manual::pageFor(const QWidget* widget) {
                                              {"dock.draft", "experiments.html"},
                                              {"dock.spec", "experiments.html"},
                                              {"dock.grid", "experiments.html#the-whole-kick"},
+                                             {"dock.live", "scenes-and-robots.html#a-running-world"},
                                              {"dock.sheet", "measuring.html"},
                                              {"dock.policies", "measuring.html#learning-in-reality"},
                                              {"dock.fitness", "charts.html"},

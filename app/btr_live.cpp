@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/btr_commands.h"
-#include "app/live_steering.h"
+#include "app/btr_live_steering.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/sim/model_losses.h"

@@ -47,17 +47,6 @@ Act addFrom(JsonReader& reader) {
   return act;
 }
 
-Act pullFrom(JsonReader& reader) {
-  PullAct act;
-  act.object = reader.text("object");
-  act.link = reader.text("link", "");
-  act.point_m = arrayOf<3>(reader, "point_m", farthest_m, {});
-  act.target_m = arrayOf<3>(reader, "target_m", farthest_m, {});
-  act.stiffness_n_m = reader.number("stiffness_n_m", 0, 1e6, act.stiffness_n_m);
-  act.most_n = reader.number("most_n", 0, 1e4, act.most_n);
-  return act;
-}
-
 Act effectFrom(JsonReader& reader) {
   EffectAct act;
   act.robot = reader.text("robot", "");
@@ -81,7 +70,7 @@ Act actFrom(JsonReader& reader, const std::string& kind) {
                     arrayOf<3>(reader, "spin_rad_s", fastestSpin_rad_s, {})};
   if (kind == "add") return addFrom(reader);
   if (kind == "remove") return RemoveAct{reader.text("object")};
-  if (kind == "pull") return pullFrom(reader);
+  if (kind == "pull") return pullFromReader(reader);
   if (kind == "let_go") return LetGoAct{reader.text("object")};
   if (kind == "hold") return HoldAct{reader.text("robot"), reader.text("joint"), optionalNumber("position")};
   if (kind == "parameter")
@@ -96,17 +85,17 @@ Act actFrom(JsonReader& reader, const std::string& kind) {
   return CheckpointAct{};
 }
 
-json toJson(const PlaceAct& act) {
+json written(const PlaceAct& act) {
   return {{"act", "place"},
           {"object", act.object},
           {"position_m", act.position_m},
           {"orientation_wxyz", act.orientation_wxyz},
           {"joints", act.joints}};
 }
-json toJson(const ThrowAct& act) {
+json written(const ThrowAct& act) {
   return {{"act", "throw"}, {"object", act.object}, {"velocity_m_s", act.velocity_m_s}, {"spin_rad_s", act.spin_rad_s}};
 }
-json toJson(const AddAct& act) {
+json written(const AddAct& act) {
   json object{{"act", "add"}};
   if (const auto* robot = std::get_if<RobotSpec>(&act.what)) {
     object["robot"] = json::parse(toJsonText(*robot));
@@ -118,32 +107,32 @@ json toJson(const AddAct& act) {
   }
   return object;
 }
-json toJson(const RemoveAct& act) { return {{"act", "remove"}, {"object", act.object}}; }
-json toJson(const PullAct& act) {
-  return {{"act", "pull"},          {"object", act.object},     {"link", act.link},
-          {"point_m", act.point_m}, {"target_m", act.target_m}, {"stiffness_n_m", act.stiffness_n_m},
-          {"most_n", act.most_n}};
+json written(const RemoveAct& act) { return {{"act", "remove"}, {"object", act.object}}; }
+json written(const PullAct& act) {
+  json object = btr::toJson(act);
+  object["act"] = "pull";
+  return object;
 }
-json toJson(const LetGoAct& act) { return {{"act", "let_go"}, {"object", act.object}}; }
-json toJson(const HoldAct& act) {
+json written(const LetGoAct& act) { return {{"act", "let_go"}, {"object", act.object}}; }
+json written(const HoldAct& act) {
   json object{{"act", "hold"}, {"robot", act.robot}, {"joint", act.joint}};
   if (act.position) object["position"] = *act.position;
   return object;
 }
-json toJson(const ParameterAct& act) {
+json written(const ParameterAct& act) {
   return {{"act", "parameter"}, {"robot", act.robot}, {"name", act.name}, {"value", act.value}};
 }
-json toJson(const ControllerAct& act) {
+json written(const ControllerAct& act) {
   json object{{"act", "controller"}, {"robot", act.robot}};
   if (act.controller) object["controller"] = btr::toJson(*act.controller);
   return object;
 }
-json toJson(const NumberAct& act) {
+json written(const NumberAct& act) {
   json object{{"act", "number"}, {"robot", act.robot}, {"name", act.name}};
   if (act.value) object["value"] = *act.value;
   return object;
 }
-json toJson(const EffectAct& act) {
+json written(const EffectAct& act) {
   return {{"act", "effect"},
           {"robot", act.robot},
           {"effect", act.effect.effect},
@@ -151,7 +140,7 @@ json toJson(const EffectAct& act) {
           {"parameters", act.effect.parameters},
           {"there", act.there}};
 }
-json toJson(const CheckpointAct&) { return {{"act", "checkpoint"}}; }
+json written(const CheckpointAct&) { return {{"act", "checkpoint"}}; }
 
 }  // namespace
 
@@ -165,7 +154,7 @@ Act actFromJson(const std::string& text, const std::string& place) {
 }
 
 json toJson(const Act& act) {
-  return std::visit([](const auto& each) { return toJson(each); }, act);
+  return std::visit([](const auto& each) { return written(each); }, act);
 }
 
 }  // namespace btr

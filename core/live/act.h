@@ -35,14 +35,6 @@ struct RemoveAct {
   std::string object;
 };
 
-/// A hand's spring from a point of an object to a place, see Pull; one an object. A further act moves it on.
-struct PullAct {
-  std::string object, link;          ///< link: of a robot, "" its root
-  std::array<double, 3> point_m{};   ///< in the frame of the link, ball or obstacle
-  std::array<double, 3> target_m{};  ///< in the world
-  double stiffness_n_m = 100, most_n = 20;
-};
-
 struct LetGoAct {
   std::string object;
 };

@@ -1,6 +1,7 @@
 #include "core/live/game.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -38,13 +39,22 @@ GameState stateFrom(JsonReader reader) {
   state.periods = static_cast<long>(reader.integer("periods", 0, most));
   state.clocks = reader.anyValues("clocks");
   state.held = positionsFrom(reader, "held");
+  reader.array("pulls", [&](JsonReader pull) {
+    state.pulls.push_back(pullFromReader(pull));
+    pull.finish();
+  });
   reader.finish();
   return state;
 }
 
 json toJson(const GameState& state) {
-  return {
-      {"world", btr::toJson(state.world)}, {"periods", state.periods}, {"clocks", state.clocks}, {"held", state.held}};
+  json object{{"world", btr::toJson(state.world)},
+              {"periods", state.periods},
+              {"clocks", state.clocks},
+              {"held", state.held},
+              {"pulls", json::array()}};
+  for (const PullAct& pull : state.pulls) object["pulls"].push_back(btr::toJson(pull));
+  return object;
 }
 
 /// Models of a scene file that is somewhere else than the game keep their place.
@@ -113,6 +123,34 @@ Game gameOfRobot(const std::string& path) {
 }
 
 }  // namespace
+
+PullAct pullFromReader(JsonReader& reader) {
+  constexpr double farthest_m = 100;
+  const auto point = [&](const std::string& key) -> std::array<double, 3> {
+    const auto n = reader.numbers(key, 3, {0, 0, 0});
+    for (const double each : n)
+      if (std::abs(each) > farthest_m)
+        reader.refuse(key, "numbers from " + toText(-farthest_m) + " to " + toText(farthest_m));
+    return {n[0], n[1], n[2]};
+  };
+  PullAct pull;
+  pull.object = reader.text("object");
+  pull.link = reader.text("link", "");
+  pull.point_m = point("point_m");
+  pull.target_m = point("target_m");
+  pull.stiffness_n_m = reader.number("stiffness_n_m", 0, 1e6, pull.stiffness_n_m);
+  pull.most_n = reader.number("most_n", 0, 1e4, pull.most_n);
+  return pull;
+}
+
+json toJson(const PullAct& pull) {
+  return {{"object", pull.object},
+          {"link", pull.link},
+          {"point_m", pull.point_m},
+          {"target_m", pull.target_m},
+          {"stiffness_n_m", pull.stiffness_n_m},
+          {"most_n", pull.most_n}};
+}
 
 GameController gameControllerFromReader(JsonReader& reader) {
   GameController controller;

@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/sim/world_memory.h"
 #include "core/spec/parameter.h"
@@ -32,12 +34,21 @@ struct GameRobot {
   bool operator==(const GameRobot&) const = default;
 };
 
+/// A hand's spring from a point of an object to a place, see Pull; one an object. A further act moves it on.
+struct PullAct {
+  std::string object, link;          ///< link: of a robot, "" its root
+  std::array<double, 3> point_m{};   ///< in the frame of the link, ball or obstacle
+  std::array<double, 3> target_m{};  ///< in the world
+  double stiffness_n_m = 100, most_n = 20;
+};
+
 /// What a running game remembers beside its world.
 struct GameState {
   WorldMemory world;
   long periods = 0;                                           ///< control periods since the game began
   std::map<std::string, double> clocks;                       ///< by robot: time since its motion began [s]
   std::map<std::string, std::map<std::string, double>> held;  ///< by robot and joint
+  std::vector<PullAct> pulls;
 };
 
 /// A scene with who plays in it ("format": "uchilsim-game-1"). A value.
@@ -62,6 +73,8 @@ Game loadGame(const std::string& path);
 
 GameRobot gameRobotFromReader(JsonReader& reader);
 nlohmann::json toJson(const GameRobot& robot);
+PullAct pullFromReader(JsonReader& reader);  ///< the caller calls finish()
+nlohmann::json toJson(const PullAct& pull);
 GameController gameControllerFromReader(JsonReader& reader);
 nlohmann::json toJson(const GameController& controller);
 

@@ -79,9 +79,14 @@ Session::Session(Game game, const PluginHost& host) : host_(host) {
     periods_ = game_.state->periods;
     clocks = game_.state->clocks;
     held_ = game_.state->held;
+    lastGood_ = std::move(game_.state->world);
+    for (const PullAct& pull : game_.state->pulls) change(pull);
+    for (const auto& [robot, joints] : held_)
+      for (const auto& joint : joints) jointOf(robotOf(robot), joint.first);
     game_.state.reset();
+  } else {
+    lastGood_ = world_->memory();
   }
-  lastGood_ = world_->memory();
   holdCommands(lastGood_);
   for (const auto& [name, player] : game_.robots)
     if (player.controller) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
@@ -249,7 +254,7 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   players_ = std::move(players);
   holdCommands(memory);
   setPulls();
-  lastGood_ = world_->memory();
+  lastGood_ = memory;
   hashChannels();
 }
 
@@ -259,10 +264,12 @@ Game Session::save() {
   if (fault_.empty()) apply(CheckpointAct{});
   Game saved = game_;
   GameState state;
-  state.world = world_->memory();
+  // What the world was begun anew from: what it remembers of it may differ in a last bit.
+  state.world = lastGood_;
   state.periods = periods_;
   for (const auto& [name, player] : players_) state.clocks[name] = player.clock;
   state.held = held_;
+  for (const auto& [name, pull] : pulls_) state.pulls.push_back(pull);
   saved.state = std::move(state);
   return saved;
 }
@@ -387,7 +394,7 @@ void Session::change(const ParameterAct& act) {
   if (declared == genotype.end())
     throw InputError("name", "\"" + act.name + "\"",
                      "a parameter of the controller " + game_.robots[act.robot].controller->plugin);
-  btr::check(*declared, act.value, "value");
+  btr::check(*declared, act.value, act.robot + " " + act.name);
   game_.robots[act.robot].controller->parameters[act.name] = act.value;
   player->second = playerOf(game_, scene_, act.robot, player->second.clock);
 }

@@ -228,10 +228,15 @@ SolidGeom::SolidGeom(const Collider& collider) : collider_(collider) {
       break;
     case Shape::Kind::mesh: {
       convex_ = std::make_unique<Convex>();
-      for (const Vector3d& p : collider.hull->points)
+      Vector3d centre = Vector3d::Zero();
+      for (const Vector3d& p : collider.hull->points) centre += p / static_cast<double>(collider.hull->points.size());
+      turn_.translation() = centre;
+      for (const Vector3d& point : collider.hull->points) {
+        const Vector3d p = point - centre;
         convex_->points.insert(convex_->points.end(), {p.x(), p.y(), p.z()});
+      }
       for (const Eigen::Vector4d& p : collider.hull->planes)
-        convex_->planes.insert(convex_->planes.end(), {p[0], p[1], p[2], p[3]});
+        convex_->planes.insert(convex_->planes.end(), {p[0], p[1], p[2], p[3] - p.head<3>().dot(centre)});
       for (const auto& face : collider.hull->faces) {
         // Counter-clockwise seen from outside.
         const auto& points = collider.hull->points;
@@ -263,8 +268,9 @@ SolidGeom::~SolidGeom() {
 
 void SolidGeom::place(const Isometry3d& body) {
   pose_ = body * collider_.pose;
-  const Eigen::Matrix3d r = pose_.linear() * turn_.linear();
-  const Vector3d& p = pose_.translation();
+  const Isometry3d theirs = pose_ * turn_;
+  const Eigen::Matrix3d& r = theirs.linear();
+  const Vector3d& p = theirs.translation();
   dGeomSetPosition(id_, p.x(), p.y(), p.z());
   const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0, r(1, 0), r(1, 1), r(1, 2), 0, r(2, 0), r(2, 1), r(2, 2), 0};
   dGeomSetRotation(id_, rotation);

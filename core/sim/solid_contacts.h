@@ -29,7 +29,8 @@ class SolidGeom {
   struct Convex;  ///< what ODE does not copy
   Collider collider_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d turn_ = Eigen::Isometry3d::Identity();  ///< ODE's axis of a cylinder is z, ours is y
+  /// ODE's axis of a cylinder is z, ours is y; its origin of a convex body must lie within it.
+  Eigen::Isometry3d turn_ = Eigen::Isometry3d::Identity();
   std::unique_ptr<Convex> convex_;
   dGeomID id_ = nullptr;
 };

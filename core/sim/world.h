@@ -21,7 +21,7 @@ struct ObstacleState {
 };
 
 /// A spring that pulls a point of a body towards a place, as a hand would: F = k·(target − point) − d·velocity, at most
-/// `most_n`, with d critical for the body's own mass; as it is at the end of the step, so that it stays stable.
+/// `most_n`, with d critical for the body's mass m; k at most m/(4h²) and d at most m/(4h), which a step h bears.
 struct Pull {
   enum class What { link, ball, obstacle };
   What what = What::ball;

@@ -41,13 +41,20 @@ void World::Impl::pullAll(double h) {
       point = body.linkPose(link) * pull.point_m;
     }
     if (!id) continue;  // what never moves
+    // Not only gravity acts on it: it does not fly along the exact parabola.
+    if (pull.what == Pull::What::ball)
+      balls[pull.object].touched = true;
+    else if (pull.what == Pull::What::obstacle)
+      obstacles[pull.object].touched = true;
+    else
+      robots[pull.object].touches = true;
     dVector3 v;
     dBodyGetPointVel(id, point.x(), point.y(), point.z(), v);
     dMass mass;
     dBodyGetMass(id, &mass);
-    const double k = pull.stiffness_n_m, damping = 2 * std::sqrt(k * mass.mass) + h * k;
-    Vector3d force =
-        (k * (pull.target_m - point) - damping * Vector3d(v[0], v[1], v[2])) / (1 + h * damping / mass.mass);
+    const double k = std::min(pull.stiffness_n_m, mass.mass / (4 * h * h));
+    const double damping = std::min(2 * std::sqrt(k * mass.mass), mass.mass / (4 * h));
+    Vector3d force = k * (pull.target_m - point) - damping * Vector3d(v[0], v[1], v[2]);
     if (const double size = force.norm(); size > pull.most_n) force *= pull.most_n / size;
     dBodyAddForceAtPos(id, force.x(), force.y(), force.z(), point.x(), point.y(), point.z());
     pullForces_n[i] = force;

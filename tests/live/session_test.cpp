@@ -85,7 +85,6 @@ TEST(Session, ASavedGameGoesOnBitForBit) {
     Session session(dogs(), host());
     run(session, 100);
     session.apply(actFromJson(livelyActs()[2].second, "act"));
-    session.apply(LetGoAct{"blue1"});
     session.apply(HoldAct{"blue1", "LF_J1", 0.3});
     run(session, 37);
     text = toJsonText(session.save());

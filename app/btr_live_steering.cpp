@@ -1,4 +1,4 @@
-#include "app/live_steering.h"
+#include "app/btr_live_steering.h"
 
 #include <poll.h>
 #include <unistd.h>

@@ -329,7 +329,10 @@ void LivePage::showRow(const LiveRow& row) {
   row_ = row;
   view_->setMoving(row.playing);
   view_->setRow(row);
-  if (first) showSelected();
+  if (first)
+    showSelected();
+  else
+    showPlace();
   play_->setChecked(row.playing);
   play_->setText(row.playing ? tr("&Pause") : tr("&Play"));
   play_->setIcon(themeIcon(row.playing ? "media-playback-pause" : "media-playback-start"));
@@ -379,6 +382,16 @@ void LivePage::showSelected() {
   const LiveObject& object = scene_.objects()[std::size_t(index)];
   const QString kind = robot ? tr("robot") : object.kind == LiveObject::Kind::ball ? tr("ball") : tr("obstacle");
   what_->setText(tr("<b>%1</b>, %2").arg(QString::fromStdString(object.name).toHtmlEscaped(), kind));
+  showPlace();
+  if (robot) showController();
+}
+
+/// Where what is selected is now; numbers that are being typed stay.
+void LivePage::showPlace() {
+  const int index = selectedIndex();
+  if (index < 0 || row_.values.empty()) return;
+  for (const QDoubleSpinBox* box : {x_, y_, z_, heading_})
+    if (box->hasFocus()) return;
   const Isometry3d pose = scene_.poseOf(std::size_t(index), row_);
   for (const auto& [box, value] : {std::pair{x_, pose.translation().x()},
                                    {y_, pose.translation().y()},
@@ -387,7 +400,6 @@ void LivePage::showSelected() {
     const QSignalBlocker quiet(box);
     box->setValue(value);
   }
-  if (robot) showController();
 }
 
 void LivePage::showController() {

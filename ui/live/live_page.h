@@ -61,6 +61,7 @@ class LivePage : public QWidget {
   void showRow(const LiveRow& row);
   void select(const std::string& object);
   void showSelected();
+  void showPlace();
   void showController();
   void lead(const std::string& object, const Eigen::Vector3d& place_m);
   void letGo(const std::string& object);

@@ -68,9 +68,10 @@ void FileDrops::open(const QStringList& paths) {
   }
   if (!recordings.isEmpty()) emit recordingsGiven(recordings);
   if (!unknown.isEmpty())
-    emit refused(tr("%1; the window opens databases, experiments, scenes, games, robot models, recordings (CSV) and the "
-                    "folders of gap reports.")
-                     .arg(unknown.join("; ")));
+    emit refused(
+        tr("%1; the window opens databases, experiments, scenes, games, robot models, recordings (CSV) and the "
+           "folders of gap reports.")
+            .arg(unknown.join("; ")));
 }
 
 }  // namespace btr::ui

@@ -18,7 +18,7 @@
 namespace {
 
 struct Arguments {
-  std::string database, screenshot, look, report;
+  std::string database, screenshot, look, report, scene;
   btr::Id run = 0, grid = 0;
   bool replayBest = false;
   int width = 1600, height = 1000, delay_ms = 3000;
@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   commandLine.add_flag("--replay-best", arguments.replayBest,
                        "replay the best individual of the run's last generation");
   commandLine.add_option("--report", arguments.report, "folder of a gap report to open");
+  commandLine.add_option("--scene", arguments.scene, "game, scene or robot file to open on the scene page");
   commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->transform(btr::cli::wholeNumber(1));
   commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
   commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");
@@ -73,10 +74,12 @@ int main(int argc, char** argv) {
     window.show();
     // Only a name that the user has typed is asked about.
     if (!arguments.database.empty() || QFileInfo::exists(database)) window.openDatabase(database);
-    const bool asked = arguments.run || arguments.grid || arguments.replayBest || !arguments.report.empty();
+    const bool asked = arguments.run || arguments.grid || arguments.replayBest || !arguments.report.empty() ||
+                       !arguments.scene.empty();
     if (!asked && arguments.screenshot.empty()) window.showStartIfIdle();
     if (arguments.run) window.selectRun(arguments.run);
     if (!arguments.report.empty()) window.openReport(QString::fromStdString(arguments.report));
+    if (!arguments.scene.empty()) window.openScene(QString::fromStdString(arguments.scene));
     if (arguments.grid) window.grids().show(arguments.grid);
     if (arguments.replayBest) window.bench().whenSelected([&window] { window.replays().replayBest(); });
 

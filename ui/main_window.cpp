@@ -23,6 +23,7 @@
 #include "ui/experiment/simulators_page.h"
 #include "ui/gap/gap_page.h"
 #include "ui/grid/grid_page.h"
+#include "ui/live/live_page.h"
 #include "ui/measure/alarm.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/policy_page.h"
@@ -136,6 +137,11 @@ void MainWindow::showPage(const QString& page) {
 void MainWindow::showStartIfIdle() {
   if (bench_.settings().flag("startPage", true) && !StartPage::isSomethingOpen(bench_.watcher().runs()))
     showPage("start");
+}
+
+void MainWindow::openScene(const QString& file) {
+  showPage("live");
+  pages_.livePage->open(file);
 }
 
 bool MainWindow::openReport(const QString& folder) {

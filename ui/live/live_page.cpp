@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
@@ -274,6 +275,7 @@ void LivePage::open(const QString& file) {
   banner_->clear();
   pulled_.clear();
   row_ = {};
+  fresh_ = true;
   play_->setChecked(false);
   process_->start(file, log_);
   emit opened(file);
@@ -327,6 +329,7 @@ void LivePage::showGame(const Game& game, const ModelSet& models, const std::vec
 void LivePage::showRow(const LiveRow& row) {
   const bool first = row_.values.empty();
   row_ = row;
+  if (std::exchange(fresh_, false)) lookAtAll();
   view_->setMoving(row.playing);
   view_->setRow(row);
   if (first)
@@ -384,6 +387,20 @@ void LivePage::showSelected() {
   what_->setText(tr("<b>%1</b>, %2").arg(QString::fromStdString(object.name).toHtmlEscaped(), kind));
   showPlace();
   if (robot) showController();
+}
+
+/// From above one corner, near enough to see a dog and far enough to see all.
+void LivePage::lookAtAll() {
+  Eigen::AlignedBox3d all;
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) all.extend(scene_.poseOf(i, row_).translation());
+  ViewCamera camera;
+  if (!all.isEmpty()) {
+    camera.focus = all.center();
+    constexpr double perRadius = 2.2;
+    camera.distance = std::clamp(perRadius * (all.diagonal().norm() / 2 + 0.3), camera.distance, 15.0);
+    if (camera.distance > 3) camera.elevation = 0.6;
+  }
+  view_->setCamera(camera);
 }
 
 /// Where what is selected is now; numbers that are being typed stay.

@@ -61,6 +61,7 @@ class LivePage : public QWidget {
   void showRow(const LiveRow& row);
   void select(const std::string& object);
   void showSelected();
+  void lookAtAll();
   void showPlace();
   void showController();
   void lead(const std::string& object, const Eigen::Vector3d& place_m);
@@ -97,6 +98,7 @@ class LivePage : public QWidget {
   QScrollArea* tuning_;
   QUndoStack undo_;
   ParameterForm* form_ = nullptr;
+  bool fresh_ = true;  ///< nothing of the opened game was shown yet
   Values tuned_;  ///< as the running controller has them
 };
 

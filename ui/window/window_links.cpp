@@ -111,10 +111,7 @@ void linkDrops(const WindowLinks& to) {
     if (to.layout.page() == "live") return to.pages.livePage->open(file);
     launcher.checkModel(file);
   });
-  QObject::connect(drops, &FileDrops::gameGiven, &window, [to](const QString& file) {
-    to.window.showPage("live");
-    to.pages.livePage->open(file);
-  });
+  QObject::connect(drops, &FileDrops::gameGiven, &window, &MainWindow::openScene);
   QObject::connect(&launcher, &RunLauncher::modelChecked, &window, [&window](const QString& file, const QString& text) {
     auto* box = new QMessageBox(QMessageBox::Information, MainWindow::tr("Robot model"),
                                 MainWindow::tr("%1 is a robot model. A scene names it under “robots”.").arg(file),

@@ -116,6 +116,9 @@ class TestLivePage : public QObject {
     QTest::mouseMove(&view, there);
     QTest::mouseRelease(&view, Qt::LeftButton, {}, there);
     QTRY_VERIFY(std::abs(open.page.findChildren<QDoubleSpinBox*>()[1]->value() + 0.2) < 0.02);
+    // A crate is picked anywhere on it, and not beside it.
+    QCOMPARE(view.objectAt(pixel(0.05, 0.31, 0.09)), int(open.indexOf("crate")));
+    QCOMPARE(view.objectAt(pixel(0.1, 0.55, 0.0)), -1);
     // Where nothing is the view turns.
     const double azimuth = view.camera().azimuth;
     QTest::mousePress(&view, Qt::LeftButton, {}, QPoint(5, 5));

@@ -99,7 +99,7 @@ class LivePage : public QWidget {
   QUndoStack undo_;
   ParameterForm* form_ = nullptr;
   bool fresh_ = true;  ///< nothing of the opened game was shown yet
-  Values tuned_;  ///< as the running controller has them
+  Values tuned_;       ///< as the running controller has them
 };
 
 }  // namespace btr::ui

@@ -20,10 +20,11 @@ std::shared_ptr<const RobotModel> modelOf(const ObstacleSpec& spec) {
   return model;
 }
 
-double radiusOf(const ObstacleSpec& spec) {
-  if (spec.shape == "sphere") return spec.radius_m;
-  const double across = spec.shape == "cylinder" ? spec.radius_m : std::max(spec.size_m[0], spec.size_m[1]) / 2;
-  return std::max(0.03, std::min(across, spec.size_m[2] / 2 + across / 2));
+Eigen::Vector3d halfOf(const ObstacleSpec& spec) {
+  const double r = spec.radius_m;
+  if (spec.shape == "sphere") return {r, r, r};
+  if (spec.shape == "cylinder") return {r, r, spec.size_m[2] / 2};
+  return Eigen::Vector3d(spec.size_m[0], spec.size_m[1], spec.size_m[2]) / 2;
 }
 
 }  // namespace
@@ -46,20 +47,23 @@ LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector
     const auto player = game.robots.find(robot.name);
     jackets_.push_back(player == game.robots.end() || player->second.team.empty() ? "red" : player->second.team);
     constexpr double dog_m = 0.13;
-    objects_.push_back({robot.name, LiveObject::Kind::robot, dog_m, robot.base == "free"});
+    objects_.push_back({robot.name, LiveObject::Kind::robot, dog_m, {0, 0, 0}, robot.base == "free"});
   }
   for (const BallSpec& ball : game.scene.balls) {
     numbers_.push_back(balls_.size());
     balls_.push_back(column(ball.name + ".x_m"));
     radii_.push_back(ball.radius_m);
-    objects_.push_back({ball.name, LiveObject::Kind::ball, ball.radius_m, true});
+    objects_.push_back({ball.name, LiveObject::Kind::ball, ball.radius_m, {0, 0, 0}, true});
   }
   for (const ObstacleSpec& obstacle : game.scene.obstacles) {
     numbers_.push_back(obstacles_.size());
     obstacles_.push_back(column(obstacle.name + ".x_m"));
     models_.push_back(modelOf(obstacle));
     jackets_.emplace_back("red");
-    objects_.push_back({obstacle.name, LiveObject::Kind::obstacle, radiusOf(obstacle), obstacle.mass_kg > 0});
+    constexpr double largestRing_m = 0.3;
+    const Eigen::Vector3d half = halfOf(obstacle);
+    objects_.push_back(
+        {obstacle.name, LiveObject::Kind::obstacle, std::min(largestRing_m, half.norm()), half, obstacle.mass_kg > 0});
   }
 }
 

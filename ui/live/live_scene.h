@@ -24,7 +24,8 @@ struct LiveObject {
   enum class Kind { robot, ball, obstacle };
   std::string name;
   Kind kind = Kind::robot;
-  double radius_m = 0.05;  ///< of a sphere about its place that holds most of it
+  double radius_m = 0.05;                            ///< of a sphere about its place that holds most of it
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();  ///< of an obstacle: half the edges of the box around it
   bool moves = true;
 };
 

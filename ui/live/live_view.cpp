@@ -10,6 +10,26 @@ namespace btr::ui {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// Way along the ray (unit length) to a box about the pose; negative if it passes by.
+double wayToBox(const Eigen::Isometry3d& pose, const Vector3d& half, const Vector3d& eye, const Vector3d& ray) {
+  const Vector3d from = pose.inverse() * eye, along = pose.linear().transpose() * ray;
+  double enter = 0, leave = 1e30;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(along[i]) < 1e-12) {
+      if (std::abs(from[i]) > half[i]) return -1;
+      continue;
+    }
+    const double a = (-half[i] - from[i]) / along[i], b = (half[i] - from[i]) / along[i];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : -1;
+}
+
+}  // namespace
+
 LiveView::LiveView(QWidget* parent, GlContextFactory factory) : SceneView(parent, std::move(factory)) {
   setAccessibleName(tr("3D view of the running world"));
   setObjectName("liveView");
@@ -52,7 +72,15 @@ int LiveView::objectAt(QPointF pixel) const {
   int best = -1;
   double nearest = 1e30;
   for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
-    const Vector3d to = scene_.poseOf(i, row_).translation() - eye;
+    const Eigen::Isometry3d pose = scene_.poseOf(i, row_);
+    if (const Vector3d& half = scene_.objects()[i].half_m; half.z() > 0) {
+      if (const double way = wayToBox(pose, half, eye, ray); way > 0 && way < nearest) {
+        nearest = way;
+        best = static_cast<int>(i);
+      }
+      continue;
+    }
+    const Vector3d to = pose.translation() - eye;
     const double along = to.dot(ray), aside = (to - along * ray).norm();
     // A small ball far away can still be hit.
     const double reach = std::max(scene_.objects()[i].radius_m,

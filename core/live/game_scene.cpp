@@ -60,9 +60,9 @@ void takePosture(SceneRobot& robot, const SceneRobot& arranged) {
 }  // namespace
 
 Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) {
-  for (const auto& [name, player] : game.robots)
-    if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& robot) { return robot.name == name; }))
-      throw InputError("robots", name, "a robot of the game's scene");
+  for (const auto& player : game.robots)
+    if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& robot) { return robot.name == player.first; }))
+      throw InputError("robots", player.first, "a robot of the game's scene");
   Scene scene = makeScene(game.scene, models, game.simulator, host.effectFactory());
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const auto player = game.robots.find(game.scene.robots[i].name);

@@ -29,15 +29,16 @@ std::size_t indexOf(const Specs& specs, const std::string& name) {
 }
 
 /// Where a name belongs.
-struct Found {
+struct ObjectPlace {
   enum class Kind { robot, ball, obstacle } kind;
   std::size_t index;
 };
 
-Found find(const SceneSpec& scene, const std::string& name, const std::string& place) {
-  if (const auto i = indexOf(scene.robots, name); i < scene.robots.size()) return {Found::Kind::robot, i};
-  if (const auto i = indexOf(scene.balls, name); i < scene.balls.size()) return {Found::Kind::ball, i};
-  if (const auto i = indexOf(scene.obstacles, name); i < scene.obstacles.size()) return {Found::Kind::obstacle, i};
+ObjectPlace placeOf(const SceneSpec& scene, const std::string& name, const std::string& place) {
+  if (const auto i = indexOf(scene.robots, name); i < scene.robots.size()) return {ObjectPlace::Kind::robot, i};
+  if (const auto i = indexOf(scene.balls, name); i < scene.balls.size()) return {ObjectPlace::Kind::ball, i};
+  if (const auto i = indexOf(scene.obstacles, name); i < scene.obstacles.size())
+    return {ObjectPlace::Kind::obstacle, i};
   throw InputError(place, "\"" + name + "\"", "a robot, ball or obstacle of this game");
 }
 
@@ -152,13 +153,13 @@ void Session::hashChannels() {
 void Session::setPulls() {
   std::vector<Pull> pulls;
   for (const auto& [name, act] : pulls_) {
-    const Found found = find(game_.scene, name, "object");
+    const ObjectPlace found = placeOf(game_.scene, name, "object");
     Pull pull;
-    pull.what = found.kind == Found::Kind::robot  ? Pull::What::link
-                : found.kind == Found::Kind::ball ? Pull::What::ball
-                                                  : Pull::What::obstacle;
+    pull.what = found.kind == ObjectPlace::Kind::robot  ? Pull::What::link
+                : found.kind == ObjectPlace::Kind::ball ? Pull::What::ball
+                                                        : Pull::What::obstacle;
     pull.object = found.index;
-    if (found.kind == Found::Kind::robot && !act.link.empty())
+    if (found.kind == ObjectPlace::Kind::robot && !act.link.empty())
       pull.link = static_cast<std::size_t>(scene_.robots[found.index].model.findLink(act.link));
     pull.point_m = vectorOf(act.point_m);
     pull.target_m = vectorOf(act.target_m);
@@ -275,16 +276,16 @@ Game Session::save() {
 }
 
 void Session::change(const PlaceAct& act) {
-  const Found found = find(game_.scene, act.object, "object");
+  const ObjectPlace found = placeOf(game_.scene, act.object, "object");
   const Isometry3d pose = poseOf(act.position_m, act.orientation_wxyz);
-  if (!act.joints.empty() && found.kind != Found::Kind::robot)
+  if (!act.joints.empty() && found.kind != ObjectPlace::Kind::robot)
     throw InputError("joints", act.object, "joints of a robot only");
-  if (found.kind == Found::Kind::ball) {
+  if (found.kind == ObjectPlace::Kind::ball) {
     BallState state;
     state.position_m = pose.translation();
     state.time = world_->time();
     world_->setBall(found.index, state);
-  } else if (found.kind == Found::Kind::obstacle) {
+  } else if (found.kind == ObjectPlace::Kind::obstacle) {
     ObstacleState state;
     state.pose = pose;
     world_->setObstacle(found.index, state);
@@ -302,14 +303,14 @@ void Session::change(const PlaceAct& act) {
 }
 
 void Session::change(const ThrowAct& act) {
-  const Found found = find(game_.scene, act.object, "object");
+  const ObjectPlace found = placeOf(game_.scene, act.object, "object");
   const Vector3d velocity = vectorOf(act.velocity_m_s), spin = vectorOf(act.spin_rad_s);
-  if (found.kind == Found::Kind::ball) {
+  if (found.kind == ObjectPlace::Kind::ball) {
     BallState state = world_->ball(found.index);
     state.velocity_m_s = velocity;
     state.spin_rad_s = spin;
     world_->setBall(found.index, state);
-  } else if (found.kind == Found::Kind::obstacle) {
+  } else if (found.kind == ObjectPlace::Kind::obstacle) {
     if (game_.scene.obstacles[found.index].mass_kg == 0)
       throw InputError("object", act.object, "something that moves; this obstacle has no mass");
     world_->setObstacle(found.index, {world_->obstacle(found.index).pose, velocity, spin});
@@ -339,12 +340,12 @@ void Session::change(const AddAct& act) {
 }
 
 void Session::change(const RemoveAct& act) {
-  const Found found = find(game_.scene, act.object, "object");
+  const ObjectPlace found = placeOf(game_.scene, act.object, "object");
   Game game = game_;
   const auto at = static_cast<std::ptrdiff_t>(found.index);
-  if (found.kind == Found::Kind::robot) game.scene.robots.erase(game.scene.robots.begin() + at);
-  if (found.kind == Found::Kind::ball) game.scene.balls.erase(game.scene.balls.begin() + at);
-  if (found.kind == Found::Kind::obstacle) game.scene.obstacles.erase(game.scene.obstacles.begin() + at);
+  if (found.kind == ObjectPlace::Kind::robot) game.scene.robots.erase(game.scene.robots.begin() + at);
+  if (found.kind == ObjectPlace::Kind::ball) game.scene.balls.erase(game.scene.balls.begin() + at);
+  if (found.kind == ObjectPlace::Kind::obstacle) game.scene.obstacles.erase(game.scene.obstacles.begin() + at);
   game.robots.erase(act.object);
   const auto pull = pulls_.extract(act.object);
   const auto held = held_.extract(act.object);
@@ -360,9 +361,9 @@ void Session::change(const RemoveAct& act) {
 }
 
 void Session::change(const PullAct& act) {
-  const Found found = find(game_.scene, act.object, "object");
+  const ObjectPlace found = placeOf(game_.scene, act.object, "object");
   if (!act.link.empty() &&
-      (found.kind != Found::Kind::robot || scene_.robots[found.index].model.findLink(act.link) < 0))
+      (found.kind != ObjectPlace::Kind::robot || scene_.robots[found.index].model.findLink(act.link) < 0))
     throw InputError("link", "\"" + act.link + "\"", "a link of the robot that is pulled");
   pulls_[act.object] = act;
   setPulls();

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs the tests of a sanitized build, but for what takes longest there: of whole analyses one, of whole runs those that
 # stop and go on.
-#   bash tests/sanitized.sh FOLDER "PART…" "WINDOW TEST…"
+#   bash tests/sanitized.sh FOLDER "PART…" ["WINDOW TEST…"]
 set -euo pipefail
-export bin=$1 parts=$2 windows=$3
+export bin=$1 parts=$2 windows=${3:-}
 export logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 # libode, libsqlite, Qt and OpenSceneGraph are not ours: their one-time allocations are not leaks of this program.
@@ -13,14 +13,14 @@ analysis="Analysis.HiddenDryFrictionIsNamedPlacedAndMeasured"
 resume="KilledRun.StopsCleanlyOnInterruptAndGoesOn:PreparedExperiment.*"
 
 sanitized_part() {  # program, filter, part, of how many: every so-manieth test
-  local log=$logs/$1.$3 began=$SECONDS
-  GTEST_SHARD_INDEX=$3 GTEST_TOTAL_SHARDS=$4 "$bin/$1" --gtest_brief=1 "--gtest_filter=$2" > "$log" 2>&1 ||
-    { cat "$log"; echo "FAILED: $1"; return 1; }
+  local log=$logs/$BASHPID began=$SECONDS
+  GTEST_SHARD_INDEX=$3 GTEST_TOTAL_SHARDS=$4 timeout 1200 "$bin/$1" --gtest_brief=1 "--gtest_filter=$2" > "$log" 2>&1 ||
+    { cat "$log"; echo "FAILED, or not over after 20 minutes: $1"; return 1; }
   echo "$1 part $3: $(tail -n 1 "$log") in $((SECONDS - began)) s"
 }
 sanitized_window() {
-  local log=$logs/$1 began=$SECONDS
-  XDG_RUNTIME_DIR=/tmp "$bin/$1" > "$log" 2>&1 || { cat "$log"; echo "FAILED: $1"; return 1; }
+  local log=$logs/$BASHPID began=$SECONDS
+  XDG_RUNTIME_DIR=/tmp timeout 1200 "$bin/$1" > "$log" 2>&1 || { cat "$log"; echo "FAILED: $1"; return 1; }
   echo "$1: $(grep '^Totals' "$log") in $((SECONDS - began)) s"
 }
 sanitized() { if [ $# = 1 ]; then sanitized_window "$@"; else sanitized_part "$@"; fi; }

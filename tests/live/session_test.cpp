@@ -164,7 +164,7 @@ TEST(Session, WhatIsNotAllowedChangesNothing) {
   std::vector<double> row, after;
   session.world().sample(row);
   for (const auto& [act, why] : refused)
-    EXPECT_THAT(refusal([&] { session.apply(actFromJson(act, "act")); }), HasSubstr(why)) << act;
+    EXPECT_THAT(refusal([&, &act = act] { session.apply(actFromJson(act, "act")); }), HasSubstr(why)) << act;
   session.world().sample(after);
   EXPECT_EQ(row, after);
   EXPECT_EQ(toJsonText(session.game()), before);
@@ -208,7 +208,7 @@ TEST(Acts, AreRefusedWithWhatIsAllowed) {
       {R"({"act": "remove", "object": "ball", "quickly": true})", "quickly"},
       {R"({"act": "pull", "object": "ball", "most_n": -1})", "most_n"}};
   for (const auto& [text, why] : refused)
-    EXPECT_THAT(refusal([&] { actFromJson(text, "act"); }), HasSubstr(why)) << text;
+    EXPECT_THAT(refusal([&, &text = text] { actFromJson(text, "act"); }), HasSubstr(why)) << text;
 }
 
 TEST(SessionLogs, OfAKilledSessionAreReadUpToTheirLastWholeLine) {

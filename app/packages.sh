@@ -5,7 +5,7 @@ BUILD_PACKAGES="g++ cmake ninja-build ccache pkg-config
   libtinyxml2-dev libassimp-dev libboost-dev zlib1g-dev libssl-dev pandoc"
 WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
 TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal"
-CLANG_PACKAGES="clang clang-tidy libclang-rt-14-dev"
+CLANG_PACKAGES="clang libclang-rt-14-dev"
 
 # Installs those of its arguments that are not there yet, in one apt call.
 install_missing() {

@@ -95,7 +95,7 @@ TEST(Scenes, NameWhatIsWrong) {
   EXPECT_EQ("s.json /step_s: 1e-07 is not allowed; 1e-05 to 0.02", refused("0.001", "1e-7"));
   EXPECT_EQ("s.json /robots/0/servos/knee: key \"kp\" is not known; known keys: d, drive, i, max_torque_nm",
             refused("\"p\": 4.0", "\"kp\": 4.0"));
-  EXPECT_EQ("s.json /balls/0/name: \"leg\" is not allowed; a name that no other robot or ball has",
+  EXPECT_EQ("s.json /balls/0/name: \"leg\" is not allowed; a name that no other robot, ball or obstacle has",
             refused("\"name\": \"ball\"", "\"name\": \"leg\""));
   EXPECT_NE("accepted", refused("\"name\": \"ball\"", "\"name\": \"my.ball\""));
   EXPECT_EQ("s.json /balls/0/radius_m: -1 is not allowed; 0.001 to 10", refused("0.0425, \"mass", "-1, \"mass"));

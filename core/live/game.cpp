@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/live/memory_json.h"
+#include "core/model/kinematics.h"
 #include "core/model/load_model.h"
 #include "core/sim/collision.h"
 #include "core/sim/scene.h"
@@ -57,11 +58,13 @@ json toJson(const GameState& state) {
   return object;
 }
 
-/// Models of a scene file that is somewhere else than the game keep their place.
+/// Paths of models that are relative stay relative, from there.
 void moveModels(SceneSpec& scene, const std::string& directory) {
+  const fs::path from = fs::absolute(scene.directory.empty() ? "." : scene.directory);
+  const fs::path to = fs::absolute(directory.empty() ? "." : directory);
   for (RobotSpec& robot : scene.robots)
-    if (const fs::path path = robot.model; path.is_relative() && scene.directory != directory)
-      robot.model = (fs::path(scene.directory) / path).lexically_normal().string();
+    if (const fs::path path = robot.model; path.is_relative())
+      robot.model = (from / path).lexically_normal().lexically_relative(to.lexically_normal()).string();
   scene.directory = directory;
 }
 
@@ -85,9 +88,8 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
 
 /// So that the lowest point of what collides just touches the floor, joints at zero.
 double standingHeight(const RobotModel& model) {
-  std::vector<Eigen::Isometry3d> poses(model.links.size(), Eigen::Isometry3d::Identity());
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    poses[j + 1] = poses[static_cast<std::size_t>(model.joints[j].parentLink)] * model.joints[j].origin;
+  const std::vector<Eigen::Isometry3d> poses =
+      forwardKinematics(model, Eigen::Isometry3d::Identity(), std::vector<double>(model.joints.size(), 0.0));
   double lowest = 0;
   bool any = false;
   std::vector<ContactPoint> points;
@@ -237,12 +239,7 @@ std::string toJsonText(const Game& game) {
 }
 
 Game movedTo(Game game, const std::string& directory) {
-  const fs::path from = fs::absolute(game.scene.directory.empty() ? "." : game.scene.directory);
-  const fs::path to = fs::absolute(directory.empty() ? "." : directory);
-  for (RobotSpec& robot : game.scene.robots)
-    if (const fs::path path = robot.model; path.is_relative())
-      robot.model = (from / path).lexically_normal().lexically_relative(to.lexically_normal()).string();
-  game.scene.directory = directory;
+  moveModels(game.scene, directory);
   return game;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <set>
 #include <utility>
 
 #include "core/spec/error.h"
@@ -114,12 +112,10 @@ Session::Player Session::playerOf(const Game& game, const Scene& scene, const st
   const GameController& spec = *game.robots.at(robot).controller;
   Player player;
   player.controller = host_.controller(spec.plugin);
-  player.settings = spec.settings;
   // A controller drives the first robot of a scene.
   Scene mine = scene;
   std::swap(mine.robots.front(), mine.robots.at(indexOf(game.scene.robots, robot)));
-  player.motion =
-      player.controller->begin(mine, player.settings, vectorOf(*player.controller, spec, "robots " + robot));
+  player.motion = player.controller->begin(mine, spec.settings, vectorOf(*player.controller, spec, "robots " + robot));
   player.clock = clock;
   return player;
 }
@@ -418,14 +414,18 @@ void Session::change(const ControllerAct& act) {
     inputs_[robot][j].command = scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j];
 }
 
+/// A robot's own simulator, which it gets if it has none yet; with "" that of all others.
+SimulatorSpec& Session::simulatorOf(Game& game, const std::string& robot) const {
+  if (robot.empty()) return game.simulator;
+  robotOf(robot);
+  GameRobot& player = game.robots[robot];
+  if (!player.simulator) player.simulator = game.simulator;
+  return *player.simulator;
+}
+
 void Session::change(const NumberAct& act) {
   Game game = game_;
-  if (!act.robot.empty()) {
-    robotOf(act.robot);
-    GameRobot& player = game.robots[act.robot];
-    if (!player.simulator) player.simulator = game.simulator;
-  }
-  SimulatorSpec& simulator = act.robot.empty() ? game.simulator : *game.robots[act.robot].simulator;
+  SimulatorSpec& simulator = simulatorOf(game, act.robot);
   if (act.value)
     simulator.values[act.name] = *act.value;
   else if (simulator.values.erase(act.name) == 0)
@@ -435,12 +435,7 @@ void Session::change(const NumberAct& act) {
 
 void Session::change(const EffectAct& act) {
   Game game = game_;
-  if (!act.robot.empty()) {
-    robotOf(act.robot);
-    GameRobot& player = game.robots[act.robot];
-    if (!player.simulator) player.simulator = game.simulator;
-  }
-  SimulatorSpec& simulator = act.robot.empty() ? game.simulator : *game.robots[act.robot].simulator;
+  SimulatorSpec& simulator = simulatorOf(game, act.robot);
   const auto same = [&](const PlacedEffect& each) {
     return each.effect == act.effect.effect && each.at == act.effect.at;
   };

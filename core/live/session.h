@@ -51,7 +51,6 @@ class Session {
  private:
   struct Player {
     std::shared_ptr<const Controller> controller;
-    Values settings;
     std::unique_ptr<Motion> motion;
     double clock = 0;  ///< time since the motion began [s]
   };
@@ -75,6 +74,7 @@ class Session {
   void holdCommands(const WorldMemory& memory);
   void setPulls();
   void hashChannels();
+  SimulatorSpec& simulatorOf(Game& game, const std::string& robot) const;
   std::size_t robotOf(const std::string& name) const;
   std::size_t jointOf(std::size_t robot, const std::string& joint) const;
 

@@ -3,27 +3,13 @@
 #include <cmath>
 
 #include "core/sim/joint_space.h"
+#include "core/sim/ode_body.h"
 
 namespace btr {
 namespace {
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-void setPose(dBodyID body, const Isometry3d& pose) {
-  const Vector3d& p = pose.translation();
-  const Matrix3d& r = pose.linear();
-  dBodySetPosition(body, p.x(), p.y(), p.z());
-  const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0, r(1, 0), r(1, 1), r(1, 2), 0, r(2, 0), r(2, 1), r(2, 2), 0};
-  dBodySetRotation(body, rotation);
-}
-
-void setMass(dBodyID body, double mass, const Matrix3d& inertia) {
-  dMass m;
-  dMassSetParameters(&m, mass, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(0, 2),
-                     inertia(1, 2));
-  dBodySetMass(body, &m);
-}
 
 /// Joints that follow another one are where it puts them.
 void followLeaders(const RobotModel& model, std::vector<double>& positions, std::vector<double>& rates) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/sim/ode_body.h"
 #include "core/sim/world_impl.h"
 
 namespace btr {
@@ -179,10 +180,10 @@ void World::remember(const WorldMemory& memory) {
   }
   for (const ThingMemory& of : memory.balls)
     if (WorldBall* ball = named(impl_->balls, of.name)) {
-      const Eigen::Matrix3d& r = of.body.axes;
-      const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0,       r(1, 0), r(1, 1),
-                                 r(1, 2), 0,       r(2, 0), r(2, 1), r(2, 2), 0};
-      dBodySetRotation(ball->id, rotation);
+      Isometry3d pose = Isometry3d::Identity();
+      pose.translation() = of.body.position_m;
+      pose.linear() = of.body.axes;
+      setPose(ball->id, pose);
       BallState state;
       state.position_m = of.body.position_m;
       state.velocity_m_s = of.body.velocity_m_s;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/sim/obstacle_shape.h"
+#include "core/sim/ode_body.h"
 #include "core/sim/world_impl.h"
 
 namespace btr {
@@ -30,10 +31,7 @@ void World::Impl::makeObstacles() {
       place = Eigen::Translation3d(-inertial.centreOfMass_m);
       obstacle.id = dBodyCreate(session.world());
       dBodySetFiniteRotationMode(obstacle.id, 1);
-      const Eigen::Matrix3d& i = inertial.inertia_kg_m2;
-      dMass mass;
-      dMassSetParameters(&mass, inertial.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
-      dBodySetMass(obstacle.id, &mass);
+      setMass(obstacle.id, inertial.mass_kg, inertial.inertia_kg_m2);
     }
     obstacle.solid = std::make_unique<SolidGeom>(makeCollider(obstacleShape(spec), place, -1));
     ObstacleState state;
@@ -66,10 +64,9 @@ void World::Impl::placeObstacle(WorldObstacle& obstacle, const ObstacleState& st
   }
   const Vector3d centre = state.pose * centreOf(*obstacle.spec);
   const Vector3d velocity = state.velocity_m_s + state.spin_rad_s.cross(centre - state.pose.translation());
-  dBodySetPosition(obstacle.id, centre.x(), centre.y(), centre.z());
-  const Eigen::Matrix3d& r = state.pose.linear();
-  const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0, r(1, 0), r(1, 1), r(1, 2), 0, r(2, 0), r(2, 1), r(2, 2), 0};
-  dBodySetRotation(obstacle.id, rotation);
+  Isometry3d body = state.pose;
+  body.translation() = centre;
+  setPose(obstacle.id, body);
   dBodySetLinearVel(obstacle.id, velocity.x(), velocity.y(), velocity.z());
   dBodySetAngularVel(obstacle.id, state.spin_rad_s.x(), state.spin_rad_s.y(), state.spin_rad_s.z());
   readObstacle(obstacle);

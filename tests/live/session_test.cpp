@@ -248,6 +248,17 @@ TEST(Games, AreRefusedWithFileAndPlace) {
   EXPECT_THAT(refused("\"mass_kg\": 0.2", "\"colour\": \"red\""), HasSubstr("colour"));
 }
 
+// Its models are found from where the scene is, also where the game's own folder is named from the working one.
+TEST(Games, MayNameASceneInAnotherFolder) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "games";
+  fs::create_directories(folder);
+  const std::string scene = fs::relative(SOURCE_DIR "/resources/scenes/kick.json", folder).string();
+  std::ofstream(folder / "kick.json") << R"({"format": "uchilsim-game-1", "scene": ")" << scene << "\"}";
+  Session session(loadGame((fs::relative(folder) / "kick.json").string()), host());
+  EXPECT_EQ(session.scene().robots.at(0).name, "ers7");
+}
+
 TEST(Games, OfARobotFileStandOnTheFloor) {
   Session session(loadGame(SOURCE_DIR "/resources/robots/contactnets_cube.urdf"), host());
   run(session, 250);

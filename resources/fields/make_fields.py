@@ -47,8 +47,10 @@ def around(length, width, gap, height):
     return things
 
 
-def field(obstacles):
+def field(length, width, goal_width, obstacles):
     return {"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008,
+            "field": {"length_m": length, "width_m": width,
+                      "goals": {"width_m": goal_width, "depth_m": 0.3, "height_m": 0.3}},
             "floor": {"friction": 1.0, "restitution": 0.0}, "robots_collide": True, "robots": [],
             "balls": [{"name": "ball", "radius_m": 0.0425, "mass_kg": 0.055, "rolling_deceleration_m_s2": 0.4,
                        "restitution": 0.4, "position_m": [0, 0, 0.0425]}],
@@ -64,10 +66,12 @@ def beacons(places):
 
 fields = {
     "four-legged-2004": field(
+        4.2, 2.7, 0.6,
         around(4.6, 3.1, 0.6, 0.30) + goal("goal_yellow", 2.1, 0.6, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.1, 0.6, 0.3, 0.3, SKY) +
         beacons([(2.2, 1.45, PINK, YELLOW), (2.2, -1.45, YELLOW, PINK), (-2.2, 1.45, PINK, SKY), (-2.2, -1.45, SKY, PINK),
                  (0, 1.45, PINK, WHITE), (0, -1.45, WHITE, PINK)])),
     "four-legged-2006": field(
+        5.4, 3.6, 0.8,
         goal("goal_yellow", 2.7, 0.8, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.7, 0.8, 0.3, 0.3, SKY) +
         beacons([(1.35, 1.9, PINK, YELLOW), (1.35, -1.9, YELLOW, PINK), (-1.35, 1.9, PINK, SKY), (-1.35, -1.9, SKY, PINK)])),
 }

@@ -1,9 +1,15 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "core/live/session.h"
+#include "core/live/undo.h"
+
+namespace btr {
+class JsonReader;
+}
 
 namespace btr::cli {
 
@@ -21,12 +27,22 @@ class LiveSteering {
   void advance();
   void tellGame();
   void tellRow();
+  void tellReferee(nlohmann::json& line);
+  /// What can be undone and redone, if that is no longer what was told.
+  void tellUndo();
+  void act(JsonReader& reader);
+  /// Changes the session, and tells what came of it; what is thrown as InputError is answered as a refusal.
+  void change(const std::function<void()>& work);
   int untilNext_ms() const;
 
   Session& session_;
   std::function<void(const std::string&)> save_;
+  UndoStack undo_;
+  std::string undoTold_, redoTold_;
   std::string pending_;  ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
+  bool over_ = false;       ///< the referee's game
+  long eventsTold_ = 0;     ///< of the referee
   double speed_ = 1;        ///< simulated seconds a second; 0: as fast as possible
   double anchor_s_ = 0;     ///< wall time …
   long anchorPeriods_ = 0;  ///< … at which this period was due
@@ -34,5 +50,11 @@ class LiveSteering {
   long measuredPeriods_ = 0;
   double nextRow_s_ = 0;
 };
+
+/// Score, clock, half and the referee's events after the first `from`.
+void addReferee(const Session& session, nlohmann::json& line, long from);
+
+/// One line of standard output, from any thread.
+void tellLine(const nlohmann::json& line);
 
 }  // namespace btr::cli

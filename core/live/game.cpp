@@ -40,21 +40,34 @@ GameState stateFrom(JsonReader reader) {
   state.periods = static_cast<long>(reader.integer("periods", 0, most));
   state.clocks = reader.anyValues("clocks");
   state.held = positionsFrom(reader, "held");
+  state.commands = positionsFrom(reader, "commands");
   reader.array("pulls", [&](JsonReader pull) {
     state.pulls.push_back(pullFromReader(pull));
     pull.finish();
   });
+  if (auto senses = reader.objectIfAny("senses")) {
+    for (const auto& member : senses->node().items()) {
+      const json* channels = senses->any(member.key());
+      try {
+        state.senses[member.key()] = channels->get<std::vector<std::vector<double>>>();
+      } catch (const json::exception&) {
+        senses->refuse(member.key(), "lists of numbers");
+      }
+    }
+    senses->finish();
+  }
+  if (auto referee = reader.objectIfAny("referee")) state.referee = refereeStateFromReader(*referee);
   reader.finish();
   return state;
 }
 
 json toJson(const GameState& state) {
-  json object{{"world", btr::toJson(state.world)},
-              {"periods", state.periods},
-              {"clocks", state.clocks},
-              {"held", state.held},
-              {"pulls", json::array()}};
+  json object{
+      {"world", btr::toJson(state.world)}, {"periods", state.periods}, {"clocks", state.clocks}, {"held", state.held},
+      {"commands", state.commands},        {"pulls", json::array()}};
   for (const PullAct& pull : state.pulls) object["pulls"].push_back(btr::toJson(pull));
+  if (!state.senses.empty()) object["senses"] = state.senses;
+  if (state.referee) object["referee"] = btr::toJson(*state.referee);
   return object;
 }
 
@@ -84,6 +97,7 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
   add(scene.obstacles, field.obstacles);
   add(scene.balls, field.balls);
   if (field.floor) scene.floor = field.floor;
+  if (field.field) scene.field = field.field;
 }
 
 /// So that the lowest point of what collides just touches the floor, joints at zero.
@@ -180,6 +194,14 @@ GameRobot gameRobotFromReader(JsonReader& reader) {
     simulator->finish();
   }
   robot.posture = reader.flag("posture", true);
+  if (const json* senses = reader.any("senses"); senses && senses->is_string())
+    robot.senses = sensesOfModel(senses->get<std::string>(), reader.at("senses"));
+  else
+    reader.array("senses", [&](JsonReader sense) {
+      robot.senses.push_back({sense.word("sense", senseNames()), {}});
+      robot.senses.back().parameters = sense.values("parameters", senseParameters(robot.senses.back().sense));
+      sense.finish();
+    });
   reader.finish();
   return robot;
 }
@@ -188,6 +210,8 @@ json toJson(const GameRobot& robot) {
   json object{{"team", robot.team}, {"posture", robot.posture}};
   if (robot.controller) object["controller"] = toJson(*robot.controller);
   if (robot.simulator) object["simulator"] = simulatorToJson(*robot.simulator);
+  for (const SenseSpec& sense : robot.senses)
+    object["senses"].push_back({{"sense", sense.sense}, {"parameters", sense.parameters}});
   return object;
 }
 
@@ -220,6 +244,7 @@ Game gameFromJson(const std::string& text, const std::string& place, const std::
       reader.refuse("robots", "names of the scene's robots; it has none called \"" + name + "\"");
     game.robots[name] = gameRobotFromReader(robot);
   });
+  if (auto referee = reader.objectIfAny("referee")) game.referee = refereeFromReader(*referee);
   if (auto state = reader.objectIfAny("state")) game.state = stateFrom(*state);
   if (const json* view = reader.any("view")) game.view = view->dump();
   reader.finish();
@@ -233,6 +258,7 @@ std::string toJsonText(const Game& game) {
                 {"simulator", simulatorToJson(game.simulator)},
                 {"robots", json::object()}};
   for (const auto& [name, robot] : game.robots) document["robots"][name] = toJson(robot);
+  if (game.referee) document["referee"] = toJson(*game.referee);
   if (game.state) document["state"] = toJson(*game.state);
   if (!game.view.empty()) document["view"] = json::parse(game.view);
   return document.dump(1) + "\n";

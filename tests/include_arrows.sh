@@ -18,6 +18,7 @@ declare -A may=(
   [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [plugins]="core/plugin"
   [ui]="core ui"

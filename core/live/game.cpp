@@ -84,6 +84,7 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
   add(scene.obstacles, field.obstacles);
   add(scene.balls, field.balls);
   if (field.floor) scene.floor = field.floor;
+  if (field.carpet) scene.carpet = field.carpet;
 }
 
 /// So that the lowest point of what collides just touches the floor, joints at zero.

@@ -130,11 +130,7 @@ ObstacleSpec obstacleFrom(JsonReader& reader, std::set<std::string>& taken) {
   obstacle.orientation_wxyz = orientationOf(reader);
   obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, obstacle.velocity_m_s);
   obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, obstacle.spin_rad_s);
-  obstacle.colour = reader.text("colour", obstacle.colour);
-  const auto hexadecimal = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (obstacle.colour.size() != 7 || obstacle.colour[0] != '#' ||
-      !std::all_of(obstacle.colour.begin() + 1, obstacle.colour.end(), hexadecimal))
-    reader.refuse("colour", "# and six hexadecimal digits, as #8c8c96");
+  obstacle.colour = colourFromReader(reader, "colour", obstacle.colour);
   reader.finish();
   return obstacle;
 }
@@ -250,6 +246,7 @@ SceneSpec sceneFromJson(const std::string& text, const std::string& place, const
   reader.array("robots", [&](JsonReader entry) { scene.robots.push_back(robotFrom(entry, taken)); });
   reader.array("balls", [&](JsonReader entry) { scene.balls.push_back(ballFrom(entry, taken)); });
   reader.array("obstacles", [&](JsonReader entry) { scene.obstacles.push_back(obstacleFrom(entry, taken)); });
+  if (auto carpet = reader.objectIfAny("carpet")) scene.carpet = carpetFromReader(*carpet);
   scene.robotsCollide = reader.flag("robots_collide", scene.robotsCollide);
   std::set<std::string> paths;
   reader.array("calibrate", [&](JsonReader entry) {
@@ -277,6 +274,7 @@ std::string toJsonText(const SceneSpec& scene) {
   for (const BallSpec& ball : scene.balls) document["balls"].push_back(ballToJson(ball));
   // Left out where there is nothing to say: scenes that are stored keep their text.
   for (const ObstacleSpec& obstacle : scene.obstacles) document["obstacles"].push_back(obstacleToJson(obstacle));
+  if (scene.carpet) document["carpet"] = toJson(*scene.carpet);
   if (scene.robotsCollide) document["robots_collide"] = true;
   for (const CalibratePath& path : scene.calibrate)
     document["calibrate"].push_back({{"path", path.path}, {"min", path.minimum}, {"max", path.maximum}});

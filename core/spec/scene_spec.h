@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/spec/carpet_spec.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
@@ -98,7 +99,8 @@ struct SceneSpec {
   std::vector<RobotSpec> robots;
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
-  bool robotsCollide = false;  ///< with each other; with obstacles and balls they always do
+  std::optional<CarpetSpec> carpet;  ///< how the floor looks
+  bool robotsCollide = false;        ///< with each other; with obstacles and balls they always do
   std::vector<CalibratePath> calibrate;
   std::string directory;  ///< of the scene file; relative model paths start here
   bool operator==(const SceneSpec&) const = default;

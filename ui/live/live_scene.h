@@ -40,10 +40,13 @@ class LiveScene {
   const std::vector<std::shared_ptr<const RobotModel>>& models() const { return models_; }
   const std::vector<std::string>& jackets() const { return jackets_; }  ///< of each of the models
   const std::vector<double>& radii() const { return radii_; }
+  const std::optional<CarpetSpec>& carpet() const { return carpet_; }
 
   ScenePose pose(const LiveRow& row) const;
   /// Of an object's own frame; a robot's is its root link's.
   Eigen::Isometry3d poseOf(std::size_t object, const LiveRow& row) const;
+  /// The row `part` of the way from one to a later one; everything moves evenly, turns take the shorter way.
+  LiveRow between(const LiveRow& from, const LiveRow& to, double part) const;
   /// Time of the row [s].
   double time_s(const LiveRow& row) const { return row.values.empty() ? 0 : row.values[0]; }
 
@@ -61,6 +64,7 @@ class LiveScene {
   std::vector<std::shared_ptr<const RobotModel>> models_;
   std::vector<std::string> jackets_;
   std::vector<double> radii_;
+  std::optional<CarpetSpec> carpet_;
 };
 
 }  // namespace btr::ui

@@ -41,6 +41,7 @@ void LiveView::setScene(const LiveScene& scene) {
   setFurtherRobots(scene.models());
   setFurtherJackets(scene.jackets());
   setBalls(scene.radii());
+  setCarpet(scene.carpet());
   led_ = -1;
 }
 

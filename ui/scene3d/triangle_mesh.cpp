@@ -175,10 +175,12 @@ void TriangleMesh::addCapsule(const Isometry3d& pose, double radius_m, double le
     }
 }
 
-void TriangleMesh::addRing(double inner_m, double outer_m, double z_m, const Colour& colour) {
+void TriangleMesh::addRing(double inner_m, double outer_m, double z_m, const Colour& colour,
+                           const Eigen::Vector2d& centre_m) {
   constexpr int steps = 96;
   const auto point = [&](double radius, int step) {
-    return Vector3d(radius * std::cos(angle(step, steps)), radius * std::sin(angle(step, steps)), z_m)
+    return Vector3d(centre_m.x() + radius * std::cos(angle(step, steps)),
+                    centre_m.y() + radius * std::sin(angle(step, steps)), z_m)
         .cast<float>()
         .eval();
   };

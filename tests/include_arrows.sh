@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → live, run → gap, store, plugin → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -47,6 +47,7 @@ declare -A public=(
   [model]="kinematics robot_model"
   [sim]="obstacle_shape scene trace trial"
   [live]="act game"
+  [camera]="camera_pipeline camera_spec picture_file pinhole truth_file twin video_file"
   [gap/recordings]="channel_name doctor mapping objection recording recording_health"
   [gap/replay]="number_table residual trial_scenes"
   [gap/search]="gap_report report_words"

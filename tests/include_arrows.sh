@@ -46,6 +46,7 @@ declare -A public=(
   [run/grid]="grid grid_cells grid_kicks grid_losses grid_table"
   [model]="kinematics robot_model"
   [sim]="obstacle_shape scene trace trial"
+  [camera]="camera_pipeline camera_spec picture_file pinhole"
   [live]="act game"
   [camera]="camera_pipeline camera_spec picture_file pinhole truth_file twin video_file"
   [gap/recordings]="channel_name doctor mapping objection recording recording_health"

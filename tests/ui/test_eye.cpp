@@ -66,7 +66,7 @@ void TestEye::theFloorIsAsFarAsTheCameraIsHigh() {
   const PinholePicture picture = looked(renderer, scene, lookingDown(0, 0, 0.7));
   QCOMPARE(picture.depth_m.size(), std::size_t(208 * 160));
   for (std::size_t i = 0; i < picture.depth_m.size(); ++i) {
-    QVERIFY(std::abs(picture.depth_m[i] - 0.7) < 1e-4);
+    QVERIFY(std::abs(picture.depth_m[i] - 0.7) < 6e-4);  // the floor's grid lies half a millimetre above it
     QCOMPARE(picture.object[i], SceneBuilder::groundNumber());
   }
   // Upwards there is nothing but sky.
@@ -157,8 +157,7 @@ void TestEye::aHiddenLinkIsNotSeen() {
     return std::ranges::count(picture.object, scene.furtherNumber(0));
   };
   QVERIFY(seen() > 100);
-  for (std::size_t link = 0; link < test::smallRobot()->links.size(); ++link)
-    scene.hideLink(std::pair{std::size_t(0), link});
+  scene.hideLink(std::pair{std::size_t(0), std::size_t(0)});  // the body, larger than all the rest
   const auto fewer = seen();
   scene.hideLink(std::nullopt);
   QVERIFY(fewer < seen());

@@ -370,8 +370,8 @@ void TestScene3d::transparentBodiesLetTheFieldShine() {
   const QImage clear = renderer.render(scene.node(), camera, kSize);
   const Vector3d side(-0.05, -0.05, 0.215);
   const QColor body = pixelAt(clear, camera, side);
-  QVERIFY(!isWhite(body) && body != pixelAt(solid, camera, side));
-  QVERIFY(isGreen(body));
+  QVERIFY(isWhite(pixelAt(solid, camera, side)));
+  QVERIFY2(!isWhite(body) && body.green() > body.red() + 10, qPrintable(body.name()));  // the carpet's green in it
   scene.setSurfaces(Surfaces::shaded);
   QCOMPARE(renderer.render(scene.node(), camera, kSize), solid);
 }
@@ -413,8 +413,15 @@ void TestScene3d::marksComeAndGo() {
   scene.setMark(Mark::axes, true);
   const QImage axes = renderer.render(scene.node(), camera, kSize);
   // The first joint's axis lies along y through (0.1, 0, 0.2), and shows through the body.
-  const QColor axis = pixelAt(axes, camera, {0.1, -0.03, 0.2});
-  QVERIFY2(axis.blue() > axis.red() + 60, qPrintable(axis.name()));
+  const auto middle = camera.project({0.1, -0.03, 0.2}, kSize);
+  QVERIFY(middle);
+  bool blue = false;
+  for (int dx = -2; dx <= 2; ++dx)
+    for (int dy = -2; dy <= 2; ++dy) {
+      const QColor colour = axes.pixelColor(middle->toPoint() + QPoint(dx, dy));
+      blue |= colour.blue() > colour.red() + 60;
+    }
+  QVERIFY(blue);
 }
 
 void TestScene3d::contactForcesAreTenMillimetresANewton() {

@@ -14,7 +14,8 @@
 namespace btr::ui {
 namespace {
 
-constexpr int kShadowMapSize = 2048;
+/// Of a picture for people and of a measurement, whose own pixels are few.
+constexpr int kShadowMapSize = 2048, kSmallShadowMapSize = 512;
 
 osg::ref_ptr<osg::Shader> shader(osg::Shader::Type type, const char* text) { return new osg::Shader(type, text); }
 
@@ -50,9 +51,9 @@ osg::Vec3 rgb(const QColor& colour) { return {float(colour.redF()), float(colour
 /// Light-space perspective shadow map with our own shading and a polygon offset that neither speckles nor detaches.
 class RenderStage::SunShadow final : public osgShadow::LightSpacePerspectiveShadowMapVB {
  public:
-  explicit SunShadow(osg::Light* light) {
+  SunShadow(osg::Light* light, int size) {
     setLight(light);
-    setTextureSize(osg::Vec2s(kShadowMapSize, kShadowMapSize));
+    setTextureSize(osg::Vec2s(static_cast<short>(size), static_cast<short>(size)));
     setMinLightMargin(0.5f);
     _polygonOffsetFactor = 4;
     _polygonOffsetUnits = 16;
@@ -94,7 +95,8 @@ void RenderStage::build() {
   program->addShader(shader(osg::Shader::FRAGMENT, shaders::kNoShadowFragment));
   plain_->getOrCreateStateSet()->setAttribute(program);
 
-  sunShadow_ = new SunShadow(light);
+  const int shadowSize = target_ == Target::measurement ? kSmallShadowMapSize : kShadowMapSize;
+  sunShadow_ = new SunShadow(light, shadowSize);
   shadowed_ = new osgShadow::ShadowedScene(sunShadow_);
   shadowed_->getShadowSettings()->setReceivesShadowTraversalMask(~0u);
   shadowed_->getShadowSettings()->setCastsShadowTraversalMask(kCastsShadow);
@@ -110,7 +112,7 @@ void RenderStage::build() {
   }
   viewport_ = new osg::Uniform("viewport", osg::Vec2());
   state.addUniform(viewport_);
-  state.addUniform(new osg::Uniform("shadowTexel", 1.f / kShadowMapSize));
+  state.addUniform(new osg::Uniform("shadowTexel", 1.f / static_cast<float>(shadowSize)));
   for (const char* name : {"unlit", "fade", "weave", "identity"}) state.addUniform(new osg::Uniform(name, 0.f));
   state.addUniform(new osg::Uniform("gloss", 0.25f));
   state.addUniform(new osg::Uniform("opacity", 1.f));

@@ -426,7 +426,7 @@ void SceneBuilder::setSurfaces(Surfaces surfaces) {
   if (surfaces == Surfaces::wireframe) polygons(osg::PolygonMode::LINE);
   if (surfaces == Surfaces::points) {
     polygons(osg::PolygonMode::POINT);
-    state.setAttribute(new osg::Point(2.5f));
+    state.setAttribute(new osg::Point(5.f));
   }
   if (surfaces != Surfaces::transparent) return;
   makeTranslucent(*impl_->body, 10, false);

@@ -11,7 +11,7 @@
 namespace btr {
 namespace {
 
-constexpr int mostPixels = 4096;  // on a side
+constexpr int mostSide_px = 4096;
 constexpr std::array<const char*, 3> boxChannels{"y", "cb", "cr"};
 
 CameraMount mountFrom(JsonReader reader) {
@@ -113,12 +113,12 @@ void check(const CameraSpec& spec, const std::string& place) {
   const auto within = [&](const char* key, double value, double least, double most, const char* unit) {
     check(Parameter{key, unit, "", least, most, least}, value, place + " /" + key);
   };
-  within("width_px", spec.width, 8, mostPixels, "px");
-  within("height_px", spec.height, 8, mostPixels, "px");
+  within("width_px", spec.width, 8, mostSide_px, "px");
+  within("height_px", spec.height, 8, mostSide_px, "px");
   within("focal_px", spec.focal_px, 1, 1e5, "px");
   within("frame_rate_hz", spec.frameRate_hz, 0.1, 1000, "Hz");
-  within("centre_px", spec.centreX_px, -mostPixels, 2 * mostPixels, "px");
-  within("centre_px", spec.centreY_px, -mostPixels, 2 * mostPixels, "px");
+  within("centre_px", spec.centreX_px, -mostSide_px, 2 * mostSide_px, "px");
+  within("centre_px", spec.centreY_px, -mostSide_px, 2 * mostSide_px, "px");
   for (const CameraStage stage : cameraStages())
     resolve(parametersOf(stage), spec[stage].values, place + " /stages/" + nameOf(stage));
   if (spec[CameraStage::ycbcr].on && spec.width % 2 != 0)
@@ -131,8 +131,8 @@ CameraSpec cameraFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);
   CameraSpec spec;
   spec.name = nameOfSpec(reader, "uchilsim-camera-1");
-  spec.width = static_cast<int>(reader.integer("width_px", 8, mostPixels));
-  spec.height = static_cast<int>(reader.integer("height_px", 8, mostPixels));
+  spec.width = static_cast<int>(reader.integer("width_px", 8, mostSide_px));
+  spec.height = static_cast<int>(reader.integer("height_px", 8, mostSide_px));
   spec.focal_px = reader.number("focal_px", 1, 1e5);
   const auto centre = reader.numbers("centre_px", 2, {(spec.width - 1) / 2.0, (spec.height - 1) / 2.0});
   spec.centreX_px = centre[0];

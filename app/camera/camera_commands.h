@@ -8,6 +8,7 @@
 // Commands of btr-camera.
 namespace btr::cli {
 
+void addWatchCommand(CLI::App& app, Shell& shell);      ///< watch
 void addApplyCommand(CLI::App& app, Shell& shell);      ///< apply
 void addFitCommand(CLI::App& app, Shell& shell);        ///< fit
 void addFitColourCommand(CLI::App& app, Shell& shell);  ///< fit-colour

@@ -10,12 +10,6 @@ namespace {
 
 constexpr double straightDown = 1.55;  ///< rad; at π/2 right and left would be undefined
 
-/// Of the object's x axis, seen from above.
-double headingOf(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d x = pose.linear().col(0);
-  return std::atan2(x.y(), x.x());
-}
-
 }  // namespace
 
 const char* nameOf(ViewMode mode) {
@@ -33,8 +27,10 @@ ViewCamera cameraFor(ViewMode mode, const std::string& object, ViewCamera camera
   const Eigen::Isometry3d pose = scene.poseOf(static_cast<std::size_t>(found - objects.begin()), row);
   if (!pose.matrix().allFinite()) return camera;
   camera.focus = pose.translation();
-  if (mode == ViewMode::aboard)
-    camera.azimuth = std::remainder(headingOf(pose) + std::numbers::pi, 2 * std::numbers::pi);
+  if (mode == ViewMode::aboard) {
+    const Eigen::Vector3d ahead = pose.linear().col(0);
+    camera.azimuth = std::remainder(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi, 2 * std::numbers::pi);
+  }
   return camera;
 }
 

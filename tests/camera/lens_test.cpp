@@ -104,7 +104,9 @@ TEST(CameraLens, TruthGoesThroughTheSameLens) {
     const bool object = frame.truth.object[i] == 3;
     pixels += object;
     EXPECT_EQ(frame.truth.depth_m[i], object ? 1.0f : 2.0f);
-    if (object) EXPECT_GE(frame.rgb[3 * i], 64);  // at least half in both directions
+    if (object) {
+      EXPECT_GE(frame.rgb[3 * i], 64);
+    }  // at least half in both directions
   }
   EXPECT_EQ(seen.pixels, pixels);
   // The middle of the object, through OpenCV's lens.

@@ -94,8 +94,12 @@ TEST_P(ConcealedCamera, IsFoundWithinTheStatedUncertainty) {
     const double truth = truthOfNumber(hidden, number.name);
     std::cout << number.name << " " << truth << " found " << number.after << " ± " << number.deviation
               << (number.identified ? "\n" : " not told\n");
-    if (number.identified) EXPECT_NEAR(number.after, truth, 4 * number.deviation) << number.name;
-    if (!number.identified) EXPECT_NEAR(0, truth, 4 * number.deviation) << number.name;
+    if (number.identified) {
+      EXPECT_NEAR(number.after, truth, 4 * number.deviation) << number.name;
+    }
+    if (!number.identified) {
+      EXPECT_NEAR(0, truth, 4 * number.deviation) << number.name;
+    }
   }
   std::cout << "held out " << twin.heldOutBefore << " px before, " << twin.heldOutAfter << " after; corners "
             << photos.cornerNoise_px << "\n";
@@ -157,7 +161,9 @@ TEST(LensTwin, LeavesTermsAtZeroThatThePhotographsDoNotTell) {
   for (const TwinNumber& number : twin.numbers) {
     if (number.name[0] != 'k' && number.name[0] != 'p') continue;
     // One in twenty is taken for something by chance.
-    if (!number.identified) EXPECT_EQ(number.after, 0) << number.name;
+    if (!number.identified) {
+      EXPECT_EQ(number.after, 0) << number.name;
+    }
     EXPECT_LE(std::abs(number.after), 4 * number.deviation) << number.name;
   }
   EXPECT_FALSE(twin.numbers[5].identified);  // k3

@@ -55,7 +55,9 @@ TEST(CameraShutter, BlursByTheSpeedTimesTheExposure) {
   for (int x = 0; x < frame.width; ++x) {
     const double expected = std::min(std::max(0.5 - (x - edgeAtZero_px) / width_px, 0.0), 1.0);
     const bool onRamp = expected > 0.06 && expected < 0.94;  // its ends are rounded by a pixel
-    if (onRamp) EXPECT_NEAR(pixelOf(frame, x, 20, 0) / 255.0, expected, 0.015) << x;
+    if (onRamp) {
+      EXPECT_NEAR(pixelOf(frame, x, 20, 0) / 255.0, expected, 0.015) << x;
+    }
   }
   EXPECT_NEAR(whiteOfRow(frame, 20), edgeAtZero_px, 0.1);
 }

@@ -49,7 +49,7 @@ LiveEye::LiveEye(const Game& game, const ModelSet& models, const std::vector<std
   builder_.setFurtherJackets(scene_.jackets());
   builder_.setBalls(scene_.radii());
   builder_.hideLink(std::pair{robot_, link_});
-  objects_.assign(2 + scene_.objects().size(), "");
+  objects_.assign(1 + scene_.objects().size(), "");
   objects_[SceneBuilder::groundNumber() - 1] = "floor";
   std::size_t further = 0, ball = 0;
   for (const LiveObject& object : scene_.objects())

@@ -224,6 +224,7 @@ struct SceneBuilder::Impl {
   WorldMarks worldMarks;
   osg::ref_ptr<osg::Group> worldLines = new osg::Group;
   bool dark = false;
+  int firstFurther = 2;
 
   void rebuildFigure();
   void rebuildGhosts();
@@ -267,8 +268,10 @@ void SceneBuilder::Impl::rebuildFigure() {
   figure = std::make_unique<Figure>(model.get(), radii, nullptr);
   further.clear();
   for (const auto& other : furtherModels) further.emplace_back(other.get(), std::vector<double>(), nullptr);
-  figure->number(2, 3 + static_cast<int>(further.size()));
-  for (std::size_t i = 0; i < further.size(); ++i) further[i].number(3 + static_cast<int>(i), 0);
+  // Ground, first robot if there is one, further robots, balls.
+  firstFurther = model ? 3 : 2;
+  figure->number(2, firstFurther + static_cast<int>(further.size()));
+  for (std::size_t i = 0; i < further.size(); ++i) further[i].number(firstFurther + static_cast<int>(i), 0);
   showJacket();
   place();
   showMarks();
@@ -397,9 +400,11 @@ void SceneBuilder::hideLink(std::optional<std::pair<std::size_t, std::size_t>> f
   impl_->place();
 }
 
-std::uint16_t SceneBuilder::ballNumber(std::size_t ball) const {
-  return static_cast<std::uint16_t>(3 + impl_->further.size() + ball);
+std::uint16_t SceneBuilder::furtherNumber(std::size_t further) const {
+  return static_cast<std::uint16_t>(static_cast<std::size_t>(impl_->firstFurther) + further);
 }
+
+std::uint16_t SceneBuilder::ballNumber(std::size_t ball) const { return furtherNumber(impl_->further.size() + ball); }
 
 void SceneBuilder::setJacket(const std::string& part) {
   impl_->jacket = part;

@@ -75,7 +75,7 @@ class SceneBuilder {
 
   /// Numbers of objects in a measurement, see EyeRenderer.
   static constexpr std::uint16_t groundNumber() { return 1; }
-  std::uint16_t furtherNumber(std::size_t further) const { return static_cast<std::uint16_t>(3 + further); }
+  std::uint16_t furtherNumber(std::size_t further) const;
   std::uint16_t ballNumber(std::size_t ball) const;
   /// Sky colours that go with it; shadows and supersampling as by default.
   RenderOptions renderOptions() const;

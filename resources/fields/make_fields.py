@@ -63,8 +63,10 @@ def carpet(length, width, border, line, circle, penalty_depth, penalty_width):
             "circles": [{"centre_m": [0, 0], "radius_m": circle / 2, "width_m": line}]}
 
 
-def field(carpet, obstacles):
+def field(length, width, goal_width, carpet, obstacles):
     return {"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008,
+            "field": {"length_m": length, "width_m": width,
+                      "goals": {"width_m": goal_width, "depth_m": 0.3, "height_m": 0.3}},
             "floor": {"friction": 1.0, "restitution": 0.0}, "robots_collide": True, "carpet": carpet,
             "robots": [],
             "balls": [{"name": "ball", "radius_m": 0.0425, "mass_kg": 0.055, "rolling_deceleration_m_s2": 0.4,
@@ -81,11 +83,13 @@ def beacons(places):
 
 fields = {
     "four-legged-2004": field(
+        4.2, 2.7, 0.6,
         carpet(4.2, 2.7, 0.2, 0.025, 0.30, 0.45, 0.90),
         around(4.6, 3.1, 0.6, 0.30) + goal("goal_yellow", 2.1, 0.6, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.1, 0.6, 0.3, 0.3, SKY) +
         beacons([(2.2, 1.45, PINK, YELLOW), (2.2, -1.45, YELLOW, PINK), (-2.2, 1.45, PINK, SKY), (-2.2, -1.45, SKY, PINK),
                  (0, 1.45, PINK, WHITE), (0, -1.45, WHITE, PINK)])),
     "four-legged-2006": field(
+        5.4, 3.6, 0.8,
         carpet(5.4, 3.6, 0.2, 0.025, 0.36, 0.65, 1.30),
         goal("goal_yellow", 2.7, 0.8, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.7, 0.8, 0.3, 0.3, SKY) +
         beacons([(1.35, 1.9, PINK, YELLOW), (1.35, -1.9, YELLOW, PINK), (-1.35, 1.9, PINK, SKY), (-1.35, -1.9, SKY, PINK)])),

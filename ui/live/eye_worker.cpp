@@ -89,9 +89,18 @@ void EyeWorker::look(std::function<std::unique_ptr<LiveEye>()> make) {
   {
     const QMutexLocker lock(&mutex_);
     make_ = std::move(make);
+    camera_.reset();
     rows_.clear();
   }
   if (!isRunning()) start();
+  news_.wakeAll();
+}
+
+void EyeWorker::setCamera(const CameraSpec& camera) {
+  {
+    const QMutexLocker lock(&mutex_);
+    camera_ = camera;
+  }
   news_.wakeAll();
 }
 
@@ -117,17 +126,20 @@ void EyeWorker::run() {
   std::unique_ptr<LiveEye> eye;
   std::optional<EyeFrame> last;
   double took_ms = 0;
+  bool waits = true;
   for (;;) {
     std::vector<LiveRow> rows;
     std::function<std::unique_ptr<LiveEye>()> make;
+    std::optional<CameraSpec> camera;
     ShownFrame::What what;
     bool again;
     {
       QMutexLocker lock(&mutex_);
-      while (!ends_ && !make_ && rows_.empty() && !again_) news_.wait(&mutex_);
+      while (!ends_ && !make_ && !camera_ && rows_.empty() && !again_) news_.wait(&mutex_);
       if (ends_) return;
       rows = std::exchange(rows_, {});
       make = std::exchange(make_, nullptr);
+      camera = std::exchange(camera_, std::nullopt);
       what = what_;
       again = std::exchange(again_, false);
     }
@@ -138,13 +150,14 @@ void EyeWorker::run() {
         eye = make();
       }
       if (!eye) continue;
+      if (camera) eye->setCamera(*camera);
       for (const LiveRow& row : rows) eye->add(row);
       eye->catchUp();
       QElapsedTimer watch;
       watch.start();
       // While the world waits, hands still move things.
-      const bool waits = !rows.empty() && !rows.back().playing;
-      if (auto frame = waits ? eye->still() : eye->next()) {
+      if (!rows.empty()) waits = !rows.back().playing;
+      if (auto frame = waits && (camera || !rows.empty()) ? eye->still() : eye->next()) {
         last = std::move(frame);
         took_ms = static_cast<double>(watch.nsecsElapsed()) * 1e-6;
         again = true;

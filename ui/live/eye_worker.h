@@ -32,6 +32,8 @@ class EyeWorker : public QThread {
 
   /// Makes the eye in the worker's thread; what it throws as InputError comes as failed().
   void look(std::function<std::unique_ptr<LiveEye>()> make);
+  /// The same eye through another camera.
+  void setCamera(const CameraSpec& camera);
   void setWhat(ShownFrame::What what);
   void add(const LiveRow& row);
 
@@ -46,6 +48,7 @@ class EyeWorker : public QThread {
   QMutex mutex_;
   QWaitCondition news_;
   std::function<std::unique_ptr<LiveEye>()> make_;
+  std::optional<CameraSpec> camera_;
   std::vector<LiveRow> rows_;
   ShownFrame::What what_ = ShownFrame::What::picture;
   bool again_ = false;  ///< the same frame once more, shown otherwise

@@ -63,6 +63,23 @@ LiveEye::LiveEye(const Game& game, const ModelSet& models, const std::vector<std
     }
 }
 
+void LiveEye::setCamera(CameraSpec camera) {
+  const std::size_t link = linkOf(*scene_.models()[robot_], camera);
+  CameraPipeline pipeline(std::move(camera));
+  link_ = link;
+  pipeline_ = std::move(pipeline);
+  moments_s_ = pipeline_.moments_s();
+  mount_ = poseOf(pipeline_.spec().mount);
+  builder_.hideLink(std::pair{robot_, link_});
+  if (rows_.empty()) return;
+  rows_.erase(rows_.begin(), rows_.end() - 1);
+  next_ = firstFrame(rows_.back());
+}
+
+std::uint64_t LiveEye::firstFrame(const LiveRow& row) const {
+  return static_cast<std::uint64_t>(std::ceil(scene_.time_s(row) * camera().frameRate_hz - 1e-9));
+}
+
 void LiveEye::add(const LiveRow& row) {
   if (!rows_.empty() && scene_.time_s(row) <= scene_.time_s(rows_.back())) {
     if (scene_.time_s(row) == scene_.time_s(rows_.back())) {
@@ -70,11 +87,9 @@ void LiveEye::add(const LiveRow& row) {
       return;
     }
     rows_.clear();
-    begun_ = false;
   }
+  if (rows_.empty()) next_ = firstFrame(row);
   rows_.push_back(row);
-  if (!begun_) next_ = static_cast<std::uint64_t>(std::ceil(scene_.time_s(row) * camera().frameRate_hz - 1e-9));
-  begun_ = true;
   const double from = frameTime_s(next_) + moments_s_.front();
   while (rows_.size() > 2 && scene_.time_s(rows_[1]) <= from) rows_.pop_front();
 }

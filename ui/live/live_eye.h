@@ -25,6 +25,9 @@ class LiveEye {
           CameraSpec camera, GlContextFactory factory = createGlContext);
 
   const CameraSpec& camera() const { return pipeline_.spec(); }
+  /// Another camera on the same robot, or the same with other numbers. Throws InputError, and changes nothing, if the
+  /// robot has no link for it.
+  void setCamera(CameraSpec camera);
   /// As PinholePicture::object counts them, from 1.
   const std::vector<std::string>& objects() const { return objects_; }
   const std::vector<std::string>& jointColumns() const { return jointColumns_; }
@@ -42,12 +45,14 @@ class LiveEye {
 
  private:
   double frameTime_s(std::uint64_t number) const { return static_cast<double>(number) / camera().frameRate_hz; }
+  std::uint64_t firstFrame(const LiveRow& row) const;
   bool isComplete(std::uint64_t number) const;
   LiveRow rowAt(double time_s) const;
   EyeFrame frameOf(std::uint64_t number, double time_s, const std::vector<LiveRow>& moments, const LiveRow& now);
 
   LiveScene scene_;
-  std::size_t robot_ = 0, link_ = 0;
+  std::size_t robot_ = 0;
+  std::size_t link_ = 0;  ///< on which the camera sits
   CameraPipeline pipeline_;
   std::vector<double> moments_s_;
   Eigen::Isometry3d mount_;
@@ -57,7 +62,6 @@ class LiveEye {
   std::vector<int> joints_;   ///< columns of jointColumns_
   std::deque<LiveRow> rows_;  ///< as far back as the next frame reaches
   std::uint64_t next_ = 0;
-  bool begun_ = false;
 };
 
 /// The camera of resources/cameras that belongs to a robot's model, by its name; "" none does.

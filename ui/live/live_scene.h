@@ -1,5 +1,9 @@
 #pragma once
+#include <QStringList>
+#include <array>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +21,10 @@ struct LiveRow {
   double realTimeFactor = 0;
   std::vector<std::pair<std::size_t, Eigen::Isometry3d>> fixed;  ///< obstacles that never move: number and pose
   QString fault;
+  std::optional<std::array<int, 2>> score;         ///< red, blue; none without a referee
+  double clock_s = 0;                              ///< of the referee
+  std::map<std::string, Eigen::Vector3d> hands_n;  ///< by object that is pulled: the force [N], world axes
+  QStringList events;                              ///< since the last row: "goal of red" …
 };
 
 /// An object of a game, as it is picked, moved and listed.
@@ -44,6 +52,8 @@ class LiveScene {
   ScenePose pose(const LiveRow& row) const;
   /// Of an object's own frame; a robot's is its root link's.
   Eigen::Isometry3d poseOf(std::size_t object, const LiveRow& row) const;
+  /// Where a robot's joints are, those that have a channel [rad or m].
+  Values jointsOf(std::size_t object, const LiveRow& row) const;
   /// Time of the row [s].
   double time_s(const LiveRow& row) const { return row.values.empty() ? 0 : row.values[0]; }
 

@@ -22,11 +22,26 @@ constexpr double workAtMost_s = 0.03;   ///< then standard input is looked at ag
 constexpr double behindAtMost_s = 0.2;  ///< what cannot be caught up is given up: the factor tells
 constexpr double measured_s = 0.5;      ///< the real-time factor's window
 constexpr std::size_t longestLine = 1u << 20;
+constexpr std::size_t mostSignals = 100;
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void say(const nlohmann::json& line) {
   std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n' << std::flush;
+}
+
+/// Of the hands that pull, by object [N], world axes.
+nlohmann::json handForces(const Session& session) {
+  nlohmann::json forces = nlohmann::json::object();
+  const auto add = [&](const auto& specs) {
+    for (const auto& spec : specs)
+      if (const Eigen::Vector3d f = session.handForce_n(spec.name); !f.isZero())
+        forces[spec.name] = {f.x(), f.y(), f.z()};
+  };
+  add(session.game().scene.robots);
+  add(session.game().scene.balls);
+  add(session.game().scene.obstacles);
+  return forces;
 }
 
 }  // namespace
@@ -79,11 +94,12 @@ void LiveSteering::obey(const std::string& line) {
       tellRow();
       return;
     }
-    const std::string wanted = reader.word("do", {"play", "pause", "step", "speed", "save", "game", "end"});
+    const std::string wanted = reader.word("do", {"play", "pause", "step", "speed", "save", "game", "signals", "end"});
     if (wanted == "play") playing_ = true;
     if (wanted == "pause") playing_ = false;
     if (wanted == "end") ended_ = true;
     if (wanted == "game") tellGame();
+    if (wanted == "signals") chooseSignals(reader);
     if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
     if (wanted == "save") {
       const std::string path = reader.text("path");
@@ -92,7 +108,7 @@ void LiveSteering::obey(const std::string& line) {
     }
     const long periods = wanted == "step" ? static_cast<long>(reader.integer("periods", 1, 10000, 1)) : 0;
     reader.finish();
-    for (long i = 0; i < periods; ++i) session_.step();
+    for (long i = 0; i < periods; ++i) stepOnce();
     anchor_s_ = measuredFrom_s_ = now_s();
     anchorPeriods_ = measuredPeriods_ = session_.periods();
     factor_ = 0;
@@ -108,7 +124,7 @@ void LiveSteering::advance() {
     if (speed_ <= 0) return session_.periods() + 1;
     return anchorPeriods_ + static_cast<long>(std::floor((now_s() - anchor_s_) * speed_ / period));
   };
-  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty()) session_.step();
+  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty()) stepOnce();
   const double now = now_s();
   if (speed_ > 0 && static_cast<double>(due() - session_.periods()) * period / speed_ > behindAtMost_s) {
     anchor_s_ = now;
@@ -125,7 +141,25 @@ void LiveSteering::advance() {
   tellRow();
 }
 
+void LiveSteering::stepOnce() {
+  session_.step();
+  if (!signals_.wanted() || !session_.fault().empty()) return;
+  sampled_.clear();
+  session_.world().sample(sampled_);
+  signals_.add(session_.periods(), sampled_);
+}
+
+// What was kept of the channels before is told first, so that every sample belongs to the channels that were told last.
+void LiveSteering::chooseSignals(JsonReader& reader) {
+  std::vector<std::string> wanted = reader.texts("channels");
+  if (wanted.size() > mostSignals) reader.refuse("channels", "at most " + std::to_string(mostSignals) + " names");
+  if (signals_.wanted()) tellRow();
+  signals_.choose(std::move(wanted), session_.world().channels());
+  say({{"signals", signals_.names()}});
+}
+
 void LiveSteering::tellGame() {
+  signals_.resolve(session_.world().channels());
   say({{"game", nlohmann::json::parse(toJsonText(session_.game()))},
        {"directory", session_.game().scene.directory},
        {"channels", session_.world().channels()}});
@@ -146,6 +180,8 @@ void LiveSteering::tellRow() {
     bases.push_back({i, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
   }
   line["fixed"] = std::move(bases);
+  if (nlohmann::json hands = handForces(session_); !hands.empty()) line["hands_n"] = std::move(hands);
+  if (signals_.wanted()) line["samples"] = signals_.take();
   if (!session_.fault().empty()) line["fault"] = session_.fault();
   say(line);
 }

@@ -3,8 +3,12 @@
 #include <functional>
 #include <string>
 
+#include "app/btr_live_signals.h"
 #include "core/live/session.h"
 
+namespace btr {
+class JsonReader;
+}
 namespace btr::cli {
 
 /// A session that is steered by lines of JSON on standard input and tells what it does on standard output; see
@@ -19,13 +23,17 @@ class LiveSteering {
   bool readInput(int wait_ms);
   void obey(const std::string& line);
   void advance();
+  void stepOnce();
   void tellGame();
   void tellRow();
+  void chooseSignals(JsonReader& reader);
   int untilNext_ms() const;
 
   Session& session_;
   std::function<void(const std::string&)> save_;
-  std::string pending_;  ///< of standard input, without its last line's end
+  LiveSignals signals_;
+  std::vector<double> sampled_;  ///< one row
+  std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
   double speed_ = 1;        ///< simulated seconds a second; 0: as fast as possible
   double anchor_s_ = 0;     ///< wall time …

@@ -104,6 +104,16 @@ LiveRow LiveScene::between(const LiveRow& from, const LiveRow& to, double part) 
   return row;
 }
 
+Values LiveScene::jointsOf(std::size_t object, const LiveRow& row) const {
+  Values joints;
+  if (objects_[object].kind != LiveObject::Kind::robot) return joints;
+  const std::size_t number = numbers_[object];
+  for (std::size_t j = 0; j < robots_[number].joints.size(); ++j)
+    if (const int column = robots_[number].joints[j]; column >= 0 && std::size_t(column) < row.values.size())
+      joints[models_[number]->joints[j].name] = row.values[static_cast<std::size_t>(column)];
+  return joints;
+}
+
 ScenePose LiveScene::pose(const LiveRow& row) const {
   ScenePose pose;
   for (std::size_t i = 0; i < objects_.size(); ++i) {

@@ -1,17 +1,13 @@
 #pragma once
 #include <array>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/spec/carpet_spec.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
-
-class JsonReader;
 
 /// How a joint is driven, as the contract's scene says. Every number is optional: what is absent comes from the model.
 struct ServoSpec {
@@ -71,17 +67,6 @@ struct ObstacleSpec {
   bool operator==(const ObstacleSpec&) const = default;
 };
 
-/// The sizes of a field with two goals about the world's origin; its length lies along x.
-struct FieldSpec {
-  struct Goals {
-    double width_m = 0.6, depth_m = 0.3, height_m = 0.3;  ///< inside; depth 0: not known
-    bool operator==(const Goals&) const = default;
-  };
-  double length_m = 4.2, width_m = 2.7;  ///< between the outer edges of the border lines
-  Goals goals;
-  bool operator==(const FieldSpec&) const = default;
-};
-
 /// A carpet or a hard floor at z = 0. `slip` is force-dependent slip: sliding speed per tangential force [m/(s·N)],
 /// along the floor's x (slip1) and y (slip2). Stiffness and damping are those of the contact normal.
 struct FloorSpec {
@@ -110,12 +95,10 @@ struct SceneSpec {
   double step_s = 0.001;  ///< 1e-5 … 0.02, divides control_period_s
   double controlPeriod_s = 0.008;
   std::optional<FloorSpec> floor;
-  std::optional<FieldSpec> field;
   std::vector<RobotSpec> robots;
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
-  std::optional<CarpetSpec> carpet;  ///< how the floor looks
-  bool robotsCollide = false;        ///< with each other; with obstacles and balls they always do
+  bool robotsCollide = false;  ///< with each other; with obstacles and balls they always do
   std::vector<CalibratePath> calibrate;
   std::string directory;  ///< of the scene file; relative model paths start here
   bool operator==(const SceneSpec&) const = default;
@@ -134,10 +117,6 @@ ObstacleSpec obstacleFromJson(const std::string& text, const std::string& place)
 std::string toJsonText(const RobotSpec& robot);
 std::string toJsonText(const BallSpec& ball);
 std::string toJsonText(const ObstacleSpec& obstacle);
-
-/// "field" of a scene or of a referee. Calls finish().
-FieldSpec fieldFromReader(JsonReader& reader);
-nlohmann::json toJson(const FieldSpec& field);
 
 /// The numbers that a servo entry may carry, with units and bounds.
 const std::vector<Parameter>& servoNumbers();

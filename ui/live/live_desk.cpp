@@ -28,6 +28,7 @@ LiveDesk::LiveDesk(LiveWorld& world, LiveView* view, QWidget* parent)
   setDockNestingEnabled(true);
   setContextMenuPolicy(Qt::NoContextMenu);
   setCentralWidget(view_);
+  connect(view_, &LiveView::markToggled, this, &LiveDesk::askContacts);
 }
 
 QDockWidget* LiveDesk::addDock(QWidget* content, const QString& title, Qt::DockWidgetArea area) {
@@ -42,6 +43,7 @@ QDockWidget* LiveDesk::addDock(QWidget* content, const QString& title, Qt::DockW
 ExtraView* LiveDesk::addView() {
   auto* view = new ExtraView(world_);
   view->view().setCamera(view_->camera());
+  connect(&view->view(), &LiveView::markToggled, this, &LiveDesk::askContacts);
   addDock(view, tr("View %1").arg(views().size() + 2), Qt::RightDockWidgetArea);
   return view;
 }
@@ -55,6 +57,13 @@ EyePanel* LiveDesk::addEye() {
 
 QList<ExtraView*> LiveDesk::views() const { return contentsOf<ExtraView>(*this); }
 QList<EyePanel*> LiveDesk::eyes() const { return contentsOf<EyePanel>(*this); }
+
+/// They are told while any view draws them.
+void LiveDesk::askContacts() {
+  bool any = view_->markAction(Mark::contacts)->isChecked();
+  for (ExtraView* view : views()) any |= view->view().markAction(Mark::contacts)->isChecked();
+  world_.process().setContacts(any);
+}
 
 void LiveDesk::closeAll() {
   for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) delete dock;

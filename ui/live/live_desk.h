@@ -37,6 +37,7 @@ class LiveDesk : public QMainWindow {
  private:
   class QDockWidget* addDock(QWidget* content, const QString& title, Qt::DockWidgetArea area);
   void closeAll();
+  void askContacts();
 
   LiveWorld& world_;
   LiveView* view_;

@@ -96,8 +96,15 @@ void LiveProcess::step(int periods) {
 void LiveProcess::setSpeed(double times) {
   send(QByteArray::fromStdString(json{{"do", "speed"}, {"times", times}}.dump()));
 }
-void LiveProcess::save(const QString& path) {
-  send(QByteArray::fromStdString(json{{"do", "save"}, {"path", path.toStdString()}}.dump()));
+void LiveProcess::save(const QString& path, const std::string& view) {
+  json line{{"do", "save"}, {"path", path.toStdString()}};
+  if (!view.empty()) line["view"] = json::parse(view);
+  send(QByteArray::fromStdString(line.dump()));
+}
+
+void LiveProcess::setContacts(bool on) {
+  contacts_ = on;
+  send(QByteArray::fromStdString(json{{"do", "contacts"}, {"on", on}}.dump()));
 }
 
 void LiveProcess::read() {
@@ -141,6 +148,7 @@ void LiveProcess::tellGame(const json& line) {
   const ModelSet models = modelsOf(game.scene);
   const bool first = !std::exchange(ready_, true);
   if (first && !signals_.empty()) sendSignals();
+  if (first && contacts_) setContacts(true);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
 }
 

@@ -34,7 +34,7 @@ LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector
     const auto found = std::ranges::find(channels, name);
     return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
   };
-  carpet_ = game.scene.carpet;
+  carpet_ = game.pitch.carpet;
   for (const RobotSpec& robot : game.scene.robots) {
     const auto& model = models.at(robot.model);
     numbers_.push_back(robots_.size());

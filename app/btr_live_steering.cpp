@@ -23,6 +23,7 @@ constexpr double workAtMost_s = 0.03;   ///< then standard input is looked at ag
 constexpr double behindAtMost_s = 0.2;  ///< what cannot be caught up is given up: the factor tells
 constexpr double measured_s = 0.5;      ///< the real-time factor's window
 constexpr std::size_t longestLine = 1u << 20;
+constexpr std::size_t mostSignals = 100;
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -31,6 +32,20 @@ void say(const nlohmann::json& line) {
   static std::mutex oneAtATime;
   const std::lock_guard lock(oneAtATime);
   std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n' << std::flush;
+}
+
+/// Of the hands that pull, by object [N], world axes.
+nlohmann::json handForces(const Session& session) {
+  nlohmann::json forces = nlohmann::json::object();
+  const auto add = [&](const auto& specs) {
+    for (const auto& spec : specs)
+      if (const Eigen::Vector3d f = session.handForce_n(spec.name); !f.isZero())
+        forces[spec.name] = {f.x(), f.y(), f.z()};
+  };
+  add(session.game().scene.robots);
+  add(session.game().scene.balls);
+  add(session.game().scene.obstacles);
+  return forces;
 }
 
 }  // namespace
@@ -85,7 +100,7 @@ void LiveSteering::obey(const std::string& line) {
     JsonReader reader = JsonReader::parse(line, "line");
     if (reader.has("act")) return act(reader);
     const std::string wanted =
-        reader.word("do", {"play", "pause", "step", "speed", "save", "game", "undo", "redo", "end"});
+        reader.word("do", {"play", "pause", "step", "speed", "save", "game", "signals", "undo", "redo", "end"});
     if (wanted == "play") playing_ = true;
     if (wanted == "pause") playing_ = false;
     if (wanted == "end") ended_ = true;
@@ -94,6 +109,7 @@ void LiveSteering::obey(const std::string& line) {
       reader.finish();
       return change([&] { wanted == "undo" ? undo_.undo(session_) : undo_.redo(session_); });
     }
+    if (wanted == "signals") chooseSignals(reader);
     if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
     if (wanted == "save") {
       const std::string path = reader.text("path");
@@ -102,7 +118,7 @@ void LiveSteering::obey(const std::string& line) {
     }
     const long periods = wanted == "step" ? static_cast<long>(reader.integer("periods", 1, 10000, 1)) : 0;
     reader.finish();
-    for (long i = 0; i < periods; ++i) session_.step();
+    for (long i = 0; i < periods; ++i) stepOnce();
     anchor_s_ = measuredFrom_s_ = now_s();
     anchorPeriods_ = measuredPeriods_ = session_.periods();
     factor_ = 0;
@@ -149,7 +165,7 @@ void LiveSteering::advance() {
     return anchorPeriods_ + static_cast<long>(std::floor((now_s() - anchor_s_) * speed_ / period));
   };
   while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty() && playing_) {
-    session_.step();
+    stepOnce();
     // The end of a game is a moment to look at: it waits there.
     if (session_.referee() && session_.referee()->over && !over_) {
       over_ = true;
@@ -172,7 +188,25 @@ void LiveSteering::advance() {
   tellRow();
 }
 
+void LiveSteering::stepOnce() {
+  session_.step();
+  if (!signals_.wanted() || !session_.fault().empty()) return;
+  sampled_.clear();
+  session_.sample(sampled_);
+  signals_.add(session_.periods(), sampled_);
+}
+
+// What was kept of the channels before is told first, so that every sample belongs to the channels that were told last.
+void LiveSteering::chooseSignals(JsonReader& reader) {
+  std::vector<std::string> wanted = reader.texts("channels");
+  if (wanted.size() > mostSignals) reader.refuse("channels", "at most " + std::to_string(mostSignals) + " names");
+  if (signals_.wanted()) tellRow();
+  signals_.choose(std::move(wanted), session_.channels());
+  say({{"signals", signals_.names()}});
+}
+
 void LiveSteering::tellGame() {
+  signals_.resolve(session_.channels());
   say({{"game", nlohmann::json::parse(toJsonText(session_.game()))},
        {"directory", session_.game().scene.directory},
        {"channels", session_.channels()}});
@@ -211,6 +245,8 @@ void LiveSteering::tellRow() {
     bases.push_back({i, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
   }
   line["fixed"] = std::move(bases);
+  if (nlohmann::json hands = handForces(session_); !hands.empty()) line["hands_n"] = std::move(hands);
+  if (signals_.wanted()) line["samples"] = signals_.take();
   if (!session_.fault().empty()) line["fault"] = session_.fault();
   if (session_.referee()) tellReferee(line);
   say(line);

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "app/btr_live_signals.h"
 #include "core/live/session.h"
 #include "core/live/undo.h"
 
@@ -11,6 +12,9 @@ namespace btr {
 class JsonReader;
 }
 
+namespace btr {
+class JsonReader;
+}
 namespace btr::cli {
 
 /// A session that is steered by lines of JSON on standard input and tells what it does on standard output; see
@@ -25,6 +29,7 @@ class LiveSteering {
   bool readInput(int wait_ms);
   void obey(const std::string& line);
   void advance();
+  void stepOnce();
   void tellGame();
   void tellRow();
   void tellReferee(nlohmann::json& line);
@@ -33,13 +38,16 @@ class LiveSteering {
   void act(JsonReader& reader);
   /// Changes the session, and tells what came of it; what is thrown as InputError is answered as a refusal.
   void change(const std::function<void()>& work);
+  void chooseSignals(JsonReader& reader);
   int untilNext_ms() const;
 
   Session& session_;
   std::function<void(const std::string&)> save_;
   UndoStack undo_;
   std::string undoTold_, redoTold_;
-  std::string pending_;  ///< of standard input, without its last line's end
+  LiveSignals signals_;
+  std::vector<double> sampled_;  ///< one row
+  std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
   bool over_ = false;       ///< the referee's game
   long eventsTold_ = 0;     ///< of the referee

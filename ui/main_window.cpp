@@ -67,6 +67,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   const WindowLinks links{*this, bench_, layout_, pages_, *drafts_, *runs_, *grids_};
   linkTree(links);
   linkStartPage(links);
+  linkScene(links);
   linkDrops(links);
   makeWindowMenus({*this, theme_, bench_, layout_, pages_, *drafts_, *runs_, *replays_},
                   {new AlarmPlace(*pages_.alarm, this), &messages_->bar(), [this] { place_->reset(); }});

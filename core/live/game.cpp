@@ -224,15 +224,20 @@ Game gameFromJson(const std::string& text, const std::string& place, const std::
   if (scene->is_string()) {
     const std::string path = (fs::path(directory) / scene->get<std::string>()).string();
     game.scene = loadScene(path);
+    game.pitch = pitchFromJson(readFile(path), path);
     moveModels(game.scene, directory);
   } else {
     game.scene = sceneFromJson(scene->dump(), reader.at("scene"), directory);
+    game.pitch = pitchFromJson(scene->dump(), reader.at("scene"));
   }
   if (reader.has("field")) {
     const std::string path = (fs::path(directory) / reader.text("field")).string();
     const SceneSpec field = loadScene(path);
     if (!field.robots.empty()) throw InputError(path, "a robot", "a field: floor, obstacles and balls");
     addField(game.scene, field, path);
+    const PitchSpec pitch = pitchFromJson(readFile(path), path);
+    if (pitch.field) game.pitch.field = pitch.field;
+    if (pitch.carpet) game.pitch.carpet = pitch.carpet;
   }
   game.seed = reader.seed("seed", game.seed);
   if (auto simulator = reader.objectIfAny("simulator")) {
@@ -257,6 +262,7 @@ std::string toJsonText(const Game& game) {
                 {"seed", game.seed},
                 {"simulator", simulatorToJson(game.simulator)},
                 {"robots", json::object()}};
+  addTo(document["scene"], game.pitch);
   for (const auto& [name, robot] : game.robots) document["robots"][name] = toJson(robot);
   if (game.referee) document["referee"] = toJson(*game.referee);
   if (game.state) document["state"] = toJson(*game.state);
@@ -278,6 +284,7 @@ Game loadGame(const std::string& path) {
   if (format == "uchilsim-game-1") return gameFromJson(text, path, directory);
   Game game;
   game.scene = sceneFromJson(text, path, directory);
+  game.pitch = pitchFromJson(text, path);
   return game;
 }
 

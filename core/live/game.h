@@ -11,6 +11,7 @@
 #include "core/sim/senses.h"
 #include "core/sim/world_memory.h"
 #include "core/spec/parameter.h"
+#include "core/spec/pitch_spec.h"
 #include "core/spec/scene_spec.h"
 #include "core/spec/simulator_spec.h"
 
@@ -60,6 +61,7 @@ struct GameState {
 /// A scene with who plays in it ("format": "uchilsim-game-1"). A value.
 struct Game {
   SceneSpec scene;
+  PitchSpec pitch;  ///< of the scene's file
   std::uint64_t seed = 1;
   SimulatorSpec simulator;                  ///< of everything that has none of its own
   std::map<std::string, GameRobot> robots;  ///< by the scene's names; those that are not here hold still

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/contact_force.h"
 #include "core/sim/effect.h"
 #include "core/sim/readings.h"
 #include "core/sim/scene.h"
@@ -96,8 +97,10 @@ class World {
 
   /// From now on the robot's root frame is its accelerometer, if its model has none.
   void measureAcceleration(std::size_t robot);
-  /// From now on the forces of floor contacts are kept (the steps cost a little more).
-  void measureForces();
+  /// From now on the forces of contacts are kept, or no longer (the steps cost a little more; no bit changes).
+  void measureForces(bool on = true);
+  /// Of the last step; empty unless they are measured.
+  const std::vector<ContactForce>& contactForces() const;
   /// Sum of all forces of the floor on robots and balls in the last step [N]; zero unless they are measured.
   Eigen::Vector3d floorForce_n() const;
 

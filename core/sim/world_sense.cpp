@@ -161,7 +161,8 @@ bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index)
 double World::time() const { return impl_->time(); }
 std::string World::fault() const { return impl_->fault; }
 
-void World::measureForces() { impl_->contacts.measureForces(true); }
+void World::measureForces(bool on) { impl_->contacts.measureForces(on); }
+const std::vector<ContactForce>& World::contactForces() const { return impl_->contacts.forces(); }
 Eigen::Vector3d World::floorForce_n() const { return impl_->contacts.floorForce_n(); }
 
 double World::energy() const {

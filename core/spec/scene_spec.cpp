@@ -8,6 +8,7 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/pitch_spec.h"
 
 namespace btr {
 namespace {
@@ -130,11 +131,7 @@ ObstacleSpec obstacleFrom(JsonReader& reader, std::set<std::string>& taken) {
   obstacle.orientation_wxyz = orientationOf(reader);
   obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, obstacle.velocity_m_s);
   obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, obstacle.spin_rad_s);
-  obstacle.colour = reader.text("colour", obstacle.colour);
-  const auto hexadecimal = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (obstacle.colour.size() != 7 || obstacle.colour[0] != '#' ||
-      !std::all_of(obstacle.colour.begin() + 1, obstacle.colour.end(), hexadecimal))
-    reader.refuse("colour", "# and six hexadecimal digits, as #8c8c96");
+  obstacle.colour = colourFromReader(reader, "colour", obstacle.colour);
   reader.finish();
   return obstacle;
 }
@@ -234,27 +231,6 @@ std::string toJsonText(const RobotSpec& robot) { return robotToJson(robot).dump(
 std::string toJsonText(const BallSpec& ball) { return ballToJson(ball).dump(); }
 std::string toJsonText(const ObstacleSpec& obstacle) { return obstacleToJson(obstacle).dump(); }
 
-FieldSpec fieldFromReader(JsonReader& reader) {
-  constexpr double least_m = 0.1, most_m = 100;
-  FieldSpec field;
-  field.length_m = reader.number("length_m", least_m, most_m);
-  field.width_m = reader.number("width_m", least_m, most_m);
-  JsonReader goals = reader.object("goals");
-  field.goals.width_m = goals.number("width_m", least_m, most_m);
-  field.goals.depth_m = goals.number("depth_m", 0, most_m, 0);
-  field.goals.height_m = goals.number("height_m", least_m, most_m);
-  goals.finish();
-  reader.finish();
-  return field;
-}
-
-json toJson(const FieldSpec& field) {
-  return {{"length_m", field.length_m},
-          {"width_m", field.width_m},
-          {"goals",
-           {{"width_m", field.goals.width_m}, {"depth_m", field.goals.depth_m}, {"height_m", field.goals.height_m}}}};
-}
-
 SceneSpec sceneFromJson(const std::string& text, const std::string& place, const std::string& directory) {
   JsonReader reader = JsonReader::parse(text, place);
   reader.word("format", {"uchilsim-scene-1"});
@@ -271,7 +247,7 @@ SceneSpec sceneFromJson(const std::string& text, const std::string& place, const
   reader.array("robots", [&](JsonReader entry) { scene.robots.push_back(robotFrom(entry, taken)); });
   reader.array("balls", [&](JsonReader entry) { scene.balls.push_back(ballFrom(entry, taken)); });
   reader.array("obstacles", [&](JsonReader entry) { scene.obstacles.push_back(obstacleFrom(entry, taken)); });
-  if (auto field = reader.objectIfAny("field")) scene.field = fieldFromReader(*field);
+  pitchFromReader(reader);  // who needs it reads it for himself
   scene.robotsCollide = reader.flag("robots_collide", scene.robotsCollide);
   std::set<std::string> paths;
   reader.array("calibrate", [&](JsonReader entry) {
@@ -299,7 +275,6 @@ std::string toJsonText(const SceneSpec& scene) {
   for (const BallSpec& ball : scene.balls) document["balls"].push_back(ballToJson(ball));
   // Left out where there is nothing to say: scenes that are stored keep their text.
   for (const ObstacleSpec& obstacle : scene.obstacles) document["obstacles"].push_back(obstacleToJson(obstacle));
-  if (scene.field) document["field"] = toJson(*scene.field);
   if (scene.robotsCollide) document["robots_collide"] = true;
   for (const CalibratePath& path : scene.calibrate)
     document["calibrate"].push_back({{"path", path.path}, {"min", path.minimum}, {"max", path.maximum}});

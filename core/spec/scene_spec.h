@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,8 +8,6 @@
 #include "core/spec/parameter.h"
 
 namespace btr {
-
-class JsonReader;
 
 /// How a joint is driven, as the contract's scene says. Every number is optional: what is absent comes from the model.
 struct ServoSpec {
@@ -70,17 +67,6 @@ struct ObstacleSpec {
   bool operator==(const ObstacleSpec&) const = default;
 };
 
-/// The sizes of a field with two goals about the world's origin; its length lies along x.
-struct FieldSpec {
-  struct Goals {
-    double width_m = 0.6, depth_m = 0.3, height_m = 0.3;  ///< inside; depth 0: not known
-    bool operator==(const Goals&) const = default;
-  };
-  double length_m = 4.2, width_m = 2.7;  ///< between the outer edges of the border lines
-  Goals goals;
-  bool operator==(const FieldSpec&) const = default;
-};
-
 /// A carpet or a hard floor at z = 0. `slip` is force-dependent slip: sliding speed per tangential force [m/(s·N)],
 /// along the floor's x (slip1) and y (slip2). Stiffness and damping are those of the contact normal.
 struct FloorSpec {
@@ -109,7 +95,6 @@ struct SceneSpec {
   double step_s = 0.001;  ///< 1e-5 … 0.02, divides control_period_s
   double controlPeriod_s = 0.008;
   std::optional<FloorSpec> floor;
-  std::optional<FieldSpec> field;
   std::vector<RobotSpec> robots;
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
@@ -132,10 +117,6 @@ ObstacleSpec obstacleFromJson(const std::string& text, const std::string& place)
 std::string toJsonText(const RobotSpec& robot);
 std::string toJsonText(const BallSpec& ball);
 std::string toJsonText(const ObstacleSpec& obstacle);
-
-/// "field" of a scene or of a referee. Calls finish().
-FieldSpec fieldFromReader(JsonReader& reader);
-nlohmann::json toJson(const FieldSpec& field);
 
 /// The numbers that a servo entry may carry, with units and bounds.
 const std::vector<Parameter>& servoNumbers();

@@ -2,68 +2,22 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QListWidget>
 #include <QMenu>
 #include <QProcess>
 #include <QPushButton>
 #include <QSignalSpy>
-#include <QTemporaryDir>
+#include <QSlider>
 #include <QTest>
 #include <nlohmann/json.hpp>
 
-#include "core/plugin/plugin_host.h"
 #include "core/spec/json_reader.h"
+#include "tests/ui/open_live_page.h"
 #include "ui/common/message_banner.h"
-#include "ui/experiment/parameter_field.h"
-#include "ui/experiment/parameter_form.h"
-#include "ui/live/live_page.h"
 
 using namespace btr;
 using namespace btr::ui;
 
 namespace {
-
-const PluginHost& plugins() {
-  static const PluginHost host(PLUGIN_DIR);
-  return host;
-}
-
-/// A page with a small game: a walking dog, a ball, a crate.
-struct OpenPage {
-  QTemporaryDir folder;
-  LivePage page{plugins(), BTR_PROGRAM, folder.path() + "/sessions"};
-  QString file = folder.filePath("game.json");
-
-  OpenPage() {
-    nlohmann::json game = {
-        {"format", "uchilsim-game-1"},
-        {"scene",
-         {{"format", "uchilsim-scene-1"},
-          {"step_s", 0.008},
-          {"control_period_s", 0.008},
-          {"floor", {{"friction", 1}}},
-          {"robots",
-           {{{"name", "dog"}, {"model", SOURCE_DIR "/resources/robots/ers7.wrl"}, {"position_m", {-0.6, 0, 0}}}}},
-          {"balls", {{{"name", "ball"}, {"position_m", {0.1, 0, 0.0425}}, {"rolling_deceleration_m_s2", 0.4}}}},
-          {"obstacles", {{{"name", "crate"}, {"mass_kg", 0.2}, {"position_m", {0.1, 0.35, 0.05}}}}}}},
-        {"robots", {{"dog", {{"team", "blue"}, {"controller", {{"plugin", "walk"}}}}}}}};
-    writeFile(file.toStdString(), game.dump());
-    page.resize(1100, 700);
-    page.show();
-    page.open(file);
-  }
-
-  bool isThere() {
-    return QTest::qWaitFor([this] { return !page.row().values.empty(); }, 20000);
-  }
-  QAction* action(const char* name) { return page.findChild<QAction*>(name); }
-  QListWidget* list() { return page.findChild<QListWidget*>("liveObjects"); }
-  std::size_t indexOf(const std::string& name) {
-    for (int i = 0; i < list()->count(); ++i)
-      if (list()->item(i)->text().toStdString() == name) return std::size_t(i);
-    return 999;
-  }
-};
 
 QAction* entry(QMenu* menu, const QString& text) {
   for (QAction* action : menu->actions())
@@ -81,7 +35,7 @@ class TestLivePage : public QObject {
     QVERIFY2(open.isThere(), qPrintable(open.page.findChild<MessageBanner*>()->text()));
     QCOMPARE(open.page.row().period, 0L);
     QVERIFY(!open.page.row().playing);
-    QCOMPARE(open.list()->count(), 3);
+    QCOMPARE(open.count(), std::size_t(3));
     open.action("liveStep")->trigger();
     QTRY_COMPARE(open.page.row().period, 1L);
     QTest::keyClick(&open.page.view(), Qt::Key_Period);
@@ -109,15 +63,15 @@ class TestLivePage : public QObject {
     QVERIFY(view.rect().contains(ball));
     QTest::mouseClick(&view, Qt::LeftButton, {}, ball);
     QCOMPARE(view.selected(), std::string("ball"));
-    QCOMPARE(open.list()->currentItem()->text(), QString("ball"));
+    QCOMPARE(open.tree()->selectedItems().value(0)->text(0), QString("ball"));
     // Led while the world waits: it is put there.
     const QPoint there = pixel(0.1, -0.2, 0.0425);
     QTest::mousePress(&view, Qt::LeftButton, {}, ball);
     QTest::mouseMove(&view, there);
     QTest::mouseRelease(&view, Qt::LeftButton, {}, there);
-    QTRY_VERIFY(std::abs(open.page.findChildren<QDoubleSpinBox*>()[1]->value() + 0.2) < 0.02);
+    QTRY_VERIFY(std::abs(open.page.findChild<QDoubleSpinBox*>("liveY")->value() + 0.2) < 0.02);
     // A crate is picked anywhere on it, and not beside it.
-    QCOMPARE(view.objectAt(pixel(0.05, 0.31, 0.09)), int(open.indexOf("crate")));
+    QCOMPARE(view.objectAt(pixel(0.05, 0.31, 0.09)), open.page.world().indexOf("crate"));
     QCOMPARE(view.objectAt(pixel(0.1, 0.55, 0.0)), -1);
     // Where nothing is the view turns.
     const double azimuth = view.camera().azimuth;
@@ -134,31 +88,29 @@ class TestLivePage : public QObject {
     open.action("livePlay")->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(page.row().period > 10, 20000);
 
-    open.list()->setCurrentRow(1);  // the ball
+    open.select("ball");
     QCOMPARE(page.view().selected(), std::string("ball"));
     page.findChild<QPushButton*>("liveThrow")->click();
     QMenu* things = open.action("liveAdd")->menu();
     entry(things, "Box that can be pushed")->trigger();
-    QTRY_COMPARE(open.list()->count(), 4);
+    QTRY_COMPARE(open.count(), std::size_t(4));
     QTRY_COMPARE(page.view().selected(), std::string("box"));
     emit page.view().ledTo("box", {0.2, 0.2, 0.3});
     QTest::qWait(50);
     emit page.view().letGo("box");
 
-    open.list()->setCurrentRow(0);  // the dog
-    auto* form = page.findChild<ParameterForm*>();
-    QVERIFY(form);
-    Values values = form->values();
-    values["length_m"] = 0.05;
-    emit form->changed(values);
+    open.select("dog");
+    auto* slider = page.findChild<QSlider*>("slider.length_m");
+    QVERIFY(slider);
+    slider->setValue(slider->value() > 500 ? 200 : 800);
     const long tuned = page.row().period;
     QTRY_VERIFY_WITH_TIMEOUT(page.row().period > tuned + 20, 20000);
     auto* controller = page.findChild<QComboBox*>("liveController");
     controller->setCurrentIndex(0);
     emit controller->activated(0);
-    open.list()->setCurrentRow(int(open.indexOf("crate")));
+    open.select("crate");
     open.action("liveRemove")->trigger();
-    QTRY_COMPARE(open.list()->count(), 3);
+    QTRY_COMPARE(open.count(), std::size_t(3));
     open.action("livePlay")->trigger();
     QTRY_VERIFY(!page.row().playing);
     const QString saved = open.folder.filePath("later/game.json");

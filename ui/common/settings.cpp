@@ -110,6 +110,11 @@ void Settings::setMeasurementDraft(const QString& database, qint64 run, const QS
   store_.sync();
 }
 
+QString Settings::lastGame() const { return store_.value("live/lastGame").toString(); }
+void Settings::setLastGame(const QString& file) {
+  store_.setValue("live/lastGame", QFileInfo(file).absoluteFilePath());
+}
+
 int Settings::jobs() const { return store_.value("jobs", 0).toInt(); }
 void Settings::setJobs(int jobs) { store_.setValue("jobs", jobs); }
 

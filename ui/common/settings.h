@@ -47,6 +47,10 @@ class Settings {
   QString measurementDraft(const QString& database, qint64 run) const;
   void setMeasurementDraft(const QString& database, qint64 run, const QString& draft);
 
+  /// The game, scene or robot that was opened last in the Scene page; empty if there is none.
+  QString lastGame() const;
+  void setLastGame(const QString& file);
+
   int jobs() const;  ///< worker processes of a run, 0: as many as processors
   void setJobs(int jobs);
 

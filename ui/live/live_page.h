@@ -1,32 +1,35 @@
 #pragma once
-#include <QSet>
-#include <QUndoStack>
 #include <QWidget>
-#include <vector>
+#include <string>
 
 #include "ui/live/live_process.h"
 #include "ui/live/live_view.h"
 
-class QAction;
-class QComboBox;
-class QDoubleSpinBox;
-class QLabel;
-class QListWidget;
 class QMenu;
-class QScrollArea;
-class QToolBar;
 
 namespace btr {
 class PluginHost;
 }
 namespace btr::ui {
+class DatabaseReader;
+class JointsPanel;
+class LiveDesk;
+class LiveHands;
+class LiveTools;
+class LiveWorld;
+class ObjectTree;
 class MessageBanner;
-class ParameterForm;
+class SelectionPanel;
+class SignalsPanel;
+class SimulatorPanel;
+class ThingPalette;
+struct ThingToAdd;
 
 /// A world that runs and is reached into: opened from a game, a scene or a robot file; played, stepped, slowed down;
-/// objects added, led with the mouse, thrown and taken away; controllers changed and tuned while they run. Keys: Space
-/// plays, . steps, Delete removes, arrows move what is selected (Shift: ten times as far), Page up and down lift it,
-/// [ and ] turn it.
+/// objects added, led with the mouse, thrown and taken away; controllers changed and tuned while they run; simulator,
+/// joints and signals beside it. Keys: Space plays, . steps, Delete removes, Ctrl+D duplicates, Ctrl+Z undoes, X
+/// changes between two sets of parameters. Arrows, Page up and down move what is selected (Shift: ten times as far), by
+/// a spring while it runs, which Esc lets go of; [ and ] turn it.
 class LivePage : public QWidget {
   Q_OBJECT
  public:
@@ -34,10 +37,17 @@ class LivePage : public QWidget {
   LivePage(const PluginHost& host, const QString& program, const QString& logs, QWidget* parent = nullptr);
 
   void open(const QString& file);
+  /// Opened when the page is first shown, unless another one is by then.
+  void openWhenShown(const QString& file) { later_ = file; }
+  /// Whose individuals can play.
+  void setDatabase(DatabaseReader& reader);
   LiveView& view() { return *view_; }
   LiveProcess& process() { return *process_; }
-  const Game& game() const { return game_; }
-  const LiveRow& row() const { return row_; }
+  LiveWorld& world() { return *world_; }
+  LiveDesk& desk() { return *desk_; }
+  SignalsPanel& signalsPanel() { return *signals_; }
+  const Game& game() const;
+  const LiveRow& row() const;
   const QString& file() const { return file_; }
   /// The last session's log; "" if there is none.
   const QString& log() const { return log_; }
@@ -47,59 +57,48 @@ class LivePage : public QWidget {
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
-  QToolBar* makeTools();
+  void connectTools();
+  void connectWorld();
   QWidget* makeSide();
   void fillAdd(QMenu& menu);
+  void fillViews(QMenu& menu);
   void openWithDialog();
   void reset();
   void saveGame();
   void saveLog();
 
-  void showGame(const Game& game, const ModelSet& models, const std::vector<std::string>& channels);
-  void showRow(const LiveRow& row);
-  void select(const std::string& object);
+  void showObjects();
+  void showGame();
+  void showHands();
+  void showRow();
   void showSelected();
   void lookAtAll();
-  void showPlace();
-  void showController();
-  void lead(const std::string& object, const Eigen::Vector3d& place_m);
-  void letGo(const std::string& object);
+  void pick(const std::string& object, bool toggle);
+  void add(const ThingToAdd& thing, const Eigen::Vector2d& at_m);
+  void addInMiddle(const ThingToAdd& thing) { add(thing, view_->camera().focus.head<2>()); }
+  void duplicate();
+  void rename(const std::string& object, const std::string& name);
+  void undo();
+  void redo();
 
-  int selectedIndex() const;
-  /// A name that no object has: "ball", "ball2" …
-  std::string freeName(const std::string& word) const;
-  void add(const ObstacleSpec& obstacle);
-  void addBall();
-  void addRobot(const QString& file);
-  void removeSelected();
-  void placeSelected(const Eigen::Isometry3d& pose);
-  void placeAsTyped();
-  void throwSelected();
-  void changeController();
-  void tune(const Values& values);
-
-  const PluginHost& host_;
-  QString logs_, file_, log_;
+  QString logs_, file_, log_, later_;
   LiveProcess* process_;
+  LiveWorld* world_;
+  LiveHands* hands_;
+  LiveTools* tools_;
   LiveView* view_;
+  LiveDesk* desk_;
   MessageBanner* banner_;
-  Game game_;
-  LiveScene scene_;
-  LiveRow row_;
-  QSet<QString> pulled_;
-  QAction *open_, *play_, *step_, *reset_, *remove_, *save_, *saveLog_, *follow_, *addAction_;
-  QComboBox *speed_, *controller_;
-  QLabel *clock_, *what_, *hint_;
-  QListWidget* list_;
-  QWidget *place_, *throw_, *plays_;
-  QDoubleSpinBox *x_, *y_, *z_, *heading_, *speedOut_, *direction_, *rise_;
-  QScrollArea* tuning_;
-  QUndoStack undo_;
-  ParameterForm* form_ = nullptr;
+  ObjectTree* tree_;
+  SelectionPanel* selection_;
+  JointsPanel* joints_;
+  SimulatorPanel* simulator_;
+  ThingPalette* palette_;
+  SignalsPanel* signals_;
   bool fresh_ = true;  ///< nothing of the opened game was shown yet
-  Values tuned_;       ///< as the running controller has them
 };
 
 }  // namespace btr::ui

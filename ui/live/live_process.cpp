@@ -1,29 +1,21 @@
 #include "ui/live/live_process.h"
 
 #include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/spec/error.h"
+#include "ui/live/live_lines.h"
 
 namespace btr::ui {
 namespace {
 
 using nlohmann::json;
 
-LiveRow rowFrom(const json& line) {
-  LiveRow row;
-  row.values = line.at("row").get<std::vector<double>>();
-  row.period = line.at("period").get<long>();
-  row.playing = line.at("playing").get<bool>();
-  row.realTimeFactor = line.at("real_time_factor").get<double>();
-  for (const json& each : line.at("fixed")) {
-    const auto n = each.get<std::vector<double>>();
-    row.fixed.emplace_back(
-        static_cast<std::size_t>(n.at(0)),
-        Eigen::Translation3d(n.at(1), n.at(2), n.at(3)) * Eigen::Quaterniond(n.at(4), n.at(5), n.at(6), n.at(7)));
-  }
-  row.fault = QString::fromStdString(line.value("fault", ""));
-  return row;
+QString wordsOf(const json& value) {
+  return QString::fromStdString(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 }  // namespace
@@ -51,6 +43,9 @@ void LiveProcess::start(const QString& file, const QString& log) {
   }
   pending_.clear();
   words_.clear();
+  told_.clear();
+  models_.clear();  // their files may have changed
+  undoes_ = false;
   QStringList arguments{"live", file, "--steered"};
   if (!log.isEmpty()) arguments << "--log" << log;
   process_.start(program_, arguments);
@@ -71,7 +66,29 @@ void LiveProcess::send(const QByteArray& line) {
   if (ready_) process_.write(line + '\n');
 }
 
-void LiveProcess::act(const Act& act) { send(QByteArray::fromStdString(toJson(act).dump())); }
+void LiveProcess::act(const Act& act) {
+  json line = toJson(act);
+  if (undoes_ && gestureDepth_ > 0) line["gesture"] = gesture_;
+  send(QByteArray::fromStdString(line.dump()));
+}
+
+void LiveProcess::beginGesture() {
+  if (gestureDepth_++ == 0) ++gesture_;
+}
+void LiveProcess::endGesture() { gestureDepth_ = std::max(0, gestureDepth_ - 1); }
+void LiveProcess::kickOff() { send(R"({"act": "kick_off"})"); }
+void LiveProcess::undo() { send(R"({"do": "undo"})"); }
+void LiveProcess::redo() { send(R"({"do": "redo"})"); }
+void LiveProcess::askGame() { send(R"({"do": "game"})"); }
+
+void LiveProcess::setSignals(const std::vector<std::string>& channels) {
+  signals_ = channels;
+  sendSignals();
+}
+
+void LiveProcess::sendSignals() {
+  send(QByteArray::fromStdString(json{{"do", "signals"}, {"channels", signals_}}.dump()));
+}
 void LiveProcess::play(bool on) { send(on ? R"({"do": "play"})" : R"({"do": "pause"})"); }
 void LiveProcess::step(int periods) {
   send(QByteArray::fromStdString(json{{"do", "step"}, {"periods", periods}}.dump()));
@@ -79,8 +96,15 @@ void LiveProcess::step(int periods) {
 void LiveProcess::setSpeed(double times) {
   send(QByteArray::fromStdString(json{{"do", "speed"}, {"times", times}}.dump()));
 }
-void LiveProcess::save(const QString& path) {
-  send(QByteArray::fromStdString(json{{"do", "save"}, {"path", path.toStdString()}}.dump()));
+void LiveProcess::save(const QString& path, const std::string& view) {
+  json line{{"do", "save"}, {"path", path.toStdString()}};
+  if (!view.empty()) line["view"] = json::parse(view);
+  send(QByteArray::fromStdString(line.dump()));
+}
+
+void LiveProcess::setContacts(bool on) {
+  contacts_ = on;
+  send(QByteArray::fromStdString(json{{"do", "contacts"}, {"on", on}}.dump()));
 }
 
 void LiveProcess::read() {
@@ -89,7 +113,7 @@ void LiveProcess::read() {
   qsizetype begin = 0;
   for (qsizetype end; (end = pending_.indexOf('\n', begin)) >= 0; begin = end + 1) {
     const QByteArray line = pending_.mid(begin, end - begin);
-    if (line.contains("\"row\":")) {
+    if (line.contains("\"row\":") && !line.contains("\"samples\":")) {
       newest = line;
       continue;
     }
@@ -103,17 +127,53 @@ void LiveProcess::read() {
 void LiveProcess::tell(const QByteArray& text) {
   try {
     const json line = json::parse(text.constData(), text.constData() + text.size());
-    if (line.contains("row")) return emit rowTold(rowFrom(line));
+    if (line.contains("samples")) tellSamples(line);
+    if (line.contains("row")) return emit rowTold(liveRowFrom(line));
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
     if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
-    const Game game = gameFromJson(line.at("game").dump(), "game", line.at("directory").get<std::string>());
-    const ModelSet models = loadModels(game.scene);
-    ready_ = true;
-    emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+    if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
+    if (line.contains("undo")) {
+      undoes_ = true;
+      return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
+    }
+    tellGame(line);
   } catch (const std::exception& error) {
     emit failed(tr("What btr live told cannot be read: %1").arg(error.what()));
     end();
   }
+}
+
+void LiveProcess::tellGame(const json& line) {
+  const Game game = gameFromJson(line.at("game").dump(), "game", line.at("directory").get<std::string>());
+  const ModelSet models = modelsOf(game.scene);
+  const bool first = !std::exchange(ready_, true);
+  if (first && !signals_.empty()) sendSignals();
+  if (first && contacts_) setContacts(true);
+  emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+}
+
+void LiveProcess::tellSamples(const json& line) {
+  LiveSamples samples;
+  samples.channels = told_;
+  for (const json& sample : line.at("samples")) {
+    if (sample.size() != told_.size() + 1) throw std::runtime_error("a sample of other channels");
+    samples.periods.push_back(sample.at(0).get<long>());
+    for (std::size_t i = 1; i < sample.size(); ++i)
+      samples.values.push_back(sample[i].is_number() ? sample[i].get<double>() : std::nan(""));
+  }
+  if (!samples.periods.empty()) emit sampled(samples);
+}
+
+/// A file is read once a session: an object that comes does not stop the window for all robots.
+ModelSet LiveProcess::modelsOf(const SceneSpec& scene) {
+  if (scene.directory != modelsFrom_) models_.clear();
+  modelsFrom_ = scene.directory;
+  SceneSpec unread = scene;
+  std::erase_if(unread.robots, [this](const RobotSpec& robot) { return models_.contains(robot.model); });
+  for (auto& [path, model] : loadModels(unread)) models_[path] = model;
+  ModelSet models;
+  for (const RobotSpec& robot : scene.robots) models[robot.model] = models_.at(robot.model);
+  return models;
 }
 
 void LiveProcess::finished(int code, QProcess::ExitStatus status) {

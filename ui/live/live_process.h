@@ -2,6 +2,7 @@
 #include <QObject>
 #include <QProcess>
 #include <QString>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/live/act.h"
 #include "core/live/game.h"
@@ -9,6 +10,13 @@
 #include "ui/live/live_scene.h"
 
 namespace btr::ui {
+
+/// What every control period since the last row had of the chosen channels.
+struct LiveSamples {
+  std::vector<std::string> channels;
+  std::vector<long> periods;
+  std::vector<double> values;  ///< period by period, channels.size() numbers each; NaN where there is no such channel
+};
 
 /// A session in a process of its own (btr live --steered): the window never waits for it, and survives it. What it
 /// tells comes as signals; of rows that came together only the newest.
@@ -30,12 +38,30 @@ class LiveProcess : public QObject {
   void play(bool on);
   void step(int periods);
   void setSpeed(double times);  ///< 0: as fast as possible
-  void save(const QString& path);
+  /// `view`: what the window wants to find again, JSON; "" nothing.
+  void save(const QString& path, const std::string& view = {});
+  /// Whether rows tell the contacts of their step.
+  void setContacts(bool on);
+  /// The game is told again.
+  void askGame();
+  /// From now on, also in sessions that are started later, these channels are told of every control period.
+  void setSignals(const std::vector<std::string>& channels);
+
+  /// What is done between these two is one step of undo. May be nested.
+  void beginGesture();
+  void endGesture();
+  void undo();
+  void kickOff();  ///< of the referee, where there is one
+  void redo();
 
  signals:
   /// The objects, at the start and when some came or went.
   void gameTold(const btr::Game& game, const btr::ModelSet& models, const std::vector<std::string>& channels);
   void rowTold(const btr::ui::LiveRow& row);
+  /// Before the row that came with them; none is left out.
+  void sampled(const btr::ui::LiveSamples& samples);
+  /// The names of what would be undone and redone; empty: nothing.
+  void undoTold(const QString& undo, const QString& redo);
   void refused(const QString& why);
   void saved(const QString& path);
   /// It ended by itself: why.
@@ -45,12 +71,23 @@ class LiveProcess : public QObject {
   void send(const QByteArray& line);
   void read();
   void tell(const QByteArray& line);
+  void tellGame(const nlohmann::json& line);
+  void tellSamples(const nlohmann::json& line);
+  ModelSet modelsOf(const SceneSpec& scene);
+  void sendSignals();
   void finished(int code, QProcess::ExitStatus status);
 
   QString program_;
   QProcess process_;
   QByteArray pending_, words_;
-  bool ready_ = false;
+  bool ready_ = false, contacts_ = false;
+  std::vector<std::string> signals_;  ///< that are wanted
+  std::vector<std::string> told_;     ///< to which the samples belong that are told
+  ModelSet models_;                   ///< of files that were read for this session
+  std::string modelsFrom_;            ///< where their relative paths start
+  bool undoes_ = false;               ///< the program knows gestures
+  int gestureDepth_ = 0;
+  long gesture_ = 0;
 };
 
 }  // namespace btr::ui

@@ -1,8 +1,12 @@
 #include "ui/live/live_view.h"
 
+#include <QDragEnterEvent>
+#include <QMimeData>
 #include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/common/theme.h"
 
@@ -33,6 +37,7 @@ double wayToBox(const Eigen::Isometry3d& pose, const Vector3d& half, const Vecto
 LiveView::LiveView(QWidget* parent, GlContextFactory factory) : SceneView(parent, std::move(factory)) {
   setAccessibleName(tr("3D view of the running world"));
   setObjectName("liveView");
+  setAcceptDrops(true);
 }
 
 void LiveView::setScene(const LiveScene& scene) {
@@ -41,6 +46,8 @@ void LiveView::setScene(const LiveScene& scene) {
   setFurtherRobots(scene.models());
   setFurtherJackets(scene.jackets());
   setBalls(scene.radii());
+  setCarpet(scene.carpet());
+  trails_.clear();
   led_ = -1;
 }
 
@@ -48,17 +55,32 @@ void LiveView::setRow(const LiveRow& row) {
   row_ = row;
   if (following_)
     for (std::size_t i = 0; i < scene_.objects().size(); ++i)
-      if (scene_.objects()[i].name == selected_) {
+      if (scene_.objects()[i].name == selected()) {
         ViewCamera camera = this->camera();
         camera.focus = scene_.poseOf(i, row).translation();
         setCamera(camera);
       }
+  const bool trails = markAction(Mark::trails)->isChecked();
+  if (!trails) trails_.clear();
+  if (trails) trails_.add(scene_, row);
+  if (trails || markAction(Mark::contacts)->isChecked()) setWorldMarks({row.contacts, trails_.ways()});
   setPose(scene_.pose(row));
 }
 
-void LiveView::select(const std::string& object) {
-  selected_ = object;
+void LiveView::select(std::vector<std::string> objects) {
+  selected_ = std::move(objects);
   update();
+}
+
+void LiveView::setHands(std::map<std::string, Vector3d> targets_m) {
+  hands_ = std::move(targets_m);
+  update();
+}
+
+std::optional<Eigen::Vector2d> LiveView::onFloor(QPointF pixel) const {
+  const auto at = onPlane(pixel, 0);
+  if (!at) return std::nullopt;
+  return Eigen::Vector2d(at->x(), at->y());
 }
 
 void LiveView::setFollowing(bool on) {
@@ -102,8 +124,7 @@ std::optional<Vector3d> LiveView::onPlane(QPointF pixel, double height) const {
 }
 
 void LiveView::mousePressEvent(QMouseEvent* event) {
-  const int object =
-      event->button() == Qt::LeftButton && !(event->modifiers() & Qt::ShiftModifier) ? objectAt(event->position()) : -1;
+  const int object = event->button() == Qt::LeftButton ? objectAt(event->position()) : -1;
   if (object < 0) return SceneView::mousePressEvent(event);
   setFocus(Qt::MouseFocusReason);
   place_m_ = scene_.poseOf(std::size_t(object), row_).translation();
@@ -112,8 +133,10 @@ void LiveView::mousePressEvent(QMouseEvent* event) {
   led_ = object;
   moved_ = false;
   last_ = event->position();
-  select(scene_.objects()[std::size_t(object)].name);
-  emit picked(selected_);
+  // What is selected together is led together.
+  const std::string& name = scene_.objects()[std::size_t(object)].name;
+  wasSelected_ = std::ranges::find(selected_, name) != selected_.end();
+  if (!wasSelected_) emit picked(name, event->modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
 }
 
 void LiveView::mouseMoveEvent(QMouseEvent* event) {
@@ -129,36 +152,87 @@ void LiveView::mouseMoveEvent(QMouseEvent* event) {
     place_m_.head<2>() = (*under + grip_m_).head<2>();
   }
   last_ = event->position();
-  emit ledTo(selected_, place_m_);
+  emit ledTo(scene_.objects()[std::size_t(led_)].name, place_m_);
   update();
 }
 
 void LiveView::mouseReleaseEvent(QMouseEvent* event) {
   if (led_ < 0 || event->button() != Qt::LeftButton) return SceneView::mouseReleaseEvent(event);
-  led_ = -1;
-  if (moved_) emit letGo(selected_);
+  const std::string name = scene_.objects()[std::size_t(std::exchange(led_, -1))].name;
+  if (moved_)
+    emit letGo(name);
+  else if (wasSelected_)
+    emit picked(name, event->modifiers() & (Qt::ControlModifier | Qt::ShiftModifier));
   update();
 }
 
-// A ring around what is selected, a line to where it is led.
+void LiveView::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasFormat(thingMimeType)) event->acceptProposedAction();
+}
+
+void LiveView::dragMoveEvent(QDragMoveEvent* event) {
+  drop_ = event->position();
+  event->setAccepted(onFloor(*drop_).has_value());
+  update();
+}
+
+void LiveView::dragLeaveEvent(QDragLeaveEvent*) {
+  drop_.reset();
+  update();
+}
+
+void LiveView::dropEvent(QDropEvent* event) {
+  drop_.reset();
+  update();
+  const auto at = onFloor(event->position());
+  if (!at || !event->mimeData()->hasFormat(thingMimeType)) return event->ignore();
+  event->acceptProposedAction();
+  emit dropped(event->mimeData()->data(thingMimeType).toInt(), *at);
+}
+
+// Rings around what is selected, lines to where hands pull, with their force.
 void LiveView::paintEvent(QPaintEvent* event) {
   SceneView::paintEvent(event);
   if (row_.values.empty()) return;
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
   for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
     const LiveObject& object = scene_.objects()[i];
-    if (object.name != selected_) continue;
     const Vector3d at = scene_.poseOf(i, row_).translation();
-    const auto centre = camera().project(at, size());
-    if (!centre) return;
-    const double depth = (at - camera().eye()).norm();
-    const double pixels = object.radius_m * height() / (2 * std::tan(camera().fieldOfView / 2) * std::max(0.05, depth));
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(QPen(palette().highlight().color(), 2));
-    painter.drawEllipse(*centre, pixels * 1.15, pixels * 1.15);
-    if (led_ >= 0 && moved_)
-      if (const auto led = camera().project(place_m_, size())) painter.drawLine(*centre, *led);
+    if (std::ranges::find(selected_, object.name) != selected_.end()) paintRing(painter, object, at);
+    if (const auto hand = hands_.find(object.name); hand != hands_.end())
+      paintHand(painter, object.name, at, hand->second);
+    else if (led_ == int(i) && moved_)
+      paintHand(painter, object.name, at, place_m_);
   }
+  if (!drop_) return;
+  painter.setPen(QPen(palette().highlight().color(), 2));
+  painter.drawEllipse(*drop_, 12, 6);
+}
+
+void LiveView::paintRing(QPainter& painter, const LiveObject& object, const Vector3d& at) {
+  const auto centre = camera().project(at, size());
+  if (!centre) return;
+  const double depth = (at - camera().eye()).norm();
+  const double pixels = object.radius_m * height() / (2 * std::tan(camera().fieldOfView / 2) * std::max(0.05, depth));
+  painter.setPen(QPen(palette().highlight().color(), object.name == selected() ? 2 : 1));
+  painter.drawEllipse(*centre, pixels * 1.15, pixels * 1.15);
+}
+
+void LiveView::paintHand(QPainter& painter, const std::string& object, const Vector3d& from, const Vector3d& to) {
+  const auto begin = camera().project(from, size()), end = camera().project(to, size());
+  if (!begin || !end) return;
+  painter.setPen(QPen(palette().highlight().color(), 2));
+  painter.drawLine(*begin, *end);
+  painter.drawEllipse(*end, 3, 3);
+  const auto force = row_.hands_n.find(object);
+  if (force == row_.hands_n.end()) return;
+  const QString text = tr("%1 N").arg(force->second.norm(), 0, 'f', 1);
+  QRectF box = painter.fontMetrics().boundingRect(text);
+  box = box.adjusted(-4, -2, 4, 2).translated(*end + QPointF(10, -6));
+  painter.fillRect(box, palette().toolTipBase());
+  painter.setPen(palette().toolTipText().color());
+  painter.drawText(box, Qt::AlignCenter, text);
 }
 
 }  // namespace btr::ui

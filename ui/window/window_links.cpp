@@ -87,6 +87,15 @@ void linkStartPage(const WindowLinks& to) {
   });
 }
 
+void linkScene(const WindowLinks& to) {
+  LivePage* page = to.pages.livePage;
+  Workbench& bench = to.bench;
+  page->setDatabase(bench.reader());
+  page->openWhenShown(bench.settings().lastGame());
+  QObject::connect(page, &LivePage::opened, &bench,
+                   [&bench](const QString& file) { bench.settings().setLastGame(file); });
+}
+
 void linkDrops(const WindowLinks& to) {
   MainWindow& window = to.window;
   auto* drops = new FileDrops(window);

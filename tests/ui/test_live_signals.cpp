@@ -1,0 +1,177 @@
+// Signals of a running world: chosen in the tree, kept of every control period, exported as a recording.
+#include <QAction>
+#include <QDoubleSpinBox>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
+#include <cmath>
+
+#include "core/gap/recordings/recording.h"
+#include "tests/ui/open_live_page.h"
+#include "ui/charts/plot_widget.h"
+#include "ui/common/message_banner.h"
+#include "ui/live/signal_picker.h"
+#include "ui/live/signals_panel.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+QTreeWidgetItem* signalItem(QTreeWidget* tree, const QString& name) {
+  for (QTreeWidgetItemIterator at(tree); *at; ++at)
+    if ((*at)->data(0, Qt::UserRole).toString() == name) return *at;
+  return nullptr;
+}
+
+const QStringList twenty{"dog.LF_J1.command_rad",
+                         "dog.LF_J1.position_rad",
+                         "dog.LF_J1.velocity_rad_s",
+                         "dog.LF_J1.torque_nm",
+                         "dog.LF_J2.command_rad",
+                         "dog.LF_J2.position_rad",
+                         "dog.LF_J2.torque_nm",
+                         "dog.RF_J1.command_rad",
+                         "dog.RF_J1.position_rad",
+                         "dog.RF_J1.torque_nm",
+                         "dog.RR_J3.command_rad",
+                         "dog.RR_J3.position_rad",
+                         "dog.RR_J3.torque_nm",
+                         "dog.base.x_m",
+                         "dog.base.y_m",
+                         "dog.base.z_m",
+                         "dog.base.speed_m_s",
+                         "ball.x_m",
+                         "ball.z_m",
+                         "ball.speed_m_s"};
+
+}  // namespace
+
+class TestLiveSignals : public QObject {
+  Q_OBJECT
+ private slots:
+  void everyControlPeriodOfTwentySignalsIsExportedAsARecording() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.action("liveShowSignals")->trigger();
+    auto* tree = open.page.findChild<QTreeWidget*>("liveSignals");
+    for (const QString& name : twenty) {
+      QTreeWidgetItem* item = signalItem(tree, name);
+      QVERIFY2(item, qPrintable(name));
+      item->setCheckState(0, Qt::Checked);
+    }
+    // One more is one too many.
+    signalItem(tree, "ball.y_m")->setCheckState(0, Qt::Checked);
+    QCOMPARE(signalItem(tree, "ball.y_m")->checkState(0), Qt::Unchecked);
+    QVERIFY(open.page.findChild<MessageBanner*>()->text().contains("20"));
+
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.row().period >= 625, 60000);  // 5 s of 8 ms
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY(!open.page.row().playing);
+    open.page.signalsPanel().draw();
+    open.picture("signals");
+    const auto expected = std::size_t(open.page.row().period);
+
+    const QString file = open.folder.filePath("signals.csv");
+    open.page.signalsPanel().exportTo(file);
+    const Recording recording = loadRecording(file.toStdString());
+    QCOMPARE(recording.rows(), expected);
+    QCOMPARE(recording.channels.size(), std::size_t(21));
+    for (std::size_t row = 0; row < recording.rows(); ++row)
+      QVERIFY(std::abs(recording.columns[0][row] - 0.008 * double(row + 1)) < 1e-9);
+    QCOMPARE(open.page.signalsPanel().record().missing(), 0L);
+    for (const QString& name : twenty) {
+      const int column = recording.column(name.toStdString());
+      QVERIFY2(column > 0, qPrintable(name));
+      // A speed is a difference: the first row has none.
+      for (std::size_t row = 1; row < recording.rows(); ++row)
+        QVERIFY(std::isfinite(recording.columns[std::size_t(column)][row]));
+    }
+    // It walks: what a servo reached follows what it was told.
+    const auto& command = recording.columns[std::size_t(recording.column("dog.LF_J1.command_rad"))];
+    QVERIFY(*std::ranges::max_element(command) - *std::ranges::min_element(command) > 0.05);
+  }
+
+  void aThrownBallsSpeedIsTheOneItWasThrownWith() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.page.signalsPanel().picker().choose("ball.speed_m_s", true);
+    open.page.process().act(PlaceAct{"ball", {0.1, 0, 1}, {1, 0, 0, 0}, {}});
+    open.page.process().act(ThrowAct{"ball", {2, 0, 0}, {0, 0, 0}});
+    open.page.process().step(3);
+    const SignalRecord& record = open.page.signalsPanel().record();
+    QTRY_COMPARE(record.rows(), std::size_t(3));
+    QVERIFY(std::isnan(record.value(0, 0)));
+    for (const int k : {1, 2}) {
+      // Falling: between periods k and k + 1 the vertical speed is between g·k·h and g·(k + 1)·h.
+      const double h = 0.008, g = 9.81, speed = record.value(std::size_t(k), 0);
+      QVERIFY(speed > std::hypot(2, g * h * k) - 1e-6 && speed < std::hypot(2, g * h * (k + 1)) + 1e-6);
+    }
+  }
+
+  void plotsByUnitCursorAndHold() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.action("liveShowSignals")->trigger();
+    SignalsPanel& panel = open.page.signalsPanel();
+    for (const char* name : {"dog.LF_J1.position_rad", "dog.LF_J1.torque_nm", "dog.LF_J1.command_rad"})
+      QVERIFY(panel.picker().choose(name, true));
+    QVERIFY(panel.plot("rad") && panel.plot("N·m") && !panel.plot("m"));
+    open.page.process().step(100);
+    QTRY_COMPARE(panel.record().rows(), std::size_t(100));
+    panel.draw();
+    QCOMPARE(panel.plot("rad")->data().series.size(), std::size_t(2));
+    QCOMPARE(panel.plot("rad")->data().series[0].points.size(), std::size_t(100));
+    auto* values = panel.findChild<QTableWidget*>("liveSignalValues");
+    QCOMPARE(values->rowCount(), 3);
+    QCOMPARE(values->item(1, 2)->text(), QString("N·m"));
+    panel.findChild<QDoubleSpinBox*>("liveSignalsCursor")->setValue(0.4);
+    QCOMPARE(panel.record().rowAt(0.4), std::size_t(49));
+    QCOMPARE(values->item(0, 1)->text().replace("−", "-").toDouble(),
+             QString::number(panel.record().value(49, 0), 'g', 4).toDouble());
+    // Held plots stand, the record goes on.
+    panel.findChild<QToolButton*>("liveSignalsPause")->click();
+    open.page.process().step(50);
+    QTRY_COMPARE(panel.record().rows(), std::size_t(150));
+    QTest::qWait(250);
+    QCOMPARE(panel.plot("rad")->data().series[0].points.size(), std::size_t(100));
+    panel.findChild<QToolButton*>("liveSignalsClear")->click();
+    QCOMPARE(panel.record().rows(), std::size_t(0));
+    // Found by a part of its name.
+    auto* tree = panel.findChild<QTreeWidget*>("liveSignals");
+    panel.findChild<QLineEdit*>("liveSignalSearch")->setText("LF_J1.torque");
+    QVERIFY(!signalItem(tree, "dog.LF_J1.torque_nm")->isHidden());
+    QVERIFY(signalItem(tree, "dog.LF_J1.position_rad")->isHidden());
+  }
+
+  void aRecordForgetsWhatIsOldAndWhatWasUndone() {
+    SignalRecord record;
+    record.setSignals({{"a.x_m", {"a.x_m"}}});
+    record.setSpan_s(1);
+    const std::vector<std::string> channels = record.channels();
+    QCOMPARE(channels, (std::vector<std::string>{"time_s", "a.x_m"}));
+    for (long period = 1; period <= 20000; ++period)
+      record.add(period, channels, std::vector<double>{double(period) * 0.01, double(period)});
+    QCOMPARE(record.rows(), std::size_t(101));
+    QCOMPARE(record.value(100, 0), 20000.0);
+    QCOMPARE(record.missing(), 0L);
+    // Put back by 50 periods.
+    record.add(19951, channels, std::vector<double>{199.51, 7});
+    QCOMPARE(record.rows(), std::size_t(52));
+    QCOMPARE(record.value(51, 0), 7.0);
+    record.add(19953, channels, std::vector<double>{199.53, std::nan("")});
+    QCOMPARE(record.missing(), 1L);
+    QVERIFY(record.toCsv().ends_with("199.51,7\n199.53,\n"));
+    // A signal that comes later has no earlier values; the others keep theirs.
+    record.setSignals({{"b.y_m", {"b.y_m"}}, {"a.x_m", {"a.x_m"}}});
+    QVERIFY(std::isnan(record.value(0, 0)));
+    QCOMPARE(record.value(0, 1), 19900.0);
+  }
+};
+
+QTEST_MAIN(TestLiveSignals)
+#include "test_live_signals.moc"

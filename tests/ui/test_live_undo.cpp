@@ -1,0 +1,81 @@
+// Undo and redo of whatever hands did to a running world: one step a drag, with its name on the button.
+#include <QAction>
+#include <QSlider>
+#include <cmath>
+
+#include "tests/ui/open_live_page.h"
+#include "ui/live/slider_form.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+double offAlong(OpenPage& open, const std::string& object, int axis, double wanted) {
+  return std::abs(open.page.world().poseOf(object).translation()[axis] - wanted);
+}
+
+}  // namespace
+
+class TestLiveUndo : public QObject {
+  Q_OBJECT
+ private slots:
+  void aDragOfTwoObjectsIsOneStep() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    QAction *undo = open.action("liveUndo"), *redo = open.action("liveRedo");
+    QVERIFY(!undo->isEnabled() && !redo->isEnabled());
+    open.select("ball");
+    open.tree()->setCurrentItem(open.tree()->itemOf("crate"), 0, QItemSelectionModel::Select);
+    for (int i = 1; i <= 10; ++i) emit open.page.view().ledTo("ball", {0.1 + 0.02 * i, 0, 0.0425});
+    emit open.page.view().letGo("ball");
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.3) < 1e-9 && offAlong(open, "crate", 0, 0.3) < 1e-9);
+    QTRY_VERIFY(undo->isEnabled());
+    QVERIFY(undo->toolTip().contains("move"));
+    QTest::keyClick(&open.page.view(), Qt::Key_Z, Qt::ControlModifier);
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.1) < 1e-9 && offAlong(open, "crate", 0, 0.1) < 1e-9);
+    QTRY_VERIFY(!undo->isEnabled() && redo->isEnabled());
+    QTest::keyClick(&open.page.view(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.3) < 1e-9 && offAlong(open, "crate", 0, 0.3) < 1e-9);
+  }
+
+  void whatWasTakenAwayOrDuplicatedComesBack() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.select("ball");
+    open.action("liveRemove")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(2));
+    QTRY_VERIFY(open.action("liveUndo")->isEnabled());
+    open.action("liveUndo")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(3));
+    QTRY_VERIFY(open.page.world().isReady());
+    QVERIFY(offAlong(open, "ball", 0, 0.1) < 1e-9);
+    open.select("dog");
+    open.action("liveDuplicate")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(4));
+    open.action("liveUndo")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(3));
+  }
+
+  void aSliderGoesBackInOneStep() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.select("dog");
+    auto* form = open.page.findChild<SliderForm*>("liveTuning");
+    auto* slider = form->findChild<QSlider*>("slider.length_m");
+    const double before = form->value("length_m");
+    slider->setSliderDown(true);
+    for (int step = 550; step <= 900; step += 50) slider->setValue(step);
+    slider->setSliderDown(false);
+    QVERIFY(std::abs(form->value("length_m") - before) > 0.01);
+    QTRY_VERIFY(open.action("liveUndo")->isEnabled());
+    open.action("liveUndo")->trigger();
+    QTRY_COMPARE(form->value("length_m"), before);
+    QTRY_VERIFY(!open.action("liveUndo")->isEnabled());
+    open.action("liveRedo")->trigger();
+    QTRY_VERIFY(std::abs(form->value("length_m") - before) > 0.01);
+  }
+};
+
+QTEST_MAIN(TestLiveUndo)
+#include "test_live_undo.moc"

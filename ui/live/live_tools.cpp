@@ -1,0 +1,161 @@
+#include "ui/live/live_tools.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDir>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenu>
+#include <QToolButton>
+#include <algorithm>
+#include <cmath>
+
+#include "ui/common/resources.h"
+#include "ui/common/theme.h"
+#include "ui/live/live_scene.h"
+
+namespace btr::ui {
+namespace {
+constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 0};
+}
+
+LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this)), views_(new QMenu(this)) {
+  setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  QAction* open = add("liveOpen", "document-open", tr("&Open…"), tr("A game, a scene or a robot file"));
+  connect(open, &QAction::triggered, this, &LiveTools::openChosen);
+  auto* examples = new QMenu(this);
+  for (const QFileInfo& file : QDir(resourceDirectory() + "/games").entryInfoList({"*.json"}, QDir::Files))
+    connect(examples->addAction(file.completeBaseName()), &QAction::triggered, this,
+            [this, path = file.filePath()] { emit gameChosen(path); });
+  open->setMenu(examples);
+  qobject_cast<QToolButton*>(widgetForAction(open))->setPopupMode(QToolButton::MenuButtonPopup);
+  play_ = add("livePlay", "media-playback-start", tr("&Play"), tr("Goes on, or waits (Space)"));
+  play_->setCheckable(true);
+  connect(play_, &QAction::triggered, this, &LiveTools::playChosen);
+  step_ = add("liveStep", "media-skip-forward", tr("&Step"), tr("One control period (.)"));
+  connect(step_, &QAction::triggered, this, &LiveTools::stepChosen);
+  reset_ = add("liveReset", "media-skip-backward", tr("&Reset"), tr("As it was opened"));
+  connect(reset_, &QAction::triggered, this, &LiveTools::resetChosen);
+  speed_ = new QComboBox(this);
+  speed_->setObjectName("liveSpeed");
+  speed_->setAccessibleName(tr("Speed"));
+  speed_->setToolTip(tr("Simulated seconds in a second"));
+  for (const double speed : speeds) speed_->addItem(speed > 0 ? tr("%1 ×").arg(speed) : tr("as fast as it can"), speed);
+  speed_->setCurrentIndex(3);
+  connect(speed_, &QComboBox::activated, this, [this] { emit speedChosen(speed()); });
+  addWidget(speed_);
+  addSeparator();
+  undo_ = add("liveUndo", "edit-undo", tr("&Undo"), {});
+  connect(undo_, &QAction::triggered, this, &LiveTools::undoChosen);
+  redo_ = add("liveRedo", "edit-redo", tr("Re&do"), {});
+  connect(redo_, &QAction::triggered, this, &LiveTools::redoChosen);
+  setUndo({}, {});
+  add_ = add("liveAdd", "list-add", tr("&Add"), tr("A ball, an obstacle or a robot, in the middle of the view"));
+  add_->setMenu(things_);
+  qobject_cast<QToolButton*>(widgetForAction(add_))->setPopupMode(QToolButton::InstantPopup);
+  remove_ = add("liveRemove", "list-remove", tr("Re&move"), tr("Takes what is selected away (Delete)"));
+  connect(remove_, &QAction::triggered, this, &LiveTools::removeChosen);
+  duplicate_ =
+      add("liveDuplicate", "edit-copy", tr("D&uplicate"), tr("What is selected once more, beside it (Ctrl+D)"));
+  connect(duplicate_, &QAction::triggered, this, &LiveTools::duplicateChosen);
+  QAction* follow = add("liveFollow", "crosshairs", tr("&Follow"), tr("Keeps what is selected in the middle"));
+  follow->setCheckable(true);
+  connect(follow, &QAction::triggered, this, &LiveTools::followChosen);
+  addSeparator();
+  save_ =
+      add("liveSave", "document-save", tr("Sa&ve game…"), tr("The game as it is now: it goes on with the same bits"));
+  connect(save_, &QAction::triggered, this, &LiveTools::saveChosen);
+  saveLog_ =
+      add("liveSaveLog", "document-save-as", tr("Save &log…"),
+          tr("What was done since it was opened: “btr live GAME --replay LOG” plays it again with the same bits"));
+  connect(saveLog_, &QAction::triggered, this, &LiveTools::saveLogChosen);
+  signals_ =
+      add("liveShowSignals", "office-chart-line", tr("Si&gnals"), tr("Plots of angles, torques, contacts, speeds"));
+  signals_->setCheckable(true);
+  connect(signals_, &QAction::toggled, this, &LiveTools::signalsChosen);
+  QAction* views = add("liveViews", "view-preview", tr("Vie&ws"), tr("Further views, robots' cameras, what is drawn"));
+  views->setMenu(views_);
+  qobject_cast<QToolButton*>(widgetForAction(views))->setPopupMode(QToolButton::InstantPopup);
+  for (QAction* action : {undo_, redo_, remove_, duplicate_, follow, save_, saveLog_}) iconOnly(action);
+  addSeparator();
+  kickOff_ = add("liveKickOff", "media-playback-start", tr("&Kick-off"),
+                 tr("Robots and ball to their places, the clock goes on"));
+  connect(kickOff_, &QAction::triggered, this, &LiveTools::kickOffChosen);
+  kickOff_->setVisible(false);
+  score_ = new QLabel(this);
+  score_->setObjectName("liveScore");
+  score_->setContentsMargins(6, 0, 6, 0);
+  score_->setTextFormat(Qt::PlainText);
+  scoreAction_ = addWidget(score_);
+  scoreAction_->setVisible(false);
+  clock_ = new QLabel(this);
+  clock_->setObjectName("liveClock");
+  clock_->setContentsMargins(6, 0, 6, 0);
+  addWidget(clock_);
+}
+
+QAction* LiveTools::add(const QString& name, const QString& icon, const QString& text, const QString& tip) {
+  QAction* action = addAction(themeIcon(icon), text);
+  action->setObjectName(name);
+  action->setToolTip(tip);
+  return action;
+}
+
+double LiveTools::speed() const { return speed_->currentData().toDouble(); }
+
+void LiveTools::trigger(QAction* action) {
+  if (action->isEnabled()) action->trigger();
+}
+
+void LiveTools::showRow(const LiveRow& row, double time_s) {
+  play_->setChecked(row.playing);
+  play_->setText(row.playing ? tr("&Pause") : tr("&Play"));
+  play_->setIcon(themeIcon(row.playing ? "media-playback-pause" : "media-playback-start"));
+  QString text = tr("%1 s").arg(time_s, 0, 'f', 2);
+  if (row.playing && row.realTimeFactor > 0) text += tr(" · %1 × real time").arg(row.realTimeFactor, 0, 'f', 2);
+  clock_->setText(text);
+  kickOff_->setVisible(row.score.has_value());
+  scoreAction_->setVisible(row.score.has_value());
+  if (row.score) {
+    const long seconds = std::lround(std::max(0.0, row.clock_s));
+    score_->setText(tr("red %1 : %2 blue · %3:%4")
+                        .arg((*row.score)[0])
+                        .arg((*row.score)[1])
+                        .arg(seconds / 60)
+                        .arg(seconds % 60, 2, 10, QChar('0')));
+  }
+  const bool goesOn = row.fault.isEmpty();
+  play_->setEnabled(goesOn);
+  step_->setEnabled(goesOn && !row.playing);
+}
+
+void LiveTools::setState(bool ready, bool opened, bool logged, bool selected) {
+  for (QAction* action : {play_, step_, add_, save_}) action->setEnabled(ready);
+  reset_->setEnabled(opened);
+  saveLog_->setEnabled(logged);
+  remove_->setEnabled(selected);
+  duplicate_->setEnabled(selected);
+  kickOff_->setEnabled(ready);
+}
+
+void LiveTools::setUndo(const QString& undo, const QString& redo) {
+  undo_->setEnabled(!undo.isEmpty());
+  undo_->setToolTip(undo.isEmpty() ? tr("Nothing to undo") : tr("Undo: %1 (Ctrl+Z)").arg(undo));
+  redo_->setEnabled(!redo.isEmpty());
+  redo_->setToolTip(redo.isEmpty() ? tr("Nothing to redo") : tr("Redo: %1 (Ctrl+Shift+Z)").arg(redo));
+}
+
+void LiveTools::iconOnly(QAction* action) {
+  if (auto* button = qobject_cast<QToolButton*>(widgetForAction(action))) {
+    button->setToolButtonStyle(Qt::ToolButtonIconOnly);
+    button->setAccessibleName(QString(action->text()).remove('&'));
+  }
+}
+
+void LiveTools::setFailed() {
+  play_->setChecked(false);
+  play_->setEnabled(false);
+  step_->setEnabled(false);
+}
+
+}  // namespace btr::ui

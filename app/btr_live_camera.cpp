@@ -77,7 +77,7 @@ void LiveCamera::tell(const Session& session) {
     channels_ = std::move(channels);
     send(gameLine(session).dump());
   }
-  send(rowLine(session).dump());
+  send(rowLine(session, true, 0).dump());
 }
 
 void LiveCamera::send(const std::string& line) {

@@ -31,7 +31,10 @@ class UrdfXml {
   std::vector<Warning> takeWarnings() { return std::move(warnings_); }
 
   /// A text of the file as a message may hold it.
-  static std::string shown(const std::string& text) { return text.size() > 40 ? text.substr(0, 40) + "..." : text; }
+  static std::string shown(const std::string& text) {
+    constexpr std::size_t most = 40;
+    return text.size() > most ? std::string(text, 0, most).append("...") : text;
+  }
 
   std::string attribute(const Element& element, const char* name) const;
   std::vector<double> numbers(const Element& element, const char* name, std::size_t count) const;

@@ -112,9 +112,7 @@ void SceneView::makeMarkActions() {
   add(Mark::trails, tr("Trails"), "draw-freehand", tr("Ways of robots and balls (R)"), Qt::Key_R);
 }
 
-QList<QAction*> SceneView::viewActions() const {
-  return {home_, followAction_, shadows_, show_, jacket_, save_};
-}
+QList<QAction*> SceneView::viewActions() const { return {home_, followAction_, shadows_, show_, jacket_, save_}; }
 
 void SceneView::setRobot(std::shared_ptr<const RobotModel> model) {
   scene_.setRobot(std::move(model));

@@ -89,7 +89,9 @@ void LiveSteering::obey(const std::string& line) {
     JsonReader reader = JsonReader::parse(line, "line");
     if (reader.has("act")) {
       const auto channels = session_.world().channels();
-      session_.apply(actFromJson(line, "line"));
+      nlohmann::json act = reader.node();
+      act.erase("gesture");
+      session_.apply(actFromJson(act.dump(), "line"));
       if (session_.world().channels() != channels) tellGame();
       tellRow();
       return;

@@ -69,7 +69,6 @@ void LiveProcess::start(const QString& file, const QString& log) {
   words_.clear();
   told_.clear();
   models_.clear();  // their files may have changed
-  undoes_ = false;
   QStringList arguments{"live", file, "--steered"};
   if (!log.isEmpty()) arguments << "--log" << log;
   process_.start(program_, arguments);
@@ -92,7 +91,7 @@ void LiveProcess::send(const QByteArray& line) {
 
 void LiveProcess::act(const Act& act) {
   json line = toJson(act);
-  if (undoes_ && gestureDepth_ > 0) line["gesture"] = gesture_;
+  if (gestureDepth_ > 0) line["gesture"] = gesture_;
   send(QByteArray::fromStdString(line.dump()));
 }
 
@@ -149,10 +148,7 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
     if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
-    if (line.contains("undo")) {
-      undoes_ = true;
-      return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
-    }
+    if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
   } catch (const std::exception& error) {
     emit failed(tr("What btr live told cannot be read: %1").arg(error.what()));

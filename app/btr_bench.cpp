@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/btr_live_bench.h"
 #include "core/sim/bench.h"
 #include "core/spec/error.h"
 
@@ -68,19 +69,62 @@ void bench(const std::string& folder, int repeats, Shell& shell) {
   if (*shell.stop) shell.exitCode = stoppedEarly;
 }
 
+nlohmann::json toJson(const LiveBenchRow& row) {
+  return {{"world", row.name},
+          {"walking", row.walking},
+          {"standing", row.standing},
+          {"simulated_s", row.simulated_s},
+          {"cpu_per_simulated", row.cpuPerSimulated},
+          {"core_share_per_dog", row.perDog()},
+          {"real_time_factor", row.realTimeFactor},
+          {"memory_before_mb", row.before_mb},
+          {"memory_after_mb", row.after_mb},
+          {"memory_growth_second_half_mb", row.growth_mb},
+          {"fault", row.fault}};
+}
+
+void benchLive(const std::string& folder, double seconds, Shell& shell) {
+  const fs::path scenes = folder.empty() ? ownScenes() : fs::path(folder);
+  const Game game = loadGame((scenes.parent_path() / "games" / "two-walkers-2004.json").string());
+  const bool show = isatty(STDERR_FILENO);
+  std::vector<LiveBenchRow> rows;
+  for (const LiveBenchTask& task : liveBenchTasks(game)) {
+    if (*shell.stop) break;
+    if (show) std::fprintf(stderr, "\r%s \x1b[K", task.name.c_str());
+    rows.push_back(measureLive(task, shell.plugins(), seconds, [&shell] { return !*shell.stop; }));
+  }
+  if (show) std::fprintf(stderr, "\r\x1b[K");
+  if (shell.json) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const LiveBenchRow& row : rows) all.push_back(toJson(row));
+    printJson(all);
+  } else {
+    std::cout << liveBenchTable(rows);
+  }
+  if (*shell.stop) shell.exitCode = stoppedEarly;
+}
+
 }  // namespace
 
 void addBenchCommand(CLI::App& app, Shell& shell) {
   struct Arguments {
     std::string scenes;
     int repeats = 3;
+    bool live = false;
+    double seconds = 20;
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("bench", "speed of the simulator on this machine, one table");
   command->add_option("--scenes", a->scenes, "folder of walk.json and kick.json (default: those of the program)");
   command->add_option("--repeats", a->repeats, "times each trial is run; the fastest counts")
       ->transform(wholeNumber(1, 1000));
-  command->callback([a, &shell] { bench(a->scenes, a->repeats, shell); });
+  CLI::Option* live = command->add_flag("--live", a->live, "running worlds: share of a core, real-time factor, memory");
+  command->add_option("--seconds", a->seconds, "with --live, how long each world runs, simulated [s]")
+      ->transform(decimalNumber(1, 1e6))
+      ->capture_default_str()
+      ->needs(live);
+  command->callback(
+      [a, &shell] { a->live ? benchLive(a->scenes, a->seconds, shell) : bench(a->scenes, a->repeats, shell); });
 }
 
 }  // namespace btr::cli

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,11 @@ struct Shell {
   std::unique_ptr<PluginHost> plugins_;
 };
 
+/// Signals, and the options that all commands have; `app` has the program's name. Before its commands are added.
+void beginCommands(CLI::App& app, Shell& shell);
+/// Parses and runs; what is wrong becomes a line on stderr. Returns the exit code.
+int runCommands(CLI::App& app, Shell& shell, int argc, char** argv);
+
 void addRunCommands(CLI::App& app, Shell& shell);      ///< run, status, stop, stand-in
 void addCompareCommand(CLI::App& app, Shell& shell);   ///< compare
 void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|import|void, end-l2
@@ -63,6 +69,9 @@ void addBenchCommand(CLI::App& app, Shell& shell);      ///< bench
 void addGaitCommands(CLI::App& app, Shell& shell);      ///< gait check
 void addGridCommands(CLI::App& app, Shell& shell);      ///< grid, grid table|map|kick
 void addLiveCommand(CLI::App& app, Shell& shell);       ///< live
+void addCameraCommand(CLI::App& app);                   ///< camera, for the list of commands only
+/// If the command is camera: becomes btr-camera; returns, with an exit code, only if that cannot be started.
+std::optional<int> passOnCamera(int argc, char** argv);
 
 /// One JSON document on standard output. Bytes that are no UTF-8 come out as U+FFFD.
 void printJson(const nlohmann::json& document);

@@ -1,6 +1,8 @@
 // btr live: a running world without a window.
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -20,15 +22,41 @@ namespace {
 
 struct LiveArguments {
   std::string game, replay, log, csv, save;
-  double seconds = 10, speed = 0;
+  double seconds = 10, speed = 0, patience_s = 2;
   bool steered = false;
 };
+
+std::string notAnswered(const std::string& who, double seconds) {
+  return who + " has not answered for " + toText(std::round(10 * seconds) / 10) + " s";
+}
+
+/// Tells of a controller that hangs, and ends the program when it hangs on: a thread of it cannot be taken from it. The
+/// log is complete up to the last act.
+std::unique_ptr<Watchdog> watchdogOf(const LiveArguments& arguments, bool json) {
+  const bool steered = arguments.steered;
+  const double patience_s = arguments.patience_s;
+  const auto hangs = [steered, patience_s](const std::string& who, double) {
+    const std::string text = notAnswered(who, patience_s);
+    std::fprintf(stderr, "%s\n", text.c_str());
+    if (steered) tellLine({{"hangs", text}});
+  };
+  const auto gaveUp = [steered, json](const std::string& who, double seconds) {
+    const std::string text = notAnswered(who, seconds);
+    std::fprintf(stderr, "the world stopped: %s\n", text.c_str());
+    if (steered || json) tellLine({{"fault", text}});
+    std::_Exit(badInput);
+  };
+  return std::make_unique<Watchdog>(patience_s, hangs, gaveUp);
+}
 
 /// The periods of a session, its acts from a log, its rows for a file.
 class LiveRun {
  public:
-  LiveRun(const LiveArguments& arguments, Game game, const PluginHost& host)
-      : arguments_(arguments), begun_(game), session_(std::move(game), host) {
+  LiveRun(const LiveArguments& arguments, Game game, const PluginHost& host, bool json)
+      : arguments_(arguments),
+        begun_(game),
+        dog_(watchdogOf(arguments, json)),
+        session_(std::move(game), host, dog_.get()) {
     if (!arguments.replay.empty()) {
       replayed_ = loadSessionLog(arguments.replay);
       if (replayed_->gameSha256 != gameSha256(begun_))
@@ -39,8 +67,8 @@ class LiveRun {
       session_.onAct([this](long period, const Act& act) { written_->act(period, act); });
     }
     if (!arguments.csv.empty()) {
-      trace_.channels = session_.world().channels();
-      session_.world().sample(trace_.values);
+      trace_.channels = session_.channels();
+      session_.sample(trace_.values);
     }
   }
 
@@ -85,6 +113,7 @@ class LiveRun {
                           {"real_time_factor", seconds_ > 0 ? simulated_ / seconds_ : 0},
                           {"periods", session_.periods()},
                           {"fault", session_.fault()}};
+    if (session_.referee()) addReferee(session_, result, 0);
     if (replayed_ && !replayed_->traceSha256.empty() && session_.periods() == replayed_->periods)
       result["identical"] = sha == replayed_->traceSha256;
     return result;
@@ -102,14 +131,15 @@ class LiveRun {
   }
 
   void sample() {
-    if (session_.world().channels() != trace_.channels)
+    if (session_.channels() != trace_.channels)
       throw InputError(arguments_.csv, "objects came or went",
                        "a session with the same objects from its start to its end");
-    session_.world().sample(trace_.values);
+    session_.sample(trace_.values);
   }
 
   const LiveArguments& arguments_;
   Game begun_;
+  std::unique_ptr<Watchdog> dog_;
   Session session_;
   std::optional<SessionLog> replayed_;
   std::unique_ptr<SessionLogWriter> written_;
@@ -137,13 +167,16 @@ void addLiveCommand(CLI::App& app, Shell& shell) {
   shell.writesFile(live, live->add_option("--log", a->log, "writes what reached into the session"));
   shell.writesFile(live, live->add_option("--csv", a->csv, "writes its trace as a recording"));
   shell.writesFile(live, live->add_option("--save", a->save, "writes the game as it is at the end"));
+  live->add_option("--patience", a->patience_s, "how long a controller may take for one control period [s]")
+      ->transform(decimalNumber(0.01, 1e6))
+      ->capture_default_str();
   live->add_flag("--steered", a->steered, "obeys lines of JSON on standard input, answers on standard output")
       ->excludes(seconds);
   live->callback([a, seconds, &shell] {
     Game game = loadGame(a->game);
     const ModelSet models = loadModels(game.scene);
     for (const std::string& loss : modelLosses(game.scene, models)) std::fprintf(stderr, "%s\n", loss.c_str());
-    LiveRun run(*a, std::move(game), shell.plugins());
+    LiveRun run(*a, std::move(game), shell.plugins(), shell.json);
     if (a->steered) {
       run.steer(*shell.stop);
       run.finish();
@@ -158,6 +191,9 @@ void addLiveCommand(CLI::App& app, Shell& shell) {
     } else {
       std::cout << brief(result["simulated_s"]) << " s simulated, " << brief(result["real_time_factor"])
                 << " times as fast as time\ntrace " << result["trace_sha256"].get<std::string>() << "\n";
+      if (result.contains("score"))
+        std::cout << "red " << result["score"][0] << ", blue " << result["score"][1] << ", half " << result["half"]
+                  << " at " << brief(result["clock_s"]) << " s\n";
       if (result.contains("identical"))
         std::cout << (differs ? "NOT identical to the log's\n" : "identical to the log's\n");
     }

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
@@ -27,6 +28,9 @@ constexpr std::size_t mostSignals = 100;
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void say(const nlohmann::json& line) {
+  // The watchdog tells from a thread of its own.
+  static std::mutex oneAtATime;
+  const std::lock_guard lock(oneAtATime);
   std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n' << std::flush;
 }
 
@@ -46,8 +50,15 @@ nlohmann::json handForces(const Session& session) {
 
 }  // namespace
 
+void tellLine(const nlohmann::json& line) { say(line); }
+
 LiveSteering::LiveSteering(Session& session, std::function<void(const std::string&)> save)
-    : session_(session), save_(std::move(save)) {}
+    : session_(session), save_(std::move(save)) {
+  if (const RefereeState* referee = session_.referee()) {
+    over_ = referee->over;
+    eventsTold_ = referee->seen;
+  }
+}
 
 void LiveSteering::run(const std::atomic<bool>& stop) {
   tellGame();
@@ -87,20 +98,17 @@ void LiveSteering::obey(const std::string& line) {
   if (line.find_first_not_of(" \t\r") == std::string::npos) return;
   try {
     JsonReader reader = JsonReader::parse(line, "line");
-    if (reader.has("act")) {
-      const auto channels = session_.world().channels();
-      nlohmann::json act = reader.node();
-      act.erase("gesture");
-      session_.apply(actFromJson(act.dump(), "line"));
-      if (session_.world().channels() != channels) tellGame();
-      tellRow();
-      return;
-    }
-    const std::string wanted = reader.word("do", {"play", "pause", "step", "speed", "save", "game", "signals", "end"});
+    if (reader.has("act")) return act(reader);
+    const std::string wanted =
+        reader.word("do", {"play", "pause", "step", "speed", "save", "game", "signals", "undo", "redo", "end"});
     if (wanted == "play") playing_ = true;
     if (wanted == "pause") playing_ = false;
     if (wanted == "end") ended_ = true;
     if (wanted == "game") tellGame();
+    if (wanted == "undo" || wanted == "redo") {
+      reader.finish();
+      return change([&] { wanted == "undo" ? undo_.undo(session_) : undo_.redo(session_); });
+    }
     if (wanted == "signals") chooseSignals(reader);
     if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
     if (wanted == "save") {
@@ -120,13 +128,50 @@ void LiveSteering::obey(const std::string& line) {
   }
 }
 
+void LiveSteering::act(JsonReader& reader) {
+  std::optional<long> gesture;
+  if (reader.has("gesture")) gesture = static_cast<long>(reader.integer("gesture", 0, 1'000'000'000));
+  nlohmann::json act = reader.node();
+  act.erase("gesture");
+  const Act wanted = actFromJson(act.dump(), "line");
+  change([&] { undo_.apply(session_, wanted, gesture); });
+}
+
+void LiveSteering::change(const std::function<void()>& work) {
+  const auto channels = session_.channels();
+  std::string refused;
+  try {
+    work();
+  } catch (const InputError& error) {
+    refused = error.what();
+  }
+  if (session_.channels() != channels) tellGame();
+  tellUndo();
+  if (!refused.empty()) return say({{"refused", refused}});
+  tellRow();
+}
+
+void LiveSteering::tellUndo() {
+  if (undo_.undoName() == undoTold_ && undo_.redoName() == redoTold_) return;
+  undoTold_ = undo_.undoName();
+  redoTold_ = undo_.redoName();
+  say({{"undo", undoTold_}, {"redo", redoTold_}});
+}
+
 void LiveSteering::advance() {
   const double begin = now_s(), period = session_.game().scene.controlPeriod_s;
   const auto due = [&] {
     if (speed_ <= 0) return session_.periods() + 1;
     return anchorPeriods_ + static_cast<long>(std::floor((now_s() - anchor_s_) * speed_ / period));
   };
-  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty()) stepOnce();
+  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty() && playing_) {
+    stepOnce();
+    // The end of a game is a moment to look at: it waits there.
+    if (session_.referee() && session_.referee()->over && !over_) {
+      over_ = true;
+      playing_ = false;
+    }
+  }
   const double now = now_s();
   if (speed_ > 0 && static_cast<double>(due() - session_.periods()) * period / speed_ > behindAtMost_s) {
     anchor_s_ = now;
@@ -147,7 +192,7 @@ void LiveSteering::stepOnce() {
   session_.step();
   if (!signals_.wanted() || !session_.fault().empty()) return;
   sampled_.clear();
-  session_.world().sample(sampled_);
+  session_.sample(sampled_);
   signals_.add(session_.periods(), sampled_);
 }
 
@@ -156,20 +201,38 @@ void LiveSteering::chooseSignals(JsonReader& reader) {
   std::vector<std::string> wanted = reader.texts("channels");
   if (wanted.size() > mostSignals) reader.refuse("channels", "at most " + std::to_string(mostSignals) + " names");
   if (signals_.wanted()) tellRow();
-  signals_.choose(std::move(wanted), session_.world().channels());
+  signals_.choose(std::move(wanted), session_.channels());
   say({{"signals", signals_.names()}});
 }
 
 void LiveSteering::tellGame() {
-  signals_.resolve(session_.world().channels());
+  signals_.resolve(session_.channels());
   say({{"game", nlohmann::json::parse(toJsonText(session_.game()))},
        {"directory", session_.game().scene.directory},
-       {"channels", session_.world().channels()}});
+       {"channels", session_.channels()}});
+}
+
+void LiveSteering::tellReferee(nlohmann::json& line) {
+  addReferee(session_, line, eventsTold_);
+  eventsTold_ = session_.referee()->seen;
+}
+
+void addReferee(const Session& session, nlohmann::json& line, long from) {
+  const RefereeState& referee = *session.referee();
+  line["score"] = {referee.red, referee.blue};
+  line["clock_s"] = static_cast<double>(referee.periods) * session.game().scene.controlPeriod_s;
+  line["half"] = referee.half;
+  line["over"] = referee.over;
+  const long fresh = std::min(referee.seen - from, static_cast<long>(referee.events.size()));
+  if (fresh <= 0) return;
+  line["events"] = nlohmann::json::array();
+  for (auto event = referee.events.end() - fresh; event != referee.events.end(); ++event)
+    line["events"].push_back(toJson(*event));
 }
 
 void LiveSteering::tellRow() {
   std::vector<double> row;
-  session_.world().sample(row);
+  session_.sample(row);
   nlohmann::json line{
       {"row", row}, {"period", session_.periods()}, {"playing", playing_}, {"real_time_factor", factor_}};
   nlohmann::json bases = nlohmann::json::array();
@@ -185,6 +248,7 @@ void LiveSteering::tellRow() {
   if (nlohmann::json hands = handForces(session_); !hands.empty()) line["hands_n"] = std::move(hands);
   if (signals_.wanted()) line["samples"] = signals_.take();
   if (!session_.fault().empty()) line["fault"] = session_.fault();
+  if (session_.referee()) tellReferee(line);
   say(line);
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/btr_live_signals.h"
 #include "core/live/session.h"
+#include "core/live/undo.h"
 
 namespace btr {
 class JsonReader;
@@ -26,15 +28,25 @@ class LiveSteering {
   void stepOnce();
   void tellGame();
   void tellRow();
+  void tellReferee(nlohmann::json& line);
+  /// What can be undone and redone, if that is no longer what was told.
+  void tellUndo();
+  void act(JsonReader& reader);
+  /// Changes the session, and tells what came of it; what is thrown as InputError is answered as a refusal.
+  void change(const std::function<void()>& work);
   void chooseSignals(JsonReader& reader);
   int untilNext_ms() const;
 
   Session& session_;
   std::function<void(const std::string&)> save_;
+  UndoStack undo_;
+  std::string undoTold_, redoTold_;
   LiveSignals signals_;
   std::vector<double> sampled_;  ///< one row
   std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
+  bool over_ = false;       ///< the referee's game
+  long eventsTold_ = 0;     ///< of the referee
   double speed_ = 1;        ///< simulated seconds a second; 0: as fast as possible
   double anchor_s_ = 0;     ///< wall time …
   long anchorPeriods_ = 0;  ///< … at which this period was due
@@ -42,5 +54,11 @@ class LiveSteering {
   long measuredPeriods_ = 0;
   double nextRow_s_ = 0;
 };
+
+/// Score, clock, half and the referee's events after the first `from`.
+void addReferee(const Session& session, nlohmann::json& line, long from);
+
+/// One line of standard output, from any thread.
+void tellLine(const nlohmann::json& line);
 
 }  // namespace btr::cli

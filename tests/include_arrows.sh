@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → live, run → gap, store, plugin → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -18,6 +18,7 @@ declare -A may=(
   [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [plugins]="core/plugin"
   [ui]="core ui"
@@ -46,6 +47,7 @@ declare -A public=(
   [model]="kinematics robot_model"
   [sim]="obstacle_shape scene trace trial"
   [live]="act game number_groups"
+  [camera]="camera_pipeline camera_spec picture_file pinhole truth_file twin video_file"
   [gap/recordings]="channel_name doctor mapping objection recording recording_health"
   [gap/replay]="number_table residual trial_scenes"
   [gap/search]="gap_report report_words"

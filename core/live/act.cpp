@@ -44,6 +44,8 @@ Act addFrom(JsonReader& reader) {
     if (!robot) reader.refuse("player", "a player for a robot only");
     act.player = gameRobotFromReader(*player);
   }
+  constexpr long mostObjects = 100000;
+  if (reader.has("index")) act.index = static_cast<std::size_t>(reader.integer("index", 0, mostObjects));
   return act;
 }
 
@@ -64,7 +66,7 @@ Act actFrom(JsonReader& reader, const std::string& kind) {
   };
   if (kind == "place")
     return PlaceAct{reader.text("object"), arrayOf<3>(reader, "position_m", farthest_m, {}), orientationOf(reader),
-                    reader.anyValues("joints")};
+                    reader.anyValues("joints"), reader.anyValues("commands")};
   if (kind == "throw")
     return ThrowAct{reader.text("object"), arrayOf<3>(reader, "velocity_m_s", fastest_m_s, {}),
                     arrayOf<3>(reader, "spin_rad_s", fastestSpin_rad_s, {})};
@@ -72,25 +74,42 @@ Act actFrom(JsonReader& reader, const std::string& kind) {
   if (kind == "remove") return RemoveAct{reader.text("object")};
   if (kind == "pull") return pullFromReader(reader);
   if (kind == "let_go") return LetGoAct{reader.text("object")};
-  if (kind == "hold") return HoldAct{reader.text("robot"), reader.text("joint"), optionalNumber("position")};
-  if (kind == "parameter")
-    return ParameterAct{reader.text("robot"), reader.text("name"), reader.number("value", -1e12, 1e12)};
+  if (kind == "hold")
+    return HoldAct{reader.text("robot"), reader.text("joint"), optionalNumber("position"), optionalNumber("command")};
+  if (kind == "parameter") return ParameterAct{reader.text("robot"), reader.text("name"), optionalNumber("value")};
   if (kind == "controller") {
     ControllerAct act{reader.text("robot"), std::nullopt};
     if (auto controller = reader.objectIfAny("controller")) act.controller = gameControllerFromReader(*controller);
+    act.commands = reader.anyValues("commands");
     return act;
   }
   if (kind == "number") return NumberAct{reader.text("robot", ""), reader.text("name"), optionalNumber("value")};
   if (kind == "effect") return effectFrom(reader);
+  if (kind == "simulator") {
+    SimulatorAct act{reader.text("robot", ""), std::nullopt};
+    if (auto simulator = reader.objectIfAny("simulator")) {
+      act.simulator = simulatorFromReader(*simulator);
+      simulator->finish();
+    }
+    return act;
+  }
+  if (kind == "kick_off") return KickOffAct{reader.word("team", {"red", "blue", ""}, "")};
+  if (kind == "score") {
+    constexpr int most = 1'000'000;
+    return ScoreAct{static_cast<int>(reader.integer("red", 0, most)),
+                    static_cast<int>(reader.integer("blue", 0, most))};
+  }
   return CheckpointAct{};
 }
 
 json written(const PlaceAct& act) {
-  return {{"act", "place"},
-          {"object", act.object},
-          {"position_m", act.position_m},
-          {"orientation_wxyz", act.orientation_wxyz},
-          {"joints", act.joints}};
+  json object{{"act", "place"},
+              {"object", act.object},
+              {"position_m", act.position_m},
+              {"orientation_wxyz", act.orientation_wxyz},
+              {"joints", act.joints}};
+  if (!act.commands.empty()) object["commands"] = act.commands;
+  return object;
 }
 json written(const ThrowAct& act) {
   return {{"act", "throw"}, {"object", act.object}, {"velocity_m_s", act.velocity_m_s}, {"spin_rad_s", act.spin_rad_s}};
@@ -105,6 +124,7 @@ json written(const AddAct& act) {
   } else {
     object["obstacle"] = json::parse(toJsonText(std::get<ObstacleSpec>(act.what)));
   }
+  if (act.index) object["index"] = *act.index;
   return object;
 }
 json written(const RemoveAct& act) { return {{"act", "remove"}, {"object", act.object}}; }
@@ -117,14 +137,18 @@ json written(const LetGoAct& act) { return {{"act", "let_go"}, {"object", act.ob
 json written(const HoldAct& act) {
   json object{{"act", "hold"}, {"robot", act.robot}, {"joint", act.joint}};
   if (act.position) object["position"] = *act.position;
+  if (act.command) object["command"] = *act.command;
   return object;
 }
 json written(const ParameterAct& act) {
-  return {{"act", "parameter"}, {"robot", act.robot}, {"name", act.name}, {"value", act.value}};
+  json object{{"act", "parameter"}, {"robot", act.robot}, {"name", act.name}};
+  if (act.value) object["value"] = *act.value;
+  return object;
 }
 json written(const ControllerAct& act) {
   json object{{"act", "controller"}, {"robot", act.robot}};
   if (act.controller) object["controller"] = btr::toJson(*act.controller);
+  if (!act.commands.empty()) object["commands"] = act.commands;
   return object;
 }
 json written(const NumberAct& act) {
@@ -140,14 +164,26 @@ json written(const EffectAct& act) {
           {"parameters", act.effect.parameters},
           {"there", act.there}};
 }
+json written(const SimulatorAct& act) {
+  json object{{"act", "simulator"}, {"robot", act.robot}};
+  if (act.simulator) object["simulator"] = simulatorToJson(*act.simulator);
+  return object;
+}
+json written(const KickOffAct& act) {
+  json object{{"act", "kick_off"}};
+  if (!act.team.empty()) object["team"] = act.team;
+  return object;
+}
+json written(const ScoreAct& act) { return {{"act", "score"}, {"red", act.red}, {"blue", act.blue}}; }
 json written(const CheckpointAct&) { return {{"act", "checkpoint"}}; }
 
 }  // namespace
 
 Act actFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);
-  const std::string kind = reader.word("act", {"place", "throw", "add", "remove", "pull", "let_go", "hold", "parameter",
-                                               "controller", "number", "effect", "checkpoint"});
+  const std::string kind =
+      reader.word("act", {"place", "throw", "add", "remove", "pull", "let_go", "hold", "parameter", "controller",
+                          "number", "effect", "simulator", "kick_off", "score", "checkpoint"});
   Act act = actFrom(reader, kind);
   reader.finish();
   return act;

@@ -40,21 +40,34 @@ GameState stateFrom(JsonReader reader) {
   state.periods = static_cast<long>(reader.integer("periods", 0, most));
   state.clocks = reader.anyValues("clocks");
   state.held = positionsFrom(reader, "held");
+  state.commands = positionsFrom(reader, "commands");
   reader.array("pulls", [&](JsonReader pull) {
     state.pulls.push_back(pullFromReader(pull));
     pull.finish();
   });
+  if (auto senses = reader.objectIfAny("senses")) {
+    for (const auto& member : senses->node().items()) {
+      const json* channels = senses->any(member.key());
+      try {
+        state.senses[member.key()] = channels->get<std::vector<std::vector<double>>>();
+      } catch (const json::exception&) {
+        senses->refuse(member.key(), "lists of numbers");
+      }
+    }
+    senses->finish();
+  }
+  if (auto referee = reader.objectIfAny("referee")) state.referee = refereeStateFromReader(*referee);
   reader.finish();
   return state;
 }
 
 json toJson(const GameState& state) {
-  json object{{"world", btr::toJson(state.world)},
-              {"periods", state.periods},
-              {"clocks", state.clocks},
-              {"held", state.held},
-              {"pulls", json::array()}};
+  json object{
+      {"world", btr::toJson(state.world)}, {"periods", state.periods}, {"clocks", state.clocks}, {"held", state.held},
+      {"commands", state.commands},        {"pulls", json::array()}};
   for (const PullAct& pull : state.pulls) object["pulls"].push_back(btr::toJson(pull));
+  if (!state.senses.empty()) object["senses"] = state.senses;
+  if (state.referee) object["referee"] = btr::toJson(*state.referee);
   return object;
 }
 
@@ -84,6 +97,7 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
   add(scene.obstacles, field.obstacles);
   add(scene.balls, field.balls);
   if (field.floor) scene.floor = field.floor;
+  if (field.field) scene.field = field.field;
 }
 
 /// So that the lowest point of what collides just touches the floor, joints at zero.
@@ -180,6 +194,14 @@ GameRobot gameRobotFromReader(JsonReader& reader) {
     simulator->finish();
   }
   robot.posture = reader.flag("posture", true);
+  if (const json* senses = reader.any("senses"); senses && senses->is_string())
+    robot.senses = sensesOfModel(senses->get<std::string>(), reader.at("senses"));
+  else
+    reader.array("senses", [&](JsonReader sense) {
+      robot.senses.push_back({sense.word("sense", senseNames()), {}});
+      robot.senses.back().parameters = sense.values("parameters", senseParameters(robot.senses.back().sense));
+      sense.finish();
+    });
   reader.finish();
   return robot;
 }
@@ -188,6 +210,8 @@ json toJson(const GameRobot& robot) {
   json object{{"team", robot.team}, {"posture", robot.posture}};
   if (robot.controller) object["controller"] = toJson(*robot.controller);
   if (robot.simulator) object["simulator"] = simulatorToJson(*robot.simulator);
+  for (const SenseSpec& sense : robot.senses)
+    object["senses"].push_back({{"sense", sense.sense}, {"parameters", sense.parameters}});
   return object;
 }
 
@@ -200,15 +224,20 @@ Game gameFromJson(const std::string& text, const std::string& place, const std::
   if (scene->is_string()) {
     const std::string path = (fs::path(directory) / scene->get<std::string>()).string();
     game.scene = loadScene(path);
+    game.pitch = pitchFromJson(readFile(path), path);
     moveModels(game.scene, directory);
   } else {
     game.scene = sceneFromJson(scene->dump(), reader.at("scene"), directory);
+    game.pitch = pitchFromJson(scene->dump(), reader.at("scene"));
   }
   if (reader.has("field")) {
     const std::string path = (fs::path(directory) / reader.text("field")).string();
     const SceneSpec field = loadScene(path);
     if (!field.robots.empty()) throw InputError(path, "a robot", "a field: floor, obstacles and balls");
     addField(game.scene, field, path);
+    const PitchSpec pitch = pitchFromJson(readFile(path), path);
+    if (pitch.field) game.pitch.field = pitch.field;
+    if (pitch.carpet) game.pitch.carpet = pitch.carpet;
   }
   game.seed = reader.seed("seed", game.seed);
   if (auto simulator = reader.objectIfAny("simulator")) {
@@ -220,6 +249,7 @@ Game gameFromJson(const std::string& text, const std::string& place, const std::
       reader.refuse("robots", "names of the scene's robots; it has none called \"" + name + "\"");
     game.robots[name] = gameRobotFromReader(robot);
   });
+  if (auto referee = reader.objectIfAny("referee")) game.referee = refereeFromReader(*referee);
   if (auto state = reader.objectIfAny("state")) game.state = stateFrom(*state);
   if (const json* view = reader.any("view")) game.view = view->dump();
   reader.finish();
@@ -232,7 +262,9 @@ std::string toJsonText(const Game& game) {
                 {"seed", game.seed},
                 {"simulator", simulatorToJson(game.simulator)},
                 {"robots", json::object()}};
+  addTo(document["scene"], game.pitch);
   for (const auto& [name, robot] : game.robots) document["robots"][name] = toJson(robot);
+  if (game.referee) document["referee"] = toJson(*game.referee);
   if (game.state) document["state"] = toJson(*game.state);
   if (!game.view.empty()) document["view"] = json::parse(game.view);
   return document.dump(1) + "\n";
@@ -252,6 +284,7 @@ Game loadGame(const std::string& path) {
   if (format == "uchilsim-game-1") return gameFromJson(text, path, directory);
   Game game;
   game.scene = sceneFromJson(text, path, directory);
+  game.pitch = pitchFromJson(text, path);
   return game;
 }
 

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/live/referee.h"
+#include "core/sim/senses.h"
 #include "core/sim/world_memory.h"
 #include "core/spec/parameter.h"
+#include "core/spec/pitch_spec.h"
 #include "core/spec/scene_spec.h"
 #include "core/spec/simulator_spec.h"
 
@@ -31,6 +34,7 @@ struct GameRobot {
   /// It begins in its controller's starting posture (without controller, a four-legged robot: in a stance), at its
   /// place in the scene; else exactly as the scene says.
   bool posture = true;
+  std::vector<SenseSpec> senses{};
   bool operator==(const GameRobot&) const = default;
 };
 
@@ -45,20 +49,25 @@ struct PullAct {
 /// What a running game remembers beside its world.
 struct GameState {
   WorldMemory world;
-  long periods = 0;                                           ///< control periods since the game began
-  std::map<std::string, double> clocks;                       ///< by robot: time since its motion began [s]
-  std::map<std::string, std::map<std::string, double>> held;  ///< by robot and joint
+  long periods = 0;                                               ///< control periods since the game began
+  std::map<std::string, double> clocks;                           ///< by robot: time since its motion began [s]
+  std::map<std::string, std::map<std::string, double>> held;      ///< by robot and joint
+  std::map<std::string, std::map<std::string, double>> commands;  ///< what joints are told, by robot and joint
   std::vector<PullAct> pulls;
+  std::map<std::string, std::vector<std::vector<double>>> senses;  ///< by robot, see Senses::memory()
+  std::optional<RefereeState> referee;
 };
 
 /// A scene with who plays in it ("format": "uchilsim-game-1"). A value.
 struct Game {
   SceneSpec scene;
+  PitchSpec pitch;  ///< of the scene's file
   std::uint64_t seed = 1;
   SimulatorSpec simulator;                  ///< of everything that has none of its own
   std::map<std::string, GameRobot> robots;  ///< by the scene's names; those that are not here hold still
-  std::optional<GameState> state;           ///< of a game that was saved while it ran
-  std::string view;                         ///< cameras, windows: JSON that the window writes and nobody else reads
+  std::optional<RefereeSpec> referee;
+  std::optional<GameState> state;  ///< of a game that was saved while it ran
+  std::string view;                ///< cameras, windows: JSON that the window writes and nobody else reads
 };
 
 /// `place` begins error messages, relative paths start at `directory`. Throws InputError.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/spec/error.h"
@@ -57,15 +58,18 @@ void check(const Game& game, const PluginHost& host) {
 
 }  // namespace
 
-Session::Session(Game game, const PluginHost& host) : host_(host) {
+Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host), dog_(dog) {
   check(game, host);
+  if (game.referee) field_ = fieldOf(game);
   models_ = loadModels(game.scene);
   Scene scene = sceneOf(game, models_, host);
-  world_ = std::make_unique<World>(scene, game.seed);
+  sensing_ = sensingOf(game, scene);
+  world_ = worldOf(game, scene, nullptr);
   scene_ = std::move(scene);
   game_ = std::move(game);
   if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
   std::map<std::string, double> clocks;
+  Commands commands;
   if (game_.state) {
     for (const RobotMemory& robot : game_.state->world.robots)
       if (const auto i = indexOf(game_.scene.robots, robot.name); i == game_.scene.robots.size())
@@ -78,7 +82,13 @@ Session::Session(Game game, const PluginHost& host) : host_(host) {
     periods_ = game_.state->periods;
     clocks = game_.state->clocks;
     held_ = game_.state->held;
+    commands = game_.state->commands;
     lastGood_ = std::move(game_.state->world);
+    for (Sensing& sensing : sensing_)
+      if (const auto was = game_.state->senses.find(scene_.robots[sensing.robot].name);
+          was != game_.state->senses.end())
+        sensing.senses.remember(was->second, "state/senses/" + was->first);
+    if (game_.state->referee) referee_ = *game_.state->referee;
     for (const PullAct& pull : game_.state->pulls) change(pull);
     for (const auto& [robot, joints] : held_)
       for (const auto& joint : joints) jointOf(robotOf(robot), joint.first);
@@ -86,10 +96,21 @@ Session::Session(Game game, const PluginHost& host) : host_(host) {
   } else {
     lastGood_ = world_->memory();
   }
-  holdCommands(lastGood_);
+  holdCommands(lastGood_, commands);
   for (const auto& [name, player] : game_.robots)
     if (player.controller) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
+  sense(true);
   hashChannels();
+}
+
+std::unique_ptr<World> Session::worldOf(const Game& game, const Scene& scene, const WorldMemory* memory) const {
+  auto world = std::make_unique<World>(scene, game.seed);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i)
+    if (const auto player = game.robots.find(scene.robots[i].name);
+        player != game.robots.end() && !player->second.senses.empty())
+      world->measureAcceleration(i);
+  if (memory) world->remember(*memory);
+  return world;
 }
 
 Session::~Session() = default;
@@ -110,6 +131,7 @@ std::size_t Session::jointOf(std::size_t robot, const std::string& joint) const 
 
 Session::Player Session::playerOf(const Game& game, const Scene& scene, const std::string& robot, double clock) const {
   const GameController& spec = *game.robots.at(robot).controller;
+  const Asked asked(dog_, robot + "'s controller \"" + spec.plugin + "\"");
   Player player;
   player.controller = host_.controller(spec.plugin);
   // A controller drives the first robot of a scene.
@@ -120,8 +142,17 @@ Session::Player Session::playerOf(const Game& game, const Scene& scene, const st
   return player;
 }
 
+Session::Commands Session::commands() const {
+  Commands commands;
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    for (std::size_t j = 0; j < inputs_[i].size(); ++j)
+      if (const Joint& joint = scene_.robots[i].model.joints[j]; joint.type != Joint::Type::fixed)
+        commands[scene_.robots[i].name][joint.name] = inputs_[i][j].command;
+  return commands;
+}
+
 // Inputs go on as they were; a joint that was never driven holds where it starts.
-void Session::holdCommands(const WorldMemory& memory) {
+void Session::holdCommands(const WorldMemory& memory, const Commands& commands) {
   inputs_.clear();
   for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
     const SceneRobot& robot = scene_.robots[i];
@@ -138,12 +169,15 @@ void Session::holdCommands(const WorldMemory& memory) {
         ++moving;
       }
     }
+    if (const auto told = commands.find(robot.name); told != commands.end())
+      for (const auto& [joint, command] : told->second)
+        if (const int j = robot.model.findJoint(joint); j >= 0) inputs[static_cast<std::size_t>(j)].command = command;
     inputs_.push_back(std::move(inputs));
   }
 }
 
 void Session::hashChannels() {
-  for (const std::string& channel : world_->channels()) hash_.add(channel + "\n");
+  for (const std::string& channel : channels()) hash_.add(channel + "\n");
 }
 
 void Session::setPulls() {
@@ -187,6 +221,7 @@ void Session::step() {
       if (over && game_.robots.at(name).controller->repeats) player = playerOf(game_, scene_, name, 0);
       if (!over || player.clock < half) {
         world_->read(i, readings);
+        const Asked asked(dog_, name + "'s controller \"" + game_.robots.at(name).controller->plugin + "\"");
         player.motion->command(player.clock, readings, inputs_[i]);
       }
       player.clock += scene_.controlPeriod_s;
@@ -201,25 +236,29 @@ void Session::step() {
       }
   }
   if (fault_.empty()) {
+    const Asked asked(dog_, "the world");
     world_->advance(inputs_, scene_.controlPeriod_s);
     if (!world_->fault().empty()) fault_ = world_->fault() + " at " + toText(time_s()) + " s";
   }
   if (!fault_.empty()) {
     // The last good state is kept, to be looked at and saved.
     world_.reset();
-    world_ = std::make_unique<World>(scene_, game_.seed);
-    world_->remember(lastGood_);
+    world_ = worldOf(game_, scene_, &lastGood_);
     return;
   }
   ++periods_;
+  sense(false);
   row_.clear();
-  world_->sample(row_);
+  sample(row_);
   hash_.add({reinterpret_cast<const char*>(row_.data()), row_.size() * sizeof(double)});
+  officiate();
   if (periods_ % goodEvery == 0) lastGood_ = world_->memory();
 }
 
 void Session::apply(const Act& act) {
   if (!fault_.empty()) throw InputError("session", fault_, "a session that goes on; open the game again");
+  // Nothing that a log could not say.
+  actFromJson(toJson(act).dump(), "act");
   std::visit([this](const auto& each) { change(each); }, act);
   if (logged_) logged_(periods_, act);
 }
@@ -228,6 +267,11 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   check(game, host_);
   ModelSet models = loadModels(game.scene);
   Scene scene = sceneOf(game, models, host_);
+  std::vector<Sensing> sensing = sensingOf(game, scene);
+  for (Sensing& now : sensing)
+    for (const Sensing& was : sensing_)
+      if (was.senses.channels() == now.senses.channels() && !was.senses.memory().empty())
+        now.senses.remember(was.senses.memory(), "senses");
   std::map<std::string, Player> players;
   for (const auto& [name, player] : game.robots)
     if (player.controller)
@@ -235,22 +279,23 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   // One world a process: the old one goes first, and comes back if the new one cannot be.
   world_.reset();
   try {
-    world_ = std::make_unique<World>(scene, game.seed);
-    world_->remember(memory);
+    world_ = worldOf(game, scene, &memory);
     if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
   } catch (...) {
     world_.reset();
-    world_ = std::make_unique<World>(scene_, game_.seed);
-    world_->remember(memory);
+    world_ = worldOf(game_, scene_, &memory);
     setPulls();
     throw;
   }
+  const Commands told = commands();
   game_ = std::move(game);
   models_ = std::move(models);
   scene_ = std::move(scene);
   players_ = std::move(players);
-  holdCommands(memory);
+  sensing_ = std::move(sensing);
+  holdCommands(memory, told);
   setPulls();
+  sense(true);
   lastGood_ = memory;
   hashChannels();
 }
@@ -266,7 +311,10 @@ Game Session::save() {
   state.periods = periods_;
   for (const auto& [name, player] : players_) state.clocks[name] = player.clock;
   state.held = held_;
+  state.commands = commands();
   for (const auto& [name, pull] : pulls_) state.pulls.push_back(pull);
+  for (const Sensing& sensing : sensing_) state.senses[scene_.robots[sensing.robot].name] = sensing.senses.memory();
+  if (game_.referee) state.referee = referee_;
   saved.state = std::move(state);
   return saved;
 }
@@ -274,25 +322,28 @@ Game Session::save() {
 void Session::change(const PlaceAct& act) {
   const ObjectPlace found = placeOf(game_.scene, act.object, "object");
   const Isometry3d pose = poseOf(act.position_m, act.orientation_wxyz);
-  if (!act.joints.empty() && found.kind != ObjectPlace::Kind::robot)
+  if (!(act.joints.empty() && act.commands.empty()) && found.kind != ObjectPlace::Kind::robot)
     throw InputError("joints", act.object, "joints of a robot only");
   if (found.kind == ObjectPlace::Kind::ball) {
     BallState state;
     state.position_m = pose.translation();
     state.time = world_->time();
     world_->setBall(found.index, state);
+    if (refereeBall() == found.index) referee_.ball.reset();  // it did not go there
   } else if (found.kind == ObjectPlace::Kind::obstacle) {
     ObstacleState state;
     state.pose = pose;
     world_->setObstacle(found.index, state);
   } else {
-    const RobotReadings now = world_->robot(found.index);
-    std::vector<double> positions = now.position;
+    std::vector<double> positions = world_->jointPositions(found.index);
+    std::vector<JointInput> inputs = inputs_[found.index];
     for (const auto& [joint, position] : act.joints) {
       const std::size_t j = jointOf(found.index, joint);
       positions[j] = position;
-      if (!players_.contains(act.object)) inputs_[found.index][j].command = position;
+      if (!players_.contains(act.object)) inputs[j].command = position;
     }
+    for (const auto& [joint, command] : act.commands) inputs[jointOf(found.index, joint)].command = command;
+    inputs_[found.index] = std::move(inputs);
     world_->setRobot(found.index, pose, Vector3d::Zero(), Vector3d::Zero(), positions,
                      std::vector<double>(positions.size(), 0));
   }
@@ -313,8 +364,9 @@ void Session::change(const ThrowAct& act) {
   } else {
     if (!scene_.robots[found.index].freeBase)
       throw InputError("object", act.object, "something that moves; its base is fixed");
-    const RobotReadings now = world_->robot(found.index);
-    world_->setRobot(found.index, now.base, velocity, spin, now.position, std::vector<double>(now.position.size(), 0));
+    const std::vector<double> positions = world_->jointPositions(found.index);
+    world_->setRobot(found.index, world_->robot(found.index).base, velocity, spin, positions,
+                     std::vector<double>(positions.size(), 0));
   }
 }
 
@@ -324,13 +376,18 @@ void Session::change(const AddAct& act) {
   const auto taken = [&](const auto& specs) { return indexOf(specs, name) < specs.size(); };
   if (taken(game.scene.robots) || taken(game.scene.balls) || taken(game.scene.obstacles))
     throw InputError("name", "\"" + name + "\"", "a name that no other object of this game has");
+  const auto insert = [&](auto& specs, const auto& spec) {
+    if (act.index && *act.index > specs.size())
+      throw InputError("index", std::to_string(*act.index), "at most " + std::to_string(specs.size()));
+    specs.insert(specs.begin() + static_cast<std::ptrdiff_t>(act.index.value_or(specs.size())), spec);
+  };
   if (const auto* robot = std::get_if<RobotSpec>(&act.what)) {
-    game.scene.robots.push_back(*robot);
-    game.robots[name] = act.player;
+    insert(game.scene.robots, *robot);
+    if (act.player != GameRobot{}) game.robots[name] = act.player;
   } else if (const auto* ball = std::get_if<BallSpec>(&act.what)) {
-    game.scene.balls.push_back(*ball);
+    insert(game.scene.balls, *ball);
   } else {
-    game.scene.obstacles.push_back(std::get<ObstacleSpec>(act.what));
+    insert(game.scene.obstacles, std::get<ObstacleSpec>(act.what));
   }
   rebuild(std::move(game), world_->memory());
 }
@@ -374,12 +431,14 @@ void Session::change(const HoldAct& act) {
   const std::size_t robot = robotOf(act.robot), joint = jointOf(robot, act.joint);
   if (act.position) {
     held_[act.robot][act.joint] = *act.position;
+    if (act.command && !players_.contains(act.robot)) inputs_[robot][joint].command = *act.command;
     return;
   }
   if (!held_.contains(act.robot) || held_[act.robot].erase(act.joint) == 0)
     throw InputError("joint", act.robot + "." + act.joint, "a joint that is held");
   if (held_[act.robot].empty()) held_.erase(act.robot);
-  if (!players_.contains(act.robot)) inputs_[robot][joint].command = world_->robot(robot).position[joint];
+  if (!players_.contains(act.robot))
+    inputs_[robot][joint].command = act.command.value_or(world_->robot(robot).position[joint]);
 }
 
 void Session::change(const ParameterAct& act) {
@@ -391,8 +450,13 @@ void Session::change(const ParameterAct& act) {
   if (declared == genotype.end())
     throw InputError("name", "\"" + act.name + "\"",
                      "a parameter of the controller " + game_.robots[act.robot].controller->plugin);
-  btr::check(*declared, act.value, act.robot + " " + act.name);
-  game_.robots[act.robot].controller->parameters[act.name] = act.value;
+  Values& parameters = game_.robots[act.robot].controller->parameters;
+  if (act.value) {
+    btr::check(*declared, *act.value, act.robot + " " + act.name);
+    parameters[act.name] = *act.value;
+  } else {
+    parameters.erase(act.name);
+  }
   player->second = playerOf(game_, scene_, act.robot, player->second.clock);
 }
 
@@ -407,11 +471,14 @@ void Session::change(const ControllerAct& act) {
     players_[act.robot] = std::move(player);
     return;
   }
+  std::map<std::size_t, double> told;
+  for (const auto& [joint, command] : act.commands) told[jointOf(robot, joint)] = command;
   game_ = std::move(game);
   players_.erase(act.robot);
   const RobotReadings now = world_->robot(robot);
   for (std::size_t j = 0; j < inputs_[robot].size(); ++j)
     inputs_[robot][j].command = scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j];
+  for (const auto& [joint, command] : told) inputs_[robot][joint].command = command;
 }
 
 /// A robot's own simulator, which it gets if it has none yet; with "" that of all others.
@@ -449,6 +516,17 @@ void Session::change(const EffectAct& act) {
     throw InputError("effect", act.effect.text(), "an effect that is there");
   } else {
     simulator.effects.erase(found);
+  }
+  rebuild(std::move(game), world_->memory());
+}
+
+void Session::change(const SimulatorAct& act) {
+  Game game = game_;
+  if (act.robot.empty()) {
+    game.simulator = act.simulator.value_or(SimulatorSpec{});
+  } else {
+    robotOf(act.robot);
+    game.robots[act.robot].simulator = act.simulator;
   }
   rebuild(std::move(game), world_->memory());
 }

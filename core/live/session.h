@@ -7,6 +7,7 @@
 
 #include "core/live/act.h"
 #include "core/live/game.h"
+#include "core/live/watchdog.h"
 #include "core/plugin/plugin_host.h"
 #include "core/sim/scene.h"
 #include "core/sim/world.h"
@@ -20,7 +21,8 @@ namespace btr {
 class Session {
  public:
   /// Throws InputError for a game whose files, plugins or numbers are not there or not allowed.
-  Session(Game game, const PluginHost& host);
+  /// `dog`, which outlives it, sees whether controllers answer.
+  Session(Game game, const PluginHost& host, Watchdog* dog = nullptr);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -39,6 +41,15 @@ class Session {
   const Game& game() const { return game_; }
   const Scene& scene() const { return scene_; }
   const World& world() const { return *world_; }
+  /// The trace's columns and a row of them: the world's, then what robots sense.
+  std::vector<std::string> channels() const;
+  void sample(std::vector<double>& row) const;
+  /// What the referee knows; null where there is none.
+  const RefereeState* referee() const { return game_.referee ? &referee_ : nullptr; }
+  /// What each joint is told now, by robot and joint of the model.
+  const std::vector<std::vector<JointInput>>& inputs() const { return inputs_; }
+  const std::map<std::string, PullAct>& pulls() const { return pulls_; }  ///< by object
+  const std::map<std::string, std::map<std::string, double>>& held() const { return held_; }
   long periods() const { return periods_; }
   double time_s() const { return static_cast<double>(periods_) * game_.scene.controlPeriod_s; }
   /// Why it no longer goes on; "" while it does. The world is as it was at most a tenth of a second before.
@@ -66,13 +77,31 @@ class Session {
   void change(const ControllerAct& act);
   void change(const NumberAct& act);
   void change(const EffectAct& act);
+  void change(const SimulatorAct& act);
+  void change(const KickOffAct& act);
+  void change(const ScoreAct& act);
   void change(const CheckpointAct& act);
 
   /// Builds the world of `game` with what is remembered, and only then takes it over.
   void rebuild(Game game, const WorldMemory& memory);
   Player playerOf(const Game& game, const Scene& scene, const std::string& robot, double clock) const;
-  void holdCommands(const WorldMemory& memory);
+  using Commands = std::map<std::string, std::map<std::string, double>>;  ///< by robot and joint
+  Commands commands() const;
+  void holdCommands(const WorldMemory& memory, const Commands& commands);
   void setPulls();
+  /// A world of this scene with what is remembered of another one.
+  std::unique_ptr<World> worldOf(const Game& game, const Scene& scene, const WorldMemory* memory) const;
+  // session_referee.cpp
+  void officiate();
+  void kickOff(const std::string& team);
+  std::optional<std::size_t> refereeBall() const;
+  // session_senses.cpp
+  struct Sensing {
+    std::size_t robot;
+    Senses senses;
+  };
+  std::vector<Sensing> sensingOf(const Game& game, const Scene& scene) const;
+  void sense(bool onlyNew);
   void hashChannels();
   SimulatorSpec& simulatorOf(Game& game, const std::string& robot) const;
   std::size_t robotOf(const std::string& name) const;
@@ -88,12 +117,19 @@ class Session {
   std::map<std::string, std::map<std::string, double>> held_;
   std::vector<std::vector<JointInput>> inputs_;
   std::vector<double> row_;
+  std::vector<Sensing> sensing_;
+  FieldSpec field_;  ///< where there is a referee
+  RefereeState referee_;
+  Watchdog* dog_;
   WorldMemory lastGood_;
   long periods_ = 0;
   std::string fault_;
   Sha256 hash_;
   std::function<void(long, const Act&)> logged_;
 };
+
+/// The field that the game's referee sees. Throws InputError where nobody says how large it is.
+FieldSpec fieldOf(const Game& game);
 
 /// The scene of a game: each robot with its simulator, in its starting posture.
 Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host);

@@ -82,15 +82,23 @@ bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
   copy(across(point.normal, wanted), contact.fdir1);
   const dJointID id = dJointCreateContact(session_.world(), session_.contacts(), &contact);
   dJointAttach(id, first, second);
-  if (measure_) dJointSetFeedback(id, &feedback_.emplace_back(dJointFeedback{}, second == nullptr).first);
+  if (measure_) {
+    feedback_.push_back({{}, point.position_m, second == nullptr});
+    dJointSetFeedback(id, &feedback_.back().forces);
+  }
   return gap <= step_ * std::max(0.0, approach);
 }
 
 void ContactBuilder::clear() {
   dJointGroupEmpty(session_.contacts());
   floorForce_.setZero();
-  for (const auto& [forces, floor] : feedback_)
-    if (floor) floorForce_ += Vector3d(forces.f1[0], forces.f1[1], forces.f1[2]);
+  forces_.clear();
+  for (const Feedback& contact : feedback_) {
+    const dReal* on = contact.forces.f1;
+    const Eigen::Vector3d force(on[0], on[1], on[2]);
+    if (contact.floor) floorForce_ += force;
+    forces_.push_back({contact.place_m, force});
+  }
   feedback_.clear();
 }
 

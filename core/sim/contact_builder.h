@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <utility>
+#include <vector>
 
 #include "core/sim/collision.h"
+#include "core/sim/contact_force.h"
 #include "core/sim/ode_session.h"
 #include "core/spec/scene_spec.h"
 
@@ -49,16 +50,23 @@ class ContactBuilder {
   static double margin(double speed, double step) { return 1.5 * step * speed + 1e-4; }
   /// Removes the step's contacts.
   void clear();
-  /// Keeps the forces of the contacts with what never moves; costs a little.
+  /// Keeps the forces of all contacts; costs a little and changes no bit of the motion.
   void measureForces(bool on) { measure_ = on; }
-  /// Sum of them in the last step [N].
+  /// Sum of those with what never moves in the last step [N].
   const Eigen::Vector3d& floorForce_n() const { return floorForce_; }
+  const std::vector<ContactForce>& forces() const { return forces_; }
 
  private:
   const OdeSession& session_;
   double step_ = 0;
   bool measure_ = false;
-  std::deque<std::pair<dJointFeedback, bool>> feedback_;  ///< of each contact, and whether it is with what never moves
+  struct Feedback {
+    dJointFeedback forces{};
+    Eigen::Vector3d place_m;
+    bool floor;  ///< the second one never moves
+  };
+  std::deque<Feedback> feedback_;  ///< of each contact; places in a deque stay where ODE writes to
+  std::vector<ContactForce> forces_;
   Eigen::Vector3d floorForce_ = Eigen::Vector3d::Zero();
   double bounceAbove_ = 0;  ///< slower hits are resting contact [m/s]
 };

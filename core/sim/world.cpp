@@ -27,6 +27,7 @@ World::Impl::Impl(const Scene& givenScene, std::uint64_t seed) : scene(givenScen
     robot.contact.assign(sceneRobot.model.links.size(), 0);
     for (const auto& sensor : sceneRobot.model.sensors)
       if (sensor.kind == Sensor::Kind::accelerometer && robot.accelerometerLink < 0) {
+        robot.hasAccelerometer = true;
         robot.accelerometerLink = sensor.link;
         robot.accelerometer = sensor.pose;
       }

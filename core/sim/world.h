@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/contact_force.h"
 #include "core/sim/effect.h"
 #include "core/sim/readings.h"
 #include "core/sim/scene.h"
@@ -78,18 +79,28 @@ class World {
   RobotReadings robot(std::size_t index) const;
   /// The same into readings whose room is used again: of the same robot, nothing is allocated.
   void read(std::size_t index, RobotReadings& readings) const;
+  /// Where its joints are, by joint of the model [rad, m]: not what its sensors say.
+  std::vector<double> jointPositions(std::size_t robot) const;
   BallState ball(std::size_t index) const;
   Eigen::Isometry3d ballPose(std::size_t index) const;
   const ObstacleState& obstacle(std::size_t index) const;
   /// Poses of all links of a robot in the world.
   std::vector<Eigen::Isometry3d> linkPoses(std::size_t robot) const;
+  /// How far a ray sees, at most `farthest_m`: obstacles, balls, the floor and all robots but one. `direction` is a
+  /// unit vector; a ray that begins within something sees nothing of the world: 0.
+  double rayDistance_m(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double farthest_m,
+                       std::size_t robotLeftOut) const;
   /// True while any link of any robot touches the ball.
   bool ballTouched(std::size_t index) const;
   /// Kinetic plus gravitational energy of everything [J]; gravitational zero at the world's origin.
   double energy() const;
 
-  /// From now on the forces of floor contacts are kept (the steps cost a little more).
-  void measureForces();
+  /// From now on the robot's root frame is its accelerometer, if its model has none.
+  void measureAcceleration(std::size_t robot);
+  /// From now on the forces of contacts are kept, or no longer (the steps cost a little more; no bit changes).
+  void measureForces(bool on = true);
+  /// Of the last step; empty unless they are measured.
+  const std::vector<ContactForce>& contactForces() const;
   /// Sum of all forces of the floor on robots and balls in the last step [N]; zero unless they are measured.
   Eigen::Vector3d floorForce_n() const;
 

@@ -41,6 +41,10 @@ struct WorldRobot {
   std::vector<char> contact;          ///< by link
   /// By body, colliders as they meet other solids; the last ones are the fixed base's. Empty where there are none.
   std::vector<std::vector<SolidGeom>> solids;
+  std::vector<char> placed;  ///< those of a body stand where it is now
+  /// A sphere that holds all bodies now, see touchSolids().
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  double reach_m = 0;
   double kick = 1;          ///< share of the step\'s forces: ½ at the first step of a fixed rig, see step()
   bool first = true;        ///< no step since its state was set
   bool touches = false;     ///< anything, in the last step
@@ -48,6 +52,7 @@ struct WorldRobot {
   bool couples = false;     ///< a joint follows another one
   double allDrives = 0;     ///< sum of |torque| of all drives in the last step
   int accelerometerLink = -1;
+  bool hasAccelerometer = false;                                    ///< of its model: it has columns in a trace
   Eigen::Isometry3d accelerometer = Eigen::Isometry3d::Identity();  ///< in its link's frame
   Eigen::Vector3d accelerometerVelocity_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d specificForce_m_s2 = Eigen::Vector3d::Zero();
@@ -67,6 +72,8 @@ struct WorldObstacle {
   const ObstacleSpec* spec = nullptr;
   dBodyID id = nullptr;  ///< none: it never moves
   std::unique_ptr<SolidGeom> solid;
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of mass, in its frame
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();    ///< of a box in the collider's frame that holds it
   ObstacleState state;
   bool touched = false;  ///< in the last step, by anything
 };
@@ -119,6 +126,8 @@ struct World::Impl {
   void makeSolids();
   void touchSolids(double h);
   void touchObstacle(std::size_t obstacle, double h);
+  void touchRobots(WorldObstacle& obstacle);
+  const std::vector<SolidGeom>& solidsOf(WorldRobot& robot, std::size_t body) const;
   void meet(WorldRobot& robot, WorldRobot& other);
   void placeObstacle(WorldObstacle& obstacle, const ObstacleState& state);
   void readObstacle(WorldObstacle& obstacle);

@@ -1,7 +1,9 @@
 // What can be known of the world from outside: sensors, poses, energy, faults, rows of a trace.
+#include <algorithm>
 #include <cmath>
 
 #include "core/sim/obstacle_shape.h"
+#include "core/sim/ray.h"
 #include "core/sim/world_impl.h"
 
 namespace btr {
@@ -110,6 +112,47 @@ void World::read(std::size_t index, RobotReadings& readings) const {
   readings.accelerometer_m_s2 = robot.specificForce_m_s2;
 }
 
+std::vector<double> World::jointPositions(std::size_t index) const {
+  const Articulation& body = *impl_->robots.at(index).body;
+  std::vector<double> positions(impl_->robots[index].scene->model.joints.size(), 0);
+  for (const RobotJoint& joint : body.joints) positions[static_cast<std::size_t>(joint.modelJoint)] = joint.position;
+  return positions;
+}
+
+void World::measureAcceleration(std::size_t index) {
+  WorldRobot& robot = impl_->robots.at(index);
+  if (robot.accelerometerLink >= 0) return;
+  robot.accelerometerLink = 0;
+  impl_->sense(robot, 0);
+}
+
+double World::rayDistance_m(const Vector3d& origin, const Vector3d& direction, double farthest_m,
+                            std::size_t robotLeftOut) const {
+  double least = farthest_m;
+  const auto meet = [&](const Collider& collider, const Isometry3d& solid) {
+    const Vector3d way = solid.translation() - origin;
+    const double along = way.dot(direction), bound = collider.bound_m;
+    if (along < -bound || along > least + bound || way.squaredNorm() - along * along > bound * bound) return;
+    if (const auto distance = rayDistance(collider, solid, origin, direction)) least = std::min(least, *distance);
+  };
+  if (impl_->scene.floor && direction.z() < 0) least = std::min(least, std::max(0.0, -origin.z() / direction.z()));
+  for (const WorldObstacle& obstacle : impl_->obstacles) meet(obstacle.solid->collider(), obstacle.solid->pose());
+  for (const WorldBall& ball : impl_->balls) {
+    Collider sphere;
+    sphere.bound_m = ball.spec->radius_m;
+    sphere.size_m.x() = ball.spec->radius_m;
+    meet(sphere, ball.pose);
+  }
+  for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
+    if (i == robotLeftOut) continue;
+    const Articulation& body = *impl_->robots[i].body;
+    for (const RobotBody& part : body.bodies)
+      for (const Collider& collider : part.colliders) meet(collider, part.pose * collider.pose);
+    for (const Collider& collider : body.baseColliders) meet(collider, body.poseOf(-1) * collider.pose);
+  }
+  return least;
+}
+
 std::vector<Isometry3d> World::linkPoses(std::size_t robot) const { return impl_->robots.at(robot).body->linkPoses(); }
 BallState World::ball(std::size_t index) const { return impl_->balls.at(index).state; }
 Isometry3d World::ballPose(std::size_t index) const { return impl_->balls.at(index).pose; }
@@ -118,7 +161,8 @@ bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index)
 double World::time() const { return impl_->time(); }
 std::string World::fault() const { return impl_->fault; }
 
-void World::measureForces() { impl_->contacts.measureForces(true); }
+void World::measureForces(bool on) { impl_->contacts.measureForces(on); }
+const std::vector<ContactForce>& World::contactForces() const { return impl_->contacts.forces(); }
 Eigen::Vector3d World::floorForce_n() const { return impl_->contacts.floorForce_n(); }
 
 double World::energy() const {
@@ -174,7 +218,7 @@ std::vector<std::string> World::channels() const {
     }
     for (std::size_t link = 0; link < model.links.size(); ++link)
       if (isPaw(model, link)) names.push_back(prefix + model.links[link].name + ".contact");
-    if (robot.accelerometerLink >= 0)
+    if (robot.hasAccelerometer)
       for (const char* axis : {"ax_m_s2", "ay_m_s2", "az_m_s2"})
         names.push_back(prefix + accelerometerName(robot) + "." + axis);
   }
@@ -201,7 +245,7 @@ void World::sample(std::vector<double>& row) const {
     }
     for (std::size_t link = 0; link < model.links.size(); ++link)
       if (isPaw(model, link)) row.push_back(robot.contact[link]);
-    if (robot.accelerometerLink >= 0) push(row, robot.specificForce_m_s2);
+    if (robot.hasAccelerometer) push(row, robot.specificForce_m_s2);
   }
   for (const auto& ball : impl_->balls) {
     push(row, ball.state.position_m);

@@ -17,7 +17,21 @@ Isometry3d poseOf(const ObstacleSpec& spec) {
          Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
-Vector3d centreOf(const ObstacleSpec& spec) { return obstacleInertial(spec).centreOfMass_m; }
+/// Half of the edges of a box that holds the obstacle, in the frame of its collider.
+Vector3d halfOf(const ObstacleSpec& spec) {
+  if (spec.shape == "sphere") return Vector3d::Constant(spec.radius_m);
+  if (spec.shape == "cylinder") return {spec.radius_m, spec.size_m[2] / 2, spec.radius_m};
+  return Vector3d(spec.size_m[0], spec.size_m[1], spec.size_m[2]) / 2;
+}
+
+/// Whether a sphere is so far from the obstacle that nothing within it can touch: long walls have large spheres.
+bool isAway(const WorldObstacle& obstacle, const Vector3d& centre, double radius) {
+  constexpr double rounding_m = 1e-6;
+  const Isometry3d& pose = obstacle.solid->pose();
+  const Vector3d at = pose.linear().transpose() * (centre - pose.translation());
+  const double far = radius + rounding_m;
+  return (at.cwiseAbs() - obstacle.half_m).cwiseMax(0).squaredNorm() > far * far;
+}
 
 }  // namespace
 
@@ -25,9 +39,11 @@ void World::Impl::makeObstacles() {
   for (const ObstacleSpec& spec : scene.obstacles) {
     WorldObstacle obstacle;
     obstacle.spec = &spec;
+    obstacle.half_m = halfOf(spec);
     Isometry3d place = Isometry3d::Identity();
     if (spec.mass_kg > 0) {
       const Inertial inertial = obstacleInertial(spec);
+      obstacle.centre_m = inertial.centreOfMass_m;
       place = Eigen::Translation3d(-inertial.centreOfMass_m);
       obstacle.id = dBodyCreate(session.world());
       dBodySetFiniteRotationMode(obstacle.id, 1);
@@ -47,6 +63,7 @@ void World::Impl::makeSolids() {
   if (obstacles.empty() && !(scene.robotsCollide && robots.size() > 1)) return;
   for (auto& robot : robots) {
     robot.solids.resize(robot.body->bodies.size() + 1);
+    robot.placed.assign(robot.solids.size(), 0);
     for (std::size_t b = 0; b < robot.body->bodies.size(); ++b)
       for (const Collider& collider : robot.body->bodies[b].colliders) robot.solids[b].emplace_back(collider);
     for (const Collider& collider : robot.body->baseColliders) robot.solids.back().emplace_back(collider);
@@ -62,7 +79,7 @@ void World::Impl::placeObstacle(WorldObstacle& obstacle, const ObstacleState& st
     obstacle.solid->place(state.pose);
     return;
   }
-  const Vector3d centre = state.pose * centreOf(*obstacle.spec);
+  const Vector3d centre = state.pose * obstacle.centre_m;
   const Vector3d velocity = state.velocity_m_s + state.spin_rad_s.cross(centre - state.pose.translation());
   Isometry3d body = state.pose;
   body.translation() = centre;
@@ -79,7 +96,7 @@ void World::Impl::readObstacle(WorldObstacle& obstacle) {
   const dReal* w = dBodyGetAngularVel(obstacle.id);
   ObstacleState& state = obstacle.state;
   state.pose.linear() << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
-  const Vector3d centre = state.pose.linear() * centreOf(*obstacle.spec);
+  const Vector3d centre = state.pose.linear() * obstacle.centre_m;
   state.spin_rad_s << w[0], w[1], w[2];
   state.pose.translation() = Vector3d(p[0], p[1], p[2]) - centre;
   state.velocity_m_s = Vector3d(v[0], v[1], v[2]) - state.spin_rad_s.cross(centre);
@@ -130,18 +147,7 @@ void World::Impl::touchObstacle(std::size_t index, double h) {
     if (!contacts.add(point, ball.id, obstacle.id, with(spec.friction, ball.spec->restitution))) continue;
     ball.touched = obstacle.touched = true;
   }
-  for (auto& robot : robots)
-    for (std::size_t b = 0; b < robot.solids.size(); ++b) {
-      const bool base = b == robot.body->bodies.size();
-      if (base && !obstacle.id) continue;  // neither of them moves
-      for (const SolidGeom& part : robot.solids[b]) {
-        if (!solidContacts(part, solid, points)) continue;
-        for (const auto& point : points)
-          contacts.add(point, base ? nullptr : robot.body->bodies[b].id, obstacle.id, with(spec.friction, 0));
-        robot.contact[static_cast<std::size_t>(part.collider().link)] = 1;
-        robot.touches = obstacle.touched = true;
-      }
-    }
+  touchRobots(obstacle);
   for (std::size_t j = 0; j < index; ++j) {
     WorldObstacle& other = obstacles[j];
     if (!obstacle.id && !other.id) continue;
@@ -154,8 +160,32 @@ void World::Impl::touchObstacle(std::size_t index, double h) {
   }
 }
 
+void World::Impl::touchRobots(WorldObstacle& obstacle) {
+  for (auto& robot : robots) {
+    const bool away = isAway(obstacle, robot.middle_m, robot.reach_m);
+    for (std::size_t b = 0; b < robot.solids.size(); ++b) {
+      const bool base = b == robot.body->bodies.size();
+      if (base && !obstacle.id) continue;  // neither of them moves
+      if (!base && away) continue;
+      if (!base && isAway(obstacle, robot.body->bodies[b].pose.translation(), robot.body->bodies[b].reach_m)) continue;
+      for (const SolidGeom& part : solidsOf(robot, b)) {
+        if (!solidContacts(part, *obstacle.solid, points)) continue;
+        for (const auto& point : points)
+          contacts.add(point, base ? nullptr : robot.body->bodies[b].id, obstacle.id,
+                       {obstacle.spec->friction, std::max(0.0, obstacle.spec->restitution)});
+        robot.contact[static_cast<std::size_t>(part.collider().link)] = 1;
+        robot.touches = obstacle.touched = true;
+      }
+    }
+  }
+}
+
 /// Two robots: shells of smooth plastic.
 void World::Impl::meet(WorldRobot& robot, WorldRobot& other) {
+  if (!robot.body->fixedBase() && !other.body->fixedBase()) {
+    const double apart = robot.reach_m + other.reach_m;
+    if ((robot.middle_m - other.middle_m).squaredNorm() > apart * apart) return;
+  }
   for (std::size_t a = 0; a < robot.solids.size(); ++a)
     for (std::size_t b = 0; b < other.solids.size(); ++b) {
       const bool still = a == robot.body->bodies.size(), otherStill = b == other.body->bodies.size();
@@ -165,8 +195,8 @@ void World::Impl::meet(WorldRobot& robot, WorldRobot& other) {
         const double reach = mine.reach_m + its.reach_m;
         if ((mine.pose.translation() - its.pose.translation()).squaredNorm() > reach * reach) continue;
       }
-      for (const SolidGeom& part : robot.solids[a])
-        for (const SolidGeom& facing : other.solids[b]) {
+      for (const SolidGeom& part : solidsOf(robot, a))
+        for (const SolidGeom& facing : solidsOf(other, b)) {
           if (!(still ? solidContacts(facing, part, points) : solidContacts(part, facing, points))) continue;
           const dBodyID mine = still ? nullptr : robot.body->bodies[a].id;
           const dBodyID its = otherStill ? nullptr : other.body->bodies[b].id;
@@ -179,13 +209,26 @@ void World::Impl::meet(WorldRobot& robot, WorldRobot& other) {
     }
 }
 
+/// A body's solids, where it is now.
+const std::vector<SolidGeom>& World::Impl::solidsOf(WorldRobot& robot, std::size_t body) const {
+  std::vector<SolidGeom>& solids = robot.solids[body];
+  if (robot.placed[body]) return solids;
+  robot.placed[body] = 1;
+  const bool base = body == robot.body->bodies.size();
+  for (SolidGeom& part : solids) part.place(base ? robot.body->poseOf(-1) : robot.body->bodies[body].pose);
+  return solids;
+}
+
 void World::Impl::touchSolids(double h) {
   for (auto& obstacle : obstacles) obstacle.touched = false;
-  for (auto& robot : robots)
-    for (std::size_t b = 0; b < robot.solids.size(); ++b) {
-      const bool base = b == robot.body->bodies.size();
-      for (SolidGeom& part : robot.solids[b]) part.place(base ? robot.body->poseOf(-1) : robot.body->bodies[b].pose);
-    }
+  for (auto& robot : robots) {
+    std::fill(robot.placed.begin(), robot.placed.end(), 0);
+    if (robot.solids.empty() || robot.body->bodies.empty()) continue;
+    robot.middle_m = robot.body->bodies[0].pose.translation();
+    robot.reach_m = 0;
+    for (const RobotBody& body : robot.body->bodies)
+      robot.reach_m = std::max(robot.reach_m, (body.pose.translation() - robot.middle_m).norm() + body.reach_m);
+  }
   for (std::size_t i = 0; i < obstacles.size(); ++i) touchObstacle(i, h);
   if (!scene.robotsCollide) return;
   for (std::size_t i = 0; i < robots.size(); ++i)

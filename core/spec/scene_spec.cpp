@@ -8,6 +8,7 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/pitch_spec.h"
 
 namespace btr {
 namespace {
@@ -130,11 +131,7 @@ ObstacleSpec obstacleFrom(JsonReader& reader, std::set<std::string>& taken) {
   obstacle.orientation_wxyz = orientationOf(reader);
   obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, obstacle.velocity_m_s);
   obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, obstacle.spin_rad_s);
-  obstacle.colour = reader.text("colour", obstacle.colour);
-  const auto hexadecimal = [](unsigned char c) { return std::isxdigit(c) != 0; };
-  if (obstacle.colour.size() != 7 || obstacle.colour[0] != '#' ||
-      !std::all_of(obstacle.colour.begin() + 1, obstacle.colour.end(), hexadecimal))
-    reader.refuse("colour", "# and six hexadecimal digits, as #8c8c96");
+  obstacle.colour = colourFromReader(reader, "colour", obstacle.colour);
   reader.finish();
   return obstacle;
 }
@@ -250,6 +247,7 @@ SceneSpec sceneFromJson(const std::string& text, const std::string& place, const
   reader.array("robots", [&](JsonReader entry) { scene.robots.push_back(robotFrom(entry, taken)); });
   reader.array("balls", [&](JsonReader entry) { scene.balls.push_back(ballFrom(entry, taken)); });
   reader.array("obstacles", [&](JsonReader entry) { scene.obstacles.push_back(obstacleFrom(entry, taken)); });
+  pitchFromReader(reader);  // who needs it reads it for himself
   scene.robotsCollide = reader.flag("robots_collide", scene.robotsCollide);
   std::set<std::string> paths;
   reader.array("calibrate", [&](JsonReader entry) {

@@ -3,7 +3,9 @@
 Sizes in metres. 2004: field 4.2 x 2.7 with beacons at (+-2.20, +-1.45) and (0, +-1.45), whose upper border is at 0.40, and
 an outer white wall of 0.30 (rule book of 2004 and Roefer 2004; places of the beacons from a data set of 2003); goals 0.60 x
 0.30 x 0.30 (estimated from the 0.60 wide goal of a public model of the older field). 2006: 5.4 x 3.6 without border, goals
-0.80 wide, beacons 1.35 from the halfway line, no outer wall (field page of a team of 2005; the border of 0.20 is estimated).
+0.80 wide, beacons 1.35 from the halfway line, no outer wall (field page of a team of 2005; the border of 0.20 is estimated); its
+circle of 0.36 and its areas of 0.65 x 1.30 from the same page, those of 2004 scaled from them (estimated) with the
+printed circle of 0.30; lines 0.025.
 """
 import json
 import os
@@ -47,9 +49,26 @@ def around(length, width, gap, height):
     return things
 
 
-def field(obstacles):
+def carpet(length, width, border, line, circle, penalty_depth, penalty_width):
+    """Green, the border lines' outer edges at length x width, halfway line, centre circle, penalty areas."""
+    x, y = (length - line) / 2, (width - line) / 2
+    lines = [((-x - line / 2, side * y), (x + line / 2, side * y)) for side in (1, -1)]
+    lines += [((side * x, -y), (side * x, y)) for side in (1, -1)] + [((0, -y), (0, y))]
+    for side in (1, -1):
+        inner, half = side * (length / 2 - penalty_depth + line / 2), (penalty_width - line) / 2
+        lines += [((inner, -half - line / 2), (inner, half + line / 2))]
+        lines += [((inner, end), (side * x, end)) for end in (half, -half)]
+    return {"size_m": [length + 2 * border, width + 2 * border], "colour": "#29753d", "line_colour": "#f2f2f2",
+            "lines": [{"from_m": a, "to_m": b, "width_m": line} for a, b in lines],
+            "circles": [{"centre_m": [0, 0], "radius_m": circle / 2, "width_m": line}]}
+
+
+def field(length, width, goal_width, carpet, obstacles):
     return {"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008,
-            "floor": {"friction": 1.0, "restitution": 0.0}, "robots_collide": True, "robots": [],
+            "field": {"length_m": length, "width_m": width,
+                      "goals": {"width_m": goal_width, "depth_m": 0.3, "height_m": 0.3}},
+            "floor": {"friction": 1.0, "restitution": 0.0}, "robots_collide": True, "carpet": carpet,
+            "robots": [],
             "balls": [{"name": "ball", "radius_m": 0.0425, "mass_kg": 0.055, "rolling_deceleration_m_s2": 0.4,
                        "restitution": 0.4, "position_m": [0, 0, 0.0425]}],
             "obstacles": obstacles}
@@ -64,10 +83,14 @@ def beacons(places):
 
 fields = {
     "four-legged-2004": field(
+        4.2, 2.7, 0.6,
+        carpet(4.2, 2.7, 0.2, 0.025, 0.30, 0.45, 0.90),
         around(4.6, 3.1, 0.6, 0.30) + goal("goal_yellow", 2.1, 0.6, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.1, 0.6, 0.3, 0.3, SKY) +
         beacons([(2.2, 1.45, PINK, YELLOW), (2.2, -1.45, YELLOW, PINK), (-2.2, 1.45, PINK, SKY), (-2.2, -1.45, SKY, PINK),
                  (0, 1.45, PINK, WHITE), (0, -1.45, WHITE, PINK)])),
     "four-legged-2006": field(
+        5.4, 3.6, 0.8,
+        carpet(5.4, 3.6, 0.2, 0.025, 0.36, 0.65, 1.30),
         goal("goal_yellow", 2.7, 0.8, 0.3, 0.3, YELLOW) + goal("goal_sky", -2.7, 0.8, 0.3, 0.3, SKY) +
         beacons([(1.35, 1.9, PINK, YELLOW), (1.35, -1.9, YELLOW, PINK), (-1.35, 1.9, PINK, SKY), (-1.35, -1.9, SKY, PINK)])),
 }

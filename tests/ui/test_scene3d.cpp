@@ -9,6 +9,7 @@
 #include "core/model/kinematics.h"
 #include "tests/ui/small_robot.h"
 #include "ui/scene3d/field.h"
+#include "ui/scene3d/link_marks.h"
 #include "ui/scene3d/scene_view.h"
 #include "ui/scene3d/triangle_mesh.h"
 
@@ -94,6 +95,10 @@ class TestScene3d : public QObject {
   void jacketChangesBetweenRedAndBlue();
   void wireframeLetsTheFieldShowThrough();
   void collisionShapesAreOutlined();
+  void transparentBodiesLetTheFieldShine();
+  void pointsLeaveFacesOpen();
+  void marksComeAndGo();
+  void contactForcesAreTenMillimetresANewton();
   void ghostIsTranslucent();
   void poseThatIsNoNumberIsNotDrawn();
   void darkThemeDarkensSkyAndFloor();
@@ -331,12 +336,12 @@ void TestScene3d::wireframeLetsTheFieldShowThrough() {
   OffscreenRenderer renderer;
   const ViewCamera camera;
   const QImage solid = renderer.render(scene.node(), camera, kSize);
-  scene.setWireframe(true);
+  scene.setSurfaces(Surfaces::wireframe);
   const QImage wire = renderer.render(scene.node(), camera, kSize);
   const Vector3d side(-0.05, -0.05, 0.215);  // off the face's diagonal
   QVERIFY(isWhite(pixelAt(solid, camera, side)));
   QVERIFY(!isWhite(pixelAt(wire, camera, side)));
-  scene.setWireframe(false);
+  scene.setSurfaces(Surfaces::shaded);
   QCOMPARE(renderer.render(scene.node(), camera, kSize), solid);
 }
 
@@ -346,13 +351,89 @@ void TestScene3d::collisionShapesAreOutlined() {
   OffscreenRenderer renderer;
   const ViewCamera camera;
   const QImage without = renderer.render(scene.node(), camera, kSize);
-  scene.setCollisionShapes(true);
+  scene.setMark(Mark::collision, true);
   const QImage with = renderer.render(scene.node(), camera, kSize);
   // The middle of the body's lower right edge.
   const QColor edge = pixelAt(with, camera, {0, -0.05, 0.15});
   QVERIFY(edge.red() > edge.green() + 40 && edge.blue() > edge.green() + 20);
-  scene.setCollisionShapes(false);
+  scene.setMark(Mark::collision, false);
   QCOMPARE(renderer.render(scene.node(), camera, kSize), without);
+}
+
+void TestScene3d::transparentBodiesLetTheFieldShine() {
+  SceneBuilder scene;
+  fill(scene);
+  OffscreenRenderer renderer;
+  const ViewCamera camera;
+  const QImage solid = renderer.render(scene.node(), camera, kSize);
+  scene.setSurfaces(Surfaces::transparent);
+  const QImage clear = renderer.render(scene.node(), camera, kSize);
+  const Vector3d side(-0.05, -0.05, 0.215);
+  const QColor body = pixelAt(clear, camera, side);
+  QVERIFY(isWhite(pixelAt(solid, camera, side)));
+  QVERIFY2(!isWhite(body) && body.green() > body.red() + 10, qPrintable(body.name()));  // the carpet's green in it
+  scene.setSurfaces(Surfaces::shaded);
+  QCOMPARE(renderer.render(scene.node(), camera, kSize), solid);
+}
+
+void TestScene3d::pointsLeaveFacesOpen() {
+  SceneBuilder scene;
+  fill(scene);
+  OffscreenRenderer renderer;
+  const ViewCamera camera;
+  scene.setSurfaces(Surfaces::points);
+  const QImage points = renderer.render(scene.node(), camera, kSize);
+  QVERIFY(!isWhite(pixelAt(points, camera, {-0.05, -0.05, 0.215})));
+  // The body's near upper corner.
+  const auto corner = camera.project({0.1, -0.05, 0.25}, kSize);
+  QVERIFY(corner);
+  bool any = false;
+  for (int dx = -2; dx <= 2; ++dx)
+    for (int dy = -2; dy <= 2; ++dy) any |= !isGreen(points.pixelColor(corner->toPoint() + QPoint(dx, dy)));
+  QVERIFY(any);
+}
+
+void TestScene3d::marksComeAndGo() {
+  SceneBuilder scene;
+  fill(scene);
+  WorldMarks marks;
+  marks.contacts = {{{0.3, 0, 0}, {0, 0, 5}}};
+  marks.trails = {{{0.f, 0.f, 0.01f}, {0.3f, 0.1f, 0.01f}}};
+  scene.setWorldMarks(marks);
+  OffscreenRenderer renderer;
+  const ViewCamera camera;
+  const QImage without = renderer.render(scene.node(), camera, kSize);
+  for (std::size_t i = 0; i < kMarks; ++i) {
+    if (Mark(i) == Mark::centres) continue;  // this robot has no masses
+    scene.setMark(Mark(i), true);
+    QVERIFY2(renderer.render(scene.node(), camera, kSize) != without, qPrintable(QString::number(i)));
+    scene.setMark(Mark(i), false);
+    QCOMPARE(renderer.render(scene.node(), camera, kSize), without);
+  }
+  scene.setMark(Mark::axes, true);
+  const QImage axes = renderer.render(scene.node(), camera, kSize);
+  // The first joint's axis lies along y through (0.1, 0, 0.2), and shows through the body.
+  const auto middle = camera.project({0.1, -0.03, 0.2}, kSize);
+  QVERIFY(middle);
+  bool blue = false;
+  for (int dx = -2; dx <= 2; ++dx)
+    for (int dy = -2; dy <= 2; ++dy) {
+      const QColor colour = axes.pixelColor(middle->toPoint() + QPoint(dx, dy));
+      blue |= colour.blue() > colour.red() + 60;
+    }
+  QVERIFY(blue);
+}
+
+void TestScene3d::contactForcesAreTenMillimetresANewton() {
+  const LineSegments lines = contactLines({{{1, 2, 0}, {0, 0, 8}}, {{0, 0, 0}, {300, 0, 0}}});
+  const auto longest = [&](std::size_t from, std::size_t to) {
+    float most = 0;
+    for (std::size_t i = from; i < to; i += 2) most = std::max(most, (lines[i + 1] - lines[i]).norm());
+    return most;
+  };
+  QCOMPARE(lines.size(), std::size_t(16));
+  QVERIFY(std::abs(longest(0, 8) - 0.08f) < 1e-6f);
+  QVERIFY(std::abs(longest(8, 16) - 0.3f) < 1e-6f);  // bounded
 }
 
 void TestScene3d::ghostIsTranslucent() {

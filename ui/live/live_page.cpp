@@ -20,6 +20,7 @@
 #include "ui/common/message_banner.h"
 #include "ui/common/resources.h"
 #include "ui/live/joints_panel.h"
+#include "ui/live/live_desk.h"
 #include "ui/live/live_hands.h"
 #include "ui/live/live_tools.h"
 #include "ui/live/live_world.h"
@@ -44,12 +45,13 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
       hands_(new LiveHands(*world_, this)),
       tools_(new LiveTools(this)),
       view_(new LiveView(this)),
+      desk_(new LiveDesk(*world_, view_, this)),
       banner_(new MessageBanner(this)),
       signals_(new SignalsPanel(*world_, this)) {
   setObjectName("livePage");
   auto* split = new QSplitter(this);
   auto* middle = new QSplitter(Qt::Vertical, split);
-  middle->addWidget(view_);
+  middle->addWidget(desk_);
   middle->addWidget(signals_);
   middle->setStretchFactor(0, 1);
   middle->setCollapsible(0, false);
@@ -66,6 +68,7 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
   view_->setGround(Ground::plain);
   view_->setCaption({tr("Open a game, a scene or a robot file; or drop one here.")});
   fillAdd(tools_->addMenu());
+  fillViews(tools_->viewMenu());
   connectTools();
   connectWorld();
   showSelected();
@@ -100,7 +103,10 @@ void LivePage::connectTools() {
 void LivePage::connectWorld() {
   connect(world_, &LiveWorld::objectsChanged, this, &LivePage::showObjects);
   connect(world_, &LiveWorld::firstRow, this, [this] {
-    if (std::exchange(fresh_, false)) lookAtAll();
+    if (std::exchange(fresh_, false)) {
+      lookAtAll();
+      desk_->restore(game().view);
+    }
     showSelected();
   });
   connect(world_, &LiveWorld::gameChanged, this, &LivePage::showGame);
@@ -129,6 +135,13 @@ void LivePage::connectWorld() {
     hands_->endDrag();
     showSelected();
   });
+}
+
+void LivePage::fillViews(QMenu& menu) {
+  connect(menu.addAction(tr("New &view")), &QAction::triggered, desk_, &LiveDesk::addView);
+  connect(menu.addAction(tr("Robot's &camera")), &QAction::triggered, desk_, &LiveDesk::addEye);
+  menu.addSeparator();
+  menu.addActions(view_->viewActions());
 }
 
 void LivePage::fillAdd(QMenu& menu) {
@@ -162,6 +175,7 @@ QWidget* LivePage::makeSide() {
   panels->addTab(simulator_, tr("Simulator"));
   const auto warn = [this](const QString& why) { banner_->showMessage(MessageBanner::Kind::warning, why); };
   connect(selection_, &SelectionPanel::problem, this, warn);
+  connect(desk_, &LiveDesk::problem, this, warn);
   connect(simulator_, &SimulatorPanel::problem, this, warn);
   connect(&selection_->sets(), &ParameterSets::used, signals_, &SignalsPanel::mark);
   connect(palette_, &ThingPalette::chosen, this, [this](int thing) { addInMiddle(palette_->thing(thing)); });
@@ -232,7 +246,7 @@ void LivePage::saveGame() {
   QString file = QFileDialog::getSaveFileName(this, tr("Save game"), "game.json", tr("Games (*.json)"));
   if (file.isEmpty()) return;
   if (!file.endsWith(".json")) file += ".json";
-  process_->save(file);
+  process_->save(file, desk_->state());
 }
 
 void LivePage::saveLog() {

@@ -13,6 +13,7 @@ class PluginHost;
 namespace btr::ui {
 class DatabaseReader;
 class JointsPanel;
+class LiveDesk;
 class LiveHands;
 class LiveTools;
 class LiveWorld;
@@ -43,6 +44,7 @@ class LivePage : public QWidget {
   LiveView& view() { return *view_; }
   LiveProcess& process() { return *process_; }
   LiveWorld& world() { return *world_; }
+  LiveDesk& desk() { return *desk_; }
   SignalsPanel& signalsPanel() { return *signals_; }
   const Game& game() const;
   const LiveRow& row() const;
@@ -64,6 +66,7 @@ class LivePage : public QWidget {
   void connectWorld();
   QWidget* makeSide();
   void fillAdd(QMenu& menu);
+  void fillViews(QMenu& menu);
   void openWithDialog();
   void reset();
   void saveGame();
@@ -89,6 +92,7 @@ class LivePage : public QWidget {
   LiveHands* hands_;
   LiveTools* tools_;
   LiveView* view_;
+  LiveDesk* desk_;
   MessageBanner* banner_;
   ObjectTree* tree_;
   SelectionPanel* selection_;

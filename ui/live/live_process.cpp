@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/spec/error.h"
+#include "ui/live/live_lines.h"
 
 namespace btr::ui {
 namespace {
@@ -15,31 +16,6 @@ using nlohmann::json;
 
 QString wordsOf(const json& value) {
   return QString::fromStdString(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-LiveRow rowFrom(const json& line) {
-  LiveRow row;
-  row.values = line.at("row").get<std::vector<double>>();
-  row.period = line.at("period").get<long>();
-  row.playing = line.at("playing").get<bool>();
-  row.realTimeFactor = line.at("real_time_factor").get<double>();
-  for (const json& each : line.at("fixed")) {
-    const auto n = each.get<std::vector<double>>();
-    row.fixed.emplace_back(
-        static_cast<std::size_t>(n.at(0)),
-        Eigen::Translation3d(n.at(1), n.at(2), n.at(3)) * Eigen::Quaterniond(n.at(4), n.at(5), n.at(6), n.at(7)));
-  }
-  row.fault = QString::fromStdString(line.value("fault", ""));
-  if (line.contains("score")) row.score = line.at("score").get<std::array<int, 2>>();
-  if (line.contains("hands_n"))
-    for (const auto& [object, force] : line.at("hands_n").items()) {
-      const auto f = force.get<std::array<double, 3>>();
-      row.hands_n[object] = {f[0], f[1], f[2]};
-    }
-  row.clock_s = line.value("clock_s", 0.0);
-  if (line.contains("events"))
-    for (const json& event : line.at("events")) row.events << wordsOf(event);
-  return row;
 }
 
 }  // namespace
@@ -119,8 +95,15 @@ void LiveProcess::step(int periods) {
 void LiveProcess::setSpeed(double times) {
   send(QByteArray::fromStdString(json{{"do", "speed"}, {"times", times}}.dump()));
 }
-void LiveProcess::save(const QString& path) {
-  send(QByteArray::fromStdString(json{{"do", "save"}, {"path", path.toStdString()}}.dump()));
+void LiveProcess::save(const QString& path, const std::string& view) {
+  json line{{"do", "save"}, {"path", path.toStdString()}};
+  if (!view.empty()) line["view"] = json::parse(view);
+  send(QByteArray::fromStdString(line.dump()));
+}
+
+void LiveProcess::setContacts(bool on) {
+  contacts_ = on;
+  send(QByteArray::fromStdString(json{{"do", "contacts"}, {"on", on}}.dump()));
 }
 
 void LiveProcess::read() {
@@ -144,7 +127,7 @@ void LiveProcess::tell(const QByteArray& text) {
   try {
     const json line = json::parse(text.constData(), text.constData() + text.size());
     if (line.contains("samples")) tellSamples(line);
-    if (line.contains("row")) return emit rowTold(rowFrom(line));
+    if (line.contains("row")) return emit rowTold(liveRowFrom(line));
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
     if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
@@ -161,6 +144,7 @@ void LiveProcess::tellGame(const json& line) {
   const ModelSet models = modelsOf(game.scene);
   const bool first = !std::exchange(ready_, true);
   if (first && !signals_.empty()) sendSignals();
+  if (first && contacts_) setContacts(true);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
 }
 

@@ -38,7 +38,10 @@ class LiveProcess : public QObject {
   void play(bool on);
   void step(int periods);
   void setSpeed(double times);  ///< 0: as fast as possible
-  void save(const QString& path);
+  /// `view`: what the window wants to find again, JSON; "" nothing.
+  void save(const QString& path, const std::string& view = {});
+  /// Whether rows tell the contacts of their step.
+  void setContacts(bool on);
   /// The game is told again.
   void askGame();
   /// From now on, also in sessions that are started later, these channels are told of every control period.
@@ -77,7 +80,7 @@ class LiveProcess : public QObject {
   QString program_;
   QProcess process_;
   QByteArray pending_, words_;
-  bool ready_ = false;
+  bool ready_ = false, contacts_ = false;
   std::vector<std::string> signals_;  ///< that are wanted
   std::vector<std::string> told_;     ///< to which the samples belong that are told
   ModelSet models_;                   ///< of files that were read for this session

@@ -34,6 +34,7 @@ LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector
     const auto found = std::ranges::find(channels, name);
     return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
   };
+  carpet_ = game.pitch.carpet;
   for (const RobotSpec& robot : game.scene.robots) {
     const auto& model = models.at(robot.model);
     numbers_.push_back(robots_.size());
@@ -81,6 +82,26 @@ Isometry3d LiveScene::poseOf(std::size_t object, const LiveRow& row) const {
   for (const auto& [index, pose] : row.fixed)
     if (index == number) return pose;
   return Isometry3d::Identity();
+}
+
+LiveRow LiveScene::between(const LiveRow& from, const LiveRow& to, double part) const {
+  LiveRow row = from;
+  if (from.values.size() != to.values.size()) return row;
+  for (std::size_t i = 0; i < row.values.size(); ++i) row.values[i] += part * (to.values[i] - from.values[i]);
+  const auto turn = [&](int column) {
+    if (column < 0) return;
+    const auto at = [column](const LiveRow& of) {
+      const double* q = &of.values.at(static_cast<std::size_t>(column) + 3);
+      return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    };
+    const Eigen::Quaterniond q = at(from).slerp(part, at(to));
+    const double parts[] = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(parts, parts + 4, row.values.begin() + column + 3);
+  };
+  for (const Columns& robot : robots_) turn(robot.pose);
+  for (const int column : balls_) turn(column);
+  for (const int column : obstacles_) turn(column);
+  return row;
 }
 
 Values LiveScene::jointsOf(std::size_t object, const LiveRow& row) const {

@@ -10,6 +10,7 @@
 #include "core/live/game.h"
 #include "core/sim/scene.h"
 #include "ui/scene3d/scene_builder.h"
+#include "ui/scene3d/world_marks.h"
 
 namespace btr::ui {
 
@@ -24,6 +25,7 @@ struct LiveRow {
   std::optional<std::array<int, 2>> score;         ///< red, blue; none without a referee
   double clock_s = 0;                              ///< of the referee
   std::map<std::string, Eigen::Vector3d> hands_n;  ///< by object that is pulled: the force [N], world axes
+  std::vector<WorldMarks::Contact> contacts;       ///< of the last step, if they were asked for
   QStringList events;                              ///< since the last row: "goal of red" …
 };
 
@@ -48,10 +50,13 @@ class LiveScene {
   const std::vector<std::shared_ptr<const RobotModel>>& models() const { return models_; }
   const std::vector<std::string>& jackets() const { return jackets_; }  ///< of each of the models
   const std::vector<double>& radii() const { return radii_; }
+  const std::optional<CarpetSpec>& carpet() const { return carpet_; }
 
   ScenePose pose(const LiveRow& row) const;
   /// Of an object's own frame; a robot's is its root link's.
   Eigen::Isometry3d poseOf(std::size_t object, const LiveRow& row) const;
+  /// The row `part` of the way from one to a later one; everything moves evenly, turns take the shorter way.
+  LiveRow between(const LiveRow& from, const LiveRow& to, double part) const;
   /// Where a robot's joints are, those that have a channel [rad or m].
   Values jointsOf(std::size_t object, const LiveRow& row) const;
   /// Time of the row [s].
@@ -71,6 +76,7 @@ class LiveScene {
   std::vector<std::shared_ptr<const RobotModel>> models_;
   std::vector<std::string> jackets_;
   std::vector<double> radii_;
+  std::optional<CarpetSpec> carpet_;
 };
 
 }  // namespace btr::ui

@@ -19,7 +19,7 @@ namespace {
 constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 0};
 }
 
-LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this)) {
+LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this)), views_(new QMenu(this)) {
   setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   QAction* open = add("liveOpen", "document-open", tr("&Open…"), tr("A game, a scene or a robot file"));
   connect(open, &QAction::triggered, this, &LiveTools::openChosen);
@@ -73,6 +73,9 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
       add("liveShowSignals", "office-chart-line", tr("Si&gnals"), tr("Plots of angles, torques, contacts, speeds"));
   signals_->setCheckable(true);
   connect(signals_, &QAction::toggled, this, &LiveTools::signalsChosen);
+  QAction* views = add("liveViews", "view-preview", tr("Vie&ws"), tr("Further views, robots' cameras, what is drawn"));
+  views->setMenu(views_);
+  qobject_cast<QToolButton*>(widgetForAction(views))->setPopupMode(QToolButton::InstantPopup);
   for (QAction* action : {undo_, redo_, remove_, duplicate_, follow, save_, saveLog_}) iconOnly(action);
   addSeparator();
   kickOff_ = add("liveKickOff", "media-playback-start", tr("&Kick-off"),

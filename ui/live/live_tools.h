@@ -23,6 +23,7 @@ class LiveTools : public QToolBar {
   void setUndo(const QString& undo, const QString& redo);
   double speed() const;
   QMenu& addMenu() { return *things_; }
+  QMenu& viewMenu() { return *views_; }
 
   void trigger(QAction* action);  ///< if it is enabled
   QAction* playAction() const { return play_; }
@@ -52,7 +53,7 @@ class LiveTools : public QToolBar {
   void iconOnly(QAction* action);
   QAction* add(const QString& name, const QString& icon, const QString& text, const QString& tip);
 
-  QMenu* things_;
+  QMenu *things_, *views_;
   QAction *play_, *step_, *reset_, *add_, *remove_, *save_, *saveLog_, *signals_, *undo_, *redo_, *duplicate_,
       *kickOff_;
   QComboBox* speed_;

@@ -46,6 +46,8 @@ void LiveView::setScene(const LiveScene& scene) {
   setFurtherRobots(scene.models());
   setFurtherJackets(scene.jackets());
   setBalls(scene.radii());
+  setCarpet(scene.carpet());
+  trails_.clear();
   led_ = -1;
 }
 
@@ -58,6 +60,10 @@ void LiveView::setRow(const LiveRow& row) {
         camera.focus = scene_.poseOf(i, row).translation();
         setCamera(camera);
       }
+  const bool trails = markAction(Mark::trails)->isChecked();
+  if (!trails) trails_.clear();
+  if (trails) trails_.add(scene_, row);
+  if (trails || markAction(Mark::contacts)->isChecked()) setWorldMarks({row.contacts, trails_.ways()});
   setPose(scene_.pose(row));
 }
 

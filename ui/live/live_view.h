@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ui/live/live_scene.h"
+#include "ui/live/live_trails.h"
 #include "ui/scene3d/scene_view.h"
 
 namespace btr::ui {
@@ -68,6 +69,7 @@ class LiveView : public SceneView {
   Eigen::Vector3d grip_m_ = Eigen::Vector3d::Zero();   ///< from the place under the mouse to the object's
   Eigen::Vector3d place_m_ = Eigen::Vector3d::Zero();  ///< where it is led
   QPointF last_;
+  LiveTrails trails_;
   bool moved_ = false, following_ = false;
   bool wasSelected_ = false;  ///< the one under the mouse, before it was pressed
 };

@@ -15,6 +15,12 @@ constexpr double kLineHeight = 0.0005;
 
 Isometry3d at(double x, double y, double z) { return Isometry3d(Eigen::Translation3d(x, y, z)); }
 
+Colour colourOf(const std::string& text) {
+  const unsigned long bits = std::stoul(text.substr(1), nullptr, 16);
+  const auto part = [bits](int shift) { return float((bits >> shift) & 0xff) / 255; };
+  return {part(16), part(8), part(0), 1};
+}
+
 /// A flat rectangle seen from above.
 void addPatch(TriangleMesh& mesh, double x0, double y0, double x1, double y1, double z, const Colour& colour) {
   const auto corner = [z](double x, double y) { return Vector3d(x, y, z).cast<float>().eval(); };
@@ -100,6 +106,31 @@ TriangleMesh fieldWall(const FieldSize& size) {
     mesh.addBox(at(side * (size.carpetX + t / 2), 0, h / 2), {t, 2 * size.carpetY, h}, kWall);
     mesh.addBox(at(0, side * (size.carpetY + t / 2), h / 2), {2 * (size.carpetX + t), t, h}, kWall);
   }
+  return mesh;
+}
+
+TriangleMesh carpetCloth(const CarpetSpec& carpet) {
+  TriangleMesh mesh;
+  const double x = carpet.size_m[0] / 2, y = carpet.size_m[1] / 2;
+  addPatch(mesh, -x, -y, x, y, 0, colourOf(carpet.colour));
+  return mesh;
+}
+
+TriangleMesh carpetLines(const CarpetSpec& carpet) {
+  TriangleMesh mesh;
+  const Colour colour = colourOf(carpet.lineColour);
+  for (const CarpetSpec::Line& line : carpet.lines) {
+    const Eigen::Vector2d from(line.from_m.data()), to(line.to_m.data());
+    const Eigen::Vector2d along = (to - from).normalized(),
+                          aside = line.width_m / 2 * Eigen::Vector2d(-along.y(), along.x());
+    const auto corner = [](const Eigen::Vector2d& p) {
+      return Vector3d(p.x(), p.y(), kLineHeight).cast<float>().eval();
+    };
+    mesh.addQuad(corner(from - aside), corner(to - aside), corner(to + aside), corner(from + aside), colour);
+  }
+  for (const CarpetSpec::Circle& circle : carpet.circles)
+    mesh.addRing(circle.radius_m - circle.width_m, circle.radius_m, kLineHeight, colour,
+                 {circle.centre_m[0], circle.centre_m[1]});
   return mesh;
 }
 

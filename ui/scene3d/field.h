@@ -1,4 +1,5 @@
 #pragma once
+#include "core/spec/carpet_spec.h"
 #include "ui/scene3d/triangle_mesh.h"
 
 namespace btr::ui {
@@ -21,6 +22,10 @@ TriangleMesh fieldCarpet(const FieldSize& size);
 TriangleMesh fieldLines(const FieldSize& size);     ///< half a millimetre above the carpet
 TriangleMesh fieldFixtures(const FieldSize& size);  ///< goals and beacons
 TriangleMesh fieldWall(const FieldSize& size);
+
+/// A scene's own carpet and what is painted on it, half a millimetre above.
+TriangleMesh carpetCloth(const CarpetSpec& carpet);
+TriangleMesh carpetLines(const CarpetSpec& carpet);
 
 /// An endless-looking floor, and lines every 0.1 m and 0.5 m on it.
 TriangleMesh plainFloor(double halfWidth, double z, const Colour& colour);

@@ -80,6 +80,7 @@ ReplayPanel::ReplayPanel(QWidget* parent, GlContextFactory factory)
   for (QAction* action : view_->viewActions()) {
     auto* button = new QToolButton(this);
     button->setDefaultAction(action);
+    if (action->menu()) button->setPopupMode(QToolButton::InstantPopup);
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::TabFocus);
     button->setToolButtonStyle(action->icon().isNull() ? Qt::ToolButtonTextOnly : Qt::ToolButtonIconOnly);

@@ -6,12 +6,15 @@
 #include <osg/Geometry>
 #include <osg/LineWidth>
 #include <osg/MatrixTransform>
+#include <osg/Point>
 #include <osg/PolygonMode>
 #include <osg/PolygonOffset>
 
 #include <algorithm>
+#include <limits>
 
 #include "ui/scene3d/field.h"
+#include "ui/scene3d/link_marks.h"
 #include "ui/scene3d/triangle_mesh.h"
 
 namespace btr::ui {
@@ -63,6 +66,31 @@ osg::ref_ptr<osg::Geometry> toGeometry(const LineSegments& lines, const Colour& 
   return geometry;
 }
 
+Colour colourOf(Mark mark) {
+  switch (mark) {
+    case Mark::collision:
+      return {0.95f, 0.15f, 0.75f, 1};
+    case Mark::boxes:
+      return {0.95f, 0.75f, 0.10f, 1};
+    case Mark::axes:
+      return {0.15f, 0.45f, 0.95f, 1};
+    case Mark::centres:
+      return {0.05f, 0.65f, 0.60f, 1};
+    case Mark::contacts:
+      return {0.90f, 0.20f, 0.10f, 1};
+    case Mark::trails:
+      return {0.45f, 0.25f, 0.80f, 1};
+  }
+  return {};
+}
+
+/// Seen through bodies: what explains them lies inside.
+void drawOnTop(osg::Node& node) {
+  osg::StateSet& state = *node.getOrCreateStateSet();
+  state.setRenderBinDetails(50, "RenderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+  state.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
+}
+
 /// Blended in a bin of its own after everything solid. With `depthOnly` it first fills only the depth buffer, so that
 /// only the nearest surface of a ghost shows and not its insides.
 void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
@@ -71,7 +99,9 @@ void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
   if (depthOnly) {
     state.setAttribute(new osg::ColorMask(false, false, false, false));
   } else {
-    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+    // What shines through keeps its object's number, which a measurement has in alpha.
+    state.setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE));
+    state.addUniform(new osg::Uniform("identity", 0.f));
     state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
   }
 }
@@ -80,11 +110,12 @@ void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
 struct Figure {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   std::vector<osg::ref_ptr<osg::MatrixTransform>> links, balls;
-  std::vector<osg::ref_ptr<osg::Node>> jackets[2], outlines;
+  std::vector<osg::ref_ptr<osg::Node>> jackets[2], marks[kMarks];
 
   /// With a colour everything is drawn in it, without collision outlines: a ghost.
   Figure(const RobotModel* model, const std::vector<double>& radii, const Colour* colour) {
     for (std::size_t i = 0; model && i < model->links.size(); ++i) links.push_back(addLink(model->links[i], colour));
+    if (model && !colour) addMarks(*model);
     for (double radius : radii) {
       balls.push_back(new osg::MatrixTransform);
       TriangleMesh mesh = ballMesh(radius);
@@ -97,6 +128,14 @@ struct Figure {
   void place(const ScenePose& pose) {
     move(links, pose.links);
     move(balls, pose.balls);
+    if (hiddenLink < links.size()) links[hiddenLink]->setNodeMask(kHidden);
+  }
+  std::size_t hiddenLink = std::numeric_limits<std::size_t>::max();
+
+  /// What a measurement tells of each.
+  void number(int robot, int firstBall) {
+    for (auto& link : links) link->getOrCreateStateSet()->addUniform(new osg::Uniform("identity", float(robot)));
+    for (auto& ball : balls) ball->getOrCreateStateSet()->addUniform(new osg::Uniform("identity", float(firstBall++)));
   }
 
   void showJacket(const std::string& part) {
@@ -118,7 +157,6 @@ struct Figure {
   osg::ref_ptr<osg::MatrixTransform> addLink(const Link& link, const Colour* ghost) {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
     TriangleMesh common, clear, jacket[2];
-    LineSegments outline;
     for (const Shape& shape : link.shapes) {
       if (shape.drawn) {
         TriangleMesh* mesh = &common;
@@ -127,7 +165,6 @@ struct Figure {
         if (!ghost && mesh == &common && shape.colour[3] < 1) mesh = &clear;
         mesh->addShape(shape, shape.pose, ghost ? *ghost : shape.colour);
       }
-      if (shape.collides && !ghost) addOutline(outline, shape, shape.pose);
     }
     const auto add = [&](const osg::ref_ptr<osg::Geometry>& geometry, unsigned mask) {
       geometry->setNodeMask(mask);
@@ -138,9 +175,30 @@ struct Figure {
     if (!clear.empty()) makeTranslucent(*add(toGeometry(clear, 0.6f), kCastsShadow), 10, false);
     for (int i = 0; i < 2; ++i)
       if (!jacket[i].empty()) jackets[i].push_back(add(toGeometry(jacket[i], 0.12f), kHidden));
-    if (!outline.empty()) outlines.push_back(add(toGeometry(outline, Colour{0.95f, 0.15f, 0.75f, 1}), kHidden));
     group->addChild(transform);
     return transform;
+  }
+
+  void addMarks(const RobotModel& model) {
+    const std::vector<LinkMarks> lines = marksOf(model);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      LineSegments collision;
+      for (const Shape& shape : model.links[i].shapes)
+        if (shape.collides) addOutline(collision, shape, shape.pose);
+      const auto add = [&](Mark mark, const LineSegments& segments) {
+        if (segments.empty()) return;
+        osg::ref_ptr<osg::Geometry> geometry = toGeometry(segments, colourOf(mark));
+        if (mark == Mark::axes || mark == Mark::centres) drawOnTop(*geometry);
+        geometry->setNodeMask(kHidden);
+        links[i]->addChild(geometry);
+        marks[std::size_t(mark)].push_back(geometry);
+      };
+      add(Mark::collision, collision);
+      add(Mark::boxes, lines[i].box);
+      add(Mark::axes, lines[i].axes);
+      add(Mark::axes, lines[i].limits);
+      add(Mark::centres, lines[i].centre);
+    }
   }
 };
 
@@ -160,17 +218,38 @@ struct SceneBuilder::Impl {
   std::string jacket = "red";
   std::vector<std::string> furtherJackets;
   Ground groundKind = Ground::field;
-  bool collisionShapes = false, dark = false;
+  std::optional<CarpetSpec> carpet;
+  std::optional<std::pair<std::size_t, std::size_t>> hiddenLink;
+  std::array<bool, kMarks> shown{};
+  WorldMarks worldMarks;
+  osg::ref_ptr<osg::Group> worldLines = new osg::Group;
+  bool dark = false;
+  int firstFurther = 2;
 
   void rebuildFigure();
   void rebuildGhosts();
   void rebuildGround();
-  void showOutlines() {
-    for (auto& node : figure->outlines) node->setNodeMask(collisionShapes ? kCastsNoShadow : kHidden);
-    for (const Figure& other : further)
-      for (auto& node : other.outlines) node->setNodeMask(collisionShapes ? kCastsNoShadow : kHidden);
+  void showMarks() {
+    const auto show = [this](const Figure& figure) {
+      for (std::size_t mark = 0; mark < kMarks; ++mark)
+        for (const auto& node : figure.marks[mark]) node->setNodeMask(shown[mark] ? kCastsNoShadow : kHidden);
+    };
+    show(*figure);
+    for (const Figure& other : further) show(other);
+  }
+  void rebuildWorldLines() {
+    worldLines->removeChildren(0, worldLines->getNumChildren());
+    const auto add = [this](Mark mark, const LineSegments& lines) {
+      if (!shown[std::size_t(mark)] || lines.empty()) return;
+      worldLines->addChild(toGeometry(lines, colourOf(mark)));
+    };
+    add(Mark::contacts, contactLines(worldMarks.contacts));
+    add(Mark::trails, trailLines(worldMarks.trails));
   }
   void place() {
+    for (std::size_t i = 0; i < further.size(); ++i)
+      further[i].hiddenLink =
+          hiddenLink && hiddenLink->first == i ? hiddenLink->second : std::numeric_limits<std::size_t>::max();
     figure->place(pose);
     for (std::size_t i = 0; i < further.size(); ++i)
       further[i].place({i < pose.others.size() ? pose.others[i] : std::vector<Eigen::Isometry3d>(), {}, {}});
@@ -189,9 +268,13 @@ void SceneBuilder::Impl::rebuildFigure() {
   figure = std::make_unique<Figure>(model.get(), radii, nullptr);
   further.clear();
   for (const auto& other : furtherModels) further.emplace_back(other.get(), std::vector<double>(), nullptr);
+  // Ground, first robot if there is one, further robots, balls.
+  firstFurther = model ? 3 : 2;
+  figure->number(2, firstFurther + static_cast<int>(further.size()));
+  for (std::size_t i = 0; i < further.size(); ++i) further[i].number(firstFurther + static_cast<int>(i), 0);
   showJacket();
   place();
-  showOutlines();
+  showMarks();
   body->removeChildren(0, body->getNumChildren());
   body->addChild(figure->group);
   for (const Figure& other : further) body->addChild(other.group);
@@ -238,6 +321,13 @@ void SceneBuilder::Impl::rebuildGround() {
   osg::StateSet& around = add(plainFloor(14, groundKind == Ground::field ? -0.004 : 0, floor), 0, kCastsNoShadow);
   around.addUniform(new osg::Uniform("fade", 12.f));
   sink(around, 2);
+  if (groundKind == Ground::plain && carpet) {
+    osg::StateSet& cloth = add(carpetCloth(*carpet), 0, kCastsNoShadow);
+    cloth.addUniform(new osg::Uniform("weave", 0.30f));
+    sink(cloth, 1);
+    add(carpetLines(*carpet), 0, kCastsNoShadow);
+    return;
+  }
   if (groundKind == Ground::plain) {
     const Colour grid = dark ? Colour{0.30f, 0.31f, 0.34f, 1} : Colour{0.50f, 0.52f, 0.55f, 1};
     add(floorGrid(3, grid), 0, kCastsNoShadow).addUniform(new osg::Uniform("fade", 4.f));
@@ -253,7 +343,9 @@ void SceneBuilder::Impl::rebuildGround() {
 }
 
 SceneBuilder::SceneBuilder() : impl_(std::make_unique<Impl>()) {
-  for (auto& part : {impl_->ground, impl_->body, impl_->ghosts}) impl_->root->addChild(part);
+  for (auto& part : {impl_->ground, impl_->body, impl_->ghosts, impl_->worldLines}) impl_->root->addChild(part);
+  drawOnTop(*impl_->worldLines);
+  impl_->ground->getOrCreateStateSet()->addUniform(new osg::Uniform("identity", float(groundNumber())));
   impl_->rebuildFigure();
   impl_->rebuildGround();
 }
@@ -298,6 +390,22 @@ void SceneBuilder::setGround(Ground ground) {
   impl_->rebuildGround();
 }
 
+void SceneBuilder::setCarpet(std::optional<CarpetSpec> carpet) {
+  impl_->carpet = std::move(carpet);
+  impl_->rebuildGround();
+}
+
+void SceneBuilder::hideLink(std::optional<std::pair<std::size_t, std::size_t>> furtherRobotAndLink) {
+  impl_->hiddenLink = furtherRobotAndLink;
+  impl_->place();
+}
+
+std::uint16_t SceneBuilder::furtherNumber(std::size_t further) const {
+  return static_cast<std::uint16_t>(static_cast<std::size_t>(impl_->firstFurther) + further);
+}
+
+std::uint16_t SceneBuilder::ballNumber(std::size_t ball) const { return furtherNumber(impl_->further.size() + ball); }
+
 void SceneBuilder::setJacket(const std::string& part) {
   impl_->jacket = part;
   impl_->showJacket();
@@ -309,17 +417,36 @@ void SceneBuilder::setFurtherJackets(std::vector<std::string> parts) {
   impl_->showJacket();
 }
 
-void SceneBuilder::setWireframe(bool on) {
+void SceneBuilder::setSurfaces(Surfaces surfaces) {
   osg::StateSet& state = *impl_->body->getOrCreateStateSet();
-  if (on)
-    state.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-  else
-    state.removeAttribute(osg::StateAttribute::POLYGONMODE);
+  state.removeAttribute(osg::StateAttribute::POLYGONMODE);
+  state.removeAttribute(osg::StateAttribute::BLENDFUNC);
+  state.removeAttribute(osg::StateAttribute::DEPTH);
+  state.removeAttribute(osg::StateAttribute::POINT);
+  state.removeUniform("opacity");
+  state.setRenderBinToInherit();
+  const auto polygons = [&](osg::PolygonMode::Mode mode) {
+    state.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, mode));
+  };
+  if (surfaces == Surfaces::wireframe) polygons(osg::PolygonMode::LINE);
+  if (surfaces == Surfaces::points) {
+    polygons(osg::PolygonMode::POINT);
+    state.setAttribute(new osg::Point(5.f));
+  }
+  if (surfaces != Surfaces::transparent) return;
+  makeTranslucent(*impl_->body, 10, false);
+  state.addUniform(new osg::Uniform("opacity", 0.35f));
 }
 
-void SceneBuilder::setCollisionShapes(bool on) {
-  impl_->collisionShapes = on;
-  impl_->showOutlines();
+void SceneBuilder::setMark(Mark mark, bool on) {
+  impl_->shown[std::size_t(mark)] = on;
+  impl_->showMarks();
+  impl_->rebuildWorldLines();
+}
+
+void SceneBuilder::setWorldMarks(WorldMarks marks) {
+  impl_->worldMarks = std::move(marks);
+  impl_->rebuildWorldLines();
 }
 
 void SceneBuilder::setDark(bool dark) {

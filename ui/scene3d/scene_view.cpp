@@ -5,10 +5,12 @@
 #include <QEvent>
 #include <QFileDialog>
 #include <QKeyEvent>
+#include <QMenu>
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
+#include <algorithm>
 
 namespace btr::ui {
 namespace {
@@ -43,22 +45,20 @@ void SceneView::makeActions() {
   followAction_ = make(tr("Follow"), "crosshairs", tr("Keep the robot, the ball or nothing in the middle (F)"), false);
   shadows_ = make(tr("Shadows"), "contrast", tr("Draw shadows (S)"), true);
   shadows_->setChecked(true);
-  wireframe_ = make(tr("Wireframe"), "draw-polyline", tr("Draw edges instead of surfaces (W)"), true);
-  collision_ =
-      make(tr("Collision shapes"), "draw-cuboid", tr("Outline what collides; meshes show their box (B)"), true);
+  makeSurfaceActions();
+  makeMarkActions();
+  show_ = make(tr("Show"), "view-visible", tr("How bodies are drawn, and what explains them"), false);
+  show_->setMenu(new QMenu(this));
+  show_->menu()->addActions(surfaces_);
+  show_->menu()->addSeparator();
+  show_->menu()->addActions(marks_);
+  for (const auto& [key, action] : keys_) action->setText(action->text() + "\t" + QKeySequence(key).toString());
   jacket_ = make(tr("Blue jacket"), "fill-color", tr("Change between the red and the blue jacket (J)"), true);
   save_ = make(tr("Save picture…"), "document-save", tr("Save what is shown as a PNG file"), false);
+  keys_ += {{Qt::Key_H, home_}, {Qt::Key_F, followAction_}, {Qt::Key_S, shadows_}, {Qt::Key_J, jacket_}};
   connect(home_, &QAction::triggered, this, &SceneView::goHome);
   connect(followAction_, &QAction::triggered, this, [this] { setFollow(Follow((int(follow_) + 1) % 3)); });
   connect(shadows_, &QAction::toggled, this, &SceneView::redraw);
-  connect(wireframe_, &QAction::toggled, this, [this](bool on) {
-    scene_.setWireframe(on);
-    redraw();
-  });
-  connect(collision_, &QAction::toggled, this, [this](bool on) {
-    scene_.setCollisionShapes(on);
-    redraw();
-  });
   connect(jacket_, &QAction::toggled, this, [this](bool blue) {
     scene_.setJacket(blue ? "blue" : "red");
     redraw();
@@ -66,8 +66,54 @@ void SceneView::makeActions() {
   connect(save_, &QAction::triggered, this, &SceneView::askAndSave);
 }
 
+/// At most one of them is on; none: shaded.
+void SceneView::makeSurfaceActions() {
+  const auto add = [this](Surfaces surfaces, const QString& text, const QString& icon, const QString& hint,
+                          Qt::Key key) {
+    auto* action = new QAction(QIcon::fromTheme(icon), text, this);
+    action->setToolTip(hint);
+    action->setCheckable(true);
+    keys_.append({key, action});
+    connect(action, &QAction::toggled, this, [this, action, surfaces](bool on) {
+      if (on)
+        for (QAction* other : surfaces_)
+          if (other != action) other->setChecked(false);
+      const bool any = std::ranges::any_of(surfaces_, &QAction::isChecked);
+      if (on || !any) scene_.setSurfaces(on ? surfaces : Surfaces::shaded);
+      redraw();
+    });
+    surfaces_.append(action);
+  };
+  add(Surfaces::wireframe, tr("Wireframe"), "draw-polyline", tr("Draw edges instead of surfaces (W)"), Qt::Key_W);
+  add(Surfaces::points, tr("Points"), "draw-spiral", tr("Draw corners instead of surfaces (P)"), Qt::Key_P);
+  add(Surfaces::transparent, tr("Transparent"), "edit-opacity", tr("See through bodies (T)"), Qt::Key_T);
+}
+
+void SceneView::makeMarkActions() {
+  const auto add = [this](Mark mark, const QString& text, const QString& icon, const QString& hint, Qt::Key key) {
+    auto* action = new QAction(QIcon::fromTheme(icon), text, this);
+    action->setToolTip(hint);
+    action->setCheckable(true);
+    keys_.append({key, action});
+    connect(action, &QAction::toggled, this, [this, mark](bool on) {
+      scene_.setMark(mark, on);
+      emit markToggled(mark, on);
+      redraw();
+    });
+    marks_.append(action);
+  };
+  add(Mark::collision, tr("Collision shapes"), "draw-cuboid", tr("Outline what collides; meshes show their box (B)"),
+      Qt::Key_B);
+  add(Mark::boxes, tr("Boxes"), "draw-rectangle", tr("A box around each link (O)"), Qt::Key_O);
+  add(Mark::axes, tr("Joint axes"), "draw-line", tr("Axes and limits of the joints (A)"), Qt::Key_A);
+  add(Mark::centres, tr("Centres of mass"), "draw-cross", tr("Centres of mass of the links (C)"), Qt::Key_C);
+  add(Mark::contacts, tr("Contacts"), "draw-arrow", tr("Where bodies touch, and with which force: 10 mm a newton (K)"),
+      Qt::Key_K);
+  add(Mark::trails, tr("Trails"), "draw-freehand", tr("Ways of robots and balls (R)"), Qt::Key_R);
+}
+
 QList<QAction*> SceneView::viewActions() const {
-  return {home_, followAction_, shadows_, wireframe_, collision_, jacket_, save_};
+  return {home_, followAction_, shadows_, show_, jacket_, save_};
 }
 
 void SceneView::setRobot(std::shared_ptr<const RobotModel> model) {
@@ -103,6 +149,16 @@ void SceneView::setGhosts(std::vector<Ghost> ghosts) {
 
 void SceneView::setGround(Ground ground) {
   scene_.setGround(ground);
+  redraw();
+}
+
+void SceneView::setWorldMarks(WorldMarks marks) {
+  scene_.setWorldMarks(std::move(marks));
+  redraw();
+}
+
+void SceneView::setCarpet(std::optional<CarpetSpec> carpet) {
+  scene_.setCarpet(std::move(carpet));
   redraw();
 }
 
@@ -267,10 +323,8 @@ void SceneView::wheelEvent(QWheelEvent* event) {
 }
 
 void SceneView::keyPressEvent(QKeyEvent* event) {
-  const std::pair<int, QAction*> keys[] = {{Qt::Key_H, home_},      {Qt::Key_F, followAction_}, {Qt::Key_S, shadows_},
-                                           {Qt::Key_W, wireframe_}, {Qt::Key_B, collision_},    {Qt::Key_J, jacket_}};
   if (!(event->modifiers() & ~Qt::ShiftModifier))
-    for (const auto& [key, action] : keys)
+    for (const auto& [key, action] : keys_)
       if (event->key() == key) return action->trigger();
   QWidget::keyPressEvent(event);  // the panel around takes the rest
 }

@@ -15,8 +15,9 @@ class QAction;
 namespace btr::ui {
 
 /// The 3D view: a widget that paints what the renderer draws, only when something changed. Left drag orbits, middle or
-/// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, W wireframe, B collision shapes, S shadows,
-/// J red or blue jacket. Without OpenGL it says so in words and everything else works on.
+/// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, S shadows, J red or blue jacket; W wireframe,
+/// P points, T transparent; B collision shapes, O boxes, A joint axes, C centres of mass, K contacts, R trails. Without
+/// OpenGL it says so in words and everything else works on.
 class SceneView : public QWidget {
   Q_OBJECT
 
@@ -33,6 +34,9 @@ class SceneView : public QWidget {
   void setPose(const ScenePose& pose);
   void setGhosts(std::vector<Ghost> ghosts);
   void setGround(Ground ground);
+  /// Contacts and trails: drawn while their actions are checked.
+  void setWorldMarks(WorldMarks marks);
+  void setCarpet(std::optional<CarpetSpec> carpet);
   void setJacket(const QString& part);  ///< "red" or "blue"
   void setFollow(Follow follow);
   Follow follow() const { return follow_; }
@@ -48,11 +52,14 @@ class SceneView : public QWidget {
   /// While true the view may draw coarsely where the machine is slow; it redraws finely afterwards.
   void setMoving(bool moving);
 
-  /// Home, follow, shadows, wireframe, collision shapes, jacket, save picture: for a tool bar or menu.
+  /// Home, follow, shadows, a menu of surfaces and marks, jacket, save picture: for a tool bar.
   QList<QAction*> viewActions() const;
   QAction* shadowsAction() const { return shadows_; }
-  QAction* wireframeAction() const { return wireframe_; }
-  QAction* collisionAction() const { return collision_; }
+  QAction* wireframeAction() const { return surfaces_[0]; }
+  QAction* pointsAction() const { return surfaces_[1]; }
+  QAction* transparentAction() const { return surfaces_[2]; }
+  QAction* markAction(Mark mark) const { return marks_[int(mark)]; }
+  QAction* collisionAction() const { return markAction(Mark::collision); }
   QAction* jacketAction() const { return jacket_; }
 
   /// What the view shows, with its texts, as a picture of that size.
@@ -67,6 +74,7 @@ class SceneView : public QWidget {
 
  signals:
   void cameraChanged();
+  void markToggled(btr::ui::Mark mark, bool on);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -79,6 +87,8 @@ class SceneView : public QWidget {
 
  private:
   void makeActions();
+  void makeSurfaceActions();
+  void makeMarkActions();
   void askAndSave();
   void redraw();
   void applyTheme();
@@ -92,7 +102,9 @@ class SceneView : public QWidget {
   Follow follow_ = Follow::nothing;
   QStringList caption_;
   QList<Badge> badges_;
-  QAction *home_, *followAction_, *shadows_, *wireframe_, *collision_, *jacket_, *save_;
+  QAction *home_, *followAction_, *shadows_, *show_, *jacket_, *save_;
+  QList<QAction*> surfaces_, marks_;
+  QList<std::pair<Qt::Key, QAction*>> keys_;
   QImage image_;         ///< what was rendered last, in device pixels or half of them
   QSize drawnFor_;       ///< the widget's device pixels when it was rendered
   bool stale_ = true;    ///< image_ no longer shows the scene

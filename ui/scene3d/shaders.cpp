@@ -19,6 +19,8 @@ void main() {
 }
 )";
 
+// opacity: of surfaces, 1.
+// measured: 1 gives linear light, and in alpha the number of the object (`identity`; 0: translucent, alpha is opacity).
 // gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the world's z axis at which
 // a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
 const char* const kMainFragment = R"(#version 120
@@ -30,6 +32,9 @@ uniform float gloss;
 uniform float unlit;
 uniform float fade;
 uniform float weave;
+uniform float measured;
+uniform float identity;
+uniform float opacity;
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec2 ground;
@@ -42,9 +47,13 @@ float grain(vec2 p) {
   return mix(mix(hash(cell), hash(cell + vec2(1.0, 0.0)), f.x),
              mix(hash(cell + vec2(0.0, 1.0)), hash(cell + vec2(1.0, 1.0)), f.x), f.y);
 }
+vec4 told(vec4 colour) {
+  if (measured < 0.5) return colour;
+  return vec4(colour.rgb * colour.rgb, identity > 0.5 ? identity : colour.a);
+}
 void main() {
   if (unlit > 0.5) {
-    gl_FragColor = gl_Color;
+    gl_FragColor = told(gl_Color);
     return;
   }
   // Squares and square roots stand for the exponent 2.2: cheaper where software draws.
@@ -83,7 +92,7 @@ void main() {
     vec3 background = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));
     colour = mix(colour, background, smoothstep(0.25 * fade, fade, length(ground)));
   }
-  gl_FragColor = vec4(colour, gl_Color.a);
+  gl_FragColor = told(vec4(colour, gl_Color.a * opacity));
 }
 )";
 
@@ -125,8 +134,12 @@ void main() {
 const char* const kSkyFragment = R"(#version 120
 uniform vec3 skyTop;
 uniform vec3 skyHorizon;
+uniform float measured;
 varying float height;
-void main() { gl_FragColor = vec4(mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height)), 1.0); }
+void main() {
+  vec3 colour = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));
+  gl_FragColor = measured > 0.5 ? vec4(colour * colour, 0.0) : vec4(colour, 1.0);
+}
 )";
 
 }  // namespace btr::ui::shaders

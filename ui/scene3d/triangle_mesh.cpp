@@ -1,5 +1,6 @@
 #include "ui/scene3d/triangle_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -41,6 +42,8 @@ void addSmoothed(TriangleMesh& mesh, const Shape& shape, const Isometry3d& pose,
     faces.push_back((b - a).cross(c - a));
   }
   const double sharpest = std::cos(40 * std::numbers::pi / 180);
+  // Corners of one vertex with one normal are shared: a driver shades each of them once.
+  std::vector<std::vector<std::pair<Vector3d, unsigned>>> made(shape.surface->vertices.size());
   for (std::size_t face = 0; face < faces.size(); ++face) {
     const Vector3d own = faces[face].normalized();
     for (int corner : shape.surface->triangles[face]) {
@@ -48,7 +51,18 @@ void addSmoothed(TriangleMesh& mesh, const Shape& shape, const Isometry3d& pose,
       for (int other : around[corner])
         if (own.dot(faces[other].normalized()) > sharpest) sum += faces[other];
       const Vector3d normal = sum.squaredNorm() > 0 ? Vector3d(sum.normalized()) : own;
-      mesh.indices.push_back(addVertex(mesh, pose, shape.surface->vertices[corner].cast<double>(), normal, colour));
+      constexpr double same = 1e-6;
+      auto& there = made[static_cast<std::size_t>(corner)];
+      const auto found = std::find_if(there.begin(), there.end(), [&](const auto& vertex) {
+        return (vertex.first - normal).squaredNorm() < same * same;
+      });
+      if (found == there.end()) {
+        there.emplace_back(normal,
+                           addVertex(mesh, pose, shape.surface->vertices[corner].cast<double>(), normal, colour));
+        mesh.indices.push_back(there.back().second);
+      } else {
+        mesh.indices.push_back(found->second);
+      }
     }
   }
 }
@@ -175,10 +189,12 @@ void TriangleMesh::addCapsule(const Isometry3d& pose, double radius_m, double le
     }
 }
 
-void TriangleMesh::addRing(double inner_m, double outer_m, double z_m, const Colour& colour) {
+void TriangleMesh::addRing(double inner_m, double outer_m, double z_m, const Colour& colour,
+                           const Eigen::Vector2d& centre_m) {
   constexpr int steps = 96;
   const auto point = [&](double radius, int step) {
-    return Vector3d(radius * std::cos(angle(step, steps)), radius * std::sin(angle(step, steps)), z_m)
+    return Vector3d(centre_m.x() + radius * std::cos(angle(step, steps)),
+                    centre_m.y() + radius * std::sin(angle(step, steps)), z_m)
         .cast<float>()
         .eval();
   };

@@ -26,8 +26,9 @@ struct TriangleMesh {
   void addCylinder(const Eigen::Isometry3d& pose, double radius_m, double height_m, const Colour& colour);
   /// The same with half spheres on both ends, which `length_m` leaves out.
   void addCapsule(const Eigen::Isometry3d& pose, double radius_m, double length_m, const Colour& colour);
-  /// A flat ring at height z about the z axis, seen from above.
-  void addRing(double inner_m, double outer_m, double z_m, const Colour& colour);
+  /// A flat ring at height z about a vertical axis, seen from above.
+  void addRing(double inner_m, double outer_m, double z_m, const Colour& colour,
+               const Eigen::Vector2d& centre_m = Eigen::Vector2d::Zero());
   /// Any shape of a robot model. A mesh without normals is smoothed, but keeps edges sharper than 40°.
   void addShape(const Shape& shape, const Eigen::Isometry3d& pose, const Colour& colour);
 };

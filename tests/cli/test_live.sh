@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# A match with a referee, steered by lines: what it tells, what is taken back, and the same bits from its log.
+. "$(dirname "$0")/common.sh"
+
+match=$root/resources/games/match-2004.json
+cat > "$folder/lines" <<'LINES'
+{"do": "step", "periods": 20}
+{"act": "place", "object": "ball", "position_m": [1.9, 0.1, 0.0425], "gesture": 1}
+{"act": "throw", "object": "ball", "velocity_m_s": [2, 0, 0], "gesture": 1}
+{"do": "step", "periods": 60}
+{"act": "remove", "object": "blue1"}
+{"do": "step", "periods": 20}
+{"do": "undo"}
+{"do": "step", "periods": 20}
+{"do": "redo"}
+{"do": "redo"}
+{"act": "score", "red": 3, "blue": 2}
+{"act": "kick_off", "team": "blue"}
+{"do": "step", "periods": 30}
+{"do": "end"}
+LINES
+expect 0 "steered" bash -c '"$0" live "$1" --steered --log "$2" < "$3"' "$btr" "$match" "$folder/log" "$folder/lines"
+python3 - "$folder/out" <<'P' || failures=1
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+undos = [(line["undo"], line["redo"]) for line in lines if "undo" in line]
+wanted = [("move ball", ""), ("remove blue1", ""), ("move ball", "remove blue1"), ("remove blue1", ""), ("score", ""), ("kick-off", "")]
+assert undos == wanted, undos
+assert [line["refused"] for line in lines if "refused" in line] == ["redo: nothing is not allowed; an act that was taken back"]
+rows = [line for line in lines if "row" in line]
+assert rows[-1]["score"] == [3, 2] and rows[-1]["half"] == 1 and not rows[-1]["over"], rows[-1]["score"]
+assert abs(rows[-1]["clock_s"] - 150 * 0.008) < 1e-9, rows[-1]["clock_s"]
+events = [event for row in rows for event in row.get("events", [])]
+assert [event["what"] for event in events] == ["goal", "kick_off", "score", "kick_off"], events
+assert events[0]["team"] == "red" and abs(events[0]["x_m"] - 2.1425) < 1e-9
+robots = [len(line["game"]["scene"]["robots"]) for line in lines if "game" in line]
+assert robots == [2, 1, 2, 1], robots
+P
+expect 0 "replayed" "$btr" --json live "$match" --replay "$folder/log"
+says out '"identical": true'
+says out '"score"'
+expect 0 "in words" "$btr" live "$match" --seconds 0.1
+says out "red 0, blue 0, half 1 at 0.1"
+expect 2 "no patience" "$btr" live "$match" --patience 0
+
+# What robots sense stands in the recording.
+python3 - "$match" "$folder/senses.json" "$root" <<'P'
+import json, sys
+game = json.load(open(sys.argv[1]))
+game["field"] = sys.argv[3] + "/resources/fields/four-legged-2004.json"
+for robot in game["scene"]["robots"]:
+    robot["model"] = sys.argv[3] + "/resources/robots/ers7.wrl"
+game["robots"]["red1"]["senses"] = "ers7"
+json.dump(game, open(sys.argv[2], "w"))
+P
+expect 0 "senses" "$btr" live "$folder/senses.json" --seconds 0.5 --csv "$folder/senses.csv"
+head -1 "$folder/senses.csv" | tr ',' '\n' > "$folder/out"
+for column in red1.accelerometer.z_m_s2 red1.infrared.near_m red1.infrared.far_m red1.infrared.chest_m red1.paw.lf red1.touch.head red1.LF_J1.sensed_rad; do
+  says out "$column"
+done
+expect 0 "speed" "$btr" --json bench --live --seconds 1
+says out '"core_share_per_dog"'
+
+finish

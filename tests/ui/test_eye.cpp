@@ -1,0 +1,215 @@
+#include <QTest>
+#include <cmath>
+
+#include "tests/ui/small_robot.h"
+#include "ui/scene3d/eye_renderer.h"
+#include "ui/scene3d/scene_builder.h"
+
+using namespace btr;
+using namespace btr::ui;
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Translation3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double ball_m = 0.0425;
+
+Isometry3d at(double x, double y, double z) { return Isometry3d(Translation3d(x, y, z)); }
+/// x down, y left.
+Isometry3d lookingDown(double x, double y, double z) { return at(x, y, z) * AngleAxisd(M_PI / 2, Vector3d::UnitY()); }
+
+/// 208 × 160 pixels whose middle lies between four of them.
+Pinhole eye() { return {}; }
+
+std::size_t pixel(const Pinhole& pinhole, int x, int y) { return std::size_t(y * pinhole.width + x); }
+
+/// A further robot beside a ball of its own scene.
+void fill(SceneBuilder& scene, const Vector3d& ball) {
+  scene.setGround(Ground::plain);
+  scene.setFurtherRobots({test::smallRobot()});
+  scene.setBalls({ball_m});
+  ScenePose pose;
+  pose.balls = {at(ball.x(), ball.y(), ball.z())};
+  scene.setPose(pose);
+}
+
+PinholePicture looked(EyeRenderer& renderer, const SceneBuilder& scene, const Isometry3d& camera,
+                      const RenderOptions& options = {}) {
+  PinholePicture picture;
+  [&] { QVERIFY2(renderer.look(scene.node(), camera, eye(), options, picture), qPrintable(renderer.problem())); }();
+  return picture;
+}
+
+}  // namespace
+
+/// What a camera sees, against geometry.
+class TestEye : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void theFloorIsAsFarAsTheCameraIsHigh();
+  void aBallCoversTheDiscThatGeometrySays();
+  void aPixelShowsThePlaceThatProjectsIntoIt();
+  void lightIsTheSquareOfWhatAScreenShows();
+  void aHiddenLinkIsNotSeen();
+  void linesAreWhereTheCarpetSays();
+  void theSameSceneGivesTheSameBits();
+  void noOpenGlIsSaid();
+};
+
+void TestEye::theFloorIsAsFarAsTheCameraIsHigh() {
+  SceneBuilder scene;
+  fill(scene, {5, 5, ball_m});
+  EyeRenderer renderer;
+  const PinholePicture picture = looked(renderer, scene, lookingDown(0, 0, 0.7));
+  QCOMPARE(picture.depth_m.size(), std::size_t(208 * 160));
+  for (std::size_t i = 0; i < picture.depth_m.size(); ++i) {
+    QVERIFY(std::abs(picture.depth_m[i] - 0.7) < 6e-4);  // the floor's grid lies half a millimetre above it
+    QCOMPARE(picture.object[i], SceneBuilder::groundNumber());
+  }
+  // Upwards there is nothing but sky.
+  const PinholePicture sky = looked(renderer, scene, at(0, 0, 0.7) * AngleAxisd(-M_PI / 2, Vector3d::UnitY()));
+  for (std::size_t i = 0; i < sky.depth_m.size(); ++i) {
+    QVERIFY(std::isinf(sky.depth_m[i]));
+    QCOMPARE(sky.object[i], std::uint16_t(0));
+  }
+}
+
+void TestEye::aBallCoversTheDiscThatGeometrySays() {
+  SceneBuilder scene;
+  fill(scene, {0, 0, 0.5});
+  EyeRenderer renderer;
+  const double away = 0.6;
+  const PinholePicture picture = looked(renderer, scene, at(-away, 0, 0.5));
+  int seen = 0;
+  for (const std::uint16_t object : picture.object) seen += object == scene.ballNumber(0);
+  // A sphere on the optical axis is seen under the angle whose sine is r/d.
+  const double radius_px = eye().focal_px * std::tan(std::asin(ball_m / away));
+  const double disc = M_PI * radius_px * radius_px;
+  QVERIFY2(std::abs(seen - disc) < 0.04 * disc, qPrintable(QString("%1 of %2").arg(seen).arg(disc)));
+  const float nearest = picture.depth_m[pixel(eye(), 104, 80)];
+  QVERIFY(std::abs(nearest - (away - ball_m)) < 1e-3);
+}
+
+void TestEye::aPixelShowsThePlaceThatProjectsIntoIt() {
+  SceneBuilder scene;
+  EyeRenderer renderer;
+  // To the left and above: where u = c − f·y/x and v = c − f·z/x say.
+  const Vector3d place(0.9, 0.2, -0.12);
+  fill(scene, Vector3d(place + Vector3d(0, 0, 0.5)));
+  const PinholePicture picture = looked(renderer, scene, at(0, 0, 0.5));
+  double u = 0, v = 0;
+  int count = 0;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 208; ++x)
+      if (picture.object[pixel(eye(), x, y)] == scene.ballNumber(0)) {
+        u += x;
+        v += y;
+        ++count;
+      }
+  QVERIFY(count > 100);
+  const Pinhole p = eye();
+  QVERIFY(std::abs(u / count - (p.centreX_px - p.focal_px * place.y() / place.x())) < 0.6);
+  QVERIFY(std::abs(v / count - (p.centreY_px - p.focal_px * place.z() / place.x())) < 0.6);
+}
+
+void TestEye::lightIsTheSquareOfWhatAScreenShows() {
+  SceneBuilder scene;
+  fill(scene, {0, 0, 0.2});
+  RenderOptions options;
+  options.supersampling = 1;
+  // The same frustum for both.
+  ViewCamera camera;
+  camera.focus = {0, 0, 0.1};
+  camera.fieldOfView = 2 * std::atan(80 / eye().focal_px);
+  OffscreenRenderer screen;
+  const QImage shown = screen.render(scene.node(), camera, {208, 160}, options);
+  Isometry3d pose = at(camera.eye().x(), camera.eye().y(), camera.eye().z());
+  pose.linear() =
+      (AngleAxisd(camera.azimuth + M_PI, Vector3d::UnitZ()) * AngleAxisd(camera.elevation, Vector3d::UnitY()))
+          .toRotationMatrix();
+  EyeRenderer renderer;
+  const PinholePicture picture = looked(renderer, scene, pose, options);
+  // The background mixes by the picture's height, edges fall between samples: what is off is counted.
+  int off = 0;
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 208; ++x) {
+      const QColor colour = shown.pixelColor(x, y);
+      const float* light = &picture.rgb[3 * pixel(eye(), x, y)];
+      const double shades[3] = {colour.redF(), colour.greenF(), colour.blueF()};
+      for (int i = 0; i < 3; ++i) off += std::abs(std::sqrt(light[i]) - shades[i]) > 1.5 / 255;
+    }
+  QVERIFY2(off < 3 * 208 * 160 / 100, qPrintable(QString::number(off)));
+}
+
+void TestEye::aHiddenLinkIsNotSeen() {
+  SceneBuilder scene;
+  fill(scene, {5, 5, ball_m});
+  ScenePose pose;
+  pose.balls = {at(5, 5, ball_m)};
+  pose.others = {std::vector<Isometry3d>(test::smallRobot()->links.size(), at(0, 0, 0.5))};
+  scene.setPose(pose);
+  EyeRenderer renderer;
+  const auto seen = [&] {
+    const PinholePicture picture = looked(renderer, scene, at(-1, 0, 0.5));
+    return std::ranges::count(picture.object, scene.furtherNumber(0));
+  };
+  QVERIFY(seen() > 100);
+  scene.hideLink(std::pair{std::size_t(0), std::size_t(0)});  // the body, larger than all the rest
+  const auto fewer = seen();
+  scene.hideLink(std::nullopt);
+  QVERIFY(fewer < seen());
+}
+
+void TestEye::linesAreWhereTheCarpetSays() {
+  CarpetSpec carpet;
+  carpet.size_m = {2, 2};
+  carpet.colour = "#00ff00";
+  carpet.lines = {{{0.1, -0.5}, {0.1, 0.5}, 0.04}};
+  carpet.circles = {{{-0.3, 0}, 0.1, 0.04}};
+  SceneBuilder scene;
+  fill(scene, {5, 5, ball_m});
+  scene.setCarpet(carpet);
+  EyeRenderer renderer;
+  const double height = 1;
+  const PinholePicture picture = looked(renderer, scene, lookingDown(0, 0, height));
+  // Seen from above with the optical axis down, the world's x goes up in the picture and its y to the left.
+  const auto isLine = [&](double x, double y) {
+    const int u = int(std::lround(eye().centreX_px - eye().focal_px * y / height));
+    const int v = int(std::lround(eye().centreY_px - eye().focal_px * x / height));
+    const float* light = &picture.rgb[3 * pixel(eye(), u, v)];
+    return light[0] > 0.5f * light[1];
+  };
+  QVERIFY(isLine(0.1, 0) && isLine(0.1, 0.4) && isLine(0.1, -0.4));
+  QVERIFY(!isLine(0.06, 0) && !isLine(0.14, 0) && !isLine(0, 0));
+  QVERIFY(isLine(-0.22, 0) && isLine(-0.38, 0) && isLine(-0.3, 0.08) && !isLine(-0.3, 0));
+}
+
+void TestEye::theSameSceneGivesTheSameBits() {
+  SceneBuilder scene;
+  fill(scene, {0, 0, 0.2});
+  EyeRenderer one, other;
+  const PinholePicture a = looked(one, scene, at(-1, 0, 0.3));
+  SceneBuilder again;
+  fill(again, {0, 0, 0.2});
+  const PinholePicture b = looked(other, again, at(-1, 0, 0.3));
+  QVERIFY(a.rgb == b.rgb);
+  QVERIFY(a.depth_m == b.depth_m);
+  QVERIFY(a.object == b.object);
+}
+
+void TestEye::noOpenGlIsSaid() {
+  SceneBuilder scene;
+  EyeRenderer renderer([](QString& problem) {
+    problem = "no driver on this machine";
+    return std::unique_ptr<GlContext>();
+  });
+  PinholePicture picture;
+  QVERIFY(!renderer.look(scene.node(), at(0, 0, 1), eye(), {}, picture));
+  QCOMPARE(renderer.problem(), QString("no driver on this machine"));
+}
+
+QTEST_MAIN(TestEye)
+#include "test_eye.moc"

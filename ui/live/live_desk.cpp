@@ -1,0 +1,100 @@
+#include "ui/live/live_desk.h"
+
+#include <QDockWidget>
+#include <nlohmann/json.hpp>
+
+#include "ui/live/extra_view.h"
+#include "ui/live/eye_panel.h"
+#include "ui/live/live_world.h"
+
+namespace btr::ui {
+namespace {
+
+using nlohmann::json;
+
+template <typename Content>
+QList<Content*> contentsOf(const QMainWindow& desk) {
+  QList<Content*> contents;
+  for (QDockWidget* dock : desk.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
+    if (auto* content = qobject_cast<Content*>(dock->widget())) contents.append(content);
+  return contents;
+}
+
+}  // namespace
+
+LiveDesk::LiveDesk(LiveWorld& world, LiveView* view, QWidget* parent)
+    : QMainWindow(parent, Qt::Widget), world_(world), view_(view) {
+  setObjectName("liveDesk");
+  setDockNestingEnabled(true);
+  setContextMenuPolicy(Qt::NoContextMenu);
+  setCentralWidget(view_);
+  connect(view_, &LiveView::markToggled, this, &LiveDesk::askContacts);
+}
+
+QDockWidget* LiveDesk::addDock(QWidget* content, const QString& title, Qt::DockWidgetArea area) {
+  auto* dock = new QDockWidget(title, this);
+  dock->setObjectName("dock" + QString::number(++counted_));
+  dock->setAttribute(Qt::WA_DeleteOnClose);
+  dock->setWidget(content);
+  addDockWidget(area, dock);
+  return dock;
+}
+
+ExtraView* LiveDesk::addView() {
+  auto* view = new ExtraView(world_);
+  view->view().setCamera(view_->camera());
+  connect(&view->view(), &LiveView::markToggled, this, &LiveDesk::askContacts);
+  addDock(view, tr("View %1").arg(views().size() + 2), Qt::RightDockWidgetArea);
+  return view;
+}
+
+EyePanel* LiveDesk::addEye() {
+  auto* eye = new EyePanel(world_);
+  connect(eye, &EyePanel::problem, this, &LiveDesk::problem);
+  addDock(eye, tr("Camera %1").arg(eyes().size() + 1), Qt::BottomDockWidgetArea);
+  return eye;
+}
+
+QList<ExtraView*> LiveDesk::views() const { return contentsOf<ExtraView>(*this); }
+QList<EyePanel*> LiveDesk::eyes() const { return contentsOf<EyePanel>(*this); }
+
+/// They are told while any view draws them.
+void LiveDesk::askContacts() {
+  bool any = view_->markAction(Mark::contacts)->isChecked();
+  for (ExtraView* view : views()) any |= view->view().markAction(Mark::contacts)->isChecked();
+  world_.process().setContacts(any);
+}
+
+void LiveDesk::closeAll() {
+  for (QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) delete dock;
+  counted_ = 0;
+}
+
+std::string LiveDesk::state() const {
+  json document{{"camera", toJson(view_->camera())}, {"docks", json::array()}};
+  for (const QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    if (const auto* view = qobject_cast<ExtraView*>(dock->widget()))
+      document["docks"].push_back({{"view", view->state()}});
+    if (const auto* eye = qobject_cast<EyePanel*>(dock->widget())) document["docks"].push_back({{"eye", eye->state()}});
+  }
+  document["layout"] = saveState().toBase64().toStdString();
+  return document.dump();
+}
+
+void LiveDesk::restore(const std::string& state) {
+  const json document = json::parse(state, nullptr, false);
+  if (!document.is_object()) return;
+  closeAll();
+  if (document.contains("camera")) view_->setCamera(viewCameraFrom(document.at("camera")));
+  constexpr std::size_t mostDocks = 12;
+  if (const auto docks = document.find("docks"); docks != document.end() && docks->is_array())
+    for (const json& dock : *docks) {
+      if (static_cast<std::size_t>(counted_) >= mostDocks || !dock.is_object()) continue;
+      if (dock.contains("view")) addView()->restore(dock.at("view"));
+      if (dock.contains("eye")) addEye()->restore(dock.at("eye"));
+    }
+  if (const auto layout = document.find("layout"); layout != document.end() && layout->is_string())
+    restoreState(QByteArray::fromBase64(QByteArray::fromStdString(layout->get<std::string>())));
+}
+
+}  // namespace btr::ui

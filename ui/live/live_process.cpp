@@ -112,7 +112,7 @@ void LiveProcess::read() {
   qsizetype begin = 0;
   for (qsizetype end; (end = pending_.indexOf('\n', begin)) >= 0; begin = end + 1) {
     const QByteArray line = pending_.mid(begin, end - begin);
-    if (line.contains("\"row\":") && !line.contains("\"samples\":")) {
+    if (line.contains("\"row\":") && !line.contains("\"samples\":") && !line.contains("\"events\":")) {
       newest = line;
       continue;
     }

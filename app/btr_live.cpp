@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/btr_commands.h"
+#include "app/btr_live_camera.h"
 #include "app/btr_live_steering.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
@@ -24,6 +25,7 @@ struct LiveArguments {
   std::string game, replay, log, csv, save;
   double seconds = 10, speed = 0, patience_s = 2;
   bool steered = false;
+  LiveCameraOptions camera;
 };
 
 std::string notAnswered(const std::string& who, double seconds) {
@@ -70,6 +72,7 @@ class LiveRun {
       trace_.channels = session_.channels();
       session_.sample(trace_.values);
     }
+    if (!arguments.camera.robot.empty()) camera_ = std::make_unique<LiveCamera>(arguments.camera, session_);
   }
 
   long wanted(bool secondsGiven) const {
@@ -94,6 +97,7 @@ class LiveRun {
       if (session_.periods() >= until) break;
       session_.step();
       if (!arguments_.csv.empty() && session_.fault().empty()) sample();
+      if (camera_ && session_.fault().empty()) camera_->tell(session_);
       if (arguments_.speed <= 0) continue;
       const double due =
           static_cast<double>(session_.periods() - from) * session_.game().scene.controlPeriod_s / arguments_.speed;
@@ -108,6 +112,7 @@ class LiveRun {
     const std::string sha = session_.traceSha256();
     if (written_) written_->end(session_.periods(), sha);
     if (!arguments_.csv.empty()) writeOut(arguments_.csv, trace_.toCsv());
+    if (camera_) camera_->finish();
     nlohmann::json result{{"trace_sha256", sha},
                           {"simulated_s", simulated_},
                           {"real_time_factor", seconds_ > 0 ? simulated_ / seconds_ : 0},
@@ -143,6 +148,7 @@ class LiveRun {
   Session session_;
   std::optional<SessionLog> replayed_;
   std::unique_ptr<SessionLogWriter> written_;
+  std::unique_ptr<LiveCamera> camera_;
   Trace trace_;
   std::size_t next_ = 0;
   double seconds_ = 0, simulated_ = 0;
@@ -166,6 +172,7 @@ void addLiveCommand(CLI::App& app, Shell& shell) {
       ->check(CLI::ExistingFile);
   shell.writesFile(live, live->add_option("--log", a->log, "writes what reached into the session"));
   shell.writesFile(live, live->add_option("--csv", a->csv, "writes its trace as a recording"));
+  addCameraOptions(*live, a->camera, shell);
   shell.writesFile(live, live->add_option("--save", a->save, "writes the game as it is at the end"));
   live->add_option("--patience", a->patience_s, "how long a controller may take for one control period [s]")
       ->transform(decimalNumber(0.01, 1e6))

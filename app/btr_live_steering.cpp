@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/btr_live_lines.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -32,20 +33,6 @@ void say(const nlohmann::json& line) {
   static std::mutex oneAtATime;
   const std::lock_guard lock(oneAtATime);
   std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n' << std::flush;
-}
-
-/// Of the hands that pull, by object [N], world axes.
-nlohmann::json handForces(const Session& session) {
-  nlohmann::json forces = nlohmann::json::object();
-  const auto add = [&](const auto& specs) {
-    for (const auto& spec : specs)
-      if (const Eigen::Vector3d f = session.handForce_n(spec.name); !f.isZero())
-        forces[spec.name] = {f.x(), f.y(), f.z()};
-  };
-  add(session.game().scene.robots);
-  add(session.game().scene.balls);
-  add(session.game().scene.obstacles);
-  return forces;
 }
 
 }  // namespace
@@ -99,8 +86,8 @@ void LiveSteering::obey(const std::string& line) {
   try {
     JsonReader reader = JsonReader::parse(line, "line");
     if (reader.has("act")) return act(reader);
-    const std::string wanted =
-        reader.word("do", {"play", "pause", "step", "speed", "save", "game", "signals", "undo", "redo", "end"});
+    const std::string wanted = reader.word(
+        "do", {"play", "pause", "step", "speed", "save", "game", "signals", "contacts", "undo", "redo", "end"});
     if (wanted == "play") playing_ = true;
     if (wanted == "pause") playing_ = false;
     if (wanted == "end") ended_ = true;
@@ -110,9 +97,11 @@ void LiveSteering::obey(const std::string& line) {
       return change([&] { wanted == "undo" ? undo_.undo(session_) : undo_.redo(session_); });
     }
     if (wanted == "signals") chooseSignals(reader);
+    if (wanted == "contacts") session_.measureContacts(reader.flag("on", true));
     if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
     if (wanted == "save") {
       const std::string path = reader.text("path");
+      if (const nlohmann::json* view = reader.any("view")) session_.setView(view->dump());
       save_(path);
       say({{"saved", path}});
     }
@@ -207,9 +196,7 @@ void LiveSteering::chooseSignals(JsonReader& reader) {
 
 void LiveSteering::tellGame() {
   signals_.resolve(session_.channels());
-  say({{"game", nlohmann::json::parse(toJsonText(session_.game()))},
-       {"directory", session_.game().scene.directory},
-       {"channels", session_.channels()}});
+  say(gameLine(session_));
 }
 
 void LiveSteering::tellReferee(nlohmann::json& line) {
@@ -231,23 +218,8 @@ void addReferee(const Session& session, nlohmann::json& line, long from) {
 }
 
 void LiveSteering::tellRow() {
-  std::vector<double> row;
-  session_.sample(row);
-  nlohmann::json line{
-      {"row", row}, {"period", session_.periods()}, {"playing", playing_}, {"real_time_factor", factor_}};
-  nlohmann::json bases = nlohmann::json::array();
-  // Obstacles that never move have no columns in a trace.
-  for (std::size_t i = 0; i < session_.game().scene.obstacles.size(); ++i) {
-    if (session_.game().scene.obstacles[i].mass_kg > 0) continue;
-    const ObstacleState& state = session_.world().obstacle(i);
-    const Eigen::Quaterniond q(state.pose.linear());
-    const Eigen::Vector3d p = state.pose.translation();
-    bases.push_back({i, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()});
-  }
-  line["fixed"] = std::move(bases);
-  if (nlohmann::json hands = handForces(session_); !hands.empty()) line["hands_n"] = std::move(hands);
+  nlohmann::json line = rowLine(session_, playing_, factor_);
   if (signals_.wanted()) line["samples"] = signals_.take();
-  if (!session_.fault().empty()) line["fault"] = session_.fault();
   if (session_.referee()) tellReferee(line);
   say(line);
 }

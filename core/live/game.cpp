@@ -97,7 +97,6 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
   add(scene.obstacles, field.obstacles);
   add(scene.balls, field.balls);
   if (field.floor) scene.floor = field.floor;
-  if (field.field) scene.field = field.field;
 }
 
 /// So that the lowest point of what collides just touches the floor, joints at zero.

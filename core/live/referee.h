@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/spec/pitch_spec.h"
 #include "core/spec/scene_spec.h"
 
 namespace btr {

@@ -105,6 +105,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
 
 std::unique_ptr<World> Session::worldOf(const Game& game, const Scene& scene, const WorldMemory* memory) const {
   auto world = std::make_unique<World>(scene, game.seed);
+  world->measureForces(contacts_);
   for (std::size_t i = 0; i < scene.robots.size(); ++i)
     if (const auto player = game.robots.find(scene.robots[i].name);
         player != game.robots.end() && !player->second.senses.empty())
@@ -198,6 +199,11 @@ void Session::setPulls() {
     pulls.push_back(pull);
   }
   world_->setPulls(std::move(pulls));
+}
+
+void Session::measureContacts(bool on) {
+  contacts_ = on;
+  world_->measureForces(on);
 }
 
 Vector3d Session::handForce_n(const std::string& object) const {

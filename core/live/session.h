@@ -56,6 +56,11 @@ class Session {
   const std::string& fault() const { return fault_; }
   /// SHA-256 over the traces' rows since the session began (or was loaded); call it once, at the end.
   std::string traceSha256() { return hash_.finish(); }
+  /// From now on the contacts of each step are kept, or no longer; no bit of the motion changes.
+  void measureContacts(bool on);
+  bool measuresContacts() const { return contacts_; }
+  /// Cameras and windows of whoever shows it, for the game that is saved; nothing else changes.
+  void setView(std::string view) { game_.view = std::move(view); }
   /// The force of the hand at an object [N], world axes; zero if none is there.
   Eigen::Vector3d handForce_n(const std::string& object) const;
 
@@ -121,6 +126,7 @@ class Session {
   FieldSpec field_;  ///< where there is a referee
   RefereeState referee_;
   Watchdog* dog_;
+  bool contacts_ = false;
   WorldMemory lastGood_;
   long periods_ = 0;
   std::string fault_;

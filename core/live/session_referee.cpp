@@ -25,8 +25,8 @@ FieldSpec fieldOf(const Game& game) {
     if (std::ranges::none_of(game.scene.robots, [&](const RobotSpec& r) { return r.name == place.first; }))
       throw InputError("referee/kick_off", "\"" + place.first + "\"", "robots of the game's scene");
   if (game.referee->field) return *game.referee->field;
-  if (!game.scene.field) throw InputError("referee/field", "nothing", "the field's sizes, where the scene has none");
-  return *game.scene.field;
+  if (!game.pitch.field) throw InputError("referee/field", "nothing", "the field's sizes, where the scene has none");
+  return *game.pitch.field;
 }
 
 std::optional<std::size_t> Session::refereeBall() const {

@@ -101,7 +101,7 @@ Act absurdAct(const Session& session, Random& random, int number) {
 TEST(AbsurdActs, AreDoneRefusedOrStopTheWorldWithAReason) {
   Random random(20261127);
   Game game = dogs();
-  game.scene.field = FieldSpec{};
+  game.pitch.field = FieldSpec{};
   game.referee = RefereeSpec{};
   int acts = 0, refused = 0, stopped = 0;
   while (acts < 400) {

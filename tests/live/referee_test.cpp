@@ -283,7 +283,7 @@ TEST(RefereeInASession, WhatIsNotAllowedIsRefused) {
   Game game = dogs();
   game.referee = RefereeSpec{};
   EXPECT_THAT(refusal([&] { Session(game, host()); }), HasSubstr("the field's sizes"));
-  game.scene.field = field2004();
+  game.pitch.field = field2004();
   game.referee->ball = "egg";
   EXPECT_THAT(refusal([&] { Session(game, host()); }), HasSubstr("egg"));
   EXPECT_THAT(refusal([] { actFromJson(R"({"act": "score", "red": -1, "blue": 0})", "act"); }), HasSubstr("red"));
@@ -296,7 +296,7 @@ TEST(RefereeSpecs, SurviveBeingWrittenAndRead) {
   game.referee->out = RefereeSpec::Out::inside;
   const Game again = gameFromJson(toJsonText(game), "game.json", game.scene.directory);
   EXPECT_EQ(again.referee, game.referee);
-  EXPECT_EQ(again.scene.field, game.scene.field);
+  EXPECT_EQ(again.pitch.field, game.pitch.field);
 }
 
 }  // namespace

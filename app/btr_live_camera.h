@@ -1,0 +1,42 @@
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+
+#include "app/btr_commands.h"
+#include "core/live/session.h"
+
+namespace btr::cli {
+
+/// What btr live makes of a robot's camera; empty texts: not that.
+struct LiveCameraOptions {
+  std::string robot;   ///< whose; "" no camera
+  std::string camera;  ///< file; "" that of the robot's model
+  std::string frames, video, truth;
+};
+
+void addCameraOptions(CLI::App& live, LiveCameraOptions& options, Shell& shell);
+
+/// The robot's camera in a process of its own (btr-camera watch): it draws while the world goes on.
+class LiveCamera {
+ public:
+  /// Starts it and tells the game and its first row. Throws InputError if it cannot be started.
+  LiveCamera(const LiveCameraOptions& options, const Session& session);
+  ~LiveCamera();
+  LiveCamera(const LiveCamera&) = delete;
+  LiveCamera& operator=(const LiveCamera&) = delete;
+
+  /// The world as it is now; objects that came or went first. Throws InputError if the camera ended.
+  void tell(const Session& session);
+  /// Waits until its files are written. Throws InputError if they are not.
+  void finish();
+
+ private:
+  void send(const std::string& line);
+
+  pid_t process_ = -1;
+  int pipe_ = -1;
+  std::vector<std::string> channels_;
+};
+
+}  // namespace btr::cli

@@ -11,10 +11,6 @@
 namespace btr {
 class JsonReader;
 }
-
-namespace btr {
-class JsonReader;
-}
 namespace btr::cli {
 
 /// A session that is steered by lines of JSON on standard input and tells what it does on standard output; see

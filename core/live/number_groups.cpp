@@ -1,6 +1,7 @@
 #include "core/live/number_groups.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/sim/scene_build.h"
@@ -21,7 +22,9 @@ std::optional<double> groupMass(const RobotModel& model, const std::string& grou
     if (first.empty()) first = link.massGroup;
     if (link.massGroup == first) sum += link.inertial.mass_kg;
   }
-  return first.empty() ? std::nullopt : std::optional(sum);
+  // A sum of a file's decimals is one of them again.
+  constexpr double perKilogram = 1e9;
+  return first.empty() ? std::nullopt : std::optional(std::round(sum * perKilogram) / perKilogram);
 }
 
 /// The servo that the simulator's servo parameters describe: the first one of a leg.

@@ -408,6 +408,21 @@ class TestLiveDesk : public QObject {
     tools.showRow(row, 0);
     QCOMPARE(score->text(), QString("red 2 : 1 blue · 8:32"));
     QVERIFY(kickOff->isVisible());
+    row.events = {"goal of red"};
+    tools.showRow(row, 0);
+    row.events.clear();
+    tools.showRow(row, 0);
+    QCOMPARE(score->toolTip(), QString("Last: goal of red"));
+  }
+
+  void aMatchShowsItsScoreAndKicksOff() {
+    LivePage page(plugins(), BTR_PROGRAM, {});
+    page.show();
+    page.open(SOURCE_DIR "/resources/games/match-2004.json");
+    auto* score = page.findChild<QLabel*>("liveScore");
+    QTRY_COMPARE_WITH_TIMEOUT(score->text(), QString("red 0 : 0 blue · 0:00"), 30000);
+    page.findChild<QAction*>("liveKickOff")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(score->toolTip().contains("kick off"), 20000);
   }
 };
 

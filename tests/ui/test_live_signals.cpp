@@ -1,6 +1,7 @@
 // Signals of a running world: chosen in the tree, kept of every control period, exported as a recording.
 #include <QAction>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
@@ -94,6 +95,34 @@ class TestLiveSignals : public QObject {
     // It walks: what a servo reached follows what it was told.
     const auto& command = recording.columns[std::size_t(recording.column("dog.LF_J1.command_rad"))];
     QVERIFY(*std::ranges::max_element(command) - *std::ranges::min_element(command) > 0.05);
+  }
+
+  // How long the window is busy with it is printed, not judged: machines differ.
+  void aMinuteOfTwentySignalsIsDrawn() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.action("liveShowSignals")->trigger();
+    SignalsPanel& panel = open.page.signalsPanel();
+    for (const QString& name : twenty) QVERIFY(panel.picker().choose(name.toStdString(), true));
+    LiveSamples samples;
+    samples.channels = panel.record().channels();
+    for (long period = 1; period <= 7500; ++period) {
+      samples.periods.push_back(period);
+      samples.values.push_back(0.008 * double(period));
+      for (std::size_t i = 1; i < samples.channels.size(); ++i)
+        samples.values.push_back(std::sin(0.05 * double(period) + double(i)));
+    }
+    QElapsedTimer timer;
+    timer.start();
+    emit open.page.process().sampled(samples);
+    const qint64 taken_ms = timer.restart();
+    panel.draw();
+    const qint64 drawn_ms = timer.restart();
+    panel.grab();
+    qInfo() << "7500 periods of 20 signals: taken in" << taken_ms << "ms, whole in the plots in" << drawn_ms
+            << "ms, painted in" << timer.elapsed() << "ms";
+    QCOMPARE(panel.record().rows(), std::size_t(7500));
+    QCOMPARE(panel.record().missing(), 0L);
   }
 
   void aThrownBallsSpeedIsTheOneItWasThrownWith() {

@@ -1,5 +1,6 @@
 // Undo and redo of whatever hands did to a running world: one step a drag, with its name on the button.
 #include <QAction>
+#include <QSignalSpy>
 #include <QSlider>
 #include <cmath>
 
@@ -20,6 +21,16 @@ double offAlong(OpenPage& open, const std::string& object, int axis, double want
 class TestLiveUndo : public QObject {
   Q_OBJECT
  private slots:
+  // The program says which words it knows.
+  void initTestCase() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    QSignalSpy refused(&open.page.process(), &LiveProcess::refused);
+    open.page.process().undo();
+    QTRY_COMPARE(refused.count(), 1);  // there is nothing to undo yet
+    if (refused[0][0].toString().contains("play, pause")) QSKIP("btr live --steered cannot undo");
+  }
+
   void aDragOfTwoObjectsIsOneStep() {
     OpenPage open;
     QVERIFY(open.isThere());

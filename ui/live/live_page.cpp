@@ -77,6 +77,9 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
 const Game& LivePage::game() const { return world_->game(); }
 const LiveRow& LivePage::row() const { return world_->row(); }
 
+bool LivePage::canUndo() const { return tools_->undoAction()->isEnabled(); }
+bool LivePage::canRedo() const { return tools_->redoAction()->isEnabled(); }
+
 void LivePage::connectTools() {
   connect(tools_, &LiveTools::openChosen, this, &LivePage::openWithDialog);
   connect(tools_, &LiveTools::gameChosen, this, &LivePage::open);

@@ -49,6 +49,8 @@ class LivePage : public QWidget {
   const Game& game() const;
   const LiveRow& row() const;
   const QString& file() const { return file_; }
+  bool canUndo() const;
+  bool canRedo() const;
   /// The last session's log; "" if there is none.
   const QString& log() const { return log_; }
 

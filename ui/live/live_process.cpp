@@ -45,7 +45,6 @@ void LiveProcess::start(const QString& file, const QString& log) {
   words_.clear();
   told_.clear();
   models_.clear();  // their files may have changed
-  undoes_ = false;
   QStringList arguments{"live", file, "--steered"};
   if (!log.isEmpty()) arguments << "--log" << log;
   process_.start(program_, arguments);
@@ -68,7 +67,7 @@ void LiveProcess::send(const QByteArray& line) {
 
 void LiveProcess::act(const Act& act) {
   json line = toJson(act);
-  if (undoes_ && gestureDepth_ > 0) line["gesture"] = gesture_;
+  if (gestureDepth_ > 0) line["gesture"] = gesture_;
   send(QByteArray::fromStdString(line.dump()));
 }
 
@@ -113,7 +112,7 @@ void LiveProcess::read() {
   qsizetype begin = 0;
   for (qsizetype end; (end = pending_.indexOf('\n', begin)) >= 0; begin = end + 1) {
     const QByteArray line = pending_.mid(begin, end - begin);
-    if (line.contains("\"row\":") && !line.contains("\"samples\":")) {
+    if (line.contains("\"row\":") && !line.contains("\"samples\":") && !line.contains("\"events\":")) {
       newest = line;
       continue;
     }
@@ -132,10 +131,7 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
     if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
-    if (line.contains("undo")) {
-      undoes_ = true;
-      return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
-    }
+    if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
   } catch (const std::exception& error) {
     emit failed(tr("What btr live told cannot be read: %1").arg(error.what()));

@@ -85,7 +85,6 @@ class LiveProcess : public QObject {
   std::vector<std::string> told_;     ///< to which the samples belong that are told
   ModelSet models_;                   ///< of files that were read for this session
   std::string modelsFrom_;            ///< where their relative paths start
-  bool undoes_ = false;               ///< the program knows gestures
   int gestureDepth_ = 0;
   long gesture_ = 0;
 };

@@ -118,6 +118,8 @@ void LiveTools::showRow(const LiveRow& row, double time_s) {
   scoreAction_->setVisible(row.score.has_value());
   if (row.score) {
     const long seconds = std::lround(std::max(0.0, row.clock_s));
+    if (!row.events.isEmpty()) event_ = row.events.last();
+    score_->setToolTip(event_.isEmpty() ? tr("Score, and the clock of this half") : tr("Last: %1").arg(event_));
     score_->setText(tr("red %1 : %2 blue · %3:%4")
                         .arg((*row.score)[0])
                         .arg((*row.score)[1])

@@ -59,6 +59,7 @@ class LiveTools : public QToolBar {
   QComboBox* speed_;
   QLabel *clock_, *score_;
   QAction* scoreAction_;
+  QString event_;  ///< the referee's last one
 };
 
 }  // namespace btr::ui

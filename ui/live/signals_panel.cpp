@@ -5,11 +5,13 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
+#include <map>
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -25,6 +27,17 @@ namespace btr::ui {
 namespace {
 
 constexpr int redrawEvery_ms = 100;
+
+/// Without its unit, which stands at the axis.
+QString shortName(const std::string& name) {
+  static const std::map<std::string, QString> endings{{"rad", "_rad"},   {"rad/s", "_rad_s"},  {"N·m", "_nm"},
+                                                      {"m", "_m"},       {"m/s", "_m_s"},      {"N", "_n"},
+                                                      {"m/s²", "_m_s2"}, {"rad/s²", "_rad_s2"}};
+  const auto ending = endings.find(unitOfSignal(name));
+  QString text = word(name);
+  if (ending != endings.end()) text.chop(ending->second.size());
+  return text;
+}
 
 QToolButton* button(const QString& name, const QString& icon, const QString& text, const QString& tip,
                     QWidget* parent) {
@@ -52,15 +65,25 @@ SignalsPanel::SignalsPanel(LiveWorld& world, QWidget* parent)
   values_->setTabKeyNavigation(false);
   values_->verticalHeader()->hide();
   values_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  values_->horizontalHeader()->resizeSection(1, 70);
+  values_->horizontalHeader()->resizeSection(2, 50);
+  values_->verticalHeader()->setDefaultSectionSize(22);
   empty_ = new QLabel(tr("Choose signals on the left."), this);
   empty_->setAlignment(Qt::AlignCenter);
   plotRow_->addWidget(empty_);
+  // Many plots scroll: they do not make the window wider.
+  auto* plots = new QScrollArea(this);
+  plots->setWidgetResizable(true);
+  plots->setFrameShape(QFrame::NoFrame);
+  plots->setWidget(plotRow_);
+  picker_->setMinimumWidth(180);
+  values_->setMinimumWidth(250);
   auto* split = new QSplitter(this);
   split->addWidget(picker_);
-  split->addWidget(plotRow_);
+  split->addWidget(plots);
   split->addWidget(values_);
   split->setStretchFactor(1, 1);
-  split->setSizes({190, 600, 260});
+  split->setChildrenCollapsible(false);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
   column->setSpacing(2);
@@ -189,8 +212,8 @@ PlotData SignalsPanel::dataOf(const QString& unit) const {
     const std::string& name = record_.all()[i].name;
     if (word(unitOfSignal(name)) != unit) continue;
     PlotSeries series;
-    series.name = word(name);
-    series.colour = int(i);
+    series.name = shortName(name);
+    series.colour = int(data.series.size());
     series.points.reserve(rows);
     for (std::size_t row = 0; row < rows; ++row)
       if (const double value = record_.value(row, i); std::isfinite(value))

@@ -67,6 +67,9 @@ SimulatorPanel::SimulatorPanel(LiveWorld& world, QWidget* parent) : QWidget(pare
   split->addWidget(makeNumbers());
   split->addWidget(makeEffects());
   split->setChildrenCollapsible(false);
+  split->setStretchFactor(0, 3);
+  split->setStretchFactor(1, 2);
+  split->setSizes({360, 240});
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
   column->addWidget(whose_);
@@ -114,7 +117,8 @@ QWidget* SimulatorPanel::makeEffects() {
   effects_ = new QListWidget(part);
   effects_->setObjectName("liveEffects");
   effects_->setAccessibleName(tr("Effects"));
-  effects_->setMinimumHeight(50);
+  effects_->setMinimumHeight(40);
+  effects_->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
   connect(effects_, &QListWidget::currentRowChanged, this, &SimulatorPanel::showEffect);
   remove_ = new QPushButton(themeIcon("list-remove"), tr("Ta&ke effect away"), part);
   remove_->setObjectName("liveRemoveEffect");

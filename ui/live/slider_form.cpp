@@ -39,6 +39,7 @@ SliderForm::SliderForm(QWidget* parent) : QWidget(parent) {
   WheelGuard::ensure();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
+  column->addStretch();
 }
 
 void SliderForm::setParameters(const std::vector<Parameter>& parameters, const Values& usual) {
@@ -61,7 +62,7 @@ void SliderForm::setParameters(const std::vector<Parameter>& parameters, const V
     const auto found = usual.find(parameter.name);
     add(parameter, found == usual.end() ? parameter.byDefault : found->second);
   }
-  layout()->addWidget(content_);
+  static_cast<QVBoxLayout*>(layout())->insertWidget(0, content_);
   content_->show();
 }
 

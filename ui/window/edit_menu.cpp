@@ -9,6 +9,7 @@
 
 #include "ui/common/theme.h"
 #include "ui/experiment/experiment_form.h"
+#include "ui/live/live_page.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/window/window_menus.h"
 
@@ -21,6 +22,13 @@ QUndoStack* stackOf(QWidget* widget) {
     if (auto* form = qobject_cast<ExperimentForm*>(widget)) return &form->undoStack();
     if (auto* sheet = qobject_cast<MeasurementSheet*>(widget)) return &sheet->model().undoStack();
   }
+  return nullptr;
+}
+
+/// The running world that a widget belongs to, or null.
+const LivePage* sceneOf(const QWidget* widget) {
+  for (; widget; widget = widget->parentWidget())
+    if (const auto* page = qobject_cast<const LivePage*>(widget)) return page;
   return nullptr;
 }
 
@@ -70,8 +78,9 @@ void makeEditMenu(QMainWindow& window) {
     QWidget* focus = QApplication::focusWidget();
     const QUndoStack* stack = stackOf(focus);
     const auto* line = qobject_cast<QLineEdit*>(focus);
-    undo->setEnabled(stack ? stack->canUndo() : line && line->isUndoAvailable());
-    redo->setEnabled(stack ? stack->canRedo() : line && line->isRedoAvailable());
+    const LivePage* scene = sceneOf(focus);
+    undo->setEnabled(stack ? stack->canUndo() : scene ? scene->canUndo() : line && line->isUndoAvailable());
+    redo->setEnabled(stack ? stack->canRedo() : scene ? scene->canRedo() : line && line->isRedoAvailable());
     for (QAction* action : others) action->setEnabled(focus);
   });
   // Closed, they can always be triggered: what does not fit does nothing.

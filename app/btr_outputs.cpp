@@ -11,9 +11,9 @@ namespace btr::cli {
 namespace {
 
 // What is read: arguments without a name, and these.
-constexpr std::array<std::string_view, 10> reading{"--recording", "--held-out",  "--mapping", "--simulator",
-                                                   "--scene",     "--report",    "--scenes",  "--camera",
-                                                   "--photos",    "--renderings"};
+constexpr std::array<std::string_view, 12> reading{"--recording", "--held-out",   "--mapping", "--simulator",
+                                                   "--scene",     "--report",     "--scenes",  "--camera",
+                                                   "--photos",    "--renderings", "--points",  "--poses"};
 
 // The command's own options, and those of the command that it is a part of.
 std::vector<const CLI::Option*> givenTo(const CLI::App& command) {

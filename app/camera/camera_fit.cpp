@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/camera/camera_commands.h"
+#include "core/camera/point_files.h"
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"
@@ -14,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FitArguments {
-  std::string board, photos, camera, out;
+  std::string board, photos, points, poses, camera, out;
   double square_m = 0.025;
   TwinOptions options;
 };
@@ -28,12 +29,13 @@ BoardPattern boardOf(const FitArguments& a) {
   return {columns, rows, a.square_m};
 }
 
-void fitBoard(const FitArguments& a, const Shell& shell) {
+/// The board in each photograph; those that do not show all of it are named in `unseen`.
+std::vector<PointView> boardViews(const FitArguments& a, const CameraSpec& spec, const Shell& shell,
+                                  std::vector<std::string>& unseen) {
   const BoardPattern board = boardOf(a);
-  const CameraSpec spec = loadCamera(a.camera);
   std::vector<PointView> views;
-  std::vector<std::string> unseen;
   for (const std::string& path : picturesIn(a.photos)) {
+    if (*shell.stop) throw InputError("stopped before anything was written");
     const RgbPicture photo = readPicture(path);
     if (photo.width != spec.width || photo.height != spec.height)
       throw InputError(path, std::to_string(photo.width) + "x" + std::to_string(photo.height) + " pixels",
@@ -43,10 +45,29 @@ void fitBoard(const FitArguments& a, const Shell& shell) {
       views.push_back(std::move(*view));
     else
       unseen.push_back(name);
-    if (*shell.stop) throw InputError("stopped before anything was written");
   }
   for (const std::string& name : unseen)
     std::fprintf(stderr, "%s: the board's %s corners are not all found; left out\n", name.c_str(), a.board.c_str());
+  return views;
+}
+
+void addPoses(std::vector<PointView>& views, const std::string& path, const CameraSpec& spec, bool isBoard) {
+  const std::map<std::string, ViewPose> poses = readPoses(path);
+  for (PointView& view : views) {
+    const auto pose = poses.find(view.name);
+    if (pose == poses.end()) throw InputError(path + ": has no pose of " + view.name);
+    view = withPose(std::move(view), pose->second, spec, isBoard);
+  }
+}
+
+void fitLensCommand(const FitArguments& a, const Shell& shell) {
+  const CameraSpec spec = loadCamera(a.camera);
+  const bool isBoard = a.points.empty();
+  if (isBoard && (a.board.empty() || a.photos.empty()))
+    throw InputError("what is seen", "neither", "--board with --photos, or --points");
+  std::vector<std::string> unseen;
+  std::vector<PointView> views = isBoard ? boardViews(a, spec, shell, unseen) : readPoints(a.points);
+  if (!a.poses.empty()) addPoses(views, a.poses, spec, isBoard);
   const CameraTwin twin = fitLens(spec, views, a.options);
   writeFile(a.out, toJsonText(twin.spec));
   printTwin(twin, "px", shell, {{"left_out", unseen}, {"camera", a.out}});
@@ -106,18 +127,22 @@ void printTwin(const CameraTwin& twin, const std::string& unit, const Shell& she
 void addFitCommand(CLI::App& app, Shell& shell) {
   auto a = std::make_shared<FitArguments>();
   CLI::App* fit = app.add_subcommand("fit", "focal length, centre and lens from photographs of a chessboard");
-  fit->add_option("--board", a->board, "its inner corners, for example 9x6")->required();
+  CLI::Option* board = fit->add_option("--board", a->board, "its inner corners, for example 9x6");
   fit->add_option("--square_m", a->square_m, "side of a square [m]")
       ->transform(decimalNumber(1e-4, 10))
       ->capture_default_str();
-  fit->add_option("--photos", a->photos, "folder of photographs")->required();
+  CLI::Option* photos = fit->add_option("--photos", a->photos, "folder of photographs")->needs(board);
+  fit->add_option("--points", a->points, "table of points and their pixels instead (CSV)")
+      ->excludes(board)
+      ->excludes(photos);
+  fit->add_option("--poses", a->poses, "table of where the camera was, if that was measured (CSV)");
   fit->add_option("--camera", a->camera, "the camera as it is thought to be")->required();
   fit->add_option("--held-out", a->options.heldOutShare, "share of the photographs that no fit sees")
       ->transform(decimalNumber(0.01, 0.9))
       ->capture_default_str();
   fit->add_option("--seed", a->options.seed, "which those are")->transform(seedNumber())->capture_default_str();
   shell.writesFile(fit, fit->add_option("--out", a->out, "writes the camera as it was found")->required());
-  fit->callback([a, &shell] { fitBoard(*a, shell); });
+  fit->callback([a, &shell] { fitLensCommand(*a, shell); });
 }
 
 }  // namespace btr::cli

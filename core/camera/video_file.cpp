@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -31,6 +32,9 @@ std::string unfinishedName(const fs::path& path) {
   return (path.parent_path() / (name + path.extension().string())).string();
 }
 
+// What is wrong is said once, by us: FFmpeg's own lines on standard error are switched off, unless somebody wants them.
+void silenceFfmpeg() { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); }
+
 }  // namespace
 
 struct VideoWriter::Parts {
@@ -56,6 +60,7 @@ VideoWriter::VideoWriter(const std::string& path, int width, int height, double 
     throw InputError(path, std::to_string(width) + "x" + std::to_string(height) + " pixels",
                      "an even number of columns and rows, as H.264 wants it");
   checkOutputFile(path, {});
+  silenceFfmpeg();
   parts_->path = path;
   parts_->width = width;
   parts_->height = height;
@@ -110,6 +115,7 @@ void VideoWriter::finish() {
 VideoFacts readVideoFacts(const std::string& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) throw InputError(path + ": is no file");
+  silenceFfmpeg();
   cv::VideoCapture video(path, cv::CAP_FFMPEG);
   if (!video.isOpened()) throw InputError(path + ": is no video that FFmpeg reads");
   VideoFacts facts;

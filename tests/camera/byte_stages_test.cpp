@@ -60,10 +60,10 @@ TEST(CameraYcbcr, AgreesWithOpenCv) {
 }
 
 TEST(CameraYcbcr, PairsShareTheirColourAndKeepTheirLight) {
-  const CameraPipeline camera(with(plainCamera(4, 2 + 6), CameraStage::ycbcr));
+  const CameraPipeline camera(with(plainCamera(8, 8), CameraStage::ycbcr));
   const PinholePicture picture = drawn(camera.pinhole(), [](int x, int, float* rgb) { rgb[x % 2 == 0 ? 0 : 2] = 1; });
   const CameraFrame frame = processOne(camera, picture);
-  ASSERT_EQ(frame.ycbcr.size(), 2u * 4 * 8);
+  ASSERT_EQ(frame.ycbcr.size(), 2u * 8 * 8);
   // Red and blue: Y 76 and 29, Cb (84.97 + 255.5)/2, Cr (255.5 + 107.26)/2.
   EXPECT_EQ(frame.ycbcr[0], 76);
   EXPECT_EQ(frame.ycbcr[1], 170);

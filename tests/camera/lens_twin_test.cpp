@@ -83,7 +83,9 @@ Photographs photographed(const CameraSpec& hidden, int count, Random& random) {
 class ConcealedCamera : public ::testing::TestWithParam<int> {};
 
 // The twin sees photographs only. Bounds: four standard deviations that the twin states itself; and the error on
-// photographs that no fit saw is that of finding the corners (which the test knows, the twin does not), plus a tenth.
+// photographs that no fit saw is that of finding the corners, which the test knows and the twin does not. A pose (6
+// numbers) from 27 corners (54 numbers) adds 6/54 to its square; that of 5 photographs with 27 corners each deviates by
+// 1/√(2·270), of which three are allowed.
 TEST_P(ConcealedCamera, IsFoundWithinTheStatedUncertainty) {
   Random random = Random::forPurpose(static_cast<std::uint64_t>(GetParam()), "concealed camera");
   const CameraSpec hidden = concealedCamera(random);
@@ -103,7 +105,7 @@ TEST_P(ConcealedCamera, IsFoundWithinTheStatedUncertainty) {
   }
   std::cout << "held out " << twin.heldOutBefore << " px before, " << twin.heldOutAfter << " after; corners "
             << photos.cornerNoise_px << "\n";
-  EXPECT_LT(twin.heldOutAfter, 1.1 * photos.cornerNoise_px + 1e-9);
+  EXPECT_LT(twin.heldOutAfter, std::sqrt(1 + 6.0 / 54) * (1 + 3 / std::sqrt(540.0)) * photos.cornerNoise_px);
   EXPECT_GT(twin.heldOutBefore, 5 * twin.heldOutAfter);
 }
 
@@ -190,8 +192,9 @@ TEST(LensTwin, FindsNoBoardWhereThereIsNone) {
   EXPECT_FALSE(boardView({64, 48, std::vector<std::uint8_t>(3 * 64 * 48, 128)}, twinBoard, "grey"));
 }
 
-// 13 photographs of a board of 9 × 6 inner corners, 640 × 480. OpenCV's tutorial states a mean error below 0.5 px, and
-// focal lengths near 536 px with the default five terms.
+// 13 photographs of a board of 9 × 6 inner corners, 640 × 480. left_intrinsics.yml beside them has what OpenCV's own
+// calibration program found from all 13 with square pixels: focal length 535.92 px, centre (342.28, 235.57), average
+// reprojection error of the fitted photographs 0.393 px.
 TEST(LensTwin, PublicBoardPictures) {
   const std::string folder = "/usr/share/doc/opencv-doc/examples/data/";
   if (!std::filesystem::exists(folder + "left01.jpg")) GTEST_SKIP() << "needs Debian's package opencv-doc";
@@ -215,9 +218,10 @@ TEST(LensTwin, PublicBoardPictures) {
     std::cout << n.name << " " << n.after << " ± " << n.deviation << (n.identified ? "\n" : " not told\n");
   std::cout << "held out " << twin.heldOutBefore << " px before, " << twin.heldOutAfter << " after; fitted "
             << twin.fittedAfter << "\n";
-  EXPECT_LT(twin.heldOutAfter, 0.5);
+  EXPECT_LT(twin.heldOutAfter, 0.393);
   EXPECT_GT(twin.heldOutBefore, 2 * twin.heldOutAfter);
-  EXPECT_NEAR(twin.spec.focal_px, 536, 10);
+  const double published[] = {535.92, 342.28, 235.57};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(twin.numbers[i].after, published[i], 4 * twin.numbers[i].deviation);
 }
 
 }  // namespace

@@ -41,6 +41,15 @@ TEST(CameraColour, FilterIsAMatrixAndGains) {
   EXPECT_NEAR(picture.rgb[2], 1.5 * 0.2, 1e-6);
 }
 
+TEST(CameraColour, WhiteIsBalancedBeforeTheFilter) {
+  const CameraSpec spec =
+      with(plainCamera(), CameraStage::colour,
+           {{"light_k", 3000}, {"balance_k", 3000}, {"red_from_red", 0.7}, {"red_from_green", 0.3}});
+  LightPicture picture = evenLight(spec, 1, 1, 1);
+  ColourFilter(spec).apply(picture);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(picture.rgb[c], 1, 1e-6);
+}
+
 TEST(CameraColour, WhiteIsWhiteOnlyUnderTheLightItIsBalancedFor) {
   const auto white = [](double light, double balance) {
     const CameraSpec spec = with(plainCamera(), CameraStage::colour, {{"light_k", light}, {"balance_k", balance}});

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,6 +14,8 @@
 #include "core/camera/video_file.h"
 #include "core/spec/csv.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/process.h"
+#include "core/spec/random.h"
 #include "tests/camera/pictures.h"
 #include "tests/refusal.h"
 
@@ -110,6 +114,26 @@ TEST_F(CameraFiles, AVideoThatCannotBeIsRefused) {
   EXPECT_THAT(refusal([&] { VideoWriter(file("a.mp4"), 64, 48, 30).finish(); }), HasSubstr("without a frame"));
   writeFile(file("text.mp4"), "no video");
   EXPECT_THAT(refusal([&] { readVideoFacts(file("text.mp4")); }), HasSubstr("is no video"));
+}
+
+// A limit of the size of files is to the writer what a full disk is.
+TEST_F(CameraFiles, AVideoThatTheDiskDoesNotTakeIsRefused) {
+  beginProgram();  // without it the system ends a program that goes beyond the limit
+  Random random(1);
+  RgbPicture snow{208, 160, std::vector<std::uint8_t>(3 * 208 * 160)};
+  VideoWriter video(file("a.mp4"), 208, 160, 30);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{20'000, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  for (int i = 0; i < 60; ++i) {
+    for (std::uint8_t& byte : snow.rgb) byte = static_cast<std::uint8_t>(random.below(256));
+    video.add(snow);
+  }
+  const std::string said = refusal([&] { video.finish(); });
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_THAT(said, HasSubstr("of 60 frames could be written"));
+  EXPECT_FALSE(fs::exists(file("a.mp4")));
 }
 
 TEST_F(CameraFiles, TruthIsATableWithAColumnForEachNumber) {

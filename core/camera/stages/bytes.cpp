@@ -29,34 +29,34 @@ std::array<float, 3> YcbcrCode::coded(float r, float g, float b) const {
 }
 
 std::array<std::uint8_t, 3> YcbcrCode::rgb(float y, float cb, float cr) const {
-  const float luma = (y - black_) / lightSpan_;
-  const float r = luma + redScale * (cr - 128) / colourSpan_, b = luma + blueScale * (cb - 128) / colourSpan_;
-  const float g = (luma - lumaRed * r - lumaBlue * b) / lumaGreen;
+  const float luma = (y - black_) * (1 / lightSpan_);
+  const float r = luma + redScale * (cr - 128) * (1 / colourSpan_),
+              b = luma + blueScale * (cb - 128) * (1 / colourSpan_);
+  const float g = (luma - lumaRed * r - lumaBlue * b) * (1 / lumaGreen);
   return {toByte(255 * r), toByte(255 * g), toByte(255 * b)};
 }
 
 std::vector<std::uint8_t> YcbcrCode::pairs(const LightPicture& picture) const {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(picture.rgb.size() / 3 * 2);
-  for (std::size_t i = 0; i + 5 < picture.rgb.size(); i += 6) {
-    const float* p = picture.rgb.data() + i;
+  std::vector<std::uint8_t> bytes(picture.rgb.size() / 3 * 2);
+  const float* p = picture.rgb.data();
+  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4, p += 6) {
     const auto left = coded(withinUnit(p[0]), withinUnit(p[1]), withinUnit(p[2]));
     const auto right = coded(withinUnit(p[3]), withinUnit(p[4]), withinUnit(p[5]));
-    bytes.push_back(toByte(left[0]));
-    bytes.push_back(toByte((left[1] + right[1]) / 2));
-    bytes.push_back(toByte(right[0]));
-    bytes.push_back(toByte((left[2] + right[2]) / 2));
+    bytes[i] = toByte(left[0]);
+    bytes[i + 1] = toByte((left[1] + right[1]) / 2);
+    bytes[i + 2] = toByte(right[0]);
+    bytes[i + 3] = toByte((left[2] + right[2]) / 2);
   }
   return bytes;
 }
 
 std::vector<std::uint8_t> YcbcrCode::rgbOfPairs(const std::vector<std::uint8_t>& pairs) const {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(pairs.size() / 2 * 3);
-  for (std::size_t i = 0; i < pairs.size(); i += 4)
+  std::vector<std::uint8_t> bytes(pairs.size() / 2 * 3);
+  std::uint8_t* to = bytes.data();
+  for (std::size_t i = 0; i + 3 < pairs.size(); i += 4)
     for (const std::size_t y : {i, i + 2}) {
       const auto colour = rgb(pairs[y], pairs[i + 1], pairs[i + 3]);
-      bytes.insert(bytes.end(), colour.begin(), colour.end());
+      for (const std::uint8_t byte : colour) *to++ = byte;
     }
   return bytes;
 }

@@ -9,7 +9,8 @@ namespace btr {
 
 /// The nearest whole number from 0 to 255.
 inline std::uint8_t toByte(float value) {
-  return static_cast<std::uint8_t>(value <= 0 ? 0 : value >= 255 ? 255 : static_cast<int>(value + 0.5f));
+  const float within = value < 0 ? 0.0f : value > 255 ? 255.0f : value;
+  return static_cast<std::uint8_t>(static_cast<int>(within + 0.5f));
 }
 
 /// 0 to 1 as 0 to 255.

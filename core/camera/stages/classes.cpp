@@ -24,20 +24,18 @@ std::uint8_t ColourTable::classOf(std::uint8_t y, std::uint8_t cb, std::uint8_t 
 }
 
 std::vector<std::uint8_t> ColourTable::ofPairs(const std::vector<std::uint8_t>& pairs) const {
-  std::vector<std::uint8_t> classes;
-  classes.reserve(pairs.size() / 2);
-  for (std::size_t i = 0; i < pairs.size(); i += 4)
-    for (const std::size_t y : {i, i + 2}) classes.push_back(classOf(pairs[y], pairs[i + 1], pairs[i + 3]));
+  std::vector<std::uint8_t> classes(pairs.size() / 2);
+  for (std::size_t i = 0; i + 3 < pairs.size(); i += 4)
+    for (const std::size_t y : {i, i + 2}) classes[y / 2] = classOf(pairs[y], pairs[i + 1], pairs[i + 3]);
   return classes;
 }
 
 std::vector<std::uint8_t> ColourTable::ofRgb(const std::vector<std::uint8_t>& rgb) const {
   const YcbcrCode code(false);
-  std::vector<std::uint8_t> classes;
-  classes.reserve(rgb.size() / 3);
-  for (std::size_t i = 0; i < rgb.size(); i += 3) {
+  std::vector<std::uint8_t> classes(rgb.size() / 3);
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
     const auto colour = code.coded(rgb[i] / 255.0f, rgb[i + 1] / 255.0f, rgb[i + 2] / 255.0f);
-    classes.push_back(classOf(toByte(colour[0]), toByte(colour[1]), toByte(colour[2])));
+    classes[i / 3] = classOf(toByte(colour[0]), toByte(colour[1]), toByte(colour[2]));
   }
   return classes;
 }

@@ -28,8 +28,8 @@ ColourFilter::ColourFilter(const CameraSpec& spec) {
   for (std::size_t row = 0; row < 3; ++row) {
     const std::string to = channelNames[row];
     for (std::size_t column = 0; column < 3; ++column)
-      matrix_[3 * row + column] = static_cast<float>(number(to + "_gain") / white[row] *
-                                                     number(to + "_from_" + channelNames[column]) * light[column]);
+      matrix_[3 * row + column] = static_cast<float>(
+          number(to + "_gain") * number(to + "_from_" + channelNames[column]) * light[column] / white[column]);
   }
   const std::vector<float> squares = squaredRadii(spec);
   casts_.resize(3 * squares.size());

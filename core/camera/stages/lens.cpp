@@ -106,8 +106,9 @@ float LensMap::rayLength(std::size_t pixel) const {
   const std::size_t width = static_cast<std::size_t>(width_);
   const double x = identity_ ? static_cast<double>(pixel % width) : x_px_[pixel];
   const double y = identity_ ? static_cast<double>(pixel / width) : y_px_[pixel];
-  return static_cast<float>(
-      std::hypot(1.0, (x - pinhole_.centreX_px) / pinhole_.focal_px, (y - pinhole_.centreY_px) / pinhole_.focal_px));
+  const double right = (x - pinhole_.centreX_px) / pinhole_.focal_px;
+  const double down = (y - pinhole_.centreY_px) / pinhole_.focal_px;
+  return static_cast<float>(std::sqrt(1 + right * right + down * down));
 }
 
 }  // namespace btr

@@ -28,16 +28,16 @@ PictureTruth truthOf(const PinholePicture& picture, const LensMap& lens, int wid
   truth.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
   truth.object.assign(pixels, 0);
   std::vector<SeenObject> all;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::size_t from = lens.nearest(i);
-    if (!picture.depth_m.empty()) truth.depth_m[i] = picture.depth_m[from];
-    if (picture.object.empty()) continue;
-    const std::uint16_t object = truth.object[i] = picture.object[from];
-    if (object == 0) continue;
-    if (object >= all.size()) all.resize(object + 1u);
-    addSeenPixel(all[object], static_cast<int>(i % static_cast<std::size_t>(width)),
-                 static_cast<int>(i / static_cast<std::size_t>(width)), truth.depth_m[i] * lens.rayLength(i));
-  }
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++i) {
+      const std::size_t from = lens.nearest(i);
+      if (!picture.depth_m.empty()) truth.depth_m[i] = picture.depth_m[from];
+      if (picture.object.empty() || picture.object[from] == 0) continue;
+      const std::uint16_t object = truth.object[i] = picture.object[from];
+      if (object >= all.size()) all.resize(object + 1u);
+      addSeenPixel(all[object], x, y, truth.depth_m[i] * lens.rayLength(i));
+    }
   for (std::size_t number = 1; number < all.size(); ++number) {
     SeenObject& seen = all[number];
     if (seen.pixels == 0) continue;

@@ -37,8 +37,9 @@ TEST(NumberGroups, every_key_is_one_of_a_simulator_and_a_links_number_is_read_ba
       if (group.of != NumberGroup::Of::link) continue;
       const ModelSet after{{game.scene.robots[0].model, std::make_shared<const RobotModel>(changed.robots[0].model)}};
       for (const NumberGroup& now : numberGroups(game, after, "dog"))
-        if (now.of == group.of && now.item == group.item)
+        if (now.of == group.of && now.item == group.item) {
           EXPECT_NEAR(now.usual.at(parameter.name), wanted, 1e-12) << key;
+        }
     }
   EXPECT_GT(keys, 18 * 5 + 18 * 7);  // its joints' servos, its links
 }

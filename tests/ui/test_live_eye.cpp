@@ -18,12 +18,12 @@ namespace {
 constexpr double period_s = 0.008;
 
 /// An ERS-7 that stands 0.2 m high at the origin and looks along x, and a ball.
-struct World {
+struct DogAndBall {
   Game game;
   ModelSet models;
   std::vector<std::string> channels{"time_s"};
 
-  World() {
+  DogAndBall() {
     RobotSpec robot;
     robot.name = "dog";
     robot.model = SOURCE_DIR "/resources/robots/ers7.wrl";
@@ -89,7 +89,7 @@ class TestLiveEye : public QObject {
 };
 
 void TestLiveEye::framesComeAtTheCamerasRate() {
-  const World world;
+  const DogAndBall world;
   LiveEye eye(world.game, world.models, world.channels, "dog", plainCamera());
   std::vector<double> times;
   for (int i = 0; i <= 125; ++i) {
@@ -104,7 +104,7 @@ void TestLiveEye::framesComeAtTheCamerasRate() {
 }
 
 void TestLiveEye::theBallIsWhereItProjectsTo() {
-  const World world;
+  const DogAndBall world;
   const CameraSpec camera = plainCamera();
   LiveEye eye(world.game, world.models, world.channels, "dog", camera);
   const Isometry3d pose = world.cameraPose(camera);
@@ -120,7 +120,7 @@ void TestLiveEye::theBallIsWhereItProjectsTo() {
 }
 
 void TestLiveEye::aFrameStandsBetweenRows() {
-  const World world;
+  const DogAndBall world;
   const CameraSpec camera = plainCamera();
   LiveEye eye(world.game, world.models, world.channels, "dog", camera);
   const Isometry3d pose = world.cameraPose(camera);
@@ -141,7 +141,7 @@ void TestLiveEye::aFrameStandsBetweenRows() {
 }
 
 void TestLiveEye::timeThatGoesBackBeginsAnew() {
-  const World world;
+  const DogAndBall world;
   LiveEye eye(world.game, world.models, world.channels, "dog", plainCamera());
   for (int i = 0; i <= 25; ++i) eye.add(world.row(1 + i * period_s, {1, 0, 0.3}));
   QCOMPARE(eye.next()->number, std::uint64_t(30));
@@ -151,7 +151,7 @@ void TestLiveEye::timeThatGoesBackBeginsAnew() {
 }
 
 void TestLiveEye::theSameRowsGiveTheSameBytes() {
-  const World world;
+  const DogAndBall world;
   const CameraSpec camera = loadCamera(SOURCE_DIR "/resources/cameras/ers7.json");
   const auto bytes = [&] {
     LiveEye eye(world.game, world.models, world.channels, "dog", camera);
@@ -168,7 +168,7 @@ void TestLiveEye::theSameRowsGiveTheSameBytes() {
 }
 
 void TestLiveEye::whatIsNotThereIsNamed() {
-  const World world;
+  const DogAndBall world;
   const auto refused = [&](const std::string& robot, const CameraSpec& camera) {
     try {
       LiveEye(world.game, world.models, world.channels, robot, camera);
@@ -186,7 +186,7 @@ void TestLiveEye::whatIsNotThereIsNamed() {
 }
 
 void TestLiveEye::viewsGoWithTheWorld() {
-  const World world;
+  const DogAndBall world;
   const LiveScene scene(world.game, world.models, world.channels);
   const LiveRow row = world.row(0, {1, 2, 0.3});
   const ViewCamera before;

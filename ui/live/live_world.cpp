@@ -17,7 +17,12 @@ struct Changer {
   Game& game;
 
   void operator()(const ParameterAct& act) const {
-    if (auto& controller = game.robots[act.robot].controller) controller->parameters[act.name] = act.value;
+    auto& controller = game.robots[act.robot].controller;
+    if (!controller) return;
+    if (act.value)
+      controller->parameters[act.name] = *act.value;
+    else
+      controller->parameters.erase(act.name);
   }
   void operator()(const ControllerAct& act) const { game.robots[act.robot].controller = act.controller; }
   void operator()(const NumberAct& act) const {

@@ -150,9 +150,9 @@ void TestLiveViews::trailsAreWaysThatWereGone() {
     channels.push_back(std::string("ball.") + part);
   const LiveScene scene(game, {}, channels);
   LiveTrails trails;
-  for (int i = 0; i <= 100; ++i) trails.add(scene, rowAt(0.01 * i, 0.001 * i));  // 0.1 m/s
+  for (int i = 0; i <= 100; ++i) trails.add(scene, rowAt(0.01 * i, 0.0015 * i));  // 0.15 m/s
   QCOMPARE(trails.ways().size(), std::size_t(1));
-  QCOMPARE(trails.ways()[0].size(), std::size_t(26));  // 100 mm, a place every 4 mm
+  QCOMPARE(trails.ways()[0].size(), std::size_t(34));  // a place every 3 rows: 4.5 mm
   trails.add(scene, rowAt(1.01, 5));                   // put elsewhere
   QCOMPARE(trails.ways()[0].size(), std::size_t(1));
   trails.add(scene, rowAt(0, 0));  // time goes back

@@ -37,6 +37,11 @@ QDockWidget* LiveDesk::addDock(QWidget* content, const QString& title, Qt::DockW
   dock->setAttribute(Qt::WA_DeleteOnClose);
   dock->setWidget(content);
   addDockWidget(area, dock);
+  // So that the main view stays the largest.
+  if (area == Qt::RightDockWidgetArea)
+    resizeDocks({dock}, {width() / 3}, Qt::Horizontal);
+  else
+    resizeDocks({dock}, {height() * 2 / 5}, Qt::Vertical);
   return dock;
 }
 

@@ -111,14 +111,21 @@ void LiveEye::catchUp() {
   while (isComplete(next_ + 1)) ++next_;
 }
 
-PinholePicture LiveEye::look(const LiveRow& row) {
+PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside) {
   const ScenePose pose = scene_.pose(row);
   builder_.setPose(pose);
   PinholePicture picture;
-  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pipeline_.pinhole(),
-                      builder_.renderOptions(), picture))
+  RenderOptions options = builder_.renderOptions();
+  Pinhole pinhole = pipeline_.pinhole();
+  if (aside) {
+    options.supersampling = 1;
+    pinhole.centreX_px -= aside->x();
+    pinhole.centreY_px -= aside->y();
+  }
+  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pinhole, options, picture))
     throw InputError("camera", "OpenGL: " + renderer_.problem().toStdString(),
                      "a machine with OpenGL; Mesa's software driver will do (libegl-mesa0, libgl1-mesa-dri)");
+  picture.pinhole = pipeline_.pinhole();
   return picture;
 }
 
@@ -128,7 +135,15 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
   frame.number = number;
   frame.time_s = time_s;
   std::vector<PinholePicture> pictures;
-  for (const LiveRow& moment : moments) pictures.push_back(look(moment));
+  // The shutter averages over moments: each takes one sample a pixel, at another place in it. The middle one, which the
+  // truth is read from, takes it in the middle.
+  const std::size_t middle = moments.size() / 2;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    constexpr double third = 1.0 / 3;
+    const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
+    pictures.push_back(moments.size() == 1 ? look(moments[i])
+                                           : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side)));
+  }
   frame.picture = pipeline_.process(pictures, number);
   for (const int joint : joints_) frame.joints.push_back(now.values.at(static_cast<std::size_t>(joint)));
   return frame;

@@ -44,6 +44,10 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   speed_->setCurrentIndex(3);
   connect(speed_, &QComboBox::activated, this, [this] { emit speedChosen(speed()); });
   addWidget(speed_);
+  clock_ = new QLabel(this);
+  clock_->setObjectName("liveClock");
+  clock_->setContentsMargins(6, 0, 6, 0);
+  addWidget(clock_);
   addSeparator();
   undo_ = add("liveUndo", "edit-undo", tr("&Undo"), {});
   connect(undo_, &QAction::triggered, this, &LiveTools::undoChosen);
@@ -88,10 +92,6 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   score_->setTextFormat(Qt::PlainText);
   scoreAction_ = addWidget(score_);
   scoreAction_->setVisible(false);
-  clock_ = new QLabel(this);
-  clock_->setObjectName("liveClock");
-  clock_->setContentsMargins(6, 0, 6, 0);
-  addWidget(clock_);
 }
 
 QAction* LiveTools::add(const QString& name, const QString& icon, const QString& text, const QString& tip) {

@@ -148,7 +148,9 @@ void SimulatorPanel::connectDrags(SliderForm& form) {
 
 void SimulatorPanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  if (stale_) showObjects();
+  if (!stale_) return;
+  showObjects();
+  showSelected();
 }
 
 std::string SimulatorPanel::whose() const { return whose_->currentData().toString().toStdString(); }

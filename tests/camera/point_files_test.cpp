@@ -22,7 +22,8 @@ class PointFiles : public ::testing::Test {
     writeFile(path_, text);
     return path_;
   }
-  const std::string path_ = ::testing::TempDir() + "/point_files_test.csv";
+  const std::string path_ =
+      ::testing::TempDir() + "/point_files_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
 };
 
 TEST_F(PointFiles, PointsBelongToTheirViews) {

@@ -9,7 +9,7 @@ namespace {
 constexpr float lumaRed = 0.299f, lumaGreen = 0.587f, lumaBlue = 0.114f;
 constexpr float blueScale = 1.772f, redScale = 1.402f;
 
-float withinUnit(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
+float withinUnit(float value) { return std::min(std::max(0.0f, value), 1.0f); }
 
 }  // namespace
 

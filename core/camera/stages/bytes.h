@@ -7,9 +7,9 @@
 
 namespace btr {
 
-/// The nearest whole number from 0 to 255.
+/// The nearest whole number from 0 to 255; what is no number is 0.
 inline std::uint8_t toByte(float value) {
-  const float within = value < 0 ? 0.0f : value > 255 ? 255.0f : value;
+  const float within = value > 0 ? (value < 255 ? value : 255.0f) : 0.0f;
   return static_cast<std::uint8_t>(static_cast<int>(within + 0.5f));
 }
 

@@ -16,7 +16,7 @@ GammaCurve::GammaCurve(const CameraSpec& spec) : table_(gammaSteps + 2) {
 
 void GammaCurve::apply(LightPicture& picture) const {
   for (float& value : picture.rgb) {
-    const float place = std::min(std::max(value, 0.0f), 1.0f) * gammaSteps;
+    const float place = std::min(std::max(0.0f, value), 1.0f) * gammaSteps;
     const auto index = static_cast<std::size_t>(place);
     value = table_[index] + (place - static_cast<float>(index)) * (table_[index + 1] - table_[index]);
   }

@@ -55,7 +55,7 @@ void SensorNoise::apply(LightPicture& picture, std::uint64_t frameNumber) const 
     std::uint64_t bits = random.next();
     for (std::size_t k = i; k < std::min(i + 4, values); ++k, bits >>= quantileBits) {
       const float signal = picture.rgb[k];
-      const float deviation = std::sqrt(readVariance_ + shot_ * std::max(signal, 0.0f));
+      const float deviation = std::sqrt(readVariance_ + shot_ * std::max(0.0f, signal));
       picture.rgb[k] =
           amplifier_ * (signal * gains_[k] + offsets_[k] + deviation * quantiles[bits & (quantileCount - 1)]);
     }

@@ -20,9 +20,10 @@ void main() {
 )";
 
 // opacity: of surfaces, 1.
-// measured: 1 gives plain carpets (their grain costs half of the time of a software driver), linear light, and in alpha the number of the object (`identity`; 0: translucent, alpha is opacity).
-// gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the world's z axis at which
-// a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
+// measured: 1 gives plain carpets (their grain costs half of the time of a software driver), linear light, and in alpha
+// the number of the object (`identity`; 0: translucent, alpha is opacity). gloss: strength of the highlight; unlit: 1
+// shows the colour as it is; fade: distance from the world's z axis at which a ground sinks into the horizon (0:
+// never); weave: strength of the carpet's grain.
 const char* const kMainFragment = R"(#version 120
 uniform vec3 skyTop;
 uniform vec3 skyHorizon;

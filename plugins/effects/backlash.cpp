@@ -26,6 +26,11 @@ class Backlash final : public btr::Effect {
             {"free_speed_rad_s_nm", "rad/(s·N·m)",
              "speed of the motor per torque while it crosses the gap, m/(s·N) on a slide joint", 1, 100, 6}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gear, "gear play: the drive reaches the joint only after crossing a gap",
+            "τ_joint = τ on the flank that τ pushes, 0 inside the gap of width w", "w: width_rad",
+            "Nordin and Gutman 2002"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::gear; }
   int stateSize() const override { return 1; }

@@ -18,6 +18,11 @@ class GearElasticity final : public btr::Effect {
              1e-3, 0.0},
             {"damping_nm_s_rad", "N·m·s/rad", "torque per speed of the spring, N·s/m on a slide joint", 0, 2000, 0.05}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gear, "a gear that gives way, with the rotor’s inertia behind it",
+            "J·θ̈ = τ − s,  s = (θ − q)/c + d·(θ̇ − q̇)",
+            "c: compliance_rad_nm; J: rotor_inertia_kg_m2; d: damping_nm_s_rad; q: joint, θ: rotor", "Spong 1987"};
+  }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"rotor_inertia"}; }
 

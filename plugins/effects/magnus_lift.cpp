@@ -13,6 +13,10 @@ class MagnusLift final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"lift_number", "", "lift coefficient per ratio of spin to speed", -2, 6, 1, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::air, "lift of a spinning ball", "F = ½·ρ·π·r^3·l·(ω × v)",
+            "l: lift_number; ω: spin; ρ = 1.2 kg/m³", "Robins 1742; Magnus 1852; Rubinow and Keller 1961"};
+  }
   Place place() const override { return Place::ball; }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {

@@ -70,17 +70,24 @@ json toJson(const GapReport::Effect& e) {
     rivals.push_back({{"effect", r.effect}, {"at", r.at}, {"heldout_error_ratio", finite(r.heldoutErrorRatio)}});
     if (!r.with.empty()) rivals.back()["together_with"] = r.with;
   }
-  return {{"effect", e.effect},
-          {"at", e.at},
-          {"parameters", toJson(e.parameters, false)},
-          {"heldout_error_reduction", finite(e.heldoutErrorReduction)},
-          {"p_value", finite(e.pValue)},
-          {"q_value", finite(e.qValue)},
-          {"indistinguishable_from", rivals},
-          {"accepted", e.accepted},
-          {"reason", e.reason},
-          {"screen_rank", e.screenRank},
-          {"screen_share", finite(e.screenShare)}};
+  json effect{{"effect", e.effect},
+              {"at", e.at},
+              {"parameters", toJson(e.parameters, false)},
+              {"heldout_error_reduction", finite(e.heldoutErrorReduction)},
+              {"p_value", finite(e.pValue)},
+              {"q_value", finite(e.qValue)},
+              {"indistinguishable_from", rivals},
+              {"accepted", e.accepted},
+              {"reason", e.reason},
+              {"screen_rank", e.screenRank},
+              {"screen_share", finite(e.screenShare)}};
+  if (!e.law.says.empty())
+    effect["law"] = {{"acts_on", toText(e.law.acts)},
+                     {"says", e.law.says},
+                     {"equation", e.law.equation},
+                     {"symbols", e.law.symbols},
+                     {"source", e.law.source}};
+  return effect;
 }
 
 json toJson(const GapReport::Channel& c) {

@@ -1,4 +1,5 @@
 // report.json back into a value. What is not in it stands in the tables beside it (report_files.cpp).
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,23 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   return n;
 }
 
+EffectLaw lawFrom(JsonReader r) {
+  using Acts = EffectLaw::Acts;
+  const std::vector all{Acts::notSaid, Acts::command, Acts::drive, Acts::gear,    Acts::joint,
+                        Acts::link,    Acts::gravity, Acts::air,   Acts::contact, Acts::sensor};
+  std::vector<std::string> words;
+  for (const Acts acts : all) words.emplace_back(toText(acts));
+  EffectLaw law;
+  const std::string word = r.word("acts_on", words);
+  law.acts = *std::ranges::find_if(all, [&](Acts acts) { return word == toText(acts); });
+  law.says = r.text("says");
+  law.equation = r.text("equation");
+  law.symbols = r.text("symbols");
+  law.source = r.text("source");
+  r.finish();
+  return law;
+}
+
 GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   GapReport::Effect e;
   e.effect = r.text("effect");
@@ -67,6 +85,7 @@ GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   e.reason = r.text("reason", "");
   e.screenRank = static_cast<int>(r.integer("screen_rank", 0, 1'000'000'000, 0));
   e.screenShare = numberOf(r, "screen_share");
+  if (r.any("law")) e.law = lawFrom(r.object("law"));
   r.finish();
   return e;
 }
@@ -160,8 +179,8 @@ GapReport::Remainder remainderFrom(JsonReader r) {
 GapReport::Verdict verdictOf(JsonReader& r) {
   using Verdict = GapReport::Verdict;
   std::vector<std::string> words;
-  const std::vector all{Verdict::noMismatch, Verdict::parametersSuffice, Verdict::missingPhysics, Verdict::unexplained,
-                        Verdict::notExcited};
+  const std::vector all{Verdict::noMismatch,      Verdict::parametersSuffice, Verdict::missingPhysics,
+                        Verdict::partlyExplained, Verdict::unexplained,       Verdict::notExcited};
   for (const Verdict verdict : all) words.emplace_back(toText(verdict));
   const std::string word = r.word("verdict", words);
   for (const Verdict verdict : all)

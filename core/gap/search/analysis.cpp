@@ -232,6 +232,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
     GapReport::Effect effect;
     effect.effect = each.effect.effect;
     effect.at = each.effect.at;
+    effect.law = problem.library.make(effect.effect)->law();
     effect.accepted = true;
     effect.parameters = finalNumbers(found, static_cast<int>(i));
     effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - each.comparison.gain));
@@ -267,6 +268,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
     GapReport::Effect effect;
     effect.effect = attempt->candidate.effect;
     effect.at = attempt->candidate.at;
+    effect.law = problem.library.make(effect.effect)->law();
     effect.screenRank = attempt->rank;
     effect.screenShare = attempt->share;
     effect.reason = attempt->reason;

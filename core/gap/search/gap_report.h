@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/effect.h"
 #include "core/spec/simulator_spec.h"
 
 namespace btr {
@@ -14,7 +15,7 @@ namespace btr {
 /// unless a comment says otherwise. "Error in noise floors" is a root mean square of (simulated − recorded)/noise
 /// floor.
 struct GapReport {
-  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, unexplained, notExcited };
+  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, partlyExplained, unexplained, notExcited };
 
   struct Interval {
     double low = 0, high = 0;
@@ -54,6 +55,7 @@ struct GapReport {
     /// The p-value adjusted for all effects at all places that its round looked at (false discovery rate, see
     /// search_discoveries.h); NaN: not known.
     double qValue = std::numeric_limits<double>::quiet_NaN();
+    EffectLaw law = {};  ///< as its plugin says it; empty where it says nothing, as in reports of earlier versions
   };
   /// Where the error lies that calibration leaves.
   struct Regime {

@@ -224,9 +224,9 @@ void ReportView::showVerdict() {
   if (report_) {
     using Verdict = GapReport::Verdict;
     const Verdict v = report_->verdict;
-    colour = v == Verdict::noMismatch || v == Verdict::parametersSuffice ? tones.good
-             : v == Verdict::missingPhysics                              ? tones.accent
-                                                                         : tones.warning;
+    colour = v == Verdict::noMismatch || v == Verdict::parametersSuffice     ? tones.good
+             : v == Verdict::missingPhysics || v == Verdict::partlyExplained ? tones.accent
+                                                                             : tones.warning;
     if (!unseenWarning(*report_).empty()) colour = tones.bad;
   }
   QPalette colours = headline_->palette();

@@ -36,6 +36,8 @@ std::string headline(GapReport::Verdict verdict) {
       return "Other parameter values suffice";
     case GapReport::Verdict::missingPhysics:
       return "Physics was left out";
+    case GapReport::Verdict::partlyExplained:
+      return "Physics was left out, and something more that has no name here";
     case GapReport::Verdict::unexplained:
       return "Something is missing that has no name here";
     case GapReport::Verdict::notExcited:
@@ -56,6 +58,8 @@ const char* toText(GapReport::Verdict verdict) {
       return "parameters_suffice";
     case GapReport::Verdict::missingPhysics:
       return "missing_physics";
+    case GapReport::Verdict::partlyExplained:
+      return "partly_explained";
     case GapReport::Verdict::unexplained:
       return "unexplained";
     case GapReport::Verdict::notExcited:

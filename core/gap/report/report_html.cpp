@@ -233,13 +233,35 @@ std::string locatedSection(const GapReport& report) {
   return html.empty() ? "<p>No error stands out above the noise floor after calibration.</p>\n" : html;
 }
 
+std::string remainderSection(const GapReport& report) {
+  std::string html = "<section><h2>What remains</h2>\n<p>The accepted effects explain " +
+                     percent(report.remainder.explainedShare) + " of the excess error that calibration leaves.";
+  if (report.law.known()) {
+    const GapReport::MeasuredLaw& law = report.law;
+    html += " " + escaped(law.sentence) + ". It takes " + percent(law.shareOfRest) +
+            " of the rest (p = " + brief(law.pValue) + "): the error falls from " + brief(law.errorWithout) + " to " +
+            brief(law.error) + " noise floors, cross-validated.</p>\n";
+    for (const GapReport::LawCurve& curve : law.curves)
+      html += figure(plots::lawCurve(curve, law.at), "Measured law with its 95 % band.");
+    return html + "</section>\n";
+  }
+  if (report.remainder.on.empty()) return html + " Nothing significant is left.</p></section>\n";
+  return html + " A force over " + escaped(report.remainder.on) + " at " + escaped(report.remainder.at) +
+         " takes away " + percent(report.remainder.shareOfRest) +
+         " of the rest (p = " + brief(report.remainder.pValue) + "). It has no name here.</p>\n" +
+         figure(plots::remainder(report.remainder), "Learned force with its 95 % band.") + "</section>\n";
+}
+
 std::string provenance(const GapReport& report) {
   std::string html = "<p>UCHILSIM " + escaped(report.version) + ", seed " + std::to_string(report.seed) + ", " +
                      brief(report.seconds) + " s.</p>\n<div class=\"wide\"><table>" +
                      headerRow({"recording", "used for", "SHA-256"}, 3);
   for (const GapReport::Trial& t : report.trials)
-    html += "<tr>" + cell(t.name) + cell(t.heldOut ? "scoring only" : "fitting and cross-validation") + "<td><code>" +
-            escaped(t.sha256) + "</code></td></tr>\n";
+    html += "<tr>" + cell(t.name) +
+            cell(t.heldOut    ? "scoring only"
+                 : t.setAside ? "nothing: it disagrees with the others"
+                              : "fitting and cross-validation") +
+            "<td><code>" + escaped(t.sha256) + "</code></td></tr>\n";
   return html + "</table></div>\n";
 }
 
@@ -279,16 +301,7 @@ std::string toHtml(const GapReport& report) {
   html += "<h2>All effects that were tried</h2>\n" + effectsTable(report);
   html += "<h2>Calibrated numbers</h2>\n" + calibratedTable(report);
 
-  html += "<section><h2>What remains</h2>\n<p>The accepted effects explain " +
-          percent(report.remainder.explainedShare) + " of the excess error that calibration leaves.";
-  if (report.remainder.on.empty())
-    html += " Nothing significant is left.</p>\n";
-  else
-    html += " A force over " + escaped(report.remainder.on) + " at " + escaped(report.remainder.at) + " takes away " +
-            percent(report.remainder.shareOfRest) + " of the rest (p = " + brief(report.remainder.pValue) +
-            "). It has no name here.</p>\n" +
-            figure(plots::remainder(report.remainder), "Learned force with its 95 % band.");
-  html += "</section>\n";
+  html += remainderSection(report);
   if (!report.next.why.empty() || !report.next.columns.empty())
     html += "<section><h2>Suggested next recording</h2>\n<p>" + escaped(report.next.why) +
             ". Expected difference: " + brief(report.next.separation) + " noise floors (RMS).</p>\n" +

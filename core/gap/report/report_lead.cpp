@@ -139,6 +139,26 @@ std::optional<std::pair<std::size_t, std::size_t>> pictureOf(const GapReport& re
   return best;
 }
 
+std::string explainedText(const GapReport& report) {
+  const double share = report.explainedShare;
+  if (!std::isfinite(share) || share <= 0) return "";
+  return std::string(std::ranges::any_of(report.tried, &GapReport::Effect::accepted)
+                         ? "Calibration and what was named take "
+                         : "Calibration takes ") +
+         (share > 0.995 ? "more than 99 %" : wholePercent(share)) + " of the squared error.";
+}
+
+std::string restText(const GapReport& report) {
+  if (!report.law.known()) return "";
+  return "What is left has no name but a shape: " + report.law.sentence +
+         (report.law.family.empty() ? "" : " (" + report.law.family + ")") + ". It takes " +
+         wholePercent(report.law.shareOfRest) + " of the rest.";
+}
+
+std::string disagreementText(const GapReport::Disagreement& d) {
+  return d.trial + (d.setAside ? " was set aside: " : " does not agree with the others: ") + d.what;
+}
+
 std::string checkBounds(const GapReport& report) {
   std::vector<std::string> names;
   for (const GapReport::Number& n : report.calibrated)
@@ -175,6 +195,8 @@ void addNext(ReportLead& lead, const GapReport& report) {
                          : "Adopt the repaired simulator: Adopt in the window, or btr gap adopt with simulator.json of "
                            "this folder.");
   }
+  for (const GapReport::Disagreement& d : report.disagreements)
+    say("Look at " + d.trial + ": was a setting different, did a marker slip, is it the right file?");
   say(separatingText(report));
   if (report.verdict != Verdict::notExcited && !lead.heldOut)
     say("Hold a recording back that differs in kind (--held-out): only that shows what no fit has seen.");
@@ -208,6 +230,9 @@ ReportLead leadOf(const GapReport& report) {
   lead.headline = lead.isWarning ? capital(warning) : findingHeadline(report);
   for (const std::size_t i : acceptedOf(report))
     lead.findings.push_back({i, findingText(report.tried[i]), shareOf(report, report.tried[i])});
+  lead.explained = explainedText(report);
+  lead.rest = restText(report);
+  for (const GapReport::Disagreement& d : report.disagreements) lead.disagree.push_back(disagreementText(d));
   addErrors(lead, report);
   lead.errorText = errorTextOf(lead);
   lead.picture = pictureOf(report, lead.heldOut);
@@ -230,7 +255,9 @@ std::string leadHtml(const GapReport& report, const ReportLead& lead) {
     }
     html += "</ul>\n";
   }
-  if (!lead.errorText.empty()) html += "<p>" + escaped(lead.errorText) + "</p>\n";
+  for (const std::string& text : {lead.rest, lead.errorText + (lead.explained.empty() ? "" : " " + lead.explained)})
+    if (!text.empty()) html += "<p>" + escaped(text) + "</p>\n";
+  for (const std::string& text : lead.disagree) html += "<p><b>" + escaped(text) + "</b></p>\n";
   html += errorTable(lead);
   if (!lead.next.empty()) {
     html += "<p><b>What to do next</b></p><ol>";

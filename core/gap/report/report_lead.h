@@ -22,6 +22,9 @@ struct ReportLead {
     double share = 0;
   };
   std::vector<Finding> findings;
+  std::string explained;              ///< how much of the error all of it takes, a sentence; "" where it is not known
+  std::string rest;                   ///< the measured law of what has no name; "" where there is none
+  std::vector<std::string> disagree;  ///< trials that do not fit together with the others, a sentence each
 
   /// Root mean square error of a channel.
   struct Error {

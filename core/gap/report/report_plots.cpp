@@ -200,32 +200,40 @@ std::string regimes(const GapReport::Located& located) {
   return picture(y + 4, "Where the error of " + located.channel + " lies", svg);
 }
 
-std::string remainder(const GapReport::Remainder& r) {
-  if (r.on.empty() || r.x.empty()) return "";
+std::string lawCurve(const GapReport::LawCurve& c, const std::string& at) {
+  if (c.x.empty()) return "";
   constexpr double left = 84, right = 16, top = 14, bottom = 230;
   Range xs, ys;
-  for (const double value : r.x) xs.add(value);
-  std::vector<double> low(r.y), high(r.y);
-  for (std::size_t i = 0; i < r.y.size(); ++i) {
-    const double margin = i < r.standardError.size() ? 1.96 * r.standardError[i] : 0;
-    low[i] -= margin;
-    high[i] += margin;
-    ys.add(low[i]);
-    ys.add(high[i]);
-  }
+  for (const double value : c.x) xs.add(value);
+  for (const std::vector<double>* side : {&c.y, &c.low, &c.high})
+    for (const double value : *side) ys.add(value);
   ys.add(0);
   const Axis x = xs.axis(left, width - right, 0), y = ys.axis(bottom, top, 0.06);
-  std::string band;
-  for (std::size_t i = 0; i < r.x.size(); ++i) band += (i ? "L" : "M") + number(x(r.x[i])) + " " + number(y(high[i]));
-  for (std::size_t i = r.x.size(); i-- > 0;) band += "L" + number(x(r.x[i])) + " " + number(y(low[i]));
+  std::string there, back;
+  for (std::size_t i = 0; i < std::min({c.x.size(), c.low.size(), c.high.size()}); ++i) {
+    if (!std::isfinite(c.low[i]) || !std::isfinite(c.high[i])) continue;
+    there += (there.empty() ? "M" : "L") + number(x(c.x[i])) + " " + number(y(c.high[i]));
+    back = "L" + number(x(c.x[i])) + " " + number(y(c.low[i])) + back;
+  }
   const auto withUnit = [](const std::string& name, const std::string& unit) {
     return name + (unit.empty() ? "" : " [" + unit + "]");
   };
-  std::string svg = panel(x, y, 5, true) + path("band", band + "Z") + path("repaired", pathOf(r.x, r.y, x, y, 1));
-  svg += upright((top + bottom) / 2, withUnit("force", r.unitY), 14);
-  svg +=
-      text((left + width - right) / 2, bottom + 36, withUnit(r.on + " at " + r.at, r.unitX), "text-anchor=\"middle\"");
-  return picture(bottom + 44, "What has no name: a force over " + r.on, svg);
+  std::string svg = panel(x, y, 5, true) + path("band", there.empty() ? "" : there + back + "Z") +
+                    path("repaired", pathOf(c.x, c.y, x, y, 1));
+  svg += upright((top + bottom) / 2, withUnit("force", c.unitY), 14);
+  svg += text((left + width - right) / 2, bottom + 36, withUnit(c.on + " at " + at, c.unitX), "text-anchor=\"middle\"");
+  return picture(bottom + 44, "What has no name: a force over " + c.on, svg);
+}
+
+std::string remainder(const GapReport::Remainder& r) {
+  if (r.on.empty()) return "";
+  GapReport::LawCurve curve{r.on, r.unitX, r.unitY, r.x, r.y, r.y, r.y};
+  for (std::size_t i = 0; i < r.y.size(); ++i) {
+    const double margin = i < r.standardError.size() ? 1.96 * r.standardError[i] : 0;
+    curve.low[i] -= margin;
+    curve.high[i] += margin;
+  }
+  return lawCurve(curve, r.at);
 }
 
 std::string nextRecording(const GapReport::NextRecording& next) {

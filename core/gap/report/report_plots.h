@@ -16,6 +16,8 @@ std::string overlay(const GapReport& report, std::size_t trial, std::size_t seri
 std::string chain(const std::vector<EffectLaw::Acts>& marked, bool ofBall);
 std::string regimes(const GapReport::Located& located);
 std::string remainder(const GapReport::Remainder& remainder);
+/// A curve of a measured law with its band.
+std::string lawCurve(const GapReport::LawCurve& curve, const std::string& at);
 std::string nextRecording(const GapReport::NextRecording& next);
 
 }  // namespace btr::plots

@@ -37,7 +37,7 @@ std::string headline(GapReport::Verdict verdict) {
     case GapReport::Verdict::missingPhysics:
       return "Physics was left out";
     case GapReport::Verdict::partlyExplained:
-      return "Physics was left out, and something else is left";
+      return "Physics was left out, and something more that has no name here";
     case GapReport::Verdict::unexplained:
       return "Something is missing that has no name here";
     case GapReport::Verdict::notExcited:

@@ -50,7 +50,7 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   return n;
 }
 
-EffectLaw lawFrom(JsonReader r) {
+EffectLaw effectLawFrom(JsonReader r) {
   using Acts = EffectLaw::Acts;
   const std::vector all{Acts::notSaid, Acts::command, Acts::drive, Acts::gear,    Acts::joint,
                         Acts::link,    Acts::gravity, Acts::air,   Acts::contact, Acts::sensor};
@@ -85,7 +85,7 @@ GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   e.reason = r.text("reason", "");
   e.screenRank = static_cast<int>(r.integer("screen_rank", 0, 1'000'000'000, 0));
   e.screenShare = numberOf(r, "screen_share");
-  if (r.any("law")) e.law = lawFrom(r.object("law"));
+  if (r.any("law")) e.law = effectLawFrom(r.object("law"));
   r.finish();
   return e;
 }

@@ -101,6 +101,20 @@ TEST(ReportLead, SaysWhatStandsInTheWay) {
   EXPECT_THAT(leadOf(sampleReport()).next, testing::Contains(HasSubstr("links.lower.mass_kg ends at its bound")));
 }
 
+TEST(ReportLead, NamesTrialsThatDisagreeAndTheLawOfTheRest) {
+  const GapReport report = sampleReport();
+  const ReportLead lead = leadOf(report);
+  ASSERT_EQ(lead.disagree.size(), 1u);
+  EXPECT_THAT(lead.disagree[0], HasSubstr("sine-4.csv was set aside: its robots.leg.links.lower.mass_kg"));
+  EXPECT_THAT(lead.next, testing::Contains(HasSubstr("Look at sine-4.csv")));
+  EXPECT_THAT(lead.rest, HasSubstr("pulls toward 0.35 rad"));
+  EXPECT_THAT(lead.explained, HasSubstr("98 % of the squared error"));
+  GapReport partly = report;
+  partly.verdict = GapReport::Verdict::partlyExplained;
+  EXPECT_EQ(leadOf(partly).headline, "Backlash at leg.knee was left out, and something else is left");
+  EXPECT_THAT(toHtml(report), HasSubstr("What has no name: a force over position"));
+}
+
 TEST(ReportLead, OfAnEmptyReportIsNoCrash) {
   const ReportLead lead = leadOf(GapReport{});
   EXPECT_FALSE(lead.picture.has_value());

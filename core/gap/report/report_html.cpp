@@ -238,7 +238,7 @@ std::string remainderSection(const GapReport& report) {
                      percent(report.remainder.explainedShare) + " of the excess error that calibration leaves.";
   if (report.law.known()) {
     const GapReport::MeasuredLaw& law = report.law;
-    html += " " + escaped(law.sentence) + ". It takes " + percent(law.shareOfRest) +
+    html += " What is left: " + escaped(law.sentence) + ". It takes " + percent(law.shareOfRest) +
             " of the rest (p = " + brief(law.pValue) + "): the error falls from " + brief(law.errorWithout) + " to " +
             brief(law.error) + " noise floors, cross-validated.</p>\n";
     for (const GapReport::LawCurve& curve : law.curves)

@@ -150,8 +150,7 @@ std::string explainedText(const GapReport& report) {
 
 std::string restText(const GapReport& report) {
   if (!report.law.known()) return "";
-  return "What is left has no name but a shape: " + report.law.sentence +
-         (report.law.family.empty() ? "" : " (" + report.law.family + ")") + ". It takes " +
+  return "What is left has no name but a shape: " + report.law.sentence + ". It takes " +
          wholePercent(report.law.shareOfRest) + " of the rest.";
 }
 

@@ -41,6 +41,7 @@ table { border-collapse: collapse; width: 100%; font-size: .87em } th, td { text
 .wide { overflow-x: auto } .no td { color: var(--faint) } .faint, figcaption { color: var(--faint); font-size: .87em }
 figure { margin: 1em 0 } svg { width: 100%; height: auto; display: block } code { overflow-wrap: anywhere; font-size: .87em }
 svg text { font: 12px "DejaVu Sans", Verdana, Helvetica, sans-serif; fill: var(--text) } svg .strong { font-weight: bold }
+svg .halo { paint-order: stroke; stroke: var(--back); stroke-width: 4px; stroke-linejoin: round }
 .grid { stroke: var(--line) } .zero { stroke: var(--faint) } .frame { fill: none; stroke: var(--line) }
 .bar { fill: var(--asgiven) } .good { fill: var(--good) } .time { fill: var(--faint); opacity: .5 }
 .whisker { stroke: var(--text); stroke-width: 1.5 } .floor { stroke: var(--good); stroke-width: 1.6; stroke-dasharray: 5 3 }
@@ -79,10 +80,10 @@ bool hasNoJoints(const GapReport& report) {
 /// An effect that was found: where it acts, its law, its numbers, what it took and what competes with it.
 std::string effectCard(const GapReport& report, const ReportLead::Finding& finding) {
   const GapReport::Effect& e = report.tried[finding.effect];
-  std::string html = "<section><h3>" + escaped(inWords(e.effect)) + " at " + escaped(e.at) + "</h3>\n" +
+  std::string html = "<section><h3>" + escaped(capital(inWords(e.effect))) + " at " + escaped(e.at) + "</h3>\n" +
                      figure(plots::chain({e.law.acts}, hasNoJoints(report)), "");
   if (!e.law.says.empty())
-    html += "<p>" + escaped(e.law.says) + ":</p>\n<p class=\"equation\">" + equationHtml(e.law.equation) +
+    html += "<p>" + escaped(capital(e.law.says)) + ":</p>\n<p class=\"equation\">" + equationHtml(e.law.equation) +
             "</p>\n<p class=\"faint\">" + escaped(e.law.symbols) + " (" + escaped(e.law.source) + ")</p>\n";
   html += "<div class=\"wide\"><table>" +
           headerRow({"parameter", "unit", "remark", "value", "95 % interval", "among rivals"}, 3);

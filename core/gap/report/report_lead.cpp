@@ -24,11 +24,6 @@ std::vector<std::size_t> acceptedOf(const GapReport& report) {
   return accepted;
 }
 
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
-
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
@@ -169,7 +164,7 @@ std::string checkBounds(const GapReport& report) {
 
 std::string separatingText(const GapReport& report) {
   if (report.next.columns.empty()) return "";
-  return "Record the commands of next_command.csv on the robot: the recording " + report.next.why +
+  return "Record the commands of next_command.csv on the robot: the recording " + inWords(report.next.why) +
          " (expected difference " + brief(report.next.separation) + " noise floors).";
 }
 
@@ -191,8 +186,8 @@ void addNext(ReportLead& lead, const GapReport& report) {
     default:
       say(lead.isWarning ? "Do not adopt this yet: fit some of the recordings that were held out, too, and hold others "
                            "out."
-                         : "Adopt the repaired simulator: Adopt in the window, or btr gap adopt with simulator.json of "
-                           "this folder.");
+                         : "Adopt the repaired simulator: the button in the window, or btr gap adopt with "
+                           "simulator.json of this folder.");
   }
   for (const GapReport::Disagreement& d : report.disagreements)
     say("Look at " + d.trial + ": was a setting different, did a marker slip, is it the right file?");

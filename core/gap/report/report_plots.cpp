@@ -66,8 +66,9 @@ std::string ladder(const GapReport& report) {
       svg += text(x(place), bottom + 16, number(value, "%.6g"), "text-anchor=\"middle\"");
     }
   double y = top;
+  std::string names;  // over the line that they cross
   for (const GapReport::Step& step : report.ladder) {
-    svg += text(left, y + label - 4, step.what);
+    names += text(left, y + label - 4, step.what, "class=\"halo\"");
     svg += bar(left, y + label, at(step.error) - left, row - label - 6, step.error <= 1.5 ? "good" : "bar");
     const double low = at(step.error - step.standardError), high = at(step.error + step.standardError);
     const double middle = y + (label + row - 6) / 2;
@@ -75,7 +76,7 @@ std::string ladder(const GapReport& report) {
     svg += text(std::max(high, at(step.error)) + 6, middle + 4, brief(step.error));
     y += row;
   }
-  svg += line(at(1), top - 6, at(1), bottom, "floor");
+  svg += line(at(1), top - 6, at(1), bottom, "floor") + names;
   svg += text(at(1), top - 10, "noise floor", "text-anchor=\"middle\"");
   svg += text((left + width - right) / 2, bottom + 36, "held-out error [noise floors, RMS]", "text-anchor=\"middle\"");
   return picture(bottom + 44, "Held-out error, step by step", svg);

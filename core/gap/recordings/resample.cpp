@@ -1,5 +1,6 @@
 #include "core/gap/recordings/resample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -48,8 +49,28 @@ std::vector<double> grid(double from, double to, double period) {
 
 }  // namespace
 
-double rhythm(const Recording& recording) {
+std::vector<double> sampleTimes(const Recording& recording) {
+  constexpr double nearlyAll = 0.9;
   const std::vector<double>& time = recording.columns[0];
+  const std::vector<double>* fullest = nullptr;
+  std::ptrdiff_t most = 0;
+  for (std::size_t column = 1; column < recording.channels.size(); ++column) {
+    if (!parseChannel(recording.channels[column])) continue;
+    const std::vector<double>& values = recording.columns[column];
+    const auto there = std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+    if (there <= most) continue;
+    most = there;
+    fullest = &values;
+  }
+  if (!fullest || static_cast<double>(most) > nearlyAll * static_cast<double>(time.size())) return time;
+  std::vector<double> times;
+  for (std::size_t row = 0; row < time.size(); ++row)
+    if (std::isfinite((*fullest)[row])) times.push_back(time[row]);
+  return times;
+}
+
+double rhythm(const Recording& recording) {
+  const std::vector<double> time = sampleTimes(recording);
   std::vector<double> steps;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   return median(std::move(steps));

@@ -45,7 +45,8 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   const double rounding = quantisationStep(values) / std::sqrt(12.0);
   floor.byRows = noiseFloor(values);
   floor.byStamps = noiseFloor(time, values);
-  floor.level = std::max(floor.byStamps, rounding);
+  const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
+  floor.level = std::max({floor.byStamps, rounding, filtered});
   // A constant's differences show the rounding of the arithmetic.
   floor.shown = floor.level > 1e-12 * std::max(std::abs(extent.low), std::abs(extent.high));
   if (followsRowsNotStamps(floor)) {

@@ -15,7 +15,8 @@ struct ChannelFloor {
   double ofTime = 0;    ///< part of `level`: what the motion makes of stamps that jitter, speed × jitter
 };
 /// The largest of the noise over the channel's own samples at their times, of the rounding of its counts and of the
-/// digits written, and, where stamps jitter and values do not, of the usual speed times the jitter.
+/// digits written, of what a filter left of the noise (neighbours are then alike, and differences hide it), and, where
+/// stamps jitter and values do not, of the usual speed times the jitter.
 ChannelFloor channelFloor(const Recording& recording, std::size_t column);
 
 /// Values are smoother over rows than over stamps: these were not given when the samples were taken.

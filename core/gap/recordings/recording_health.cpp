@@ -11,6 +11,7 @@
 #include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/row_order.h"
 #include "core/spec/figures.h"
 
 namespace btr {
@@ -126,7 +127,8 @@ RecordingHealth examine(const Recording& recording) {
         std::count_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); }));
     const bool thinned = std::ranges::find(recording.thinned, name) != recording.thinned.end();
     if (const std::size_t every = everyNthRow(values); every > 1 && !thinned)
-      health.findings.push_back(name + ": a value in every " + ordinal(every) + " row; compared there");
+      health.findings.push_back(name + ": a value in every " + ordinal(every) + " row" +
+                                (isInputChannel(name) ? "; held between" : "; compared there"));
     else if (channel.empty > 0 && !thinned)
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/lowpass.h"
@@ -45,6 +46,13 @@ std::vector<double> grid(double from, double to, double period) {
   std::vector<double> times(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) times[i] = from + static_cast<double>(i) * period;
   return times;
+}
+
+/// The part of white noise that the filter below leaves, its cutoff in parts of the sampling rate: the root of
+/// 2·∫|H|⁴df with |H|² = 1/(1 + (f/f_c)⁸), whose integral from 0 to ∞ is f_c·(7/8)·(π/8)/sin(π/8).
+double passedOn(double cutoff) {
+  const double bandwidth = 7.0 / 8 * (M_PI / 8) / std::sin(M_PI / 8) * cutoff;
+  return std::sqrt(std::min(1.0, 2 * bandwidth));
 }
 
 }  // namespace
@@ -108,6 +116,8 @@ Recording resampled(const Recording& recording, const Resampling& how) {
       for (const double t : coarse) values.push_back(samples.at(t, hold));
       continue;
     }
+    result.filteredNoise.resize(recording.channels.size(), 0);
+    result.filteredNoise[column] = channelFloor(recording, column).level * passedOn(cutoff * own);
     std::vector<double> even;
     for (const double t : fine) even.push_back(samples.at(t, false));
     Samples filtered(fine, LowPass(4, cutoff, 1 / own).zeroPhase(even));

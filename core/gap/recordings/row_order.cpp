@@ -35,13 +35,11 @@ std::string summerTime(const Recording& trial, double back_s) {
 
 [[noreturn]] void refuseTime(const Recording& trial, std::size_t row, std::size_t before) {
   const std::vector<double>& time = trial.columns[0];
+  std::string why = summerTime(trial, time[before] - time[row]);
+  if (why.empty() && row > 2 && time[row] <= time[0])
+    why = "; a second recording begins there, it seems: a file of its own, or \"segments\" in the mapping";
   throw InputError(trial.at(0, row), toText(time[row]) + (time[row] == time[before] ? " again" : ""),
-                   "times that increase from row to row; before it stands " + toText(time[before]) +
-                       summerTime(trial, time[before] - time[row]) +
-                       (row > 2 && time[row] <= time[0]
-                            ? "; a second recording begins there, it seems: a file of its own, or \"segments\" in the "
-                              "mapping"
-                            : ""));
+                   "times that increase from row to row; before it stands " + toText(time[before]) + why);
 }
 
 std::string lineOf(const Recording& trial, std::size_t row) {

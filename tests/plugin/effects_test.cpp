@@ -258,7 +258,7 @@ TEST_P(Effects, AddNoEnergyIfTheySaySo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Effects, testing::ValuesIn(host().effects()),
+INSTANTIATE_TEST_SUITE_P(All, Effects, testing::ValuesIn(test::effectsWithASize()),
                          [](const auto& name) { return name.param; });
 
 }  // namespace

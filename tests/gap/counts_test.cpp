@@ -166,6 +166,32 @@ TEST(Counts, AreLeftAloneWhereNothingBeginsAgain) {
   EXPECT_EQ(counts.trial.columns, before);
 }
 
+TEST(Counts, ASawtoothThatAJointFollowsBackIsNoTurn) {
+  for (const double size : {6.2, 2 * M_PI}) {
+    Servo servo(2 * M_PI / 4096, [&](double t) { return size * (t - std::floor(t)); });
+    double q = 0;
+    for (std::size_t i = 0; i < servo.position.size(); ++i) {
+      q += 0.1 * (servo.command[i] - q);
+      servo.position[i] = servo.count_rad * std::round(q / servo.count_rad);
+    }
+    servo.writePosition([](double counts) { return counts; });
+    const auto before = servo.trial.columns;
+    mendCounts(servo.trial, &servo.mapping);
+    EXPECT_EQ(servo.trial.columns, before) << size;
+    EXPECT_THAT(servo.trial.notes, IsEmpty());
+  }
+}
+
+TEST(Counts, ACommandThatIsHeldForSeveralRowsIsFollowedToo) {
+  Servo servo(2 * M_PI / 4096, [](double t) { return 0.3 + 5 * t; });
+  for (std::size_t i = 0; i < servo.command.size(); ++i) servo.command[i] = servo.command[i - i % 10];
+  servo.writePosition([](double counts) { return wrapped(counts, 4096); });
+  servo.writeCommand([](double counts) { return wrapped(counts, 4096); });
+  mendCounts(servo.trial, &servo.mapping);
+  EXPECT_LT(servo.worst(2, servo.position), 1e-9);
+  EXPECT_LT(servo.worst(1, servo.command), 1e-9);
+}
+
 TEST(Counts, TheMappingSaysItBeforehand) {
   Servo servo(2 * M_PI / 4096, spinning);
   servo.writePosition([](double counts) { return wrapped(counts, 4096); });

@@ -117,6 +117,11 @@ TEST(ForeignTable, LeavesALastLineOutThatWasCutOff) {
   EXPECT_THAT(refusalOfText("time_s,ball.x_m,ball.y_m\n0,1,2\n2,4\n1,2,3\n"), HasSubstr("line 3: 2 columns"));
 }
 
+TEST(ForeignTable, HasSwitchesInWords) {
+  EXPECT_EQ(readText("time_s,leg.knee.enabled\n0,True\n1,false\n").columns[1], (std::vector<double>{1, 0}));
+  EXPECT_THAT(refusalOfText("time_s,leg.knee.duty\n0,True\n"), HasSubstr("line 2, column 2 (leg.knee.duty): \"True\""));
+}
+
 TEST(ForeignTable, AsksForAHeading) {
   EXPECT_THAT(refusalOfText("0.0,1.5\n0.1,1.6\n"),
               HasSubstr("log.csv line 1: a row of numbers is not allowed; a heading with the columns' names"));

@@ -20,6 +20,14 @@ double largestOf(const std::string& channel) {
   return parseChannel(channel) ? 1e7 : std::numeric_limits<double>::max();
 }
 
+/// "True", "false" as programs write them.
+std::optional<double> flagOf(const std::string& cell) {
+  const std::string word = trimmed(cell);
+  if (word == "true" || word == "True" || word == "TRUE") return 1;
+  if (word == "false" || word == "False" || word == "FALSE") return 0;
+  return std::nullopt;
+}
+
 /// What a time that is no seconds may be.
 std::string sinceWhen(double value, double scale) {
   constexpr double recent_s = 4e9, old_s = 1e9;  // 2001 to 2096
@@ -70,6 +78,7 @@ double CellReader::number(const std::string& cell, std::size_t source, ColumnUse
     return read->value;
   }
   if (isTime && !numbered_ && readTimeStamp(cell)) return seconds(cell, source, use);
+  if (const auto flag = flagOf(cell); flag && use.channel.ends_with(".enabled")) return *flag;
   refuse(source, use, cell,
          isTime ? "seconds, or stamps like 2026-11-27T14:03:01.25Z in all rows" : numbers_.allowed(cell));
 }

@@ -4,19 +4,21 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/extent.h"
+#include "core/gap/recordings/row_order.h"
 #include "core/spec/figures.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
 namespace {
 
-/// A column's numbers as they stand in the file, those that are there, and their steps.
+/// A column's numbers as they stand in the file where they change, and their steps.
 struct Written {
   std::vector<std::size_t> row;
   std::vector<double> value, step;  ///< step[i] = value[i + 1] − value[i]
@@ -31,9 +33,10 @@ struct Written {
         number = std::round(number);
       else
         whole = false;
+      extent.add(number);
+      if (!value.empty() && number == value.back()) continue;
       row.push_back(i);
       value.push_back(number);
-      extent.add(number);
     }
     for (std::size_t i = 1; i < value.size(); ++i) step.push_back(value[i] - value[i - 1]);
   }
@@ -172,10 +175,36 @@ class Counter {
     const Written written(trial_.columns[column_], scale_, offset_);
     const double turn = name->quantity.ends_with("_rad") ? 2 * std::numbers::pi / std::abs(scale_) : 0;
     const double period = mapped_ && mapped_->wrap ? *mapped_->wrap : periodOf(written, turn, isCommand);
-    return period > 0 ? follow(written, period) : 0;
+    if (!(period > 0)) return 0;
+    const auto before = trial_.columns[column_];
+    const std::size_t notes = trial_.notes.size();
+    const double followed = follow(written, period);
+    if (followed == 0 || !isCommand || (mapped_ && mapped_->wrap) || suitsPosition(before, followed)) return followed;
+    trial_.columns[column_] = before;
+    trial_.notes.resize(notes);
+    return 0;
   }
 
  private:
+  /// A command that really jumps is one that its joint follows back; one that begins again is not.
+  bool suitsPosition(const std::vector<double>& before, double period) const {
+    const std::string ending = channel_.substr(channel_.rfind('_'));
+    const int position = trial_.column(channel_.substr(0, channel_.rfind('.') + 1) + "position" + ending);
+    if (position < 0) return true;
+    const std::vector<double>& measured = trial_.columns[static_cast<std::size_t>(position)];
+    double jumps = 0, goesOn = 0;
+    std::vector<double> apart;
+    for (std::size_t row = 0; row < measured.size(); ++row)
+      if (const double away = measured[row] - trial_.columns[column_][row]; std::isfinite(away)) apart.push_back(away);
+    const double turns = std::round(median(std::move(apart)) / period) * period;
+    for (std::size_t row = 0; row < measured.size(); ++row) {
+      if (!std::isfinite(measured[row] - before[row])) continue;
+      jumps += std::abs(measured[row] - before[row]);
+      goesOn += std::abs(measured[row] - trial_.columns[column_][row] - turns);
+    }
+    return goesOn < jumps;
+  }
+
   double& cell(std::size_t row) { return trial_.columns[column_][row]; }
 
   void mendSign() {
@@ -184,9 +213,10 @@ class Counter {
     const int bit = mapped_ && mapped_->signBit ? *mapped_->signBit : signBitOf(written);
     if (bit < 0) return;
     std::size_t negative = 0;
-    for (std::size_t i = 0; i < written.value.size(); ++i) {
-      if (written.value[i] < std::ldexp(1, bit)) continue;
-      cell(written.row[i]) = scale_ * withSign(written.value[i], bit) + offset_;
+    for (double& value : trial_.columns[column_]) {
+      const double number = std::round((value - offset_) / scale_);
+      if (!(number >= std::ldexp(1, bit))) continue;
+      value = scale_ * withSign(number, bit) + offset_;
       ++negative;
     }
     if (negative > 0 && !(mapped_ && mapped_->signBit))
@@ -202,7 +232,8 @@ class Counter {
       const double passed = std::round(written.step[i] / period);
       turns -= passed;
       times += passed != 0;
-      if (turns != 0) cell(written.row[i + 1]) = scale_ * (written.value[i + 1] + turns * period) + offset_;
+      const std::size_t last = i + 2 < written.row.size() ? written.row[i + 2] : trial_.rows();
+      for (std::size_t row = written.row[i + 1]; turns != 0 && row < last; ++row) cell(row) += scale_ * turns * period;
     }
     if (times == 0) return 0;
     if (!(mapped_ && mapped_->wrap))
@@ -244,7 +275,11 @@ void putBeside(Recording& trial, const std::string& joint, const std::string& un
 
 void mendCounts(Recording& trial, const Mapping* mapping) {
   std::map<std::string, double> followed;
-  for (std::size_t column = 1; column < trial.channels.size(); ++column) {
+  // A command is judged by its position.
+  std::vector<std::size_t> order(trial.channels.size() - 1);
+  std::iota(order.begin(), order.end(), std::size_t{1});
+  std::ranges::stable_partition(order, [&](std::size_t column) { return !isInputChannel(trial.channels[column]); });
+  for (const std::size_t column : order) {
     const std::string& channel = trial.channels[column];
     if (!parseChannel(channel)) continue;
     const MappedColumn* mapped = nullptr;

@@ -38,6 +38,9 @@ std::string summerTime(const Recording& trial, double back_s) {
   std::string why = summerTime(trial, time[before] - time[row]);
   if (why.empty() && row > 2 && time[row] <= time[0])
     why = "; a second recording begins there, it seems: a file of its own, or \"segments\" in the mapping";
+  const double usual = (time.back() - time.front()) / static_cast<double>(time.size());
+  if (why.empty() && time[row] < time[before] && time[before] - time[row] < 5 * std::abs(usual))
+    why = "; where only the stamps are late, \"retime\": \"even\" in the mapping takes the rows as even samples";
   throw InputError(trial.at(0, row), toText(time[row]) + (time[row] == time[before] ? " again" : ""),
                    "times that increase from row to row; before it stands " + toText(time[before]) + why);
 }

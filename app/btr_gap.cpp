@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
+#include "core/gap/fit/fitted_start.h"
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/inverse.h"
@@ -24,6 +25,19 @@
 
 namespace btr::cli {
 namespace {
+
+/// --start: where a replay of each trial begins.
+void addStart(CLI::App& command, StartEstimator& start) {
+  start = fittedStart;
+  command
+      .add_option_function<std::string>(
+          "--start",
+          [&start](const std::string& text) { start = text == "estimated" ? StartEstimator(fittedStart) : nullptr; },
+          "where each trial begins: fitted to all of its samples, as in an analysis (estimated), or as its first ones "
+          "say (first-samples)")
+      ->check(CLI::IsMember({"estimated", "first-samples"}))
+      ->default_str("estimated");
+}
 
 struct ResidualArguments {
   ResidualRequest request;
@@ -119,6 +133,7 @@ void addPredict(CLI::App& gap, Shell& shell) {
       ->required();
   predict->add_option("--simulator", request->simulator, "simulator version to use (simulator.json)");
   predict->add_option("--mapping", request->mapping, "which column is which channel");
+  addStart(*predict, request->start);
   shell.writesFile(predict, predict->add_option("--out", request->out, "file to write (.csv)")->required());
   predict->callback([request, &shell] { predictCommand(*request, shell); });
 }
@@ -143,6 +158,7 @@ void addGapCommands(CLI::App& app, Shell& shell) {
   shell.writesFolder(residual, residual->add_option("--out", request->out, "folder for tables and overlay plots"),
                      {"residual.json", "residual.txt", "inverse.json", "inverse.txt"});
   residual->add_flag("--as-recorded", request->asRecorded, "go on although the time is certainly not in seconds");
+  addStart(*residual, request->start);
   CLI::Option* inverse = residual->add_flag("--inverse", arguments->inverse,
                                             "follow the recorded motion and compare the torque that it takes");
   residual->add_option("--lowpass", arguments->filters.lowpass_hz, "of the positions that are followed [Hz]")

@@ -46,6 +46,8 @@ class ContactBuilder {
   /// A point that is still apart but will touch within the step takes part: it may approach until it touches, not
   /// further, so that fast parts do not dive in by a step's way. Returns true if the point touches or will.
   bool add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
+  /// Slower hits are resting contact [m/s].
+  double bounceAbove_m_s() const { return bounceAbove_; }
   /// How far apart surfaces matter whose points are this fast.
   static double margin(double speed, double step) { return 1.5 * step * speed + 1e-4; }
   /// Removes the step's contacts.
@@ -68,7 +70,7 @@ class ContactBuilder {
   std::deque<Feedback> feedback_;  ///< of each contact; places in a deque stay where ODE writes to
   std::vector<ContactForce> forces_;
   Eigen::Vector3d floorForce_ = Eigen::Vector3d::Zero();
-  double bounceAbove_ = 0;  ///< slower hits are resting contact [m/s]
+  double bounceAbove_ = 0;
 };
 
 }  // namespace btr

@@ -170,10 +170,11 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     }
   }
   for (auto& ball : balls) {
-    const Eigen::Vector3d before = ball.state.velocity_m_s;
+    const BallState before = ball.state;
     readBall(ball, now + h);
     if (ball.touched || ball.state.onFloor) continue;
-    ball.state.position_m += h / 2 * (before - ball.state.velocity_m_s);
+    ball.state.position_m += h / 2 * (before.velocity_m_s - ball.state.velocity_m_s);
+    bounce(ball, before, h);
     const Eigen::Vector3d& p = ball.state.position_m;
     dBodySetPosition(ball.id, p.x(), p.y(), p.z());
     ball.pose.translation() = p;

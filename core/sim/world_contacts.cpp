@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sim/ball_impact.h"
 #include "core/sim/world_impl.h"
 
 namespace btr {
@@ -171,6 +172,24 @@ void World::Impl::readBall(WorldBall& ball, double now) {
   ball.state.radius_m = ball.spec->radius_m;
   ball.state.mass_kg = ball.spec->mass_kg;
   ball.pose = Eigen::Translation3d(ball.state.position_m) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+/// A ball that flew through this step and would have come to lie below the floor hits it on the way. (ODE's contacts
+/// know whole steps alone: a hit would wait for the next one, up to a step's way too deep and too late.)
+void World::Impl::bounce(WorldBall& ball, const BallState& before, double h) {
+  const BallSpec& spec = *ball.spec;
+  if (!scene.floor || ball.state.position_m.z() >= spec.radius_m || before.position_m.z() < spec.radius_m) return;
+  const ContactSurface surface = floorSurface(*scene.floor, std::max(scene.floor->restitution, spec.restitution));
+  BallMotion motion{before.position_m, before.velocity_m_s, before.spin_rad_s};
+  const Vector3d acceleration = (ball.state.velocity_m_s - before.velocity_m_s) / h;
+  if (!(surface.restitution > 0) || !flyAndHit(motion, acceleration, {spec.radius_m, spec.mass_kg, spec.inertiaFactor},
+                                               surface, contacts.bounceAbove_m_s(), h))
+    return;
+  ball.state.position_m = motion.position_m;
+  ball.state.velocity_m_s = motion.velocity_m_s;
+  ball.state.spin_rad_s = motion.spin_rad_s;
+  dBodySetLinearVel(ball.id, motion.velocity_m_s.x(), motion.velocity_m_s.y(), motion.velocity_m_s.z());
+  dBodySetAngularVel(ball.id, motion.spin_rad_s.x(), motion.spin_rad_s.y(), motion.spin_rad_s.z());
 }
 
 bool World::Impl::strains(std::size_t index, const std::vector<JointInput>& inputs) const {

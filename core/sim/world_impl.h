@@ -120,6 +120,7 @@ struct World::Impl {
   void driveBall(WorldBall& ball, double now, double h);
   void brakeRolling(WorldBall& ball, double h);
   void readBall(WorldBall& ball, double now);
+  void bounce(WorldBall& ball, const BallState& before, double h);
   void placeBall(WorldBall& ball, const BallState& state);
   // world_solids.cpp
   void makeObstacles();

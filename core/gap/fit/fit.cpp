@@ -129,7 +129,9 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     least.AddResidualBlock(cost.release(), nullptr, blocks);
     if (fit.shifts[s].empty()) continue;
     const std::size_t count = fit.shifts[s].size();
-    auto prior = std::make_unique<Prior>(std::vector<double>(count, 0.0), std::vector<double>(count, 1.0));
+    std::vector<double> holds;
+    for (const Nuisance& nuisance : problem.segments[s].nuisances) holds.push_back(nuisance.hold);
+    auto prior = std::make_unique<Prior>(std::vector<double>(count, 0.0), holds);
     least.AddResidualBlock(prior.release(), nullptr, fit.shifts[s].data());
   }
   if (!scaled.empty() && options.startsOnly && least.HasParameterBlock(scaled.data())) {

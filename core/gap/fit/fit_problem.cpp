@@ -120,6 +120,15 @@ void keepFirstSteps(FitProblem& problem, double firstSteps_s) {
   }
 }
 
+/// Short enough for one impact. (Free runs of real tosses of 0.7 s end after four impacts where the integration's own
+/// error is as large as what there is to explain; in windows of 0.1 s it is below the noise floor.)
+double windowOfImpacts(const FitTrial& trial) {
+  constexpr double oneImpact_s = 0.1, leastSamples = 12;
+  return std::max(oneImpact_s, leastSamples * trial.recording.samplePeriod());
+}
+
+constexpr double windowOfSwings_s = 1;
+
 /// A trial of which every compared column is empty would agree with anything.
 void refuseWithoutNumbers(const std::vector<FitTrial>& trials) {
   for (const FitTrial& trial : trials)
@@ -129,6 +138,20 @@ void refuseWithoutNumbers(const std::vector<FitTrial>& trials) {
 }
 
 }  // namespace
+
+double priorCost(const std::vector<Nuisance>& nuisances, const std::vector<double>& shift) {
+  double sum = 0;
+  for (std::size_t i = 0; i < shift.size(); ++i) sum += std::pow(nuisances[i].hold * shift[i], 2);
+  return sum;
+}
+
+double startIsFelt_s(const FitProblem& problem) {
+  constexpr double servosForget_s = 5;
+  const Scene scene = problem.sceneOf(problem.given, 0);
+  if (scene.robots.empty()) return INFINITY;
+  if (isTossed(scene)) return windowOfImpacts(problem.trials[0]);
+  return swingsFreely(scene, problem.trials[0]) ? windowOfSwings_s : servosForget_s;
+}
 
 Scene FitProblem::sceneOf(const SimulatorSpec& simulator, std::size_t trial) const {
   return makeScene(scene, models, withSettings(simulator, trials[trial].recording), library.make);
@@ -189,15 +212,12 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   if (window_s < 0) {
     window_s = 0;
     if (ready.impacts) {
-      // Short enough for one impact. (Free runs of real tosses of 0.7 s end after four impacts where the integration's
-      // own error is as large as what there is to explain; in windows of 0.1 s it is below the noise floor.)
-      constexpr double oneImpact_s = 0.1, leastSamples = 12;
-      window_s = std::max(oneImpact_s, leastSamples * ready.trials[0].recording.samplePeriod());
+      window_s = windowOfImpacts(ready.trials[0]);
       ready.differenceStep = 0.1;
     } else if (!ready.walks) {
       ready.mayCoarsen = true;
       if (swingsFreely(scene, ready.trials[0])) {
-        window_s = 1;
+        window_s = windowOfSwings_s;
       } else {
         cutSegments(ready, 0);
         double most = 0;

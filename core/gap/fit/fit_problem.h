@@ -15,7 +15,8 @@
 namespace btr {
 
 /// One coordinate of a segment's initial state, or of a sensor, that the recording knows only so well. A fit may shift
-/// it, in multiples of `unit`, at the price of one squared multiple.
+/// it, in multiples of `unit`, at the price of (hold·multiple)². Where a trial begins, a free ball is held so loosely
+/// that all of its samples say how it began, not the first few, and no wrong model is pinned there.
 struct Nuisance {
   enum class What {
     jointPosition,
@@ -26,12 +27,17 @@ struct Nuisance {
     baseSpin,
     ballPosition,
     ballVelocity,
+    ballSpin,
     rounding  ///< no state: what a sensor whose counts never change is off by, as long as they do not
   };
   What what = What::jointPosition;
   std::size_t object = 0, part = 0;  ///< robot or ball, joint or axis; of a rounding: the measured channel, 0
-  double unit = 0;                   ///< its standard error, SI
+  double unit = 0;                   ///< its standard error by the samples around, SI
+  double hold = 1;                   ///< of the prior: one over its standard deviation in units
 };
+
+/// What shifts of initial states cost: sum of (hold·shift)².
+double priorCost(const std::vector<Nuisance>& nuisances, const std::vector<double>& shift);
 
 /// A stretch of a trial that is simulated from an estimated initial state: a whole trial, or a window of it.
 struct Segment {
@@ -39,6 +45,7 @@ struct Segment {
   std::size_t first = 0, scored = 0, last = 0;  ///< rows: simulated from `first`, compared in [scored, last)
   StartState start;
   std::vector<Nuisance> nuisances;
+  bool bounces = false;  ///< a ball may fly down to the floor in it: then its spin is felt there
   /// What is compared: residual k is (simulated − recorded)/noise floor of channel[k] in row[k].
   std::vector<std::size_t> channel, row;
   std::vector<int> block;  ///< of each, for scoring
@@ -84,6 +91,9 @@ struct FitProblem {
   /// Simulated steps of a replay of all segments.
   double steps() const;
 };
+
+/// How much of its trials says how they began [s]; infinite: all.
+double startIsFelt_s(const FitProblem& problem);
 
 /// Binds, estimates noise floors and initial states, decides between free runs and windows (free runs where an error
 /// of the initial state dies out, else windows), cuts. `window_s` > 0 asks for windows of that length. Throws

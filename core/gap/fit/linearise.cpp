@@ -56,6 +56,10 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
   for (std::size_t i = 0; i < shift.size(); ++i) {
     std::vector<double> moved = shift;
     moved[i] += startStep;
+    if (!isFelt(segment, segment.nuisances[i], scenes.scene(model.values, segment.trial))) {
+      all.col(column++).setZero();
+      continue;
+    }
     all.col(column++) = (simulate(model.values, moved) - all.col(0)) / startStep;
   }
   return all;
@@ -87,7 +91,9 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     result.first.push_back(at);
     result.rawStarts.push_back(starts);
     if (starts.cols() > 0) {
-      // With their prior of one standard error: an orthonormal basis B of what they explain, shrunk by λ/√(1+λ²).
+      // With their prior, in its standard deviations: an orthonormal basis B of what they explain, shrunk by λ/√(1+λ²).
+      for (Eigen::Index i = 0; i < starts.cols(); ++i)
+        starts.col(i) /= problem.segments[s].nuisances[static_cast<std::size_t>(i)].hold;
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(starts, Eigen::ComputeThinU);
       Eigen::MatrixXd basis = svd.matrixU();
       for (Eigen::Index i = 0; i < basis.cols(); ++i) {

@@ -34,10 +34,15 @@ SegmentCost::SegmentCost(const FitProblem& problem, const FitModel& model, std::
   set_num_residuals(static_cast<int>(segment_.row.size()));
 }
 
-Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
+std::vector<double> SegmentCost::numbersOf(const Eigen::VectorXd& x) const {
   std::vector<double> numbers(model_.parameters.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
     numbers[i] = x[static_cast<Eigen::Index>(i)] * model_.parameters[i].scale;
+  return numbers;
+}
+
+Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
+  const std::vector<double> numbers = numbersOf(x);
   const std::vector<double> shift(x.begin() + static_cast<std::ptrdiff_t>(numbers.size()), x.end());
   const std::vector<double> list = residualsOf(problem_, segment_, scenes_.scene(numbers, segment_.trial), shift);
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
@@ -61,6 +66,14 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
     if (known && i >= parameters) {
       column = known->rawStarts[index_].col(i - parameters);
       continue;
+    }
+    if (i >= parameters) {
+      const Nuisance& nuisance = segment_.nuisances[static_cast<std::size_t>(i - parameters)];
+      if (nuisance.what == Nuisance::What::ballSpin &&
+          !isFelt(segment_, nuisance, scenes_.scene(numbersOf(x), segment_.trial))) {
+        column.setZero();
+        continue;
+      }
     }
     const double step =
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;

@@ -42,7 +42,8 @@ class SegmentCost final : public ceres::CostFunction {
   void take(double const* const* blocks, const std::vector<double>& simulated);
 
  private:
-  Eigen::VectorXd gathered(double const* const* blocks) const;  ///< scaled parameters, then shifts
+  Eigen::VectorXd gathered(double const* const* blocks) const;    ///< scaled parameters, then shifts
+  std::vector<double> numbersOf(const Eigen::VectorXd& x) const;  ///< of the parameters, unscaled
   Eigen::VectorXd simulate(const Eigen::VectorXd& x) const;
   /// Columns [from, to).
   Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here, Eigen::Index from,

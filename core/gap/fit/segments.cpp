@@ -98,6 +98,60 @@ bool isVelocity(Nuisance::What what) {
   return what == jointRate || what == baseVelocity || what == baseSpin || what == ballVelocity;
 }
 
+std::span<const double> heightOf(const FitTrial& trial, std::size_t ball) {
+  for (const Measured& measured : trial.binding.measured)
+    if (measured.what == Measured::What::ballPosition && measured.object == ball && measured.part == 2)
+      return trial.recording.columns[measured.column];
+  return {};
+}
+
+/// Of a ball in a trial, over stretches that outlast its noise [m/s].
+double fastest(const FitTrial& trial, std::size_t ball) {
+  constexpr double stretch_s = 0.05;
+  const std::vector<double>& time = trial.recording.columns[0];
+  double most = 0;
+  for (std::size_t from = 0, to = 0; from < time.size(); ++from) {
+    while (to < time.size() && time[to] < time[from] + stretch_s) ++to;
+    if (to == time.size()) break;
+    double square = 0;
+    for (const Measured& measured : trial.binding.measured) {
+      if (measured.what != Measured::What::ballPosition || measured.object != ball) continue;
+      const std::vector<double>& values = trial.recording.columns[measured.column];
+      const double way = values[to] - values[from];
+      if (std::isfinite(way)) square += way * way;
+    }
+    most = std::max(most, std::sqrt(square) / (time[to] - time[from]));
+  }
+  return most;
+}
+
+/// Whether a ball in the air comes so near to the floor in some row that it may touch it before or after.
+bool comesDown(const Scene& scene, const FitTrial& trial, std::size_t ball) {
+  const std::span<const double> height = heightOf(trial, ball);
+  if (!scene.floor || height.empty()) return false;
+  const double near = 2 * scene.balls[ball].radius_m + fastest(trial, ball) * trial.recording.samplePeriod();
+  return std::ranges::any_of(height, [&](double z) { return z < near; });
+}
+
+/// A ball's spin is seen where it bounces, and in the air by what lifts it. What the trial or the scene says of it was
+/// measured, too; where nothing is said of it, it may be any, up to that of rolling at the ball's speed.
+void addSpin(const Scene& scene, const FitTrial& trial, std::size_t ball, bool begins,
+             std::vector<Nuisance>& nuisances) {
+  constexpr double share = 0.1, least_rad_s = 2;  // of what was measured
+  const BallSpec& spec = scene.balls[ball];
+  const std::string path = "balls." + spec.name + ".spin_";
+  const bool known =
+      spec.spin_rad_s != std::array<double, 3>{} ||
+      std::ranges::any_of(trial.recording.settings, [&](const auto& entry) { return entry.first.starts_with(path); });
+  const bool bounces = comesDown(scene, trial, ball);
+  if (!known && !bounces) return;
+  const double spin = std::hypot(spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2]);
+  const double any = std::max(least_rad_s, fastest(trial, ball) / spec.radius_m);
+  const double spread = known && (begins || !bounces) ? least_rad_s + share * spin : any;
+  for (std::size_t axis = 0; axis < (known ? 3u : 2u); ++axis)
+    nuisances.push_back({Nuisance::What::ballSpin, ball, axis, least_rad_s, least_rad_s / spread});
+}
+
 }  // namespace
 
 StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row, std::vector<Nuisance>& nuisances) {
@@ -107,13 +161,17 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
   const bool rests = trial.recording.beginsAtRest && row == 0;  // which is known, and no question to a fit
   const std::span<const double> time(trial.recording.columns[0]);
   nuisances.clear();
+  // How a tossed body began, all samples up to its first impact say.
+  const double loose = row == 0 && problem.impacts ? 10 : 1;
 
   for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
     const Measured& measured = trial.binding.measured[i];
     const std::span<const double> values(trial.recording.columns[measured.column]);
     const double noise = trial.noiseFloor[i];
-    const auto add = [&](Nuisance::What what, std::size_t part, double unit) {
-      if (!rests || !isVelocity(what)) nuisances.push_back({what, measured.object, part, unit});
+    /// `spread`: of the prior, where it is wider than the samples' error.
+    const auto add = [&](Nuisance::What what, std::size_t part, double unit, double spread = 0) {
+      if (!rests || !isVelocity(what))
+        nuisances.push_back({what, measured.object, part, unit, unit / std::max(unit, spread)});
     };
     if (measured.what == Measured::What::position) {
       const Drive& drive = scene.robots[measured.object].drives[measured.part];
@@ -139,13 +197,14 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
         state.robots[measured.object].base.translation()[axis] = local.value;
         state.robots[measured.object].velocity_m_s[axis] = local.slope;
       }
-      add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError));
-      add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError), loose * noise);
+      add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError),
+          loose * noise / reach_s);
     } else if (measured.what == Measured::What::baseOrientation && measured.part > 0 &&
                scene.robots[measured.object].freeBase) {
       // A quaternion's noise is half an angle's.
-      add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise);
-      add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s);
+      add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise, 2 * loose * noise);
+      add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s, 2 * loose * noise / reach_s);
     } else if (measured.what == Measured::What::ballPosition) {
       const Local local = localParabola(time, values, row, reach_s, noise);
       if (!local.known) continue;
@@ -156,8 +215,9 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
         ball.velocity_m_s[axis] = local.slope;
       }
       if (ball.onFloor && axis == 2) continue;
-      add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError));
-      add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError));
+      const double speed = row == 0 ? fastest(trial, measured.object) : 0;
+      add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError), speed * reach_s);
+      add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError), speed);
     }
   }
   for (std::size_t r = 0; r < state.robots.size() && row > 0; ++r) {
@@ -181,6 +241,8 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
   }
   for (BallState& ball : state.balls)
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+  for (std::size_t b = 0; b < state.balls.size(); ++b)
+    if (!state.balls[b].onFloor && !rests && !heightOf(trial, b).empty()) addSpin(scene, trial, b, row == 0, nuisances);
   addRoundings(trial, nuisances);
   return state;
 }
@@ -218,6 +280,8 @@ void cutSegments(FitProblem& problem, double window_s) {
       segment.first = segment.scored = first;
       segment.last = last;
       segment.start = stateAt(problem, t, first, segment.nuisances);
+      for (std::size_t b = 0; b < segment.start.balls.size(); ++b)
+        segment.bounces = segment.bounces || comesDown(problem.sceneOf(problem.given, t), trial, b);
       for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
         if (trial.noiseFloor[c] <= 0) continue;
         const auto& values = trial.recording.columns[trial.binding.measured[c].column];
@@ -242,11 +306,8 @@ void cutSegments(FitProblem& problem, double window_s) {
   }
 }
 
-std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
-                                const std::vector<double>& shift) {
-  const FitTrial& trial = problem.trials[segment.trial];
+StartState shiftedStart(const Segment& segment, const std::vector<double>& shift) {
   StartState start = segment.start;
-  std::vector<double> rounding(trial.noiseFloor.size(), 0);
   for (std::size_t i = 0; i < shift.size(); ++i) {
     const Nuisance& nuisance = segment.nuisances[i];
     const double by = shift[i] * nuisance.unit;
@@ -278,16 +339,40 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
       case Nuisance::What::ballVelocity:
         start.balls[nuisance.object].velocity_m_s[axis] += by;
         break;
+      case Nuisance::What::ballSpin:
+        start.balls[nuisance.object].spin_rad_s[axis] += by;
+        break;
       case Nuisance::What::rounding:
-        rounding[nuisance.object] = by;
         break;
     }
   }
   for (BallState& ball : start.balls)
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
+  return start;
+}
 
+bool isFelt(const Segment& segment, const Nuisance& nuisance, const Scene& scene) {
+  if (nuisance.what != Nuisance::What::ballSpin || (segment.bounces && scene.floor)) return true;
+  const std::string& name = scene.balls[nuisance.object].name;
+  BallState still = segment.start.balls[nuisance.object], spun = still;
+  // Any velocity that has a part across each axis.
+  still.velocity_m_s = spun.velocity_m_s = Eigen::Vector3d(1, 2, 3);
+  spun.spin_rad_s[static_cast<Eigen::Index>(nuisance.part)] += 1;
+  return std::ranges::any_of(scene.effects, [&](const SceneEffect& placed) {
+    return (placed.at == name || placed.at == "floor" || placed.at == "world") &&
+           placed.effect->ballForce(still, placed.values) != placed.effect->ballForce(spun, placed.values);
+  });
+}
+
+std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                const std::vector<double>& shift) {
+  const FitTrial& trial = problem.trials[segment.trial];
+  std::vector<double> rounding(trial.noiseFloor.size(), 0);
+  for (std::size_t i = 0; i < shift.size(); ++i)
+    if (segment.nuisances[i].what == Nuisance::What::rounding)
+      rounding[segment.nuisances[i].object] = shift[i] * segment.nuisances[i].unit;
   const ReplayedRecording replayed =
-      replayRecording(scene, trial.recording, trial.binding, start, segment.first, segment.last);
+      replayRecording(scene, trial.recording, trial.binding, shiftedStart(segment, shift), segment.first, segment.last);
   std::vector<double> residuals(segment.row.size(), afterFault);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];

@@ -13,6 +13,12 @@ void cutSegments(FitProblem& problem, double window_s);
 /// The state at a row from the samples on both sides of it, and how uncertain each coordinate is.
 StartState stateAt(const FitProblem& problem, std::size_t trial, std::size_t row, std::vector<Nuisance>& nuisances);
 
+/// False for a ball's spin that neither a floor nor an effect of the scene asks for.
+bool isFelt(const Segment& segment, const Nuisance& nuisance, const Scene& scene);
+
+/// The start of a segment, shifted by `shift` (by nuisance, in their units).
+StartState shiftedStart(const Segment& segment, const std::vector<double>& shift);
+
 /// Residual [noise floors] of a sample that the simulation did not reach, as it was ended by a fault: large, so that
 /// fits keep away from such numbers. It says nothing of where the simulation would have been.
 inline constexpr double afterFault = 100;

@@ -13,13 +13,13 @@ namespace {
 constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times that of the (lower) middle segment
 constexpr double kick = 3;                          // standard errors
 constexpr int iterations = 20;
-constexpr std::size_t mostBeginnings = 7;  // as many as a ball has
+constexpr std::size_t mostBeginnings = 7;  // as many as a ball without spin has
 constexpr double better = 0.98;
 
 bool isRate(const Nuisance& nuisance) {
   using enum Nuisance::What;
   return nuisance.what == jointRate || nuisance.what == baseVelocity || nuisance.what == baseSpin ||
-         nuisance.what == ballVelocity;
+         nuisance.what == ballVelocity || nuisance.what == ballSpin;
 }
 
 double sumOfSquares(const std::vector<double>& values) {
@@ -47,7 +47,7 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
   const auto costOf = [&](std::size_t s, const std::vector<double>& shift) {
     const Segment& segment = problem.segments[s];
     return sumOfSquares(residualsOf(problem, segment, scenes.scene(fit.model.values, segment.trial), shift)) +
-           sumOfSquares(shift);
+           priorCost(segment.nuisances, shift);
   };
   const auto costs =
       bySegment(problem, 1, [&](std::size_t s) { return std::vector<double>{costOf(s, fit.shifts[s])}; });

@@ -111,9 +111,9 @@ InverseReport inverse(const Scene& scene, const std::vector<Recording>& recordin
 InverseReport runInverse(const ResidualRequest& request, const EffectFactory& effects, const InverseOptions& options,
                          const std::function<bool(std::size_t, std::size_t)>& progress) {
   InverseReport report;
-  const bool all = forEachTrial(request, effects, progress, report.notes,
-                                [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
-                                  addRecording(scene, trial, options, report, goesOn);
+  const bool all = forEachTrial(request, progress, report.notes,
+                                [&](const TrialScenes& scenes, const Recording& trial, const auto& goesOn) {
+                                  addRecording(scenes.of(trial, effects), trial, options, report, goesOn);
                                 });
   if (!all) return report;
   if (progress && !progress(request.recordings.size(), request.recordings.size())) return report;

@@ -41,7 +41,8 @@ std::vector<std::string> channelsOf(const Scene& scene) {
 
 }  // namespace
 
-Recording predict(const Scene& scene, const Recording& recording, const std::function<bool()>& goesOn) {
+Recording predict(const Scene& scene, const Recording& recording, const std::function<bool()>& goesOn,
+                  const std::optional<StartState>& start) {
   Recording whole = recording;
   for (const std::string& name : channelsOf(scene)) {
     if (whole.column(name) >= 0) continue;
@@ -49,8 +50,8 @@ Recording predict(const Scene& scene, const Recording& recording, const std::fun
     whole.columns.emplace_back(whole.rows(), std::numeric_limits<double>::quiet_NaN());
   }
   const Binding binding = bind(scene, whole);
-  const ReplayedRecording replayed =
-      replayRecording(scene, whole, binding, startState(scene, whole, binding), 0, whole.rows(), goesOn);
+  const ReplayedRecording replayed = replayRecording(
+      scene, whole, binding, start ? *start : startState(scene, whole, binding), 0, whole.rows(), goesOn);
 
   Recording predicted;
   predicted.source = recording.source;
@@ -81,7 +82,8 @@ std::vector<Recording> runPredict(const PredictRequest& request, const EffectFac
     if (trials.size() > 1)
       out.replace_filename(out.stem().string() + "-" + std::to_string(i + 1) + out.extension().string());
     checkOutputFile(out.string(), inputs);
-    written.push_back(predict(scenes.of(trials[i], effects), trials[i], goesOn));
+    const auto start = request.start ? request.start(scenes, effects, trials[i], goesOn) : std::nullopt;
+    written.push_back(predict(scenes.of(trials[i], effects), trials[i], goesOn, start));
     written.back().source = out.string();
     written.back().notes.insert(written.back().notes.begin(), losses.begin(), losses.end());
   }

@@ -35,8 +35,9 @@ ChannelError compare(const Recording& recording, std::size_t column, const std::
   return error;
 }
 
+/// `startOf` is asked once the recording is known to be one that can be replayed; nothing: its first samples.
 void addRecording(const Scene& scene, const Recording& recording, bool asRecorded, ResidualReport& report,
-                  const std::function<bool()>& goesOn) {
+                  const std::function<bool()>& goesOn, const std::function<std::optional<StartState>()>& startOf) {
   const std::string name = std::filesystem::path(recording.source).filename().string();
   const auto note = [&](const std::string& text) { report.notes.push_back(name + ": " + text); };
   for (const std::string& text : recording.notes) note(text);
@@ -54,7 +55,8 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
                      "ball channels are needed");
   if (recording.rows() < 2) throw InputError(recording.source, "one row", "at least two rows for a replay");
 
-  const StartState start = startState(scene, recording, binding);
+  const std::optional<StartState> estimated = startOf ? startOf() : std::nullopt;
+  const StartState start = estimated ? *estimated : startState(scene, recording, binding);
   Scene finer = scene;
   finer.step_s /= 2;
   const ReplayedRecording replayed = replayRecording(scene, recording, binding, start, 0, recording.rows(), goesOn);
@@ -75,7 +77,7 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
 
 ResidualReport residual(const Scene& scene, const std::vector<Recording>& recordings, bool asRecorded) {
   ResidualReport report;
-  for (const Recording& recording : recordings) addRecording(scene, recording, asRecorded, report, {});
+  for (const Recording& recording : recordings) addRecording(scene, recording, asRecorded, report, {}, {});
   joinNotes(report.notes);
   return report;
 }
@@ -84,10 +86,11 @@ ResidualReport runResidual(const ResidualRequest& request, const EffectFactory& 
                            const std::function<bool(std::size_t, std::size_t)>& progress) {
   ResidualReport report;
   std::vector<std::string> losses;
-  const bool all = forEachTrial(request, effects, progress, losses,
-                                [&](const Scene& scene, const Recording& trial, const auto& goesOn) {
-                                  addRecording(scene, trial, request.asRecorded, report, goesOn);
-                                });
+  const bool all = forEachTrial(
+      request, progress, losses, [&](const TrialScenes& scenes, const Recording& trial, const auto& goesOn) {
+        addRecording(scenes.of(trial, effects), trial, request.asRecorded, report, goesOn,
+                     [&] { return request.start ? request.start(scenes, effects, trial, goesOn) : std::nullopt; });
+      });
   if (!all) return report;
   joinNotes(report.notes);
   report.notes.insert(report.notes.begin(), losses.begin(), losses.end());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/start_state.h"
 #include "core/sim/scene.h"
 
 namespace btr {
@@ -39,6 +40,7 @@ struct ResidualRequest {
   std::string mapping;
   std::string simulator;    ///< path of a simulator.json, "": the scene as given
   bool asRecorded = false;  ///< goes on where the doctor is certain that the time is not in seconds
+  StartEstimator start;     ///< where each trial begins; none: where its first samples say
   std::string out;          ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
 };
 /// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings,

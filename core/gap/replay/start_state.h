@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/gap/recordings/binding.h"
@@ -25,5 +27,12 @@ struct StartState {
 /// path, from the samples of its velocity where there are some. A servo that leaves its place within the first samples
 /// of a recording begins at rest if the scene, so driven, then comes nearer to them.
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row = 0);
+
+struct TrialScenes;
+/// A better way than the first samples to say where a trial begins (fitted_start.h has one), or nothing of one that it
+/// cannot say it of. May ask goesOn() meanwhile, and throw Cancelled.
+using StartEstimator =
+    std::function<std::optional<StartState>(const TrialScenes& scenes, const EffectFactory& effects,
+                                            const Recording& trial, const std::function<bool()>& goesOn)>;
 
 }  // namespace btr

@@ -30,16 +30,17 @@ TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulat
   return loaded;
 }
 
-bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
-                  const std::function<bool(std::size_t, std::size_t)>& progress, std::vector<std::string>& losses,
-                  const std::function<void(const Scene&, const Recording&, const std::function<bool()>&)>& use) try {
+bool forEachTrial(
+    const ResidualRequest& request, const std::function<bool(std::size_t, std::size_t)>& progress,
+    std::vector<std::string>& losses,
+    const std::function<void(const TrialScenes&, const Recording&, const std::function<bool()>&)>& use) try {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
   std::ranges::move(modelLosses(scenes.spec, scenes.models), std::back_inserter(losses));
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
     const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
     if (!goesOn()) return false;
     for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene))
-      use(scenes.of(trial, effects), trial, goesOn);
+      use(scenes, trial, goesOn);
   }
   return true;
 } catch (const Cancelled&) {

@@ -24,12 +24,13 @@ struct TrialScenes {
 /// From a scene file and a simulator.json ("" for the scene as given). Throws InputError.
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator);
 
-/// Loads what is asked for and gives each trial with its scene to `use`, in the order of the files. `progress(done,
-/// all)` counts files before each one; when it returns false, so does this, and the rest is left. `use`
+/// Loads what is asked for and gives each trial with what its scene is made from to `use`, in the order of the files.
+/// `progress(done, all)` counts files before each one; when it returns false, so does this, and the rest is left. `use`
 /// may ask goesOn() meanwhile, and throw Cancelled for the same end. What the scene's robots lack of their files is
 /// appended to `losses`. Throws InputError.
-bool forEachTrial(const ResidualRequest& request, const EffectFactory& effects,
-                  const std::function<bool(std::size_t, std::size_t)>& progress, std::vector<std::string>& losses,
-                  const std::function<void(const Scene&, const Recording&, const std::function<bool()>& goesOn)>& use);
+bool forEachTrial(
+    const ResidualRequest& request, const std::function<bool(std::size_t, std::size_t)>& progress,
+    std::vector<std::string>& losses,
+    const std::function<void(const TrialScenes&, const Recording&, const std::function<bool()>& goesOn)>& use);
 
 }  // namespace btr

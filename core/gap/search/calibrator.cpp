@@ -12,6 +12,7 @@
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/drawn_starts.h"
 #include "core/gap/search/model_comparison.h"
+#include "core/gap/search/range_scan.h"
 #include "core/gap/search/restarts.h"
 #include "core/spec/random.h"
 
@@ -71,6 +72,7 @@ Scored Calibrator::fitNumbers() const {
     fits.insert(fits.end(), others.begin(), others.end());
   }
   std::vector<Fit> best{*std::min_element(fits.begin(), fits.end(), costsLess)};
+  if (!problem.walks && fits.size() > 1) restartFromRanges(service_, best[0], "calibrating", 0.08);
   if (problem.walks && fits.size() > 1) restartFromDraws(service_, best[0], "calibrating", 0.08);
   restartInitialStates(service_, best[0], "calibrating", 0.08);
   // A step that was harmless beside the error as given may not be so beside what is left of it.

@@ -46,17 +46,22 @@ struct SearchThresholds {
     double leastForStarts = 0.6;  ///< cost per residual from which drawn starts are tried; noise alone costs 0.5 [hand]
     double startSpread = 2;       ///< typical changes to either side that starts are drawn from [hand]
     int startIterations = 10;     ///< of those [time]
-    int againIterations = 15;     ///< with the initial states of trials that got stuck begun anew [time]
-    int drawnIterations = 15;     ///< of a walk, from the best of drawn replays [time]
-    double sensitive = 0.5;       ///< noise floors, all residuals together: a typical change of a number that changes
-                                  ///< less is held [hand]
-    double unstableRatio = 1.5;   ///< held-out error over that of the fit; more in free runs asks for windows [hand]
-    double unstableError = 1.3;   ///< and held-out error of at least this [hand]
-    double chiSquared95 = 3.84;   ///< χ² of one number: what going back to the value as given may cost [statistics]
-    double farFromGiven = 2;    ///< typical changes: a calibration that moved a number farther may have bent it [hand]
-    double muchLeft = 1;        ///< and excess from which effects are looked for from the numbers as given, too [hand]
-    double leastToFitOn = 0.1;  ///< excess at which what was accepted is fitted on [case: curved valleys]
-    int toTheEnd = 30;          ///< iterations of what was accepted and of its rivals [time]
+    int scanned = 9;              ///< places in each number's range that are replayed, twice [time]
+    std::size_t hypercubePerNumber = 6, hypercubeMost = 48;  ///< and of all numbers together [time]
+    std::size_t scannedSegments = 6;                         ///< from all over the recordings, for that [time]
+    std::size_t scanFitted = 3;                              ///< of these places, the best, that are fitted [time]
+    double apart = 0.08;         ///< of its range: some number of one is so far from that of another [hand]
+    int againIterations = 15;    ///< with the initial states of trials that got stuck begun anew [time]
+    int drawnIterations = 15;    ///< of a walk, from the best of drawn replays [time]
+    double sensitive = 0.5;      ///< noise floors, all residuals together: a typical change of a number that changes
+                                 ///< less is held [hand]
+    double unstableRatio = 1.5;  ///< held-out error over that of the fit; more in free runs asks for windows [hand]
+    double unstableError = 1.3;  ///< and held-out error of at least this [hand]
+    double chiSquared95 = 3.84;  ///< χ² of one number: what going back to the value as given may cost [statistics]
+    double farFromGiven = 2;     ///< typical changes: a calibration that moved a number farther may have bent it [hand]
+    double muchLeft = 1;         ///< and excess from which effects are looked for from the numbers as given, too [hand]
+    double leastToFitOn = 0.1;   ///< excess at which what was accepted is fitted on [case: curved valleys]
+    int toTheEnd = 30;           ///< iterations of what was accepted and of its rivals [time]
   };
 
   /// Where a fit is begun again to leave a side minimum. "Better" is the cost after over the cost before.

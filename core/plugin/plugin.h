@@ -9,6 +9,7 @@
 #include "core/learn/selection.h"
 #include "core/learn/variation.h"
 #include "core/model/kinematics.h"
+#include "core/plugin/joint_effect.h"
 #include "core/plugin/plugin_build.h"
 #include "core/plugin/reality.h"
 #include "core/plugin/robot_program.h"

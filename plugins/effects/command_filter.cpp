@@ -14,6 +14,10 @@ class CommandFilter final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"time_constant_s", "s", "time constant of the command's filter", 0, 1, 0.03, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::command, "commands that the firmware smooths", "T·ẏ = c − y, and the servo follows y",
+            "T: time_constant_s; c: command", "Ellis 2012"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 2; }

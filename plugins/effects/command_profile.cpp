@@ -19,6 +19,11 @@ class CommandProfile final : public btr::Effect {
             {"inverse_acceleration_s2_rad", "s²/rad", "one over the largest acceleration, s²/m on a slide joint", 0, 5,
              0.02, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::command, "commands that the firmware approaches with bounded speed and acceleration",
+            "|ẏ| ≤ V,  |ÿ| ≤ A, and the servo follows y", "V: 1/inverse_speed_s_rad; A: 1/inverse_acceleration_s2_rad",
+            "Biagiotti and Melchiorri 2008"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 3; }

@@ -17,6 +17,11 @@ class DriveDeadBand final : public btr::Effect {
     kind.integer = true;
     return {{"torque_nm", "N·m", "least torque that the drive gives, N on a slide joint", 0, 50, 0.03, 0.0}, kind};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a drive that does nothing with little",
+            "τ’ = τ − clamp(τ, ±z), or 0 for |τ| < z, else τ", "z: torque_nm; which of them: kind",
+            "Tao and Kokotović 1994"};
+  }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
 

@@ -14,6 +14,10 @@ class IntegralAction final : public btr::Effect {
     return {{"gain_nm_rad_s", "N·m/(rad·s)", "torque per error and second, N/(m·s) on a slide joint", 0, 1000, 2, 0.0},
             {"clamp_nm", "N·m", "largest torque that it adds up to, N on a slide joint", 1e-3, 100, 0.3}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a servo that adds up its error", "ż = k·(c − q),  |z| ≤ Z,  τ’ = τ + z",
+            "k: gain_nm_rad_s; Z: clamp_nm; c: command, q: joint", "Åström and Hägglund 1995"};
+  }
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 1; }
 

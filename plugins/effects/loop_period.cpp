@@ -15,6 +15,10 @@ class LoopPeriod final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"period_s", "s", "between two looks of the servo's loop", 0, 0.1, 0.01, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a servo loop with a clock of its own, which holds its torque in between",
+            "τ’(t) = τ(n·T) for n·T ≤ t < (n + 1)·T", "T: period_s", "Åström and Wittenmark 1997"};
+  }
   Place place() const override { return Place::joint; }
   int stateSize() const override { return 2; }
 

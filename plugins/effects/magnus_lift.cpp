@@ -21,8 +21,9 @@ class MagnusLift final : public btr::Effect {
     return {{"lift_number", "", "lift coefficient per ratio of spin to speed", -2, 6, 1, 0.0}, saturates};
   }
   btr::EffectLaw law() const override {
-    return {btr::EffectLaw::Acts::air, "lift of a spinning ball", "F = ½·ρ·π·r^3·l·(ω × v)",
-            "l: lift_number; ω: spin; ρ = 1.2 kg/m³", "Robins 1742; Magnus 1852; Rubinow and Keller 1961"};
+    return {btr::EffectLaw::Acts::air, "lift of a spinning ball",
+            "F = ½·ρ·π·r^3·l·(ω × v), divided by 1 + 2.32·l·S where it saturates",
+            "l: lift_number; ω: spin; S = r·|ω|/|v|; ρ = 1.2 kg/m³", "Robins 1742; Magnus 1852; Nathan 2008"};
   }
   Place place() const override { return Place::ball; }
 

@@ -40,6 +40,11 @@ class MeasuredLaw final : public btr::Effect {
     }
     return list;
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::joint, "a force that nobody named, as it was measured",
+            "τ = f_1(x_1) + f_2(x_2), each through its knots", "x: curve1_on, curve2_on; knots from low to high",
+            "measured"};
+  }
   Place place() const override { return Place::joint; }
 
   double torque(const btr::JointState& joint, std::span<const double> values) const override {

@@ -13,6 +13,10 @@ class RestitutionBySpeed final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"loss_s_m", "s/m", "loss of restitution per speed of the hit", 0, 2, 0.1, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "hard hits that bounce back less than soft ones", "e’ = e/(1 + k·v)",
+            "k: loss_s_m; v: speed of the hit", "Stronge 2000; Johnson 1985"};
+  }
   Place place() const override { return Place::floor; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

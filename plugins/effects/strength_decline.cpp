@@ -16,6 +16,11 @@ class StrengthDecline final : public btr::Effect {
     return {{"loss_1_s", "1/s", "share of the torque that is lost per second at the start", 0, 1, 0.05, 0.0},
             {"time_constant_s", "s", "in which the loss comes to its end", 0.3, 1000, 5}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a drive that grows weaker in the course of a trial",
+            "τ’ = τ·max(0, 1 − r·T·(1 − exp(−t/T)))", "r: loss_1_s; T: time_constant_s; t: time of the trial",
+            "Boglietti et al. 2009"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::supply; }
   bool dissipative() const override { return true; }

@@ -192,6 +192,28 @@ TEST(Counts, ACommandThatIsHeldForSeveralRowsIsFollowedToo) {
   EXPECT_LT(servo.worst(1, servo.command), 1e-9);
 }
 
+TEST(Counts, ACommandThatJumpsIsReadAsItsJointShows) {
+  // Steps about zero, and a servo that follows them.
+  const auto steps = [](double t) {
+    return std::fmod(t, 1.0) < 0.5 ? 0.4 + 0.1 * std::sin(t) : -0.3 - 0.1 * std::sin(2 * t);
+  };
+  for (const bool turn : {true, false}) {
+    Servo servo(2 * M_PI / 4096, steps);
+    double q = servo.command[0];
+    for (std::size_t i = 0; i < servo.position.size(); ++i) {
+      q += 0.2 * (servo.command[i] - q);
+      servo.position[i] = servo.count_rad * std::round(q / servo.count_rad);
+    }
+    const auto written = [&](double counts) { return turn ? wrapped(counts, 4096) : signMagnitude(counts, 15); };
+    servo.writePosition(written);
+    servo.writeCommand(written);
+    mendCounts(servo.trial, &servo.mapping);
+    EXPECT_LT(servo.worst(2, servo.position), 1e-9) << turn;
+    EXPECT_LT(servo.worst(1, servo.command), 1e-9) << turn;
+    EXPECT_THAT(servo.trial.notes, Contains(HasSubstr("as its joint's position shows")));
+  }
+}
+
 TEST(Counts, TheMappingSaysItBeforehand) {
   Servo servo(2 * M_PI / 4096, spinning);
   servo.writePosition([](double counts) { return wrapped(counts, 4096); });

@@ -99,6 +99,16 @@ TEST(NoiseSharing, TakesTheRoundingOfTheFileWhereNothingElseTells) {
   EXPECT_GT(trials[0].noiseFloor[0], 0);
 }
 
+TEST(NoiseSharing, SaysWhereThereAreTooFewNumbers) {
+  std::vector<double> few = still(std::nan(""));
+  few[10] = 0.25;
+  few[300] = 0.5;
+  std::vector<FitTrial> trials{trialOf({{"leg.knee.position_rad", few}})};
+  trials[0].recording.places.lastDigit = {0.01, 0.001};
+  EXPECT_THAT(shared(trials), ElementsAre(HasSubstr("leg.knee.position_rad: has too few numbers to show its noise")));
+  EXPECT_NEAR(trials[0].noiseFloor[0], 0.001 / std::sqrt(12.0), 1e-12);
+}
+
 TEST(NoiseSharing, LeavesAColumnWithoutNumbersOut) {
   std::vector<FitTrial> trials{
       trialOf({{"leg.knee.position_rad", still(std::nan(""))}, {"leg.hip.position_rad", noisy(0.1)}})};

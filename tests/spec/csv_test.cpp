@@ -53,6 +53,27 @@ TEST(CsvReader, SkipsTheByteOrderMarkAndEmptyLinesButCountsTheLines) {
   EXPECT_EQ((std::vector<long>{3, 5, 9}), lines);
 }
 
+TEST(CsvReader, PassesOverCommentsAndWhatItIsToldTo) {
+  std::istringstream stream("\xEF\xBB\xBFmade by \"hand\n\n# a,b\n1,2\n# \"three\n\"# 3\",4\n%\n");
+  CsvReader reader(stream, "table.csv");
+  reader.skipLine();
+  reader.skipLine();
+  reader.skipBytes(2);
+  std::vector<std::string> row;
+  ASSERT_TRUE(reader.next(row));
+  EXPECT_EQ(row, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(reader.line(), 3);
+  reader.passOver("#%");
+  ASSERT_TRUE(reader.next(row));
+  EXPECT_FALSE(reader.atEnd());
+  ASSERT_TRUE(reader.next(row));
+  EXPECT_EQ(row, (std::vector<std::string>{"# 3", "4"}));
+  EXPECT_EQ(reader.line(), 6);
+  EXPECT_FALSE(reader.next(row));
+  EXPECT_TRUE(reader.atEnd());
+  EXPECT_EQ(reader.comments(), 2u);
+}
+
 TEST(CsvReader, FindsNothingInAnEmptyText) {
   EXPECT_TRUE(rowsOf("").empty());
   EXPECT_TRUE(rowsOf("\n\r\n\xEF\xBB\xBF").size() == 1);  // a mark that does not open the file is content

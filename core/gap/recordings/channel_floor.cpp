@@ -43,8 +43,8 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   ChannelFloor floor;
   if (values.empty()) return floor;
   const double rounding = quantisationStep(values) / std::sqrt(12.0);
-  floor.byRows = noiseFloor(values);
-  floor.byStamps = noiseFloor(time, values);
+  floor.byRows = noiseFloor(recording.columns[column]);
+  floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column]);
   const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
   floor.level = std::max({floor.byStamps, rounding, filtered});
   // A constant's differences show the rounding of the arithmetic.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/command_by_position.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/row_order.h"
@@ -74,11 +75,6 @@ double usual(const std::vector<double>& steps, const std::vector<char>& leaps) {
   const auto place = sizes.begin() + static_cast<std::ptrdiff_t>(9 * sizes.size() / 10);
   std::nth_element(sizes.begin(), place, sizes.end());
   return *place;
-}
-
-double withSign(double number, int bit) {
-  const double half = std::ldexp(1, bit);
-  return number >= half ? half - number : number;
 }
 
 /// The bit that is a sign, −1 for none: all leaps of its size vanish where it is read as one.
@@ -282,17 +278,15 @@ void mendCounts(Recording& trial, const Mapping* mapping) {
   for (const std::size_t column : order) {
     const std::string& channel = trial.channels[column];
     if (!parseChannel(channel)) continue;
-    const MappedColumn* mapped = nullptr;
-    if (mapping)
-      for (const MappedColumn& each : mapping->columns)
-        if (each.channel == channel) mapped = &each;
-    if (const double period = Counter(trial, column, mapped).mend(); period > 0) followed[channel] = period;
+    const double period = Counter(trial, column, mappedColumn(mapping, channel)).mend();
+    if (period > 0) followed[channel] = period;
   }
   std::set<std::string> done;
   for (const auto& [channel, period] : followed) {
     const std::string joint = channel.substr(0, channel.rfind('.') + 1);
     if (done.insert(joint).second) putBeside(trial, joint, channel.ends_with("_rad") ? "_rad" : "_m", followed);
   }
+  readCommandsByPosition(trial, mapping, followed);
 }
 
 }  // namespace btr

@@ -25,10 +25,23 @@ std::vector<double> differencesOf(std::span<const double> values) {
   return differences;
 }
 
-/// The median over blocks of 50 of the root mean square, of numbers that white noise of standard deviation 1 makes as
-/// large. A last, shorter block counts only when it stands alone.
-double medianOfBlocks(const std::vector<double>& noise) {
-  constexpr std::size_t block = 50;
+constexpr std::size_t fullBlock = 50;
+
+/// So many differences of a sensor that is slower than the table make a block that they take as long as 50 rows.
+std::size_t blockOf(std::size_t numbers, std::size_t rows) {
+  return std::clamp<std::size_t>(fullBlock * numbers / std::max<std::size_t>(rows, 1), 10, fullBlock);
+}
+
+/// By how much the median of a block's mean square falls behind the mean: a χ² of as many degrees as a block's fourth
+/// differences have, overlapping as they do (their correlations −0.8, 0.4, −0.11, 0.01), after Wilson and Hilferty.
+double medianOfSquare(std::size_t block) {
+  constexpr double sharedBy = 2.626;  // 1 + 2·Σρ²
+  return std::pow(1 - 2 / (9 * static_cast<double>(block) / sharedBy), 3);
+}
+
+/// The median over blocks of the root mean square, of numbers that white noise of standard deviation 1 makes as large;
+/// of short blocks as that of long ones would be. A last, shorter block counts only when it stands alone.
+double medianOfBlocks(const std::vector<double>& noise, std::size_t block) {
   std::vector<double> levels;
   for (std::size_t first = 0; first < noise.size(); first += block) {
     const std::size_t last = std::min(noise.size(), first + block);
@@ -37,7 +50,7 @@ double medianOfBlocks(const std::vector<double>& noise) {
     for (std::size_t i = first; i < last; ++i) sum += noise[i] * noise[i];
     levels.push_back(std::sqrt(sum / static_cast<double>(last - first)));
   }
-  return median(std::move(levels));
+  return median(std::move(levels)) * std::sqrt(medianOfSquare(fullBlock) / medianOfSquare(block));
 }
 
 double rootMeanSquare(const std::vector<double>& values) {
@@ -86,7 +99,7 @@ double noiseFloor(std::span<const double> all) {
   std::vector<double> noise;
   for (std::size_t i = 4; i < values.size(); ++i)
     noise.push_back((values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4]) / gain);
-  return medianOfBlocks(noise);
+  return medianOfBlocks(noise, blockOf(values.size(), all.size()));
 }
 
 double noiseFloor(std::span<const double> allTimes, std::span<const double> allValues) {
@@ -115,7 +128,7 @@ double noiseFloor(std::span<const double> allTimes, std::span<const double> allV
     }
     noise.push_back(sum / std::sqrt(gain));
   }
-  return medianOfBlocks(noise);
+  return medianOfBlocks(noise, blockOf(value.size(), allValues.size()));
 }
 
 double quantisationStep(std::span<const double> all) {

@@ -71,6 +71,17 @@ double rhythm(const std::vector<double>& steps, std::size_t i) {
                   median({at(i + 1), at(std::min(steps.size(), i + 1 + reach))}));
 }
 
+/// The stamps from `row` on, and not that of `row` alone, are at least half a period behind those before.
+bool staysBehind(const std::vector<double>& time, std::size_t row, double period) {
+  constexpr std::size_t reach = 12;
+  std::vector<double> before, after;
+  for (std::size_t i = row > reach ? row - reach : 0; i < row; ++i)
+    before.push_back(time[i] + period * static_cast<double>(row - i));
+  for (std::size_t i = row; i < std::min(time.size(), row + reach); ++i)
+    after.push_back(time[i] - period * static_cast<double>(i - row));
+  return median(std::move(after)) - median(std::move(before)) > period / 2;
+}
+
 }  // namespace
 
 std::size_t everyNthRow(const std::vector<double>& values) {
@@ -97,10 +108,13 @@ RecordingHealth examine(const Recording& recording) {
   for (const double step : steps) deviations.push_back(std::abs(step - health.period_s));
   health.jitter_s = median(deviations);
 
-  // Pauses.
+  // Pauses. A stamp that is only late is followed by stamps that are in time.
+  constexpr double muchJitter = 0.08;  // periods
+  const bool jitters = noiseFloor(time) > muchJitter * health.period_s;
   double missing = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps.size() < 4 || steps[i] <= 1.5 * rhythm(steps, i)) continue;
+    if (jitters && !staysBehind(time, i + 1, health.period_s)) continue;
     const double lost = std::max(1.0, std::round(steps[i] / rhythm(steps, i)) - 1);
     const auto row = std::ranges::lower_bound(rows, time[i + 1]) - rows.begin();
     health.gaps.push_back({static_cast<std::size_t>(row), time[i], time[i + 1], lost});

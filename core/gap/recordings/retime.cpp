@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "core/gap/recordings/even_grid.h"
@@ -13,12 +15,15 @@
 namespace btr {
 namespace {
 
-constexpr std::size_t around = 25;  // stamps that tell where a clock stands: their median is what no late one changes
-constexpr double mostPeriods = 3;   // that a stamp may be off, in the usual row
-constexpr double samePeriod = 0.1;  // by which a given period may differ from that of the stamps
+constexpr std::size_t around = 25;   // stamps that tell where a clock stands: their median is what no late one changes
+constexpr double mostPeriods = 3;    // that a stamp may be off, in the usual row
+constexpr double mostTelling = 0.4;  // jitter, in periods, that still shows dropped samples
+constexpr double samePeriod = 0.1;   // by which a given period may differ from that of the stamps
 
-/// Of the stamps, over ten rows: jitter counts a tenth, stamps that repeat as they are too coarse do no harm.
+/// Of the stamps: over ten rows jitter counts a tenth, and dropped samples do no harm; coarse stamps need all rows.
 double averagePeriod(const std::vector<double>& time) {
+  if (std::ranges::adjacent_find(time, std::greater_equal<>()) != time.end())
+    return (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   const std::size_t over = std::min<std::size_t>(10, time.size() - 1);
   std::vector<double> periods;
   for (std::size_t i = over; i < time.size(); ++i)
@@ -110,13 +115,16 @@ void retime(Recording& trial, double period_s) {
   if (period_s > 0 && std::abs(period_s - own) > samePeriod * own)
     throw InputError(trial.source + ": retime period_s", toText(period_s),
                      "about " + digits(own) + ", which the stamps have on the average");
-  // Numbers and period from each other.
-  std::vector<double> number;
+  // Stamps that stray too far do not tell of dropped samples; else numbers and period follow from each other.
+  std::vector<double> number(time.size());
+  std::iota(number.begin(), number.end(), 0.0);
+  const bool tells = noiseFloor(time) < mostTelling * own;
   Clock clock{0, period_s > 0 ? period_s : own};
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 4 && tells; ++round) {
     number = sampleNumbers(time, clock.period_s);
     clock = evenClock(time, number, period_s);
   }
+  if (!tells) clock = evenClock(time, number, period_s);
   std::vector<double> moved;
   double most = 0;
   for (std::size_t i = 0; i < time.size(); ++i) {

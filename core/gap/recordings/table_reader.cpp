@@ -166,7 +166,8 @@ std::vector<std::string> TableReader::notes() const {
   std::vector<std::string> notes = notes_;
   if (headingLine_ > 1 && layout_.headingLine > 1)
     notes.insert(notes.begin(), "the heading stands in line " + std::to_string(headingLine_) + "; " +
-                                    (headingLine_ == 2 ? "the line" : "the lines") + " above it were passed over");
+                                    (headingLine_ == 2 ? "the line above it was" : "the lines above it were") +
+                                    " passed over");
   if (layout_.commentBytes > 0)
     notes.push_back("the heading, line " + std::to_string(headingLine_) + ", is written as a comment");
   if (reader_.comments() > 0) notes.push_back(counted(reader_.comments(), "line") + " of comment passed over");

@@ -42,7 +42,7 @@ void lookForLongTimes(double period_s, bool certain, std::vector<Finding>& findi
   if (period_s == 1) names += ", or the number of the sample";
   findings.push_back({"time_s",
                       "time_s: a sample every " + digits(period_s) + " s, too slow for a robot's log: " + names +
-                          ", it seems; give it the \"scale\" " + scales + " in the mapping" +
+                          ", it seems; multiply the \"scale\" of time_s in the mapping by " + scales +
                           (period_s == 1 ? ", or the time between two samples" : ""),
                       certain});
 }

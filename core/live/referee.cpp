@@ -8,7 +8,7 @@ namespace btr {
 namespace {
 
 using Eigen::Vector3d;
-using Place = std::array<double, 3>;
+using Spot = std::array<double, 3>;
 
 std::string otherThan(const std::string& team) { return team == "red" ? "blue" : "red"; }
 
@@ -55,7 +55,7 @@ Vector3d putBack(const RefereeSpec& spec, const FieldSpec& field, const Vector3d
 }
 
 /// The places of a team that defends −x: who kicks off, the two behind him, the one in the goal, the others.
-Place kickOffPlaceOf(const FieldSpec& field, int number, bool kicks) {
+Spot kickOffPlaceOf(const FieldSpec& field, int number, bool kicks) {
   const double length = field.length_m, width = field.width_m;
   // A dog's nose is 0.2 m before its middle; the circle's radius was 0.15 m in 2004.
   if (number == 0) return {-std::min(kicks ? 0.30 : 0.50, 0.2 * length), 0, 0};
@@ -129,17 +129,17 @@ RefereeOrder officiate(const RefereeSpec& spec, const FieldSpec& field, RefereeS
   return {std::nullopt, state.kicks};
 }
 
-std::map<std::string, Place> kickOffPlaces(const RefereeSpec& spec, const FieldSpec& field, const RefereeState& state,
-                                           const std::string& kicks,
-                                           const std::vector<std::pair<std::string, std::string>>& teams) {
-  std::map<std::string, Place> places;
+std::map<std::string, Spot> kickOffPlaces(const RefereeSpec& spec, const FieldSpec& field, const RefereeState& state,
+                                          const std::string& kicks,
+                                          const std::vector<std::pair<std::string, std::string>>& teams) {
+  std::map<std::string, Spot> places;
   std::map<std::string, int> count;
   const bool changed = areSidesChanged(spec, state);
-  const auto turned = [](const Place& p) -> Place {
+  const auto turned = [](const Spot& p) -> Spot {
     return {-p[0], -p[1], std::remainder(p[2] + std::numbers::pi, 2 * std::numbers::pi)};
   };
   for (const auto& [name, team] : teams) {
-    Place place;
+    Spot place;
     if (const auto given = spec.kickOff.find(name); given != spec.kickOff.end()) {
       place = given->second;
     } else if (!team.empty()) {

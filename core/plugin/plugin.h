@@ -9,6 +9,7 @@
 #include "core/learn/selection.h"
 #include "core/learn/variation.h"
 #include "core/model/kinematics.h"
+#include "core/plugin/joint_effect.h"
 #include "core/plugin/plugin_build.h"
 #include "core/plugin/reality.h"
 #include "core/plugin/robot_program.h"
@@ -58,7 +59,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 6;
+inline constexpr int pluginApiVersion = 7;
 
 /// Changes when a type that passes between plugin and program changes its size.
 inline constexpr std::size_t pluginLayout = sizeof(Parameter) + 3 * sizeof(JointState) + 5 * sizeof(BallState) +

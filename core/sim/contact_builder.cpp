@@ -54,7 +54,7 @@ bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
   if (hit) {
     // A hit: Newton's law of impact, without softness.
     s.mode |= dContactBounce;
-    s.bounce = surface.restitution;
+    s.bounce = surface.restitution / (1 + surface.bounceLoss_s_m * approach);
     s.bounce_vel = 0;
     s.soft_erp = 0;
     s.soft_cfm = 0;

@@ -20,6 +20,7 @@ struct ContactSurface {
   double stiffness_n_m = 2e4, damping_n_s_m = 100;
   double slip1_m_s_n = 0, slip2_m_s_n = 0;                ///< along the direction below and across
   Eigen::Vector3d slip1Along = Eigen::Vector3d::UnitX();  ///< world
+  double bounceLoss_s_m = 0;  ///< restitution falls with the speed of a hit, e/(1 + loss·v)
 };
 
 /// A ball and a robot's shell, both smooth plastic.

@@ -42,6 +42,17 @@ struct CommandAround {
   double mean() const { return (before + after) / 2; }
 };
 
+/// What an effect is, for readers of reports.
+struct EffectLaw {
+  /// The link of the way from a command to a measurement at which it acts.
+  enum class Acts { notSaid, command, drive, gear, joint, link, gravity, air, contact, sensor };
+  Acts acts = Acts::notSaid;
+  std::string says;      ///< a noun phrase: "dry friction that does not depend on speed"
+  std::string equation;  ///< one line; the letters after _ are below the line, those after ^ above it
+  std::string symbols;   ///< which parameter is which letter: "T: torque_nm; ω: joint speed"
+  std::string source;    ///< who says so: "Coulomb 1785"
+};
+
 /// A piece of physics that a simulator may have or lack. One class is both the hypothesis that is fitted to recordings
 /// and the term that then runs in the simulator. Each hook is empty unless the effect fills it. Hooks are functions of
 /// their arguments; whatever must be remembered lies in `state` (stateSize() numbers, zero at the start of a trial), so
@@ -56,6 +67,8 @@ class Effect {
   /// Name, unit, meaning, bounds, default and neutral value of each parameter; `values` below follow this order.
   virtual std::vector<Parameter> parameters() const = 0;
   virtual Place place() const = 0;
+  /// Nothing is said by default.
+  virtual EffectLaw law() const { return {}; }
   /// The effects at a joint change its command and its drive torque in this order, in whichever they are listed: what
   /// the sensor says closes the loop at once, however late commands arrive.
   virtual Stage stage() const { return Stage::motor; }

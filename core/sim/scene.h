@@ -33,6 +33,13 @@ struct Drive {
   double viscousFriction = 0;     ///< N·m·s/rad or N·s/m
   double gearCompliance = 0;      ///< of a spring between rotor and joint [rad/(N·m) or m/N], 0 rigid; effects set it
   double gearDamping = 0;         ///< beside that spring [N·m·s/rad or N·s/m]
+  double gearPlay = 0;            ///< width of a gap between rotor and joint [rad or m]; effects set it
+  double gearDrag = 0;            ///< of the rotor while it crosses that gap [N·m·s/rad or N·s/m]
+  bool loopAtMotor = false;       ///< behind such a gear: its law follows the rotor, not the joint
+  bool recordedAtMotor = false;   ///< behind such a gear: what is measured is the rotor
+
+  /// The rotor moves on its own.
+  bool hasGear() const { return gearCompliance > 0 || gearPlay > 0; }
 };
 
 struct SceneRobot {

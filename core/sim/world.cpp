@@ -245,6 +245,7 @@ void World::rest(std::size_t index) {
     if (spec.kind != Drive::Kind::servo) continue;
     drive.effects.rest(impl_->stateOf(robot, j, 0));
     drive.motorAhead = -drive.load * spec.gearCompliance;
+    if (spec.gearPlay > 0 && drive.load != 0) drive.motorAhead -= std::copysign(spec.gearPlay / 2, drive.load);
   }
 }
 

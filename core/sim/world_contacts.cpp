@@ -16,6 +16,7 @@ ContactSurface floorSurface(const FloorSpec& floor, double restitution) {
   ContactSurface surface{floor.friction,      restitution + (1 - restitution) * floor.bounce,
                          floor.stiffness_n_m, floor.damping_n_s_m,
                          floor.slip1_m_s_n,   floor.slip2_m_s_n};
+  surface.bounceLoss_s_m = floor.bounceLoss_s_m;
   if (floor.slipXY_m_s_n != 0) {
     // The axes in which slip is two numbers.
     Eigen::Matrix2d slip;

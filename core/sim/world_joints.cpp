@@ -1,4 +1,5 @@
 // Servos, friction, stops: everything that acts at a joint becomes rows of ODE's solver.
+#include <algorithm>
 #include <cmath>
 
 #include "core/sim/world_impl.h"
@@ -32,6 +33,13 @@ void setExtraRow(const RobotJoint& joint, int row, double velocity, double softn
   set(joint.extra, dParamFMax + g, most);
 }
 
+/// What a motor turns that has its law to itself: its rotor, and the joint once a gap is closed.
+double turnedByMotor(const Drive& spec, const JointDrive& drive, const RobotJoint& joint) {
+  constexpr double least = 1e-9;
+  const bool touches = spec.gearCompliance == 0 && std::abs(drive.motorAhead) >= spec.gearPlay / 2;
+  return std::max(least, spec.rotorInertia_kg_m2 + (touches ? joint.heldInertia : 0));
+}
+
 }  // namespace
 
 JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, double now) const {
@@ -41,6 +49,15 @@ JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, doub
   const bool followsPosition = spec.kind == Drive::Kind::servo || spec.kind == Drive::Kind::dcMotor;
   return {now,        moving.position, moving.rate, drive.command, drive.torque, followsPosition, spec.maxTorque,
           drive.load, robot.allDrives};
+}
+
+JointState World::Impl::loopStateOf(const WorldRobot& robot, std::size_t joint, double now) const {
+  JointState state = stateOf(robot, joint, now);
+  const Drive& spec = robot.scene->drives[static_cast<std::size_t>(robot.body->joints[joint].modelJoint)];
+  if (!spec.loopAtMotor || !spec.hasGear() || spec.kind == Drive::Kind::motion) return state;
+  state.position += robot.drives[joint].motorAhead;
+  state.rate = robot.drives[joint].motorRate;
+  return state;
 }
 
 // What each joint carries is the tree of bodies beyond it: a body comes after the one that carries it.
@@ -112,7 +129,11 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   drive.command = input.command;
   drive.enabled = input.enabled;
   drive.fresh = false;
-  JointState state = stateOf(robot, index, now);
+  const bool geared = spec.hasGear() && !prescribed;
+  const JointState atJoint = stateOf(robot, index, now);
+  JointState state = loopStateOf(robot, index, now);
+  StepOf driven = step;
+  if (geared && spec.loopAtMotor) driven.inertia = turnedByMotor(spec, drive, joint);
   if (prescribed) {
     command.before = command.after;
   } else if (!drive.effects.empty()) {
@@ -121,35 +142,37 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   if (switched && !input.enabled) command.after = command.before;
   state.command = command.mean();
   if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
-  DriveRow row = driveRow(spec, state, command, drive.integral, acting, step);
+  DriveRow row = driveRow(spec, state, command, drive.integral, acting, driven);
   if (drive.effects.changeDrive() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
-    row = drive.effects.drive(row, spec, state, command, drive.integral, acting, step);
+    row = drive.effects.drive(row, spec, state, command, drive.integral, acting, driven);
   if (switched && !prescribed)
     for (double* force : {&row.p, &row.d, &row.limit}) *force /= 2;
   drive.row = row;
 
   // What acts at the joint itself: viscous friction, effects, stops. Dry friction is a row of its own: it holds, or
   // opposes motion, with at most its limit.
+  JointState following = atJoint;
+  following.command = state.command;
   DriveRow passive;
   step.add(passive, 0, spec.viscousFriction, joint.rate);
-  if (!drive.effects.empty()) drive.effects.addPassive(passive, state, step);
+  if (!drive.effects.empty()) drive.effects.addPassive(passive, following, step);
   addStop(passive, joint, h);
   double dry = spec.coulombFriction;
-  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(state);
+  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(following);
 
   // The very first kick from a given state covers half a step only.
   for (double* force : {&row.p, &row.d, &row.limit, &passive.p, &passive.d, &dry}) *force *= robot.kick;
 
-  // A rotor behind an elastic gear moves on its own; what reaches the joint comes through the gear's spring.
+  // A rotor behind an elastic gear or a gap moves on its own; what reaches the joint comes through the gear's spring.
   drive.gear = {};
-  if (spec.gearCompliance > 0 && !prescribed) {
-    // The back electromotive force is the rotor's, not the joint's.
-    double b = spec.kind == Drive::Kind::dcMotor ? backEmfDamping(spec, acting) : 0;
-    DriveRow atJoint;
-    step.add(atJoint, 0, b, joint.rate);
-    if (row.d < atJoint.d) b = 0;  // an effect has let go of the motor
+  if (geared) {
+    // The back electromotive force is the rotor's, not the joint's; a law at the motor has it already.
+    double b = spec.kind == Drive::Kind::dcMotor && !spec.loopAtMotor ? backEmfDamping(spec, acting) : 0;
+    DriveRow braking;
+    step.add(braking, 0, b, joint.rate);
+    if (row.d < braking.d) b = 0;  // an effect has let go of the motor
     const double share = robot.kick * (switched ? 0.5 : 1);
-    if (b > 0) row = {row.p - atJoint.p * share, row.d - atJoint.d * share, row.limit};
+    if (b > 0) row = {row.p - braking.p * share, row.d - braking.d * share, row.limit};
     drive.gear = GearRow(spec, drive.motorAhead, drive.motorRate, joint.rate, row, b * share, joint.heldInertia, h);
     row = drive.gear.driven();
     passive.p += drive.gear.held().p;
@@ -157,7 +180,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   }
   // The rotor behind a rigid gear: kinetic energy ½·J·rate², the limit of a large gear ratio (the rotor's own share in
   // the spin of its body is left out).
-  if (spec.rotorInertia_kg_m2 > 0 && (spec.gearCompliance == 0 || prescribed)) {
+  if (spec.rotorInertia_kg_m2 > 0 && !geared) {
     passive.d += spec.rotorInertia_kg_m2 / h;
     passive.p += spec.rotorInertia_kg_m2 / h * joint.rate;
   }

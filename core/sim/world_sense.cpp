@@ -73,8 +73,11 @@ void World::Impl::checkFault() {
 void World::Impl::sense(WorldRobot& robot, double dt) {
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
-    drive.measured = robot.body->joints[j].position;
-    if (!drive.effects.empty()) drive.measured = drive.effects.measured(drive.measured, stateOf(robot, j, time()), dt);
+    const RobotJoint& joint = robot.body->joints[j];
+    const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+    drive.measured = joint.position + (spec.recordedAtMotor ? drive.motorAhead : 0);
+    if (!drive.effects.empty())
+      drive.measured = drive.effects.measured(drive.measured, loopStateOf(robot, j, time()), dt);
   }
   // Specific force: the mean acceleration since the last sample minus gravity, in the sensor's axes.
   if (robot.accelerometerLink < 0) return;
@@ -105,7 +108,8 @@ void World::read(std::size_t index, RobotReadings& readings) const {
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     const auto model = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
     readings.position[model] = robot.drives[j].measured;
-    readings.rate[model] = robot.drives[j].rate;
+    readings.rate[model] =
+        robot.scene->drives[model].recordedAtMotor ? robot.drives[j].motorRate : robot.drives[j].rate;
     readings.torque[model] = robot.drives[j].torque;
   }
   readings.contact = robot.contact;
@@ -178,10 +182,9 @@ double World::energy() const {
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       const RobotJoint& joint = robot.body->joints[j];
       const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
-      const bool elastic = spec.gearCompliance > 0;
-      const double rate = elastic ? robot.drives[j].motorRate : joint.rate, ahead = robot.drives[j].motorAhead;
+      const double rate = spec.hasGear() ? robot.drives[j].motorRate : joint.rate, ahead = robot.drives[j].motorAhead;
       sum += spec.rotorInertia_kg_m2 * rate * rate / 2;
-      if (elastic) sum += ahead * ahead / spec.gearCompliance / 2;
+      if (spec.gearCompliance > 0 && spec.gearPlay == 0) sum += ahead * ahead / spec.gearCompliance / 2;
     }
   }
   for (const auto& ball : impl_->balls) {
@@ -241,7 +244,9 @@ void World::sample(std::vector<double>& row) const {
     push(row, Eigen::Quaterniond(base.linear()));
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       const JointDrive& drive = robot.drives[j];
-      row.insert(row.end(), {drive.command, drive.measured, drive.rate, drive.torque});
+      const auto joint = static_cast<std::size_t>(robot.body->joints[j].modelJoint);
+      const double rate = robot.scene->drives[joint].recordedAtMotor ? drive.motorRate : drive.rate;
+      row.insert(row.end(), {drive.command, drive.measured, rate, drive.torque});
     }
     for (std::size_t link = 0; link < model.links.size(); ++link)
       if (isPaw(model, link)) row.push_back(robot.contact[link]);

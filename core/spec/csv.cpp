@@ -72,14 +72,37 @@ void CsvReader::readQuoted(std::string& field, std::size_t column) {
     throw InputError(at(column), "text behind the closing quote", "a separator or the end of the line");
 }
 
+// A byte order mark may open the file.
+void CsvReader::takeByteOrderMark() {
+  if (begun_) return;
+  begun_ = true;
+  if (peek() != 0xEF) return;
+  take();
+  if (take() != 0xBB || take() != 0xBF) throw InputError(place_ + " line 1, column 1: text in UTF-8 is expected");
+}
+
+void CsvReader::skipLine() {
+  takeByteOrderMark();
+  while (!takeLineEnd()) take();
+}
+
+void CsvReader::skipBytes(std::size_t count) {
+  takeByteOrderMark();
+  for (; count > 0; --count) take();
+}
+
+bool CsvReader::takeComment() {
+  const int byte = peek();
+  if (byte == endOfFile || commentMarks_.find(static_cast<char>(byte)) == std::string::npos) return false;
+  skipLine();
+  ++comments_;
+  return true;
+}
+
 bool CsvReader::next(std::vector<std::string>& fields) {
-  // A byte order mark may open the file.
-  if (rowLine_ == 0 && peek() == 0xEF) {
-    take();
-    if (take() != 0xBB || take() != 0xBF) throw InputError(place_ + " line 1, column 1: text in UTF-8 is expected");
-  }
-  // Empty lines are passed over.
-  while (peek() != endOfFile && takeLineEnd()) continue;
+  takeByteOrderMark();
+  // Empty lines and comments are passed over.
+  while (peek() != endOfFile && (takeLineEnd() || takeComment())) continue;
   if (peek() == endOfFile) {
     fields.clear();
     return false;

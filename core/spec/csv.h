@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <istream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace btr {
@@ -23,8 +24,17 @@ class CsvReader {
   /// `place` (usually the file's name) begins each message.
   explicit CsvReader(std::istream& stream, std::string place, char separator = ',', CsvLimits limits = {});
 
+  /// Rows that begin with one of these bytes, not quoted, are comments from now on: passed over, whatever they hold.
+  void passOver(std::string firstBytes) { commentMarks_ = std::move(firstBytes); }
+  std::size_t comments() const { return comments_; }  ///< passed over so far
+  /// Passes over the rest of this line, whatever it holds.
+  void skipLine();
+  /// Passes over so many bytes.
+  void skipBytes(std::size_t count);
+
   /// The next row that is not empty; false at the end. `fields` keeps its memory from row to row.
   bool next(std::vector<std::string>& fields);
+  bool atEnd() { return peek() == endOfFile; }  ///< nothing stands behind the row last read
   /// Line on which the row last read begins, from 1; 0 before the first.
   long line() const { return rowLine_; }
   /// "PLACE line 3, column 2" for the row last read; columns count from 1, 0 leaves the column out.
@@ -35,6 +45,8 @@ class CsvReader {
   int peek();
   int take();
   bool takeLineEnd();
+  void takeByteOrderMark();
+  bool takeComment();
   void readQuoted(std::string& field, std::size_t column);
   void append(std::string& field, char byte, std::size_t column) const;
 
@@ -45,6 +57,9 @@ class CsvReader {
   std::vector<char> buffer_;
   std::size_t position_ = 0, filled_ = 0, total_ = 0;
   long line_ = 1, rowLine_ = 0;
+  bool begun_ = false;
+  std::string commentMarks_;
+  std::size_t comments_ = 0;
 };
 
 /// The text as one field: quoted when it holds a separator, quote, line break, or a space at either end.

@@ -24,6 +24,11 @@ std::string inWords(std::string name) {
   return name;
 }
 
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 std::string brief(double value) { return std::isfinite(value) ? written("%.4g", value) : "–"; }
 
 std::string withDeviation(double mean, double deviation) {

@@ -7,6 +7,8 @@ namespace btr {
 
 /// "backlash" → "backlash", "velocity_reversal" → "velocity reversal".
 std::string inWords(std::string name);
+/// With a capital first letter, for the beginning of a sentence.
+std::string capital(std::string text);
 /// Three or four digits that matter; "–" if it is not finite.
 std::string brief(double value);
 /// "0.50 ± 0.14": a standard deviation from a few values has two digits that matter, and its mean as many decimals.

@@ -78,6 +78,7 @@ struct FloorSpec {
   double damping_n_s_m = 100;
   double slipXY_m_s_n = 0;  ///< slip is the matrix (slip1, slipXY; slipXY, slip2); only effects set it
   double bounce = 0;        ///< raises every restitution e on this floor to e + (1 − e)·bounce; only effects set it
+  double bounceLoss_s_m = 0;  ///< lowers it with the speed v of the hit to e/(1 + bounceLoss·v); only effects set it
   bool operator==(const FloorSpec&) const = default;
 };
 

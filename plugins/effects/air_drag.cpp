@@ -12,6 +12,10 @@ class AirDrag final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"drag_number", "", "drag coefficient on the ball's cross-section", 0, 5, 0.47, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::air, "air drag, in proportion to the square of the speed", "F = −½·ρ·c·π·r^2·|v|·v",
+            "c: drag_number; ρ = 1.2 kg/m³", "Newton; Hoerner 1965"};
+  }
   Place place() const override { return Place::ball; }
   bool dissipative() const override { return true; }
 

@@ -19,6 +19,11 @@ class AnisotropicRollingResistance final : public btr::Effect {
             {"along_y_m_s2", "m/s²", "speed lost per second when rolling along the pile's y", 0, 3, 0.2, 0.0},
             {"pile_rad", "rad", "turn of the pile about z", -0.7854, 0.7854, 0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "rolling resistance that is larger along one direction of the floor",
+            "v̇ = −A^2·v/|A·v|", "A: along_x_m_s2 and along_y_m_s2 along axes turned by pile_rad",
+            "Goyal, Ruina and Papadopoulos 1991"};
+  }
   Place place() const override { return Place::ball; }
   std::vector<std::string> contains() const override { return {"rolling_resistance"}; }
   bool dissipative() const override { return true; }

@@ -14,6 +14,11 @@ class AnisotropicSlip final : public btr::Effect {
     return {{"slip_m_s_n", "m/(s·N)", "speed of creep per force along the direction", 0, 10, 0.03, 0.0},
             {"direction_rad", "rad", "turn of the direction about z from x", -1.5708, 1.5708, 0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "creep along one direction of the floor, in proportion to the force",
+            "v = s·u·(u·F)", "s: slip_m_s_n; u: the floor’s x turned by direction_rad",
+            "Smith, Open Dynamics Engine User Guide"};
+  }
   Place place() const override { return Place::floor; }
   std::vector<std::string> contains() const override { return {"slip"}; }
   bool dissipative() const override { return true; }

@@ -18,6 +18,11 @@ class AsymmetricFriction final : public btr::Effect {
             {"viscous_negative_nm_s_rad", "N·m·s/rad", "friction per negative speed, N·s/m on a slide joint", 0, 2000,
              0.01, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::joint, "friction that differs between the two directions of a joint",
+            "τ = −T_+ − b_+·ω for ω > 0,  τ = T_− − b_−·ω for ω < 0",
+            "T: torque_…_nm; b: viscous_…_nm_s_rad; ω: joint speed", "Armstrong-Hélouvry 1991"};
+  }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction", "viscous_friction"}; }
   std::vector<std::string> togetherWith() const override { return {"coulomb_friction", "force_offset"}; }

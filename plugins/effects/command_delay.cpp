@@ -61,6 +61,10 @@ class CommandDelay final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"delay_s", "s", "age of the command that the drive follows", 0, longest_s, 0.024, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::command, "the drive follows a command that is some time old", "c_drive(t) = c(t − T)",
+            "T: delay_s", "Stronger and Stone 2004"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 2 + 2 * static_cast<int>(capacity); }

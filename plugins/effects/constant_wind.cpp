@@ -15,6 +15,10 @@ class ConstantWind final : public btr::Effect {
     return {{"x_m_s", "m/s", "speed of the wind along x", -20, 20, 2, 0.0},
             {"y_m_s", "m/s", "speed of the wind along y", -20, 20, 2, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::air, "a steady wind", "F = D(u − v) − D(−v),  D(w) = ½·ρ·c·π·r^2·|w|·w",
+            "u: x_m_s, y_m_s; c = 0.47; ρ = 1.2 kg/m³", "Hoerner 1965"};
+  }
   Place place() const override { return Place::world; }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {

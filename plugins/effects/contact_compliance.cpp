@@ -14,6 +14,11 @@ class ContactCompliance final : public btr::Effect {
     return {{"compliance_m_n", "m/N", "way per force that the floor gives way more", 0, 0.05, 5e-4, 0.0},
             {"damping_n_s_m", "N·s/m", "added damping of the contact", 0, 1000, 5, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "a floor that gives way more, and damps more",
+            "1/k = 1/k_0 + c,  d = d_0·k/k_0 + Δd", "c: compliance_m_n; Δd: damping_n_s_m",
+            "Smith, Open Dynamics Engine User Guide"};
+  }
   Place place() const override { return Place::floor; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

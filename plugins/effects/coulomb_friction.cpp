@@ -12,6 +12,10 @@ class CoulombFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"torque_nm", "N·m", "dry friction, N on a slide joint", 0, 200, 0.03, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::joint, "dry friction that does not depend on speed",
+            "τ = −T·sign(ω),  |τ| ≤ T at rest", "T: torque_nm; ω: joint speed", "Coulomb 1785"};
+  }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
   double frictionLimit(const btr::JointState&, std::span<const double> values) const override { return values[0]; }

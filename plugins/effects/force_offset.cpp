@@ -11,6 +11,9 @@ class ForceOffset final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"torque_nm", "N·m", "constant torque, N on a slide joint", -200, 200, 0.05, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a constant torque", "τ = T", "T: torque_nm", "a definition"};
+  }
   Place place() const override { return Place::joint; }
   double torque(const btr::JointState&, std::span<const double> values) const override { return values[0]; }
 };

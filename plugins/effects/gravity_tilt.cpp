@@ -14,6 +14,10 @@ class GravityTilt final : public btr::Effect {
     return {{"about_x_rad", "rad", "turn of gravity about x", -0.5, 0.5, 0.03, 0.0},
             {"about_y_rad", "rad", "turn of gravity about y", -0.5, 0.5, 0.03, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gravity, "a rig that is not mounted upright", "g’ = R_y(b)·R_x(a)·g",
+            "a: about_x_rad; b: about_y_rad", "a definition"};
+  }
   Place place() const override { return Place::world; }
 
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double> values) const override {

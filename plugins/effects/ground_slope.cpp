@@ -13,6 +13,10 @@ class GroundSlope final : public btr::Effect {
     return {{"about_x_rad", "rad", "tilt of the floor about x", -0.3, 0.3, 0.03, 0.0},
             {"about_y_rad", "rad", "tilt of the floor about y, positive falls forward", -0.3, 0.3, 0.03, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gravity, "a floor that is not level", "g’ = (R_y(b)·R_x(a))^−1·g in the floor’s axes",
+            "a: about_x_rad; b: about_y_rad", "a definition"};
+  }
   Place place() const override { return Place::floor; }
 
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double> values) const override {

@@ -18,6 +18,12 @@ class LoadDependentFriction final : public btr::Effect {
             {"per_motor_torque", "", "friction per torque of the drive", 0, 2, 0.1, 0.0},
             {"per_load_torque", "", "friction per moment of the carried weight", 0, 2, 0.1, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gear, "dry friction of a gear that grows with the torque through it",
+            "|τ| = T_0 + |c_m·τ_m − c_l·τ_l|, against the motion",
+            "T_0: torque_nm; c_m: per_motor_torque; c_l: per_load_torque; τ_m: drive, τ_l: carried weight",
+            "Duclusaud, Passault et al. 2025"};
+  }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   bool dissipative() const override { return true; }

@@ -19,6 +19,10 @@ class Payload final : public btr::Effect {
             {"y_m", "m", "beside the link's centre of mass, link's y", -0.3, 0.3, 0},
             {"z_m", "m", "above the link's centre of mass, link's z", -0.3, 0.3, 0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::link, "a mass on a link that the model does not have",
+            "M’ = M + m,  c’ = (M·c + m·r)/M’", "m: mass_kg at x_m, y_m, z_m from the centre of mass c", "Steiner"};
+  }
   Place place() const override { return Place::link; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

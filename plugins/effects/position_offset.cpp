@@ -12,6 +12,10 @@ class PositionOffset final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0.03, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::sensor, "a sensor whose zero is wrong", "y = q + e, and the servo acts on c − y",
+            "e: offset_rad", "Mooring, Roth and Driels 1991"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::sensor; }
 

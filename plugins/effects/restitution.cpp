@@ -11,6 +11,10 @@ class Restitution final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"share", "", "share of the speed that the scene loses in a hit and that comes back", 0, 1, 0.3, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "a floor that throws back more of what hits it", "e = e_0 + (1 − e_0)·r",
+            "r: share; e_0: of the scene", "Newton"};
+  }
   Place place() const override { return Place::floor; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

@@ -12,6 +12,10 @@ class RollingResistance final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"deceleration_m_s2", "m/s²", "speed that a rolling ball loses per second", 0, 3, 0.4, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "a constant loss of speed while rolling", "v̇ = −a·v/|v|",
+            "a: deceleration_m_s2", "a definition"};
+  }
   Place place() const override { return Place::ball; }
   bool dissipative() const override { return true; }
 

@@ -14,6 +14,10 @@ class RotorInertia final : public btr::Effect {
     return {
         {"inertia_kg_m2", "kg·m²", "inertia of the rotor seen at the joint, kg on a slide joint", 0, 200, 1e-3, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::gear, "inertia of the motor’s rotor, seen at the joint", "E = ½·J·ω^2",
+            "J: inertia_kg_m2; ω: joint speed", "Spong, Hutchinson and Vidyasagar 2006"};
+  }
   Place place() const override { return Place::joint; }
 
   void changeScene(btr::Scene& scene, const std::string& at, std::span<const double> values) const override {

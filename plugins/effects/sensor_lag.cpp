@@ -14,6 +14,10 @@ class SensorLag final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::sensor, "a slow position sensor", "T·ẏ = q − y, and the servo acts on c − y",
+            "T: time_constant_s", "first-order lag, a definition"};
+  }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::sensor; }
   int stateSize() const override { return 4; }

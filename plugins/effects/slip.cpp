@@ -13,6 +13,10 @@ class Slip final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"slip_m_s_n", "m/(s·N)", "speed of creep per tangential force", 0, 10, 0.02, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::contact, "creep of what pushes along the floor, in proportion to the force",
+            "v = s·F", "s: slip_m_s_n", "Smith, Open Dynamics Engine User Guide"};
+  }
   Place place() const override { return Place::floor; }
   bool dissipative() const override { return true; }
 

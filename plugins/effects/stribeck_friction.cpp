@@ -17,6 +17,11 @@ class StribeckFriction final : public btr::Effect {
         {"extra_at_rest_nm", "N·m", "added at rest, N on a slide joint", 0, 200, 0.03, 0.0},
         {"fading_rad_s", "rad/s", "speed at which the extra has fallen to 1/e, m/s on a slide joint", 0.001, 20, 0.3}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::joint, "dry friction that is highest at rest and fades with speed",
+            "τ = −(T_c + T_s·exp(−(ω/ω_s)^2))·sign(ω)", "T_c: sliding_nm; T_s: extra_at_rest_nm; ω_s: fading_rad_s",
+            "Stribeck 1902; Bo and Pavelescu 1982"};
+  }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction"}; }
   bool dissipative() const override { return true; }

@@ -18,6 +18,10 @@ class TorqueRipple final : public btr::Effect {
             teeth,
             {"phase_rad", "rad", "phase at position 0", -3.1416, 3.1416, 0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "cogging: a torque that repeats with the angle", "τ = A·sin(n·q + φ)",
+            "A: amplitude_nm; n: per_turn; φ: phase_rad", "Holtz and Springob 1996"};
+  }
   Place place() const override { return Place::joint; }
   std::string periodsPerTurn() const override { return "per_turn"; }
   double torque(const btr::JointState& joint, std::span<const double> values) const override {

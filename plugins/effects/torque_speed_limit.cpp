@@ -17,6 +17,11 @@ class TorqueSpeedLimit final : public btr::Effect {
             {"inverse_free_speed_s_rad", "s/rad", "one over the speed without load, s/m on a slide joint", 0, 10, 0.1,
              0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a drive that gives less torque the faster it turns",
+            "|τ| ≤ min(1/a, T)·max(0, 1 − b·|ω|) while it drives",
+            "a: inverse_stall_torque_1_nm; b: inverse_free_speed_s_rad", "Ohm’s law with back electromotive force"};
+  }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
 

@@ -12,6 +12,10 @@ class ViscousFriction final : public btr::Effect {
     return {
         {"coefficient_nm_s_rad", "N·m·s/rad", "friction torque per speed, N·s/m on a slide joint", 0, 2000, 0.02, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::joint, "friction in proportion to speed", "τ = −b·ω",
+            "b: coefficient_nm_s_rad; ω: joint speed", "Newton"};
+  }
   Place place() const override { return Place::joint; }
   bool dissipative() const override { return true; }
   double damping(const btr::JointState&, std::span<const double> values) const override { return values[0]; }

@@ -14,6 +14,10 @@ class VoltageSag final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"per_torque_1_nm", "1/(N·m)", "loss of voltage per torque of all drives together", 0, 5, 0.1, 0.0}};
   }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::drive, "a battery whose voltage falls with what the drives draw",
+            "τ’ = τ/(1 + s·Σ|τ_j|)", "s: per_torque_1_nm", "Shepherd 1965"};
+  }
   Place place() const override { return Place::world; }
   Stage stage() const override { return Stage::supply; }
   bool onEveryJoint() const override { return true; }

@@ -102,8 +102,9 @@ picture window "F7" 1600x1000 "$folder/shipped.db" --select-run "$short_kick"
 picture form "ctrl+n" 1440x900 "$folder/shipped.db"
 picture sheet "" 1440x900 "$folder/person.db" --select-run 1
 picture grid "" 1440x900 "$folder/grid.db" --grid 1
+picture scene "" 1440x900 "$folder/shipped.db" --scene resources/games/match-2004.json
 picture gap-setup "F8" 1440x900 "$folder/shipped.db" --select-run "$short_kick"
-picture report "alt+t" 1440x900 "$folder/shipped.db" --report "$folder/report"
+picture report "" 1440x900 "$folder/shipped.db" --report "$folder/report"
 
 # 256 colours: a tenth of the size, no difference to be seen.
 for file in "$folder"/pictures/*.png; do

@@ -149,6 +149,9 @@ TEST(GapReport, OfAnEarlierVersionIsRead) {
               for (auto& trial : d["trials"]) trial["held_out_blocks_s"] = nlohmann::json::array();
               d["provenance"].erase("scene");
               d["provenance"].erase("scene_sha256");
+              d["remainder"].erase("law");
+              d.erase("explained_share");
+              d.erase("disagreeing_trials");
             }),
             "accepted");
 }
@@ -246,8 +249,28 @@ TEST(GapReport, EveryVerdictHasTheContractsWord) {
   EXPECT_STREQ(toText(Verdict::noMismatch), "no_mismatch");
   EXPECT_STREQ(toText(Verdict::parametersSuffice), "parameters_suffice");
   EXPECT_STREQ(toText(Verdict::missingPhysics), "missing_physics");
+  EXPECT_STREQ(toText(Verdict::partlyExplained), "partly_explained");
   EXPECT_STREQ(toText(Verdict::unexplained), "unexplained");
   EXPECT_STREQ(toText(Verdict::notExcited), "not_excited");
+}
+
+TEST(GapReport, ALawAndADisagreeingTrialComeBack) {
+  const TemporaryFolder folder;
+  writeReport(sampleReport(), folder.file("r"));
+  const auto document = nlohmann::json::parse(readFile(folder.file("r/report.json")));
+  EXPECT_EQ(document["explained_share"], 0.98);
+  EXPECT_EQ(document["remainder"]["law"]["family"], "detent");
+  EXPECT_EQ(document["disagreeing_trials"][0]["trial"], "sine-4.csv");
+  EXPECT_EQ(document["trials"][3]["set_aside"], true);
+  const GapReport read = loadReport(folder.file("r")), written = sampleReport();
+  ASSERT_TRUE(read.law.known());
+  EXPECT_EQ(read.law.sentence, written.law.sentence);
+  EXPECT_EQ(read.law.curves[0].y, written.law.curves[0].y);
+  EXPECT_TRUE(std::isnan(read.law.curves[0].low.back()));
+  EXPECT_TRUE(read.trials[3].setAside);
+  EXPECT_EQ(read.disagreements[0].what, written.disagreements[0].what);
+  EXPECT_THAT(afterChange([](auto& d) { d["remainder"]["law"]["curves"][0]["low"].push_back(1); }),
+              HasSubstr("/remainder/law/curves/0/low"));
 }
 
 TEST(GapReport, SimulatorFileIsTheRepairedSimulator) {

@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
+#include "core/spec/random.h"
 #include "tests/gap/temporary_folder.h"
 
 namespace btr {
@@ -73,6 +75,25 @@ TEST(Resample, MakesTimesEvenAndKeepsTheMotion) {
       EXPECT_NEAR(even.columns[1][i], std::sin(2 * M_PI * even.columns[0][i]), 1e-3);
     }
     EXPECT_TRUE(even.columns[2][i] == 0 || even.columns[2][i] == 1);
+  }
+}
+
+TEST(Resample, KnowsTheNoiseThatAFilterLeaves) {
+  Random random(11);
+  Recording noisy;
+  noisy.channels = {"time_s", "leg.knee.torque_nm"};
+  noisy.columns.resize(2);
+  for (int i = 0; i < 20000; ++i) {
+    noisy.columns[0].push_back(0.002 * i);
+    noisy.columns[1].push_back(0.1 * random.normal());
+  }
+  for (const double cutoff : {5.0, 20.0, 60.0}) {
+    const Recording smooth = resampled(noisy, {0.004, cutoff});
+    double squares = 0;
+    for (const double value : smooth.columns[1]) squares += value * value;
+    // Its differences would say a tenth of that or less.
+    const double there = std::sqrt(squares / static_cast<double>(smooth.rows()));
+    EXPECT_NEAR(channelFloor(smooth, 1).level, there, 0.12 * there) << cutoff;
   }
 }
 

@@ -91,6 +91,7 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
       }
       trial.series.push_back(s);
     }
+    trial.setAside = k == 3;
     r.trials.push_back(trial);
   }
   r.remainder = {0.98,
@@ -103,6 +104,28 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
                  {0.001, 0.001, 0.001, 0.002},
                  0.34,
                  0.02};
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  r.law = {knee,
+           "detent",
+           "a torque at " + knee +
+               " that depends on position alone: pulls toward 0.35 rad, at most 0.25 N·m, within "
+               "±0.1 rad; like a detent",
+           {{"position",
+             "rad",
+             "N·m",
+             {0.15, 0.25, 0.35, 0.45, 0.55},
+             {0, 0.25, 0, -0.25, 0},
+             {-0.02, 0.22, -0.01, -0.28, unknown},
+             {0.02, 0.28, 0.01, -0.22, unknown}}},
+           0.34,
+           0.992,
+           0.0002,
+           1.1,
+           1.4};
+  r.explainedShare = 0.98;
+  r.disagreements = {{"sine-4.csv", std::string(63, 'a') + "3",
+                      "its robots." + robot + ".links.lower.mass_kg would have to be 0.21 kg instead of 0.12", true, 31,
+                      1.2, 1.3}};
   r.next = {"separates backlash from gear_elasticity at " + knee, 7.4, {"time_s", knee + ".command_rad"}, {{}, {}}};
   for (int i = 0; i < 400; ++i) {
     r.next.columns[0].push_back(0.01 * i);

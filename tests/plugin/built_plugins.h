@@ -2,6 +2,7 @@
 // The plugins that were built, and where their effects sit in a small scene.
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/plugin/plugin_host.h"
 
@@ -14,6 +15,13 @@ inline const PluginHost& host() {
 }
 
 inline std::shared_ptr<const Effect> effect(const std::string& name) { return host().effect(name); }
+
+/// All but measured_law, a table of 60 numbers that does nothing in its defaults: tests/gap/measured_law_test.cpp.
+inline std::vector<std::string> effectsWithASize() {
+  std::vector<std::string> names = host().effects();
+  std::erase(names, "measured_law");
+  return names;
+}
 
 /// Where an effect can sit in a scene with this joint and link.
 inline std::string placeFor(Effect::Place place, const std::string& joint, const std::string& link) {

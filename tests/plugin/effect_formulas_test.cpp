@@ -109,7 +109,7 @@ TEST(Backlash, PassesTheTorqueOnceTheGapIsCrossed) {
   // Width 20 mrad, from its middle: 10 mrad at 6 rad/(s·N·m) · 0.5 N·m = 3 rad/s are crossed after 10/3 ms.
   const auto backlash = effect("backlash");
   Numbers state{0};
-  const Numbers values{0.02, 6};
+  const Numbers values{0.02, 6, 0};
   const Numbers expected{0, 0, 0, 0.5 * (1 - 1.0 / 3), 0.5, 0.5};
   for (const double torque : expected) EXPECT_NEAR(torque, backlash->driveTorque(0.5, {}, values, state, 1e-3), 1e-12);
 }
@@ -117,7 +117,7 @@ TEST(Backlash, PassesTheTorqueOnceTheGapIsCrossed) {
 TEST(Backlash, AReversalRunsThroughTheWholeGap) {
   const auto backlash = effect("backlash");
   Numbers state{0.01};
-  const Numbers values{0.02, 6};
+  const Numbers values{0.02, 6, 0};
   int idle = 0;
   while (backlash->driveTorque(-0.5, {}, values, state, 1e-4) == 0 && idle < 1000) ++idle;
   EXPECT_NEAR(0.02 / 3, idle * 1e-4, 1e-4);
@@ -129,7 +129,7 @@ TEST(Backlash, AJointThatComesTowardsTheMotorClosesTheGapSoonerOneThatRunsAheadI
   const std::map<double, double> speeds{{-5, 3 + 5}, {0, 3}, {5, 3}};
   for (const auto& [rate, closing] : speeds) {
     Numbers state{-0.01};
-    EXPECT_EQ(0, backlash->driveTorque(0.5, {.rate = rate}, Numbers{0.02, 6}, state, 1e-3));
+    EXPECT_EQ(0, backlash->driveTorque(0.5, {.rate = rate}, Numbers{0.02, 6, 0}, state, 1e-3));
     EXPECT_NEAR(-0.01 + closing * 1e-3, state[0], 1e-15);
   }
 }
@@ -142,7 +142,7 @@ TEST(Backlash, OfVanishingWidthIsNone) {
       Numbers state{-width / 2};
       double impulse = 0;
       for (int i = 0; i < 1000; ++i)
-        impulse += 1e-3 * backlash->driveTorque(0.5, {.rate = rate}, Numbers{width, 6}, state, 1e-3);
+        impulse += 1e-3 * backlash->driveTorque(0.5, {.rate = rate}, Numbers{width, 6, 0}, state, 1e-3);
       EXPECT_NEAR(0.5 - 0.5 * width / (3 - std::min(rate, 0.0)), impulse, 1e-12);
     }
 }
@@ -153,7 +153,7 @@ TEST(Backlash, NeverTurnsOrRaisesTheTorque) {
   Numbers state{0};
   for (int i = 0; i < 10000; ++i) {
     const double torque = random.uniform(-1, 1);
-    const double passed = backlash->driveTorque(torque, {.rate = random.normal()}, Numbers{0.05, 6}, state, 1e-3);
+    const double passed = backlash->driveTorque(torque, {.rate = random.normal()}, Numbers{0.05, 6, 0}, state, 1e-3);
     EXPECT_GE(passed * torque, 0);
     EXPECT_LE(std::abs(passed), std::abs(torque));
     EXPECT_LE(std::abs(state[0]), 0.025);

@@ -124,7 +124,7 @@ TEST(RotorInertia, SlowsAWheelByItsInertia) {
 /// The wheel's angle under a constant torque through a gear of that compliance, without damping.
 double behindGear(double compliance, double step, double time) {
   Scene scene = test::sceneOf(test::robot(test::wheelModel(2e-3), false, {.kind = Drive::Kind::torque}), step);
-  scene = test::withEffect(scene, effect("gear_elasticity"), "gear_elasticity", {compliance, 1e-3, 0});
+  scene = test::withEffect(scene, effect("gear_elasticity"), "gear_elasticity", {compliance, 1e-3, 0, 0});
   World world(scene, 1);
   world.advance(test::commands(scene, 0.2), time);
   return world.robot(0).position[0];
@@ -148,7 +148,7 @@ TEST(GearElasticity, IsRigidInTheLimitAndStableAtAnyStep) {
 TEST(GearElasticity, KeepsTheEnergyOfARotorThatSwingsAgainstTheJoint) {
   Scene scene =
       test::weightless(test::sceneOf(test::robot(test::wheelModel(2e-3), false, {.kind = Drive::Kind::torque}), 2e-4));
-  scene = test::withEffect(scene, effect("gear_elasticity"), "gear_elasticity", {0.1, 1e-3, 0});
+  scene = test::withEffect(scene, effect("gear_elasticity"), "gear_elasticity", {0.1, 1e-3, 0, 0});
   World world(scene, 1);
   world.advance(test::commands(scene, 0.2), 0.02);
   const double begin = world.energy();
@@ -198,7 +198,7 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
 TEST(MagnusLift, PushesATopSpinDown) {
   // Flying along x with spin about y (top spin): ω × v = −z.
   const BallState ball{.velocity_m_s = {5, 0, 0}, .spin_rad_s = {0, 30, 0}, .radius_m = 0.1, .mass_kg = 0.1};
-  const Eigen::Vector3d force = effect("magnus_lift")->ballForce(ball, Numbers{1});
+  const Eigen::Vector3d force = effect("magnus_lift")->ballForce(ball, Numbers{1, 0});
   EXPECT_NEAR(-0.5 * 1.2 * std::numbers::pi * 1e-3 * 30 * 5, force.z(), 1e-15);
   EXPECT_EQ(0, force.dot(ball.velocity_m_s));
 }

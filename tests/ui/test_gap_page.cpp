@@ -15,6 +15,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTemporaryDir>
+#include <QTextBrowser>
 #include <QTest>
 #include <QTimer>
 
@@ -83,8 +84,12 @@ class TestGapPage : public QObject {
   void showsTheVerdictOfAStoredReport() {
     Bench bench;
     QVERIFY(bench.opened);
-    QCOMPARE(bench.page.findChild<QLabel*>("headline")->text(), QString("Physics was left out"));
-    QCOMPARE(bench.page.findChild<QLabel*>("sentence")->text(), QString::fromStdString(sampleReport().sentence));
+    QCOMPARE(bench.page.findChild<QLabel*>("headline")->text(), QString("Backlash at leg.knee was left out"));
+    const QString findings = bench.page.findChild<QTextBrowser*>("findings")->toPlainText();
+    QVERIFY2(findings.contains(QString::fromStdString(sampleReport().sentence)), qPrintable(findings));
+    QVERIFY2(findings.contains("0.043 rad"), qPrintable(findings));
+    QVERIFY2(findings.contains("What to do next"), qPrintable(findings));
+    QCOMPARE(bench.page.findChild<QTableWidget*>("steps")->rowCount(), int(sampleReport().ladder.size()));
     QCOMPARE(bench.page.findChild<QTabWidget*>("gapTabs")->currentIndex(), 1);
   }
 

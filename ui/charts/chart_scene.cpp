@@ -113,8 +113,12 @@ void ChartScene::rebuildAxes() {
   } else {
     auto* axis = new QCategoryAxis;
     axis->setLabelsPosition(QCategoryAxis::AxisLabelsPositionOnValue);
+    // Long names side by side would be cut: their numbers stand for them, and the names beside the chart.
+    constexpr qsizetype longest = 20;
+    const bool fit = std::ranges::all_of(data_.xLabels, [](const QString& text) { return text.size() <= longest; });
+    int count = 0;
     for (auto label = data_.xLabels.begin(); label != data_.xLabels.end(); ++label)
-      axis->append(label.value(), label.key());
+      axis->append(fit ? label.value() : QString::number(++count), label.key());
     xAxis_ = axis;
   }
   if (logarithmic_) {

@@ -51,7 +51,7 @@ struct PlotData {
   bool yFromZero = false;
   bool neverNegative = false;        ///< a distance, a gap: intervals are drawn down to 0 only
   std::optional<double> xFrom, xTo;  ///< the axis reaches at least so far
-  QMap<double, QString> xLabels;     ///< not empty: words instead of numbers on the x axis
+  QMap<double, QString> xLabels;     ///< not empty: words on the x axis; long ones are counted there, from 1
   QString empty = "No data yet";     ///< shown while there is no point
   std::vector<PlotSeries> series;
   std::vector<PlotBand> bands;

@@ -181,4 +181,24 @@ void ErrorsTable::setReport(const GapReport& report) {
   }
 }
 
+StepsTable::StepsTable(QWidget* parent) : QTableWidget(parent) {
+  setAccessibleName(tr("Error, step by step"));
+  setObjectName("steps");
+  prepare(*this, {tr("No."), tr("Step"), tr("Error (noise floors)"), tr("Standard error")});
+  horizontalHeader()->setStretchLastSection(true);
+}
+
+void StepsTable::setReport(const GapReport& report) {
+  setRowCount(0);
+  setRowCount(int(report.ladder.size()));
+  for (int row = 0; row < rowCount(); ++row) {
+    const GapReport::Step& one = report.ladder[std::size_t(row)];
+    fillCell(*this, row, number, QString::number(row + 1), true);
+    fillCell(*this, row, step, word(inWords(one.what)));
+    fillCell(*this, row, error, word(brief(one.error)), true);
+    fillCell(*this, row, deviation, word(brief(one.standardError)), true);
+  }
+  resizeColumnsToContents();
+}
+
 }  // namespace btr::ui

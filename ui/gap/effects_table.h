@@ -32,4 +32,13 @@ class ErrorsTable : public QTableWidget {
   void setReport(const GapReport& report);
 };
 
+/// The error after each step, numbered as in the chart.
+class StepsTable : public QTableWidget {
+  Q_OBJECT
+ public:
+  enum Column { number, step, error, deviation, columns };
+  explicit StepsTable(QWidget* parent = nullptr);
+  void setReport(const GapReport& report);
+};
+
 }  // namespace btr::ui

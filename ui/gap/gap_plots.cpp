@@ -57,7 +57,8 @@ QString trialName(const GapReport::Trial& trial) {
   return trial.heldOut ? GapPlots::tr("%1 (held out)").arg(word(trial.name)) : word(trial.name);
 }
 
-PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t series, std::optional<double> cursor_s) {
+PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t series, std::optional<double> cursor_s,
+                     bool withCalibrated) {
   PlotData plot;
   plot.xTitle = GapPlots::tr("time (s)");
   plot.xColumn = "time_s";
@@ -68,11 +69,13 @@ PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t ser
   plot.title = word(s.channel) + " · " + trialName(t);
   plot.yTitle = axisTitle(quantityOf(s.channel), word(s.unit));
   plot.yColumn = word(s.channel.substr(s.channel.rfind('.') + 1));
-  plot.series = {
-      line(GapPlots::tr("recorded"), recorded, points(t.time_s, s.recorded)),
-      line(GapPlots::tr("as given"), asGiven, points(t.time_s, s.asGiven), PlotSeries::Style::thinLine),
-      line(GapPlots::tr("calibrated"), calibrated, points(t.time_s, s.calibrated), PlotSeries::Style::thinLine),
-      line(GapPlots::tr("with effects"), repaired, points(t.time_s, s.withEffects), PlotSeries::Style::thinLine)};
+  const auto add = [&](const QString& name, Colour colour, const std::vector<double>& values) {
+    plot.series.push_back(line(name, colour, points(t.time_s, values), PlotSeries::Style::thinLine));
+  };
+  plot.series = {line(GapPlots::tr("recorded"), recorded, points(t.time_s, s.recorded))};
+  add(GapPlots::tr("as given"), asGiven, s.asGiven);
+  if (withCalibrated) add(GapPlots::tr("calibrated"), calibrated, s.calibrated);
+  add(GapPlots::tr("with effects"), repaired, s.withEffects);
   addCursor(plot, cursor_s);
   return plot;
 }

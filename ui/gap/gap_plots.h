@@ -6,9 +6,9 @@ namespace btr::ui {
 
 /// Plots of a gap report, as values. Each is empty, with a sentence, where the report has nothing to show.
 
-/// Recorded, as given, calibrated, with effects: one channel of one trial. `cursor_s` marks a time.
+/// Recorded, as given, calibrated (or not), with effects: one channel of one trial. `cursor_s` marks a time.
 PlotData overlayPlot(const GapReport& report, std::size_t trial, std::size_t series,
-                     std::optional<double> cursor_s = {});
+                     std::optional<double> cursor_s = {}, bool withCalibrated = true);
 /// (simulated − recorded)/noise floor of the same three.
 PlotData errorPlot(const GapReport& report, std::size_t trial, std::size_t series, std::optional<double> cursor_s = {});
 /// Held-out error after each step, with the noise floor as a line.

@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,8 +10,9 @@
 
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
+#include "core/gap/recordings/number_reader.h"
 #include "core/gap/recordings/recording.h"
-#include "core/spec/csv.h"
+#include "core/gap/recordings/table_reader.h"
 #include "core/spec/error.h"
 #include "ui/common/number_entry.h"
 
@@ -25,7 +25,9 @@ struct MappingTexts {
   Q_DECLARE_TR_FUNCTIONS(MappingForm)
 };
 
-bool isSpecial(const std::string& key) { return key == "settings" || key == "segments" || key == "resample"; }
+bool isSpecial(const std::string& key) {
+  return key == "settings" || key == "segments" || key == "resample" || key == "retime";
+}
 
 bool isTime(const QString& column) {
   const QString name = column.toLower();
@@ -135,22 +137,19 @@ std::vector<std::pair<QString, double>> unitsFor(const QString& channel) {
 }
 
 CsvPreview previewCsv(const QString& path) {
-  std::ifstream stream(path.toStdString(), std::ios::binary);
-  if (!stream) throw InputError(path.toStdString() + ": cannot be read");
-  CsvReader reader(stream, path.toStdString(), ',',
-                   {.bytes = std::size_t{1} << 30, .fieldBytes = 4096, .fields = 10'000});
-  std::vector<std::string> cells;
-  if (!reader.next(cells)) throw InputError(path.toStdString() + ": is empty; a header line is expected");
+  TableReader table(path.toStdString(), "time_s", {});
   CsvPreview preview;
-  for (const std::string& cell : cells) preview.columns << QString::fromStdString(cell).trimmed();
+  for (const std::string& name : table.header()) preview.columns << QString::fromStdString(name);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  preview.ranges.assign(cells.size(), {none, none});
-  for (int row = 0; row < 5000 && reader.next(cells); ++row)
+  preview.ranges.assign(table.header().size(), {none, none});
+  NumberReader numbers;
+  std::vector<std::string> cells;
+  for (int row = 0; row < 5000 && table.next(cells); ++row)
     for (std::size_t i = 0; i < std::min(cells.size(), preview.ranges.size()); ++i)
-      if (const auto number = toNumber(cells[i])) {
+      if (const auto number = numbers.read(cells[i], table.line())) {
         auto& [low, high] = preview.ranges[i];
-        low = std::isnan(low) ? *number : std::min(low, *number);
-        high = std::isnan(high) ? *number : std::max(high, *number);
+        low = std::isnan(low) ? number->value : std::min(low, number->value);
+        high = std::isnan(high) ? number->value : std::max(high, number->value);
       }
   return preview;
 }

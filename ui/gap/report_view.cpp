@@ -7,10 +7,12 @@
 #include <QPushButton>
 #include <QSplitter>
 #include <QTabWidget>
+#include <QTextBrowser>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "core/gap/report/report_figures.h"
+#include "core/gap/report/report_lead.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
 #include "core/spec/figures.h"
@@ -66,8 +68,15 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
   remainderText_ = paragraph(this);
   notes_ = paragraph(this);
   notes_->setAlignment(Qt::AlignTop);
+  steps_ = new StepsTable(this);
+  auto* stepByStep = new QSplitter(Qt::Vertical, this);
+  stepByStep->addWidget(ladder_);
+  stepByStep->addWidget(steps_);
+  stepByStep->setStretchFactor(0, 3);
+  stepByStep->setStretchFactor(1, 1);
+  tabs_->addTab(makeFindings(), tr("&Findings"));
   tabs_->addTab(makeWhere(), tr("&Where it differs"));
-  tabs_->addTab(ladder_, tr("&Step by step"));
+  tabs_->addTab(stepByStep, tr("&Step by step"));
   tabs_->addTab(errors_, tr("Err&ors"));
   tabs_->addTab(makeRegimes(), tr("&Regimes"));
   tabs_->addTab(effects_, tr("&Effects tried"));
@@ -83,6 +92,35 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
   layout->addWidget(sentence_);
   layout->addWidget(tabs_, 1);
   setReport(nullptr);
+}
+
+QWidget* ReportView::makeFindings() {
+  findings_ = new QTextBrowser(this);
+  findings_->setObjectName("findings");
+  findings_->setAccessibleName(tr("What was found, and what to do next"));
+  findings_->setFrameShape(QFrame::NoFrame);
+  picture_ = new PlotWidget(this);
+  picture_->setObjectName("picture");
+  auto* splitter = new QSplitter(Qt::Vertical, this);
+  splitter->addWidget(findings_);
+  splitter->addWidget(picture_);
+  splitter->setStretchFactor(0, 3);
+  splitter->setStretchFactor(1, 2);
+  splitter->setChildrenCollapsible(false);
+  return splitter;
+}
+
+void ReportView::showFindings() {
+  if (!report_) {
+    findings_->clear();
+    picture_->setData(overlayPlot(GapReport{}, 0, 0));
+    return;
+  }
+  const ReportLead lead = leadOf(*report_);
+  findings_->setHtml(word(leadHtml(*report_, lead)) + "<p>" + word(report_->sentence).toHtmlEscaped() + "</p>");
+  const auto [trial, series] = lead.picture.value_or(std::pair<std::size_t, std::size_t>(0, 0));
+  // What lies between as given and in the end is under "Where it differs".
+  picture_->setData(overlayPlot(*report_, trial, series, {}, false));
 }
 
 QWidget* ReportView::makeWhere() {
@@ -181,6 +219,7 @@ void ReportView::setReport(std::shared_ptr<const GapReport> report) {
   map_->setReport(report_);
   fillChoices();
   ladder_->setData(ladderPlot(shown));
+  steps_->setReport(shown);
   regimes_->setData(regimePlot(shown, 0));
   effects_->setReport(shown);
   calibrated_->setReport(shown);
@@ -224,17 +263,18 @@ void ReportView::showVerdict() {
   if (report_) {
     using Verdict = GapReport::Verdict;
     const Verdict v = report_->verdict;
-    colour = v == Verdict::noMismatch || v == Verdict::parametersSuffice ? tones.good
-             : v == Verdict::missingPhysics                              ? tones.accent
-                                                                         : tones.warning;
+    colour = v == Verdict::noMismatch || v == Verdict::parametersSuffice     ? tones.good
+             : v == Verdict::missingPhysics || v == Verdict::partlyExplained ? tones.accent
+                                                                             : tones.warning;
     if (!unseenWarning(*report_).empty()) colour = tones.bad;
   }
   QPalette colours = headline_->palette();
   colours.setColor(QPalette::WindowText, colour);
   headline_->setPalette(colours);
-  headline_->setText(report_ ? word(headline(*report_)) : tr("No report yet"));
-  sentence_->setText(report_ ? word(report_->sentence)
-                             : tr("Start an analysis, or open the folder of a report that is there already."));
+  headline_->setText(report_ ? word(leadOf(*report_).headline) : tr("No report yet"));
+  sentence_->setText(tr("Start an analysis, or open the folder of a report that is there already."));
+  sentence_->setVisible(!report_);
+  showFindings();
 }
 
 void ReportView::fillChoices() {

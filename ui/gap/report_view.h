@@ -8,6 +8,7 @@ class QComboBox;
 class QLabel;
 class QPushButton;
 class QTabWidget;
+class QTextBrowser;
 
 namespace btr::ui {
 class CalibratedTable;
@@ -15,9 +16,11 @@ class EffectsTable;
 class ErrorsTable;
 class HeatMap;
 class PlotWidget;
+class StepsTable;
 
-/// A gap report to look through: verdict, map of the error with the overlay of the chosen channel, error step by step,
-/// regimes, effects tried, calibrated numbers, remainder, next recording.
+/// A gap report to look through: what was found and what to do (the same as the first screen of report.html), map of
+/// the error with the overlay of the chosen channel, error step by step, regimes, effects tried, calibrated numbers,
+/// remainder, next recording.
 class ReportView : public QWidget {
   Q_OBJECT
  public:
@@ -46,7 +49,9 @@ class ReportView : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
+  QWidget* makeFindings();
   QWidget* makeWhere();
+  void showFindings();
   QWidget* makeRegimes();
   QWidget* makeNext();
   void showVerdict();
@@ -58,6 +63,9 @@ class ReportView : public QWidget {
   std::optional<double> cursor_;
   QLabel *headline_, *sentence_, *notes_, *remainderText_, *nextText_;
   QTabWidget* tabs_;
+  QTextBrowser* findings_;
+  PlotWidget* picture_;
+  StepsTable* steps_;
   QComboBox *which_, *channel_, *located_;
   HeatMap* map_;
   PlotWidget *overlay_, *error_, *ladder_, *regimes_, *remainder_, *next_;

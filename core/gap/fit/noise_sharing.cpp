@@ -6,10 +6,10 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/extent.h"
-#include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
 
@@ -45,6 +45,7 @@ struct Known {
   std::vector<double> levels;  ///< of the trials that show its noise
   double least = 1e-9;         ///< a millionth of what it moves
   double lastDigit = 0;
+  bool few = false;  ///< numbers in a trial
 };
 
 class NoiseFloors {
@@ -63,8 +64,10 @@ class NoiseFloors {
     if (!own.levels.empty()) return median(own.levels);
     const auto [level, from] = borrowed(channel, own);
     const double floor = std::max(level, own.least);
-    const std::string text = channel + ": stands still, so that it does not show its noise; its noise floor, " +
-                             toText(floor) + " " + unitOfChannel(channel) + ", is " + from;
+    const std::string text =
+        channel +
+        (own.few ? ": has too few numbers to show its noise" : ": stands still, so that it does not show its noise") +
+        "; its noise floor, " + toText(floor) + " " + unitOfChannel(channel) + ", is " + from;
     if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
     return floor;
   }
@@ -77,9 +80,9 @@ class NoiseFloors {
     Known& known = known_[recording.channels[column]];
     const double least = std::max(1e-6 * (extent.high - extent.low), 1e-9);
     known.least = std::max(known.least, least);
-    // A constant's differences show the rounding of the arithmetic.
-    const double rounding = 1e-12 * std::max(std::abs(extent.low), std::abs(extent.high));
-    if (const double level = resolution(values); level > rounding) known.levels.push_back(std::max(level, least));
+    const ChannelFloor floor = channelFloor(recording, column);
+    if (floor.shown) known.levels.push_back(std::max(floor.level, least));
+    known.few = known.few || floor.few;
     if (column < recording.places.lastDigit.size())
       known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);
   }

@@ -140,7 +140,8 @@ CaseMarks mark(const ProvedCase& proved) {
   CaseMarks marks;
   const ConcealedAnswer& answer = proved.answer;
   const bool failed = !proved.failure.empty();
-  const bool says = proved.verdict == "missing_physics" || proved.verdict == "unexplained";
+  const bool names = proved.verdict == "missing_physics" || proved.verdict == "partly_explained";
+  const bool says = names || proved.verdict == "unexplained";
   const auto isAbove = [](const Hidden& hidden) { return hidden.cost > barCost; };
 
   if (answer.kind == "nothing" || answer.kind == "parameters") {
@@ -154,7 +155,7 @@ CaseMarks mark(const ProvedCase& proved) {
   if (answer.hidden.size() == 1 && isAbove(answer.hidden[0])) {
     const Hidden& hidden = answer.hidden[0];
     if (hidden.outside) {
-      marks.confidentlyWrong = failed || proved.verdict == "missing_physics";
+      marks.confidentlyWrong = failed || names;
       marks.unexplained = !failed && proved.verdict == "unexplained";
     } else {
       marks.named = !failed && isNamed(hidden, proved);

@@ -2,15 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/doctor.h"
 #include "core/gap/recordings/encoder_offset.h"
 #include "core/gap/recordings/following.h"
 #include "core/gap/recordings/joint_series.h"
+#include "core/gap/recordings/leaps.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/recording_health.h"
-#include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/time_doctor.h"
 #include "core/spec/figures.h"
 
 namespace btr {
@@ -24,8 +26,11 @@ class JointDoctor {
   JointDoctor(const Scene& scene, const Recording& recording, const Binding& binding)
       : scene_(scene), joints_(jointSeries(scene, recording, binding, period_s_)) {}
 
-  Diagnosis look() {
-    std::vector<char> known(joints_.size(), 0);
+  /// `leaping` are channels of which more cannot be said.
+  Diagnosis look(const std::set<std::string>& leaping) {
+    std::vector<char> known;
+    for (const JointSeries& series : joints_)
+      known.push_back(leaping.contains(series.positionChannel) || leaping.contains(series.commandChannel));
     findSwaps(known);
     for (std::size_t i = 0; i < joints_.size(); ++i)
       if (!known[i]) lookAt(joints_[i]);
@@ -193,17 +198,9 @@ class JointDoctor {
   Diagnosis found_;
 };
 
-/// Time in milliseconds, places in millimetres.
-void lookAtScales(const Recording& recording, const Binding& binding, std::vector<Finding>& findings) {
-  constexpr double slowest_s = 0.9, farthest_m = 50;
-  constexpr std::size_t enoughRows = 50;  // fewer cost nothing to replay, however long they last
-  const double period_s = rhythm(recording);
-  if (period_s > slowest_s)
-    findings.push_back({"time_s",
-                        "time_s: a sample every " + digits(period_s) +
-                            " s, too slow for a servo's log: milliseconds, it seems; give it the \"scale\" 0.001 in "
-                            "the mapping",
-                        recording.rows() >= enoughRows});
+/// Places in millimetres.
+void lookAtPlaces(const Recording& recording, const Binding& binding, std::vector<Finding>& findings) {
+  constexpr double farthest_m = 50;
   for (const Binding::Measured& measured : binding.measured) {
     if (measured.what != Binding::Measured::What::basePosition &&
         measured.what != Binding::Measured::What::ballPosition)
@@ -223,10 +220,12 @@ void lookAtScales(const Recording& recording, const Binding& binding, std::vecto
 Diagnosis doctor(const Scene& scene, const Recording& recording, const Binding& binding) {
   Diagnosis found;
   if (recording.rows() < 2) return found;
-  lookAtScales(recording, binding, found.findings);
+  lookAtTime(recording, binding, found.findings);
   // What follows compares over lags of a tenth of a second.
   if (!found.findings.empty() && found.findings.front().certain) return found;
-  Diagnosis joints = JointDoctor(scene, recording, binding).look();
+  lookAtPlaces(recording, binding, found.findings);
+  const std::set<std::string> leaping = lookForLeaps(recording, binding, found.findings);
+  Diagnosis joints = JointDoctor(scene, recording, binding).look(leaping);
   found.following = std::move(joints.following);
   std::move(joints.findings.begin(), joints.findings.end(), std::back_inserter(found.findings));
   return found;

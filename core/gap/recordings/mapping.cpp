@@ -11,6 +11,31 @@
 
 namespace btr {
 
+namespace {
+
+/// A number, or false for `none`; nothing if it is not there.
+std::optional<double> numberOrFalse(JsonReader& entry, const std::string& key, double low, double high, double none) {
+  const nlohmann::json* value = entry.any(key);
+  if (!value) return std::nullopt;
+  if (value->is_boolean() && !value->get<bool>()) return none;
+  if (!value->is_number()) entry.refuse(key, "a number, or false");
+  return entry.number(key, low, high);
+}
+
+/// "even", or {"period_s": 0.01}.
+std::optional<double> retimeFrom(JsonReader& reader) {
+  const nlohmann::json* value = reader.any("retime");
+  if (!value) return std::nullopt;
+  if (value->is_string() && value->get<std::string>() == "even") return 0;
+  if (!value->is_object()) reader.refuse("retime", "\"even\" or {\"period_s\": SECONDS}");
+  JsonReader entry = reader.object("retime");
+  const double period_s = entry.number("period_s", 1e-6, 1e3);
+  entry.finish();
+  return period_s;
+}
+
+}  // namespace
+
 Mapping mappingFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);
   Mapping mapping;
@@ -31,6 +56,7 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     segments->finish();
   }
 
+  mapping.retime_s = retimeFrom(reader);
   if (auto resample = reader.objectIfAny("resample")) {
     mapping.period_s = resample->number("period_s", 1e-6, 1e6, 0);
     mapping.lowpass_hz = resample->number("lowpass_hz", 1e-6, 1e6, 0);
@@ -39,7 +65,7 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
 
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
-    if (channel == "settings" || channel == "segments" || channel == "resample") continue;
+    if (channel == "settings" || channel == "segments" || channel == "resample" || channel == "retime") continue;
     if (channel != "time_s" && !parseChannel(channel))
       throw InputError(place, "channel \"" + channel + "\"",
                        "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "
@@ -52,6 +78,11 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     column.offset = entry.number("offset", -1e12, 1e12, 0);
     column.optional = entry.flag("optional", false);
     column.compare = entry.flag("compare", true);
+    column.wrap = numberOrFalse(entry, "wrap", 1e-6, 1e12, 0);
+    if (const auto bit = numberOrFalse(entry, "sign_bit", 1, 52, -1)) {
+      if (*bit != std::floor(*bit)) entry.refuse("sign_bit", "a whole number");
+      column.signBit = static_cast<int>(*bit);
+    }
     entry.array("add", [&](JsonReader term) {
       MappedColumn::Added added{term.text("column"), term.number("scale", -1e12, 1e12, 1),
                                 term.flag("optional", false)};
@@ -60,6 +91,8 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     });
     if (column.scale == 0) entry.refuse("scale", "a number other than 0");
     if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
+    if (channel == "time_s" && (column.wrap || column.signBit))
+      entry.refuse(column.wrap ? "wrap" : "sign_bit", "neither wrap nor sign_bit for time");
     entry.finish();
     hasTime = hasTime || channel == "time_s";
     mapping.columns.push_back(std::move(column));

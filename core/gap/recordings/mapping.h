@@ -19,9 +19,12 @@ struct MappedColumn {
   std::string column;
   double scale = 1;
   double offset = 0;
-  bool optional = false;     ///< a file without this column is accepted
-  bool compare = true;       ///< false: a measurement that gives the start and the motion but is not compared
-  std::vector<Added> added;  ///< the other terms, e.g. a relative angle from two absolute ones
+  bool optional = false;       ///< a file without this column is accepted
+  std::optional<double> wrap;  ///< period after which its counter begins again [the file's unit], 0: it never does;
+                               ///< nothing: found out
+  std::optional<int> signBit;  ///< bit of a whole number that is its sign, -1: none; nothing: found out
+  bool compare = true;         ///< false: a measurement that gives the start and the motion but is not compared
+  std::vector<Added> added;    ///< the other terms, e.g. a relative angle from two absolute ones
 };
 /// Numbers of the scene that were set differently from trial to trial and stand only in the file's name.
 struct TrialSetting {
@@ -32,13 +35,14 @@ struct Mapping {
   std::string source;
   std::vector<MappedColumn> columns;
   std::vector<TrialSetting> settings;
+  std::optional<double> retime_s;       ///< rows are even samples of this period, 0: of the one that the stamps show
   double period_s = 0, lowpass_hz = 0;  ///< see Resampling; both 0: the samples as they are
   std::string segmentColumn;            ///< whenever its number changes a new trial begins; "": the file is one trial
 };
 
 /// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
-/// "segments": {"column": "piece"}, "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws InputError for what is
-/// not a channel, a channel or a key that nobody knows.
+/// "segments": {"column": "piece"}, "retime": "even", "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws
+/// InputError for what is not a channel, a channel or a key that nobody knows.
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is

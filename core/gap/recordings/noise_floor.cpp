@@ -10,13 +10,34 @@
 namespace btr {
 namespace {
 
-/// Of finite neighbours.
+/// The values that are there.
+std::vector<double> finite(std::span<const double> values) {
+  std::vector<double> there;
+  there.reserve(values.size());
+  for (const double value : values)
+    if (std::isfinite(value)) there.push_back(value);
+  return there;
+}
+
 std::vector<double> differencesOf(std::span<const double> values) {
   std::vector<double> differences;
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (const double difference = values[i] - values[i - 1]; std::isfinite(difference))
-      differences.push_back(difference);
+  for (std::size_t i = 1; i < values.size(); ++i) differences.push_back(values[i] - values[i - 1]);
   return differences;
+}
+
+/// The median over blocks of 50 of the root mean square, of numbers that white noise of standard deviation 1 makes as
+/// large. A last, shorter block counts only when it stands alone.
+double medianOfBlocks(const std::vector<double>& noise) {
+  constexpr std::size_t block = 50;
+  std::vector<double> levels;
+  for (std::size_t first = 0; first < noise.size(); first += block) {
+    const std::size_t last = std::min(noise.size(), first + block);
+    if (last - first < block && !levels.empty()) break;
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += noise[i] * noise[i];
+    levels.push_back(std::sqrt(sum / static_cast<double>(last - first)));
+  }
+  return median(std::move(levels));
 }
 
 double rootMeanSquare(const std::vector<double>& values) {
@@ -59,32 +80,48 @@ double commonMeasure(const std::vector<double>& differences, double negligible, 
 
 }  // namespace
 
-double noiseFloor(std::span<const double> values) {
-  constexpr std::size_t block = 50;
+double noiseFloor(std::span<const double> all) {
   const double gain = std::sqrt(70.0);  // 1² + 4² + 6² + 4² + 1²
-  std::vector<double> levels;
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 4; i < values.size(); ++i) {
-    const double difference = values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4];
-    if (std::isfinite(difference)) {
-      sum += difference * difference;
-      ++count;
-    }
-    // A block is full; a last, shorter one counts only when it stands alone.
-    if (count == block || (i + 1 == values.size() && levels.empty() && count > 0)) {
-      levels.push_back(std::sqrt(sum / static_cast<double>(count)) / gain);
-      sum = 0;
-      count = 0;
-    }
-  }
-  return median(std::move(levels));
+  const std::vector<double> values = finite(all);
+  std::vector<double> noise;
+  for (std::size_t i = 4; i < values.size(); ++i)
+    noise.push_back((values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4]) / gain);
+  return medianOfBlocks(noise);
 }
 
-double quantisationStep(std::span<const double> values) {
+double noiseFloor(std::span<const double> allTimes, std::span<const double> allValues) {
+  constexpr std::size_t points = 5;
+  constexpr double longestSpan = 1.6;  // of the usual one: no pause in it
+  std::vector<double> time, value, spans;
+  for (std::size_t i = 0; i < allValues.size(); ++i)
+    if (std::isfinite(allValues[i])) {
+      time.push_back(allTimes[i]);
+      value.push_back(allValues[i]);
+    }
+  for (std::size_t i = points; i <= time.size(); ++i) spans.push_back(time[i - 1] - time[i - points]);
+  const double usual = median(spans);
+  if (!(usual > 0)) return noiseFloor(value);
+  std::vector<double> noise;
+  for (std::size_t first = 0; first < spans.size(); ++first) {
+    if (spans[first] > longestSpan * usual) continue;
+    // The weights of a divided difference, 1/Π(tᵢ − tⱼ): nothing of a cubic passes.
+    double sum = 0, gain = 0;
+    for (std::size_t i = first; i < first + points; ++i) {
+      double product = 1;
+      for (std::size_t j = first; j < first + points; ++j)
+        if (j != i) product *= (time[i] - time[j]) / usual;
+      sum += (value[i] - value[first]) / product;
+      gain += 1 / (product * product);
+    }
+    noise.push_back(sum / std::sqrt(gain));
+  }
+  return medianOfBlocks(noise);
+}
+
+double quantisationStep(std::span<const double> all) {
+  const std::vector<double> values = finite(all);
   double scale = 0;
-  for (const double value : values)
-    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  for (const double value : values) scale = std::max(scale, std::abs(value));
   const double rounding = 1e-9 * scale;  // of the arithmetic itself
   const std::vector<double> first = differencesOf(values);
   if (const double quantum = commonMeasure(first, 0, rounding); quantum > 0) return quantum;

@@ -18,6 +18,7 @@ struct FilePlaces {
   std::vector<std::size_t> column;  ///< by channel, from 1
   std::vector<std::uint32_t> line;  ///< by row; empty once rows were resampled
   std::vector<double> lastDigit;  ///< by channel: what the last decimal written is worth [the channel's unit]; 0: none
+  bool stamps = false;            ///< time was written as date or time of day
 };
 
 /// A recorded trial: named columns over time. `channels[0]` is "time_s", strictly increasing.
@@ -28,7 +29,9 @@ struct Recording {
   std::vector<std::string> channels;         ///< contract names; unmapped columns keep their own names
   std::vector<std::vector<double>> columns;  ///< by channel, each rows() long; NaN where a cell is empty
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
+  std::vector<std::string> thinned;          ///< channels of which repeated readings were emptied (see repeated.h)
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
+  std::vector<double> filteredNoise;         ///< by channel: what a filter left of its noise, where it hides it; 0: none
   std::vector<std::string> notes;            ///< what was skipped or looks odd
   bool beginsAtRest = false;                 ///< known beforehand: nothing moves at its first row
   FilePlaces places;
@@ -41,10 +44,12 @@ struct Recording {
   std::string atHeader(std::size_t column) const;
 };
 
-/// Reads a CSV in one pass; memory is that of the numbers. With no mapping given, findMapping() is asked, else the
-/// columns must have contract names. Damaged, empty, unordered, non-numeric files, numbers that no robot has and clocks
-/// that jump throw InputError with line and column; files larger than `limit` bytes are refused before they are read.
-/// Columns that nobody maps are kept with a note. A file that its mapping divides into trials is refused here.
+/// Reads a table (see TableReader) in one pass; memory is that of the numbers. With no mapping given, findMapping() is
+/// asked, else the columns must have contract names. Damaged, empty, unordered, non-numeric files, numbers that no
+/// robot has and clocks that jump throw InputError with line and column; files larger than `limit` bytes are refused
+/// before they are read. Rows of several topics are joined, counters that wrap are followed, readings that only repeat
+/// the one before are emptied; notes say so. Columns that nobody maps are kept with a note. A file that its mapping
+/// divides into trials is refused here.
 Recording loadRecording(const std::string& path, const Mapping* mapping = nullptr, std::size_t limit = 1u << 30);
 
 /// The file's trials, in their order: one, or those that its mapping divides it into, then called "DIR/NAME-1.csv" …

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/row_order.h"
 #include "core/spec/figures.h"
 
 namespace btr {
@@ -28,6 +33,15 @@ double longestHold(const std::vector<double>& time, const std::vector<double>& v
     begin = i;
   }
   return changes ? longest : 0;
+}
+
+std::string ordinal(std::size_t number) {
+  const char* ending = number % 100 / 10 == 1 ? "th"
+                       : number % 10 == 1     ? "st"
+                       : number % 10 == 2     ? "nd"
+                       : number % 10 == 3     ? "rd"
+                                              : "th";
+  return std::to_string(number) + ending;
 }
 
 std::vector<double> changes(const std::vector<double>& values, std::size_t over) {
@@ -59,9 +73,24 @@ double rhythm(const std::vector<double>& steps, std::size_t i) {
 
 }  // namespace
 
+std::size_t everyNthRow(const std::vector<double>& values) {
+  constexpr std::size_t enough = 10;
+  std::vector<double> apart;
+  std::size_t last = SIZE_MAX;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (std::isfinite(values[row])) {
+      if (last != SIZE_MAX) apart.push_back(static_cast<double>(row - last));
+      last = row;
+    }
+  if (apart.size() < enough) return 1;
+  const double usual = median(apart);
+  return 10 * std::ranges::count(apart, usual) >= 9 * std::ssize(apart) ? static_cast<std::size_t>(usual) : 1;
+}
+
 RecordingHealth examine(const Recording& recording) {
   RecordingHealth health;
-  const std::vector<double>& time = recording.columns.at(0);
+  const std::vector<double>& rows = recording.columns.at(0);
+  const std::vector<double> time = sampleTimes(recording);
   std::vector<double> steps, deviations;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   health.period_s = median(steps);
@@ -73,7 +102,8 @@ RecordingHealth examine(const Recording& recording) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps.size() < 4 || steps[i] <= 1.5 * rhythm(steps, i)) continue;
     const double lost = std::max(1.0, std::round(steps[i] / rhythm(steps, i)) - 1);
-    health.gaps.push_back({i + 1, time[i], time[i + 1], lost});
+    const auto row = std::ranges::lower_bound(rows, time[i + 1]) - rows.begin();
+    health.gaps.push_back({static_cast<std::size_t>(row), time[i], time[i + 1], lost});
     missing += lost;
   }
   if (!health.gaps.empty()) {
@@ -91,10 +121,15 @@ RecordingHealth examine(const Recording& recording) {
     const std::string& name = recording.channels[column];
     if (!parseChannel(name)) continue;
     const std::vector<double>& values = recording.columns[column];
-    ChannelHealth channel{name, noiseFloor(values), quantisationStep(values), 0, longestHold(time, values)};
+    ChannelHealth channel{name, channelFloor(recording, column).level, quantisationStep(values), 0,
+                          longestHold(rows, values)};
     channel.empty = static_cast<std::size_t>(
         std::count_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); }));
-    if (channel.empty > 0)
+    const bool thinned = std::ranges::find(recording.thinned, name) != recording.thinned.end();
+    if (const std::size_t every = everyNthRow(values); every > 1 && !thinned)
+      health.findings.push_back(name + ": a value in every " + ordinal(every) + " row" +
+                                (isInputChannel(name) ? "; held between" : "; compared there"));
+    else if (channel.empty > 0 && !thinned)
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");
     if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + digits(channel.quantisation, 4));

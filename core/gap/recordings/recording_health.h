@@ -19,7 +19,7 @@ struct Gap {
 /// What is odd about one channel of a recording.
 struct ChannelHealth {
   std::string channel;
-  double noiseFloor = 0, quantisation = 0;  ///< see noise_floor.h
+  double noiseFloor = 0, quantisation = 0;  ///< see channel_floor.h and noise_floor.h
   std::size_t empty = 0;                    ///< cells without a value
   double longestHold_s = 0;                 ///< longest time without any change, of a channel that does change
 };
@@ -35,6 +35,9 @@ struct RecordingHealth {
 
 /// Looks at a recording before physics is blamed (gap analysis, step 1). Changes nothing.
 RecordingHealth examine(const Recording& recording);
+
+/// n where a column has a number in every n-th row, as that of a slower sensor has; 1 for anything else.
+std::size_t everyNthRow(const std::vector<double>& values);
 
 /// By how much `measured` runs behind `command`; negative: ahead, which no servo does.
 struct ClockOffset {

@@ -1,8 +1,10 @@
 #include "core/gap/recordings/resample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/lowpass.h"
@@ -46,10 +48,37 @@ std::vector<double> grid(double from, double to, double period) {
   return times;
 }
 
+/// The part of white noise that the filter below leaves, its cutoff in parts of the sampling rate: the root of
+/// 2·∫|H|⁴df with |H|² = 1/(1 + (f/f_c)⁸), whose integral from 0 to ∞ is f_c·(7/8)·(π/8)/sin(π/8).
+double passedOn(double cutoff) {
+  const double bandwidth = 7.0 / 8 * (M_PI / 8) / std::sin(M_PI / 8) * cutoff;
+  return std::sqrt(std::min(1.0, 2 * bandwidth));
+}
+
 }  // namespace
 
-double rhythm(const Recording& recording) {
+std::vector<double> sampleTimes(const Recording& recording) {
+  constexpr double nearlyAll = 0.9;
   const std::vector<double>& time = recording.columns[0];
+  const std::vector<double>* fullest = nullptr;
+  std::ptrdiff_t most = 0;
+  for (std::size_t column = 1; column < recording.channels.size(); ++column) {
+    if (!parseChannel(recording.channels[column])) continue;
+    const std::vector<double>& values = recording.columns[column];
+    const auto there = std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+    if (there <= most) continue;
+    most = there;
+    fullest = &values;
+  }
+  if (!fullest || static_cast<double>(most) > nearlyAll * static_cast<double>(time.size())) return time;
+  std::vector<double> times;
+  for (std::size_t row = 0; row < time.size(); ++row)
+    if (std::isfinite((*fullest)[row])) times.push_back(time[row]);
+  return times;
+}
+
+double rhythm(const Recording& recording) {
+  const std::vector<double> time = sampleTimes(recording);
   std::vector<double> steps;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
   return median(std::move(steps));
@@ -87,6 +116,8 @@ Recording resampled(const Recording& recording, const Resampling& how) {
       for (const double t : coarse) values.push_back(samples.at(t, hold));
       continue;
     }
+    result.filteredNoise.resize(recording.channels.size(), 0);
+    result.filteredNoise[column] = channelFloor(recording, column).level * passedOn(cutoff * own);
     std::vector<double> even;
     for (const double t : fine) even.push_back(samples.at(t, false));
     Samples filtered(fine, LowPass(4, cutoff, 1 / own).zeroPhase(even));

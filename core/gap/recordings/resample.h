@@ -16,7 +16,10 @@ struct Resampling {
 /// period that the recording cannot carry.
 Recording resampled(const Recording& recording, const Resampling& how);
 
-/// The median time between rows, 0 where there are fewer than two.
+/// The median time between rows, 0 where there are fewer than two. Where rows are of several topics, between those of
+/// the channel with the most numbers.
 double rhythm(const Recording& recording);
+/// Those rows' times: all, or where rows are of several topics those of the channel with the most numbers.
+std::vector<double> sampleTimes(const Recording& recording);
 
 }  // namespace btr

@@ -5,9 +5,15 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/counts.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/recording_health.h"
+#include "core/gap/recordings/repeated.h"
 #include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/retime.h"
+#include "core/gap/recordings/row_order.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
 
@@ -61,6 +67,16 @@ void refuseJumps(const Recording& trial) {
                            " s: the clock jumped; mend it, or divide the file there (\"segments\" in its mapping)");
 }
 
+void noteEmptyCells(Recording& trial) {
+  for (std::size_t column = 1; column < trial.channels.size(); ++column) {
+    const std::vector<double>& values = trial.columns[column];
+    const auto empty = std::ranges::count_if(values, [](double value) { return std::isnan(value); });
+    if (empty > 0 && parseChannel(trial.channels[column]) && everyNthRow(values) == 1)
+      trial.notes.push_back(std::to_string(empty) + " of " + std::to_string(trial.rows()) + " cells of \"" +
+                            trial.channels[column] + "\" are empty");
+  }
+}
+
 }  // namespace
 
 Recording rowsOf(const Recording& recording, std::size_t first, std::size_t last) {
@@ -81,7 +97,14 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
     }
   }
   std::vector<Recording> trials = divide(readRecording(path, mapping, limit), mapping);
-  for (const Recording& trial : trials) refuseJumps(trial);
+  for (Recording& trial : trials) {
+    orderRows(trial, mapping && mapping->retime_s);
+    noteEmptyCells(trial);
+    mendCounts(trial, mapping);
+    if (mapping && mapping->retime_s) retime(trial, *mapping->retime_s);
+    refuseJumps(trial);
+    emptyRepeated(trial);
+  }
   if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))
     for (Recording& trial : trials) trial = resampled(trial, {mapping->period_s, mapping->lowpass_hz});
   return trials;

@@ -190,7 +190,7 @@ void stand(World& world, const Binding& binding, const StartState& start, bool p
 
 /// Whether anything remembers: its next steps follow from more than where everything is and how it moves.
 bool remembers(const Scene& scene) {
-  const auto isWound = [](const Drive& drive) { return drive.i != 0 || drive.gearCompliance > 0; };
+  const auto isWound = [](const Drive& drive) { return drive.i != 0 || drive.hasGear(); };
   return std::ranges::any_of(scene.effects, [](const SceneEffect& e) { return e.effect->stateSize() > 0; }) ||
          std::ranges::any_of(scene.robots, [&](const SceneRobot& r) { return std::ranges::any_of(r.drives, isWound); });
 }

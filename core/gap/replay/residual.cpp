@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor.h"
-#include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/recording_health.h"
 #include "core/gap/replay/replay.h"
@@ -31,6 +31,7 @@ ChannelError compare(const Recording& recording, std::size_t column, const std::
   error.recorded = recording.columns[column];
   error.simulated = simulated;
   fillErrors(error, finer);
+  error.resolution = channelFloor(recording, column).level;
   return error;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/gap/recordings/even_grid.h"
 #include "core/spec/nice_steps.h"
 #include "core/spec/thinning.h"
 
@@ -57,22 +58,39 @@ std::vector<double> ticksOf(const Axis& axis, double wanted) {
   return ticks;
 }
 
+namespace {
+
+/// Rows with a number, cut where more are missing than between the numbers of a sensor that is slower than the table.
+std::vector<std::vector<std::size_t>> stretchesOf(const std::vector<double>& values) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isfinite(values[i])) rows.push_back(i);
+  std::vector<double> apart;
+  for (std::size_t k = 1; k < rows.size(); ++k) apart.push_back(static_cast<double>(rows[k] - rows[k - 1]));
+  const auto usual = static_cast<std::size_t>(median(std::move(apart)));
+  const std::size_t most = usual > 1 ? 2 * usual : 1;
+  std::vector<std::vector<std::size_t>> stretches;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (k == 0 || rows[k] - rows[k - 1] > most) stretches.emplace_back();
+    stretches.back().push_back(rows[k]);
+  }
+  return stretches;
+}
+
+}  // namespace
+
 std::string pathOf(const std::vector<double>& time, const std::vector<double>& values, const Axis& x, const Axis& y,
                    double bucketsPerPixel) {
   std::string path;
-  bool drawing = false;
-  const auto point = [&](std::size_t i) {
-    path += (drawing ? "L" : "M") + number(x(time[i])) + " " + number(y(values[i]));
-    drawing = true;
-  };
-  const auto bucket = [&](std::size_t i) { return std::floor(bucketsPerPixel * x(time[i])); };
-  const auto value = [&](std::size_t i) { return values[i]; };
-  for (std::size_t i = 0; i < values.size();) {
-    std::size_t end = i;
-    while (end < values.size() && std::isfinite(values[end])) ++end;
-    thin(i, end, bucket, value, point);
-    drawing = false;
-    i = end + 1;
+  for (const std::vector<std::size_t>& rows : stretchesOf(values)) {
+    bool drawing = false;
+    const auto point = [&](std::size_t k) {
+      path += (drawing ? "L" : "M") + number(x(time[rows[k]])) + " " + number(y(values[rows[k]]));
+      drawing = true;
+    };
+    const auto bucket = [&](std::size_t k) { return std::floor(bucketsPerPixel * x(time[rows[k]])); };
+    const auto value = [&](std::size_t k) { return values[rows[k]]; };
+    thin(std::size_t{0}, rows.size(), bucket, value, point);
   }
   return path;
 }

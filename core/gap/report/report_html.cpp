@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "core/gap/replay/svg.h"
+#include "core/gap/report/equation.h"
 #include "core/gap/report/report_figures.h"
 #include "core/gap/report/report_html.h"
+#include "core/gap/report/report_lead.h"
 #include "core/gap/report/report_plots.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
@@ -31,12 +33,15 @@ constexpr const char* head = R"(<!DOCTYPE html>
 body { font: 15px/1.5 "DejaVu Sans", Verdana, Helvetica, sans-serif; color: var(--text); background: var(--back);
   max-width: 900px; margin: 2em auto; padding: 0 1.2em }
 h1 { font-size: 1.5em; margin: 0 } h2 { font-size: 1.15em; margin: 2em 0 .5em; border-bottom: 1px solid var(--line) }
-.verdict { font-size: 1.08em; padding: .8em 1em; margin: 1em 0; background: var(--soft); border-left: 4px solid var(--repaired) }
+.verdict { font-size: 1.08em; padding: .4em 1em; margin: 1em 0; background: var(--soft); border-left: 4px solid var(--repaired) }
+.verdict.bad { border-color: var(--asgiven) } .equation, .verdict li i, .verdict li sub, .verdict li sup { font-family: "DejaVu Serif", Georgia, serif }
+h3 { font-size: 1em; margin: 1.4em 0 .2em } .marked { fill: var(--repaired); fill-opacity: .25; stroke: var(--repaired); stroke-width: 2 }
 table { border-collapse: collapse; width: 100%; font-size: .87em } th, td { text-align: left; padding: .3em .6em .3em 0;
   border-bottom: 1px solid var(--line); vertical-align: top } td.n, th.n { text-align: right; font-variant-numeric: tabular-nums }
 .wide { overflow-x: auto } .no td { color: var(--faint) } .faint, figcaption { color: var(--faint); font-size: .87em }
 figure { margin: 1em 0 } svg { width: 100%; height: auto; display: block } code { overflow-wrap: anywhere; font-size: .87em }
 svg text { font: 12px "DejaVu Sans", Verdana, Helvetica, sans-serif; fill: var(--text) } svg .strong { font-weight: bold }
+svg .halo { paint-order: stroke; stroke: var(--back); stroke-width: 4px; stroke-linejoin: round }
 .grid { stroke: var(--line) } .zero { stroke: var(--faint) } .frame { fill: none; stroke: var(--line) }
 .bar { fill: var(--asgiven) } .good { fill: var(--good) } .time { fill: var(--faint); opacity: .5 }
 .whisker { stroke: var(--text); stroke-width: 1.5 } .floor { stroke: var(--good); stroke-width: 1.6; stroke-dasharray: 5 3 }
@@ -62,6 +67,42 @@ std::string headerRow(std::initializer_list<const char*> names, std::size_t word
 std::string figure(const std::string& plot, const std::string& caption) {
   if (plot.empty()) return "";
   return "<figure>" + plot + "<figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
+/// Only bodies that roll, fly or are tossed were recorded.
+bool hasNoJoints(const GapReport& report) {
+  return std::ranges::none_of(report.trials, [](const GapReport::Trial& trial) {
+    return std::ranges::any_of(
+        trial.series, [](const auto& series) { return series.channel.find(".position_") != std::string::npos; });
+  });
+}
+
+/// An effect that was found: where it acts, its law, its numbers, what it took and what competes with it.
+std::string effectCard(const GapReport& report, const ReportLead::Finding& finding) {
+  const GapReport::Effect& e = report.tried[finding.effect];
+  std::string html = "<section><h3>" + escaped(capital(inWords(e.effect))) + " at " + escaped(e.at) + "</h3>\n" +
+                     figure(plots::chain({e.law.acts}, hasNoJoints(report)), "");
+  if (!e.law.says.empty())
+    html += "<p>" + escaped(capital(e.law.says)) + ":</p>\n<p class=\"equation\">" + equationHtml(e.law.equation) +
+            "</p>\n<p class=\"faint\">" + escaped(e.law.symbols) + " (" + escaped(e.law.source) + ")</p>\n";
+  html += "<div class=\"wide\"><table>" +
+          headerRow({"parameter", "unit", "remark", "value", "95 % interval", "among rivals"}, 3);
+  for (const GapReport::Number& n : e.parameters)
+    html += "<tr>" + cell(n.name) + cell(n.unit) +
+            cell(!n.excited  ? "not identifiable from these recordings"
+                 : n.atBound ? "at its bound"
+                             : "") +
+            numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) +
+            cell(n.amongRivals.known() ? brief(n.amongRivals) : "–", true) + "</tr>\n";
+  html += "</table></div>\n<p>";
+  if (std::isfinite(finding.share))
+    html += "It took " + escaped(wholePercent(finding.share)) + " of the squared error that was taken. ";
+  html += "The cross-validated error without it is larger: it takes " + escaped(percent(e.heldoutErrorReduction)) +
+          " away (p = " + escaped(brief(e.pValue)) + ").";
+  for (std::size_t i = 0; i < e.rivals.size(); ++i)
+    html += (i ? ", " : " These recordings cannot tell it from ") + escaped(inWords(e.rivals[i])) + " (error × " +
+            escaped(brief(e.rivals[i].heldoutErrorRatio)) + ")";
+  return html + (e.rivals.empty() ? "" : ".") + "</p></section>\n";
 }
 
 std::string parametersText(const GapReport::Effect& e) {
@@ -193,13 +234,35 @@ std::string locatedSection(const GapReport& report) {
   return html.empty() ? "<p>No error stands out above the noise floor after calibration.</p>\n" : html;
 }
 
+std::string remainderSection(const GapReport& report) {
+  std::string html = "<section><h2>What remains</h2>\n<p>The accepted effects explain " +
+                     percent(report.remainder.explainedShare) + " of the excess error that calibration leaves.";
+  if (report.law.known()) {
+    const GapReport::MeasuredLaw& law = report.law;
+    html += " What is left: " + escaped(law.sentence) + ". It takes " + percent(law.shareOfRest) +
+            " of the rest (p = " + brief(law.pValue) + "): the error falls from " + brief(law.errorWithout) + " to " +
+            brief(law.error) + " noise floors, cross-validated.</p>\n";
+    for (const GapReport::LawCurve& curve : law.curves)
+      html += figure(plots::lawCurve(curve, law.at), "Measured law with its 95 % band.");
+    return html + "</section>\n";
+  }
+  if (report.remainder.on.empty()) return html + " Nothing significant is left.</p></section>\n";
+  return html + " A force over " + escaped(report.remainder.on) + " at " + escaped(report.remainder.at) +
+         " takes away " + percent(report.remainder.shareOfRest) +
+         " of the rest (p = " + brief(report.remainder.pValue) + "). It has no name here.</p>\n" +
+         figure(plots::remainder(report.remainder), "Learned force with its 95 % band.") + "</section>\n";
+}
+
 std::string provenance(const GapReport& report) {
   std::string html = "<p>UCHILSIM " + escaped(report.version) + ", seed " + std::to_string(report.seed) + ", " +
                      brief(report.seconds) + " s.</p>\n<div class=\"wide\"><table>" +
                      headerRow({"recording", "used for", "SHA-256"}, 3);
   for (const GapReport::Trial& t : report.trials)
-    html += "<tr>" + cell(t.name) + cell(t.heldOut ? "scoring only" : "fitting and cross-validation") + "<td><code>" +
-            escaped(t.sha256) + "</code></td></tr>\n";
+    html += "<tr>" + cell(t.name) +
+            cell(t.heldOut    ? "scoring only"
+                 : t.setAside ? "nothing: it disagrees with the others"
+                              : "fitting and cross-validation") +
+            "<td><code>" + escaped(t.sha256) + "</code></td></tr>\n";
   return html + "</table></div>\n";
 }
 
@@ -207,7 +270,20 @@ std::string provenance(const GapReport& report) {
 
 std::string toHtml(const GapReport& report) {
   std::string html = head;
-  html += "<h1>" + escaped(headline(report)) + "</h1>\n<p class=\"verdict\">" + escaped(report.sentence) + "</p>\n";
+  const ReportLead lead = leadOf(report);
+  html += "<h1>" + escaped(lead.headline) + "</h1>\n<div class=\"verdict" + (lead.isWarning ? " bad" : "") + "\">" +
+          leadHtml(report, lead) + "</div>\n";
+  if (lead.picture)
+    html += figure(plots::overlay(report, lead.picture->first, lead.picture->second, false),
+                   lead.heldOut ? "A recording that no fit saw: measured, simulated as given and with what was found; "
+                                  "below, the differences (band: noise floor)."
+                                : "Measured, simulated as given and with what was found; below, the differences (band: "
+                                  "noise floor).");
+  html += "<p>" + escaped(report.sentence) + "</p>\n";
+  if (!lead.findings.empty()) {
+    html += "<h2>What was left out</h2>\n";
+    for (const ReportLead::Finding& finding : lead.findings) html += effectCard(report, finding);
+  }
   html += "<section><h2>Error, step by step</h2>\n" +
           figure(plots::ladder(report),
                  "Cross-validated error after each step, down to what the recordings resolve; bars: "
@@ -223,19 +299,10 @@ std::string toHtml(const GapReport& report) {
   html += "<h2>Where the error is</h2>\n" +
           figure(plots::heatMap(report, trials), "Standardised error by channel and time, as given and final.") +
           locatedSection(report);
-  html += "<h2>Effects that were tried</h2>\n" + effectsTable(report);
+  html += "<h2>All effects that were tried</h2>\n" + effectsTable(report);
   html += "<h2>Calibrated numbers</h2>\n" + calibratedTable(report);
 
-  html += "<section><h2>What remains</h2>\n<p>The accepted effects explain " +
-          percent(report.remainder.explainedShare) + " of the excess error that calibration leaves.";
-  if (report.remainder.on.empty())
-    html += " Nothing significant is left.</p>\n";
-  else
-    html += " A force over " + escaped(report.remainder.on) + " at " + escaped(report.remainder.at) + " takes away " +
-            percent(report.remainder.shareOfRest) + " of the rest (p = " + brief(report.remainder.pValue) +
-            "). It has no name here.</p>\n" +
-            figure(plots::remainder(report.remainder), "Learned force with its 95 % band.");
-  html += "</section>\n";
+  html += remainderSection(report);
   if (!report.next.why.empty() || !report.next.columns.empty())
     html += "<section><h2>Suggested next recording</h2>\n<p>" + escaped(report.next.why) +
             ". Expected difference: " + brief(report.next.separation) + " noise floors (RMS).</p>\n" +

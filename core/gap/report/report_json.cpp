@@ -70,17 +70,24 @@ json toJson(const GapReport::Effect& e) {
     rivals.push_back({{"effect", r.effect}, {"at", r.at}, {"heldout_error_ratio", finite(r.heldoutErrorRatio)}});
     if (!r.with.empty()) rivals.back()["together_with"] = r.with;
   }
-  return {{"effect", e.effect},
-          {"at", e.at},
-          {"parameters", toJson(e.parameters, false)},
-          {"heldout_error_reduction", finite(e.heldoutErrorReduction)},
-          {"p_value", finite(e.pValue)},
-          {"q_value", finite(e.qValue)},
-          {"indistinguishable_from", rivals},
-          {"accepted", e.accepted},
-          {"reason", e.reason},
-          {"screen_rank", e.screenRank},
-          {"screen_share", finite(e.screenShare)}};
+  json effect{{"effect", e.effect},
+              {"at", e.at},
+              {"parameters", toJson(e.parameters, false)},
+              {"heldout_error_reduction", finite(e.heldoutErrorReduction)},
+              {"p_value", finite(e.pValue)},
+              {"q_value", finite(e.qValue)},
+              {"indistinguishable_from", rivals},
+              {"accepted", e.accepted},
+              {"reason", e.reason},
+              {"screen_rank", e.screenRank},
+              {"screen_share", finite(e.screenShare)}};
+  if (!e.law.says.empty())
+    effect["law"] = {{"acts_on", toText(e.law.acts)},
+                     {"says", e.law.says},
+                     {"equation", e.law.equation},
+                     {"symbols", e.law.symbols},
+                     {"source", e.law.source}};
+  return effect;
 }
 
 json toJson(const GapReport::Channel& c) {
@@ -105,14 +112,43 @@ json toJson(const GapReport::Trial& trial, const std::string& overlay) {
   json series = json::array();
   for (const GapReport::Series& s : trial.series)
     series.push_back({{"channel", s.channel}, {"unit", s.unit}, {"noise_floor", finite(s.noiseFloor)}});
-  return {{"name", trial.name},
-          {"sha256", trial.sha256},
-          {"held_out", trial.heldOut},
-          {"overlay", overlay},
-          {"series", series}};
+  return {{"name", trial.name},          {"sha256", trial.sha256}, {"held_out", trial.heldOut},
+          {"set_aside", trial.setAside}, {"overlay", overlay},     {"series", series}};
 }
 
-json toJson(const GapReport::Remainder& r) {
+json toJson(const GapReport::MeasuredLaw& law) {
+  if (!law.known()) return {};
+  json curves = json::array();
+  for (const GapReport::LawCurve& c : law.curves)
+    curves.push_back({{"on", c.on},
+                      {"unit_x", c.unitX},
+                      {"unit_y", c.unitY},
+                      {"x", listOf(c.x)},
+                      {"y", listOf(c.y)},
+                      {"low", listOf(c.low)},
+                      {"high", listOf(c.high)}});
+  return {{"at", law.at},
+          {"family", law.family},
+          {"sentence", law.sentence},
+          {"curves", curves},
+          {"share_of_rest", finite(law.shareOfRest)},
+          {"explained_share", finite(law.explainedShare)},
+          {"p_value", finite(law.pValue)},
+          {"error_in_noise_floors", finite(law.error)},
+          {"error_without_in_noise_floors", finite(law.errorWithout)}};
+}
+
+json toJson(const GapReport::Disagreement& d) {
+  return {{"trial", d.trial},
+          {"sha256", d.sha256},
+          {"what", d.what},
+          {"set_aside", d.setAside},
+          {"error_in_noise_floors", finite(d.error)},
+          {"error_alone_in_noise_floors", finite(d.errorAlone)},
+          {"error_of_others_in_noise_floors", finite(d.errorOfOthers)}};
+}
+
+json toJson(const GapReport::Remainder& r, const GapReport::MeasuredLaw& law) {
   json shape;
   if (!r.on.empty())
     shape = {{"at", r.at},
@@ -124,14 +160,16 @@ json toJson(const GapReport::Remainder& r) {
              {"standard_error", listOf(r.standardError)},
              {"share_of_rest", finite(r.shareOfRest)},
              {"p_value", finite(r.pValue)}};
-  return {{"explained_share", finite(r.explainedShare)}, {"shape", shape}};
+  return {{"explained_share", finite(r.explainedShare)}, {"shape", shape}, {"law", toJson(law)}};
 }
 
 }  // namespace
 
 std::string toJsonText(const GapReport& report) {
-  json document{
-      {"format", "uchilsim-gap-report-1"}, {"verdict", toText(report.verdict)}, {"sentence", report.sentence}};
+  json document{{"format", "uchilsim-gap-report-1"},
+                {"verdict", toText(report.verdict)},
+                {"explained_share", finite(report.explainedShare)},
+                {"sentence", report.sentence}};
   for (const char* list : {"located", "effects"}) document[list] = json::array();
   for (const GapReport::Located& located : report.located) document["located"].push_back(toJson(located));
   for (const GapReport::Effect& effect : report.tried)
@@ -140,7 +178,7 @@ std::string toJsonText(const GapReport& report) {
   document["heldout"]["channels"] = json::object();
   for (const GapReport::Channel& channel : report.channels)
     document["heldout"]["channels"][channel.name] = toJson(channel);
-  document["remainder"] = toJson(report.remainder);
+  document["remainder"] = toJson(report.remainder, report.law);
   document["next_recording"] = {{"why", report.next.why},
                                 {"command_csv", report.next.columns.empty() ? json() : json("next_command.csv")},
                                 {"separation", finite(report.next.separation)}};
@@ -154,7 +192,7 @@ std::string toJsonText(const GapReport& report) {
     document["provenance"]["recordings_sha256"].push_back(trial.sha256);
 
   // Beyond the contract.
-  for (const char* list : {"tried", "ladder", "trials"}) document[list] = json::array();
+  for (const char* list : {"tried", "ladder", "trials", "disagreeing_trials"}) document[list] = json::array();
   for (const GapReport::Effect& effect : report.tried) document["tried"].push_back(toJson(effect));
   for (const GapReport::Step& step : report.ladder)
     document["ladder"].push_back({{"what", step.what},
@@ -162,6 +200,7 @@ std::string toJsonText(const GapReport& report) {
                                   {"standard_error", finite(step.standardError)}});
   for (std::size_t i = 0; i < report.trials.size(); ++i)
     document["trials"].push_back(toJson(report.trials[i], "overlay/" + overlayFileName(report, i)));
+  for (const GapReport::Disagreement& d : report.disagreements) document["disagreeing_trials"].push_back(toJson(d));
   document["strong_correlations"] = report.strongCorrelations;
   document["notes"] = report.notes;
   document["simulator_before"] = simulatorOf(report.before);

@@ -10,9 +10,14 @@ namespace btr::plots {
 
 std::string ladder(const GapReport& report);
 std::string heatMap(const GapReport& report, const std::vector<std::size_t>& trials);
-std::string overlay(const GapReport& report, std::size_t trial, std::size_t series);
+/// Recorded and simulated, and the differences below. `calibrated`: with the curve between as given and final.
+std::string overlay(const GapReport& report, std::size_t trial, std::size_t series, bool calibrated = true);
+/// The way from a command to a measurement, with the links at which effects act marked; of robots, or of a ball.
+std::string chain(const std::vector<EffectLaw::Acts>& marked, bool ofBall);
 std::string regimes(const GapReport::Located& located);
 std::string remainder(const GapReport::Remainder& remainder);
+/// A curve of a measured law with its band.
+std::string lawCurve(const GapReport::LawCurve& curve, const std::string& at);
 std::string nextRecording(const GapReport::NextRecording& next);
 
 }  // namespace btr::plots

@@ -1,4 +1,5 @@
 // report.json back into a value. What is not in it stands in the tables beside it (report_files.cpp).
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,23 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   return n;
 }
 
+EffectLaw effectLawFrom(JsonReader r) {
+  using Acts = EffectLaw::Acts;
+  const std::vector all{Acts::notSaid, Acts::command, Acts::drive, Acts::gear,    Acts::joint,
+                        Acts::link,    Acts::gravity, Acts::air,   Acts::contact, Acts::sensor};
+  std::vector<std::string> words;
+  for (const Acts acts : all) words.emplace_back(toText(acts));
+  EffectLaw law;
+  const std::string word = r.word("acts_on", words);
+  law.acts = *std::ranges::find_if(all, [&](Acts acts) { return word == toText(acts); });
+  law.says = r.text("says");
+  law.equation = r.text("equation");
+  law.symbols = r.text("symbols");
+  law.source = r.text("source");
+  r.finish();
+  return law;
+}
+
 GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   GapReport::Effect e;
   e.effect = r.text("effect");
@@ -67,6 +85,7 @@ GapReport::Effect effectFrom(JsonReader& r, const Ordered& ordered) {
   e.reason = r.text("reason", "");
   e.screenRank = static_cast<int>(r.integer("screen_rank", 0, 1'000'000'000, 0));
   e.screenShare = numberOf(r, "screen_share");
+  if (r.any("law")) e.law = effectLawFrom(r.object("law"));
   r.finish();
   return e;
 }
@@ -120,6 +139,7 @@ GapReport::Trial trialFrom(JsonReader& r, std::vector<std::string>& overlays) {
   trial.name = r.text("name");
   trial.sha256 = r.text("sha256");
   trial.heldOut = r.flag("held_out", false);
+  trial.setAside = r.flag("set_aside", false);
   const std::string overlay = r.text("overlay");
   // A report may come from anywhere: it may name only files of its own folder.
   if (!overlay.starts_with("overlay/") || overlay.size() == 8 || overlay.find('/', 8) != std::string::npos)
@@ -134,8 +154,52 @@ GapReport::Trial trialFrom(JsonReader& r, std::vector<std::string>& overlays) {
   return trial;
 }
 
-GapReport::Remainder remainderFrom(JsonReader r) {
+GapReport::LawCurve lawCurveFrom(JsonReader& r) {
+  GapReport::LawCurve c;
+  c.on = r.text("on");
+  c.unitX = r.text("unit_x");
+  c.unitY = r.text("unit_y");
+  c.x = r.numberList("x");
+  c.y = r.numberList("y");
+  c.low = r.numberList("low");
+  c.high = r.numberList("high");
+  for (const auto& [key, list] : {std::pair{"y", &c.y}, {"low", &c.low}, {"high", &c.high}})
+    if (list->size() != c.x.size()) r.refuse(key, "as many numbers as x has");
+  r.finish();
+  return c;
+}
+
+GapReport::MeasuredLaw lawFrom(JsonReader r) {
+  GapReport::MeasuredLaw law;
+  law.at = r.text("at");
+  law.family = r.text("family", "");
+  law.sentence = r.text("sentence");
+  r.array("curves", [&](JsonReader curve) { law.curves.push_back(lawCurveFrom(curve)); });
+  law.shareOfRest = numberOf(r, "share_of_rest");
+  law.explainedShare = numberOf(r, "explained_share");
+  law.pValue = numberOf(r, "p_value");
+  law.error = numberOf(r, "error_in_noise_floors");
+  law.errorWithout = numberOf(r, "error_without_in_noise_floors");
+  r.finish();
+  return law;
+}
+
+GapReport::Disagreement disagreementFrom(JsonReader& r) {
+  GapReport::Disagreement d;
+  d.trial = r.text("trial");
+  d.sha256 = r.text("sha256");
+  d.what = r.text("what");
+  d.setAside = r.flag("set_aside", true);
+  d.error = numberOf(r, "error_in_noise_floors");
+  d.errorAlone = numberOf(r, "error_alone_in_noise_floors");
+  d.errorOfOthers = numberOf(r, "error_of_others_in_noise_floors");
+  r.finish();
+  return d;
+}
+
+GapReport::Remainder remainderFrom(JsonReader r, GapReport::MeasuredLaw& law) {
   GapReport::Remainder m;
+  if (const nlohmann::json* value = r.any("law"); value && !value->is_null()) law = lawFrom(r.object("law"));
   m.explainedShare = numberOf(r, "explained_share");
   if (const nlohmann::json* value = r.any("shape"); value && !value->is_null()) {
     JsonReader shape = r.object("shape");
@@ -160,8 +224,8 @@ GapReport::Remainder remainderFrom(JsonReader r) {
 GapReport::Verdict verdictOf(JsonReader& r) {
   using Verdict = GapReport::Verdict;
   std::vector<std::string> words;
-  const std::vector all{Verdict::noMismatch, Verdict::parametersSuffice, Verdict::missingPhysics, Verdict::unexplained,
-                        Verdict::notExcited};
+  const std::vector all{Verdict::noMismatch,      Verdict::parametersSuffice, Verdict::missingPhysics,
+                        Verdict::partlyExplained, Verdict::unexplained,       Verdict::notExcited};
   for (const Verdict verdict : all) words.emplace_back(toText(verdict));
   const std::string word = r.word("verdict", words);
   for (const Verdict verdict : all)
@@ -182,6 +246,7 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
   r.word("format", {"uchilsim-gap-report-1"});
   GapReport report;
   report.verdict = verdictOf(r);
+  if (r.any("explained_share")) report.explainedShare = numberOf(r, "explained_share");
   report.sentence = r.text("sentence");
   r.array("located", [&](JsonReader entry) { report.located.push_back(locatedFrom(entry)); });
   // The accepted ones stand among all that were tried.
@@ -197,7 +262,7 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
   inOrder(heldOut, "channels", ordered["heldout"],
           [&](const std::string& name, JsonReader channel) { report.channels.push_back(channelFrom(channel, name)); });
   heldOut.finish();
-  report.remainder = remainderFrom(r.object("remainder"));
+  report.remainder = remainderFrom(r.object("remainder"), report.law);
 
   JsonReader next = r.object("next_recording");
   report.next.why = next.text("why");
@@ -223,6 +288,7 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
     step.finish();
   });
   r.array("trials", [&](JsonReader trial) { report.trials.push_back(trialFrom(trial, overlays)); });
+  r.array("disagreeing_trials", [&](JsonReader d) { report.disagreements.push_back(disagreementFrom(d)); });
   for (const GapReport::Located& located : report.located)
     for (const GapReport::Window& window : located.windows)
       if (window.recording >= report.trials.size())

@@ -5,25 +5,25 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <numeric>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
-#include "core/gap/fit/segments.h"
-#include "core/gap/fit/starts_anew.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/fit/unit_at.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
+#include "core/gap/search/agreement.h"
 #include "core/gap/search/consultation.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/law_search.h"
+#include "core/gap/search/law_words.h"
 #include "core/gap/search/locate.h"
 #include "core/gap/search/next_recording.h"
 #include "core/gap/search/remainder.h"
+#include "core/gap/search/report_series.h"
 #include "core/gap/search/report_words.h"
 #include "core/gap/search/rival_intervals.h"
 #include "core/gap/search/search.h"
@@ -35,92 +35,6 @@
 
 namespace btr {
 namespace {
-
-std::string nameOf(const Recording& recording) { return std::filesystem::path(recording.source).filename().string(); }
-
-struct Simulated {
-  /// By trial and measured channel; NaN where nothing is simulated, or a fault ended the simulation.
-  std::vector<std::vector<std::vector<double>>> values;
-  std::vector<std::vector<std::size_t>> missed;  ///< by trial and channel: samples that a fault took away
-};
-
-Simulated simulateAll(const FitProblem& problem, const FitModel& model,
-                      const std::vector<std::vector<double>>& shifts) {
-  Simulated simulated;
-  for (const FitTrial& trial : problem.trials) {
-    simulated.values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
-    simulated.missed.emplace_back(trial.binding.measured.size(), 0);
-  }
-  const Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
-  Eigen::Index at = 0;
-  for (const Segment& segment : problem.segments)
-    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
-      const FitTrial& trial = problem.trials[segment.trial];
-      const std::size_t c = segment.channel[k];
-      if (residuals[at] == afterFault) {
-        ++simulated.missed[segment.trial][c];
-        continue;
-      }
-      simulated.values[segment.trial][c][segment.row[k]] =
-          trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] +
-          residuals[at] * trial.noiseFloor[c];
-    }
-  return simulated;
-}
-
-/// The model with its numbers fixed, for other recordings: only how each of them began is fitted.
-Fit carriedOver(const FitProblem& problem, const FitModel& model) {
-  return withStartsAnew(problem, scoreAsIs(problem, {model, {}, 0}).fit);
-}
-
-/// Of one channel; NaN, for none, where a fault took one of its samples away.
-struct Errors {
-  double square = 0, absolute = 0, count = 0;
-  bool faulted = false;
-  /// `error` is NaN where nothing is simulated, and not counted.
-  void add(double error) {
-    if (!std::isfinite(error)) return;
-    square += error * error;
-    absolute += std::abs(error);
-    ++count;
-  }
-  double rms() const { return faulted ? NAN : count > 0 ? std::sqrt(square / count) : 0; }
-  double mean() const { return faulted ? NAN : count > 0 ? absolute / count : 0; }
-};
-
-GapReport::Channel& channelOf(GapReport& report, const std::string& name, double noiseFloor) {
-  for (GapReport::Channel& channel : report.channels)
-    if (channel.name == name) return channel;
-  GapReport::Channel channel;
-  channel.name = name;
-  channel.unit = unitOfChannel(name);
-  channel.noiseFloor = noiseFloor;
-  report.channels.push_back(channel);
-  return report.channels.back();
-}
-
-/// Held-out errors of the cross-validation, by channel.
-void addErrors(GapReport& report, const FitProblem& problem, const Eigen::VectorXd& residuals,
-               double GapReport::Channel::*rms, double GapReport::Channel::*mae) {
-  std::map<std::string, std::pair<Errors, double>> byName;
-  Eigen::Index at = 0;
-  for (const Segment& segment : problem.segments)
-    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
-      const FitTrial& trial = problem.trials[segment.trial];
-      const std::size_t c = segment.channel[k];
-      auto& entry = byName[trial.recording.channels[trial.binding.measured[c].column]];
-      entry.second = trial.noiseFloor[c];
-      if (residuals[at] == afterFault)
-        entry.first.faulted = true;
-      else
-        entry.first.add(residuals[at] * trial.noiseFloor[c]);
-    }
-  for (const auto& [name, entry] : byName) {
-    GapReport::Channel& channel = channelOf(report, name, entry.second);
-    channel.*rms = entry.first.rms();
-    channel.*mae = entry.first.mean();
-  }
-}
 
 /// An effect that is absent at its lower bound is not "at its bound" there.
 bool isAtBound(double value, const FitParameter& p) {
@@ -167,67 +81,6 @@ std::vector<GapReport::Number> finalNumbers(const SearchResult& found, int effec
   return numbers;
 }
 
-void addSeries(GapReport& report, const FitProblem& problem, const SearchResult& found, bool heldOut) {
-  const auto fits = [&](const Scored& scored) { return heldOut ? carriedOver(problem, scored.fit.model) : scored.fit; };
-  const Fit given = fits(found.given), calibrated = fits(found.calibrated), final = fits(found.final);
-  const Simulated asGiven = simulateAll(problem, given.model, given.shifts),
-                  asCalibrated = simulateAll(problem, calibrated.model, calibrated.shifts),
-                  withEffects = simulateAll(problem, final.model, final.shifts);
-  std::map<std::string, std::array<Errors, 3>> errors;
-  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
-    const FitTrial& trial = problem.trials[t];
-    GapReport::Trial out;
-    out.name = nameOf(trial.recording);
-    out.sha256 = trial.recording.sha256;
-    out.heldOut = heldOut;
-    out.time_s = trial.recording.columns[0];
-    for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
-      if (trial.noiseFloor[c] <= 0) continue;
-      const std::size_t column = trial.binding.measured[c].column;
-      GapReport::Series series;
-      series.channel = trial.recording.channels[column];
-      series.unit = unitOfChannel(series.channel);
-      series.noiseFloor = trial.noiseFloor[c];
-      series.recorded = trial.recording.columns[column];
-      series.asGiven = asGiven.values[t][c];
-      series.calibrated = asCalibrated.values[t][c];
-      series.withEffects = withEffects.values[t][c];
-      auto& sums = errors[series.channel];
-      sums[0].faulted |= asGiven.missed[t][c] > 0;
-      sums[1].faulted |= asCalibrated.missed[t][c] > 0;
-      sums[2].faulted |= withEffects.missed[t][c] > 0;
-      for (std::size_t row = 0; row < series.recorded.size(); ++row) {
-        sums[0].add(series.asGiven[row] - series.recorded[row]);
-        sums[1].add(series.calibrated[row] - series.recorded[row]);
-        sums[2].add(series.withEffects[row] - series.recorded[row]);
-      }
-      if (heldOut) channelOf(report, series.channel, series.noiseFloor);
-      out.series.push_back(std::move(series));
-    }
-    for (const auto& [whose, simulated] :
-         {std::pair{"as given", &asGiven}, {"calibrated", &asCalibrated}, {"in the end", &withEffects}}) {
-      const auto& missed = simulated->missed[t];
-      const std::size_t samples = std::accumulate(missed.begin(), missed.end(), std::size_t{0});
-      if (samples > 0)
-        report.notes.push_back(out.name + ": " + whose + ", a fault ended the simulation: " + std::to_string(samples) +
-                               " samples have no simulated value; their channels have no error, and where steps are "
-                               "compared each of them counts as " +
-                               toText(afterFault) + " noise floors");
-    }
-    report.trials.push_back(std::move(out));
-  }
-  if (!heldOut) return;
-  for (const auto& [name, sums] : errors) {
-    GapReport::Channel& channel = channelOf(report, name, 0);
-    channel.heldoutAsGiven = sums[0].rms();
-    channel.heldoutCalibrated = sums[1].rms();
-    channel.heldoutWithEffects = sums[2].rms();
-    channel.heldoutMaeAsGiven = sums[0].mean();
-    channel.heldoutMaeCalibrated = sums[1].mean();
-    channel.heldoutMaeWithEffects = sums[2].mean();
-  }
-}
-
 /// Effects of the final simulator first, then what else was looked at.
 void addEffects(GapReport& report, const FitProblem& problem, const SearchResult& found) {
   for (std::size_t i = 0; i < found.effects.size(); ++i) {
@@ -235,6 +88,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
     GapReport::Effect effect;
     effect.effect = each.effect.effect;
     effect.at = each.effect.at;
+    effect.law = problem.library.make(effect.effect)->law();
     effect.accepted = true;
     effect.parameters = finalNumbers(found, static_cast<int>(i));
     effect.heldoutErrorReduction = 1 - std::sqrt(std::max(0.0, 1 - each.comparison.gain));
@@ -270,6 +124,7 @@ void addEffects(GapReport& report, const FitProblem& problem, const SearchResult
     GapReport::Effect effect;
     effect.effect = attempt->candidate.effect;
     effect.at = attempt->candidate.at;
+    effect.law = problem.library.make(effect.effect)->law();
     effect.screenRank = attempt->rank;
     effect.screenShare = attempt->share;
     effect.reason = attempt->reason;
@@ -309,6 +164,22 @@ void restNothingOnFaults(GapReport& report) {
       "notes), so nothing is shown to be missing, or to suffice. A step_s that is too long, a mass that is too small "
       "and "
       "a gain that is too high are the usual causes. ";
+}
+
+/// The law as the report has it, its first curve also as the shape of what is left.
+void addLaw(GapReport& report, const FitProblem& problem, const LearnedLaw& law, const SearchResult& named) {
+  report.law = inReport(problem, law, named.given.mean(), named.final.mean());
+  const GapReport::LawCurve& curve = report.law.curves[0];
+  GapReport::Remainder& rest = report.remainder;
+  rest.at = report.law.at;
+  rest.on = curve.on;
+  rest.unitX = curve.unitX;
+  rest.unitY = curve.unitY;
+  rest.x = curve.x;
+  rest.y = curve.y;
+  for (std::size_t i = 0; i < curve.y.size(); ++i) rest.standardError.push_back((curve.high[i] - curve.y[i]) / 1.96);
+  rest.shareOfRest = report.law.shareOfRest;
+  rest.pValue = report.law.pValue;
 }
 
 /// The integration's own error in the final simulator: against half the step.
@@ -360,6 +231,15 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     found = searchEffects(problem, search);
   }
 
+  const double window_s = problem.window_s;
+  const Agreement agreement =
+      agreeOn(given.recordings, problem, found, search,
+              [&](const std::vector<Recording>& recordings) { return prepare(recordings, window_s); });
+  if (agreement.without) {
+    problem = agreement.without->problem;
+    found = agreement.without->found;
+  }
+
   if (found.step_s < problem.scene.step_s) {
     problem.scene.step_s = found.step_s;
     if (found.step_s < given.scene.step_s)
@@ -367,18 +247,27 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
                               " s: set step_s so where this simulator is used");
   }
 
+  LawBesideNames law;
+  if (options.learnRest) {
+    if (progress && !progress("measuring what has no name", 0.93)) throw Cancelled{};
+    law = learnBesideNames(problem, found, options.jobs, limits);
+  }
+  const SearchResult final = law.law ? withLearned(problem, found, *law.law) : found;
+
   GapReport report;
   report.seed = options.seed;
   report.version = UCHILSIM_VERSION;
   report.notes = consultation.notes;
   report.notes.insert(report.notes.end(), problem.notes.begin(), problem.notes.end());
   report.notes.insert(report.notes.end(), found.refused.begin(), found.refused.end());
-  report.ladder = found.ladder;
+  for (const std::string& name : law.fell)
+    report.notes.push_back(name + " was named at first; a curve that was learned does as well without it");
+  report.ladder = final.ladder;
   report.before = given.simulator;
-  report.after = found.final.fit.model.simulator(problem);
+  report.after = final.final.fit.model.simulator(problem);
   report.step_s = problem.scene.step_s;
   report.window_s = problem.window_s;
-  report.calibrated = finalNumbers(found, -1);
+  report.calibrated = finalNumbers(final, -1);
   // The calibrated simulator has no effects.
   for (std::size_t i = 0; i < found.calibrated.fit.model.parameters.size(); ++i)
     if (GapReport::Number number = numberOf(found.calibrated.fit.model, found.calibratedUncertainty, i);
@@ -393,28 +282,43 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addErrors(report, problem, found.given.heldOut, &GapReport::Channel::asGiven, &GapReport::Channel::maeAsGiven);
   addErrors(report, problem, found.calibrated.heldOut, &GapReport::Channel::calibrated,
             &GapReport::Channel::maeCalibrated);
-  addErrors(report, problem, found.final.heldOut, &GapReport::Channel::withEffects,
+  addErrors(report, problem, final.final.heldOut, &GapReport::Channel::withEffects,
             &GapReport::Channel::maeWithEffects);
-  addEffects(report, problem, found);
+  addEffects(report, problem, final);
   addCorrelations(report, found.final.fit.model, found.finalUncertainty, limits.verdict.strongCorrelation);
-  addStepErrors(report, problem, found);
-  addSeries(report, problem, found, false);
+  addStepErrors(report, problem, final);
+  addSeries(report, problem, final, Whose::fitted);
+  report.disagreements = agreement.told;
+  if (const std::string text = textOf(agreement.told, given.recordings.size()); !text.empty())
+    report.notes.push_back(text.substr(0, text.size() - 1));
+  if (!agreement.aside.empty()) {
+    std::vector<Recording> recordings;
+    for (const std::size_t trial : agreement.aside) recordings.push_back(given.recordings[trial]);
+    FitProblem aside = prepare(recordings, problem.window_s);
+    aside.scene.step_s = problem.scene.step_s;
+    addSeries(report, aside, final, Whose::setAside);
+  }
   if (!given.heldOut.empty()) {
     if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
     FitProblem heldOut = prepare(given.heldOut, problem.window_s);
     heldOut.scene.step_s = problem.scene.step_s;
-    addSeries(report, heldOut, found, true);
+    addSeries(report, heldOut, final, Whose::heldOut);
   }
   if (progress && !progress("locating", 0.96)) throw Cancelled{};
   report.located = locate(found.calibrated.fit.model, problem, limits.location);
   if (progress && !progress("looking at what remains", 0.97)) throw Cancelled{};
-  if (options.learnRest) report.remainder = findRemainder(problem, found, options.jobs, limits);
-  const bool curveIsBetter = aCurveDoesBetter(problem, found, options.jobs, limits);
+  if (law.law) addLaw(report, problem, *law.law, found);
+  if (options.learnRest && !law.applies) report.remainder = findRemainder(problem, found, options.jobs, limits);
+  const bool curveIsBetter = !law.applies && aCurveDoesBetter(problem, found, options.jobs, limits);
   if (options.designNext) report.next = designNext(problem, found, options.seed, limits.nextRecording);
   judge(report, problem, found, curveIsBetter, limits);
   if (!leavesSomethingToAdopt(report.verdict)) report.after = report.before;
   restNothingOnFaults(report);
   report.sentence = consultation.caveat + report.sentence;
+  if (std::string text = textOf(agreement.told, given.recordings.size()); !text.empty()) {
+    text.pop_back();
+    report.sentence += " " + text;
+  }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (progress) progress("done", 1);
   return report;

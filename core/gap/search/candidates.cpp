@@ -11,6 +11,7 @@
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/extent.h"
+#include "core/gap/search/law_terms.h"
 #include "core/gap/search/thresholds.h"
 
 namespace btr {
@@ -158,6 +159,7 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
                                            const SearchThresholds::Candidates& thresholds) {
   std::vector<EffectCandidate> candidates;
   for (const std::string& name : names.empty() ? library.names : names) {
+    if (name == measuredLaw) continue;
     const auto effect = library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
     for (const std::string& at : placesFor(effect->place(), scene))

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/effect.h"
 #include "core/spec/simulator_spec.h"
 
 namespace btr {
@@ -14,7 +15,8 @@ namespace btr {
 /// unless a comment says otherwise. "Error in noise floors" is a root mean square of (simulated − recorded)/noise
 /// floor.
 struct GapReport {
-  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, unexplained, notExcited };
+  /// partlyExplained: named effects are needed and stay when a learned law takes up the rest, which is significant.
+  enum class Verdict { noMismatch, parametersSuffice, missingPhysics, partlyExplained, unexplained, notExcited };
 
   struct Interval {
     double low = 0, high = 0;
@@ -54,6 +56,7 @@ struct GapReport {
     /// The p-value adjusted for all effects at all places that its round looked at (false discovery rate, see
     /// search_discoveries.h); NaN: not known.
     double qValue = std::numeric_limits<double>::quiet_NaN();
+    EffectLaw law = {};  ///< as its plugin says it; empty where it says nothing, as in reports of earlier versions
   };
   /// Where the error lies that calibration leaves.
   struct Regime {
@@ -102,6 +105,34 @@ struct GapReport {
     bool heldOut = false;  ///< never used in any fit
     std::vector<double> time_s;
     std::vector<Series> series;
+    bool setAside = false;  ///< not used in the fit or the tests of effects: see Disagreement
+  };
+  /// A trial that one simulator does not fit together with the others.
+  struct Disagreement {
+    std::string trial, sha256;
+    std::string what;      ///< one sentence: "its spin_x would have to be -310 rad/s instead of 243"
+    bool setAside = true;  ///< false: named only, and fitted like the others
+    /// Its error by a fit to the others, by a fit to it alone, and the median of the others' [noise floors].
+    double error = 0, errorAlone = 0, errorOfOthers = 0;
+  };
+  /// One curve of a measured law: a generalised force over a variable.
+  struct LawCurve {
+    std::string on;  ///< "position", "velocity", "direction", "load", "time", "angle" (position modulo its period), …
+    std::string unitX, unitY;
+    std::vector<double> x, y, low, high;  ///< low, high: the band, 95 % of each y by itself; NaN where unknown
+  };
+  /// A force without a name that was learned from the recordings and belongs to the final simulator as the effect
+  /// measured_law: the sum of its curves. Nothing was learned where there are none.
+  struct MeasuredLaw {
+    std::string at;
+    std::string family;    ///< "detent", "cam", "hardening spring", "dead zone", "drift"; "": none fits as well
+    std::string sentence;  ///< on what it depends, where, how large
+    std::vector<LawCurve> curves;
+    double shareOfRest = 0;     ///< of what named effects leave of the cross-validated squared error, what it takes
+    double explainedShare = 0;  ///< as GapReport::explainedShare, with it
+    double pValue = 1;          ///< paired test by blocks
+    double error = 0, errorWithout = 0;  ///< with named effects and it, with named effects alone [noise floors]
+    bool known() const { return !curves.empty(); }
   };
   /// A force that nobody has named: generalised force at `at` over a variable.
   struct Remainder {
@@ -129,6 +160,10 @@ struct GapReport {
   std::vector<Step> ladder;
   std::vector<Trial> trials;
   Remainder remainder;
+  MeasuredLaw law;
+  /// Of the cross-validated squared error as given, what calibration and named effects take away (0 … 1); NaN unknown.
+  double explainedShare = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Disagreement> disagreements;
   NextRecording next;
   std::vector<std::string> notes;  ///< doctor's findings, gauge freedom, integration error, what was skipped
   /// As given; calibrated with the accepted effects. The same where the verdict leaves nothing to adopt.

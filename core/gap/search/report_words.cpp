@@ -36,6 +36,8 @@ std::string headline(GapReport::Verdict verdict) {
       return "Other parameter values suffice";
     case GapReport::Verdict::missingPhysics:
       return "Physics was left out";
+    case GapReport::Verdict::partlyExplained:
+      return "Physics was left out, and something more that has no name here";
     case GapReport::Verdict::unexplained:
       return "Something is missing that has no name here";
     case GapReport::Verdict::notExcited:
@@ -48,6 +50,33 @@ bool leavesSomethingToAdopt(GapReport::Verdict verdict) {
   return verdict != GapReport::Verdict::noMismatch && verdict != GapReport::Verdict::notExcited;
 }
 
+const char* toText(EffectLaw::Acts acts) {
+  using Acts = EffectLaw::Acts;
+  switch (acts) {
+    case Acts::command:
+      return "command";
+    case Acts::drive:
+      return "drive";
+    case Acts::gear:
+      return "gear";
+    case Acts::joint:
+      return "joint";
+    case Acts::link:
+      return "link";
+    case Acts::gravity:
+      return "gravity";
+    case Acts::air:
+      return "air";
+    case Acts::contact:
+      return "contact";
+    case Acts::sensor:
+      return "sensor";
+    case Acts::notSaid:
+      break;
+  }
+  return "not_said";
+}
+
 const char* toText(GapReport::Verdict verdict) {
   switch (verdict) {
     case GapReport::Verdict::noMismatch:
@@ -56,6 +85,8 @@ const char* toText(GapReport::Verdict verdict) {
       return "parameters_suffice";
     case GapReport::Verdict::missingPhysics:
       return "missing_physics";
+    case GapReport::Verdict::partlyExplained:
+      return "partly_explained";
     case GapReport::Verdict::unexplained:
       return "unexplained";
     case GapReport::Verdict::notExcited:

@@ -37,6 +37,7 @@ std::string headline(const GapReport& report);
 
 /// False where the simulator as given agrees with the recordings, or they cannot tell.
 bool leavesSomethingToAdopt(GapReport::Verdict verdict);
+const char* toText(EffectLaw::Acts acts);        ///< "drive", "contact", …; "not_said"
 const char* toText(GapReport::Verdict verdict);  ///< "no_mismatch", "parameters_suffice", …
 
 }  // namespace btr

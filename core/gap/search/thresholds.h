@@ -262,6 +262,43 @@ struct SearchThresholds {
     double jointForce = 0.02, ballForce = 0.01;
   };
 
+  /// A law that no effect of the library is, learned and adopted as curves (measured_law.h).
+  struct Law {
+    double leastExcess = 0.3;    ///< left beyond the integration's error, from which one is learned [hand]
+    double ofStrength = 0.02;    ///< a typical force, of the drive's strength [hand]
+    std::size_t joints = 2;      ///< that are looked at, those with the largest errors [time]
+    int firstKnots = 11;         ///< of the first look [time]
+    int knots = 25;              ///< of what is fitted: a detent is a tenth of a motion wide [hand]
+    double turnsForAngle = 1.5;  ///< of a joint's motion, from which its angle is a quantity of its own [hand]
+    double leastPromise = 0.02;  ///< of the squared residuals of other trials [hand]
+    std::size_t fitted = 3;      ///< options that are refined in replay, of those that promise [time]
+    double ofBest = 0.5;         ///< as much as this of the best [hand]
+    int firstIterations = 4;     ///< of these fits [time]
+    int iterations = 10;         ///< of the best one's [time]
+    double leastT = 3;           ///< paired over blocks, against without it [prototype]
+    double mostFalse = 0.01;     ///< p-value times the options that were looked at [hand: usual]
+    double leastShare = 0.2;     ///< of the excess [hand]
+    double secondShare = 0.2;    ///< of what the first curve leaves, for a second one [hand]
+    double keepsSize = 3;        ///< a named effect's size may change by this factor with the law beside it [hand]
+    double standsAlone = 0.7;    ///< error of a law alone over that of the names: names fall from here on [prototype]
+    double asWell = 1.1;         ///< and over that of names and law together [hand]
+  };
+
+  /// Trials that one simulator does not fit together with the others (disagreement.h).
+  struct Trials {
+    std::size_t least = 4;       ///< trials, from which one of them can be told to be the odd one [hand]
+    double keptShare = 0.6;      ///< that the trimmed fits go to: up to four of ten may be spoiled [hand]
+    int trimmings = 4;           ///< fits to those that fit best, at most [time]
+    int iterations = 6;          ///< of each [time]
+    double farOff = 2.5;         ///< times the others' median error (r.m.s.): a trial stands out [hand]
+    double leastZ = 3.5;         ///< and so many robust standard deviations of the logarithms [statistics: usual]
+    double leastFloors = 2;      ///< noise floors: what is less does no harm [hand]
+    double asOthers = 1.7;       ///< times the others' median error (r.m.s.): it agrees [hand]
+    double worseTogether = 1.3;  ///< mean squared error with all, over that without: all do not fit together [hand]
+    double unlike = 0.5;         ///< of its motion (r.m.s.), its error: it is something else that was recorded [hand]
+    double range = 10;           ///< times its size, how far a number of a trial is looked for [hand]
+  };
+
   /// The recording that would distinguish rivals (next_recording.h).
   struct NextRecording {
     /// of the sequence, its samples, its beginning at rest [hand]
@@ -289,6 +326,7 @@ struct SearchThresholds {
     /// 100 %; four of the names were wrong (two for effects outside the library), and in one the truth stood among
     /// their rivals.
     double shapeLeft = 0.4;
+    double partlyLeft = 0.5;        ///< of the excess, that names may leave where no law was found beside them [hand]
     double leastMotion = 10;        ///< noise floors that something must move [hand]
     double calibrationT = 2.5;      ///< paired: calibration helps [prototype]
     double calibrationGain = 0.02;  ///< and takes so much, of the error as given and at all [hand]
@@ -313,6 +351,8 @@ struct SearchThresholds {
   Location location;
   SelfExcitation selfExcitation;
   Remainder remainder;
+  Law law;
+  Trials trials;
   NextRecording nextRecording;
   Verdict verdict;
 };

@@ -239,16 +239,48 @@ std::string unseenText(const GapReport& report, bool named, const SearchThreshol
   return text;
 }
 
-void judgeNamed(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
-  report.verdict = Verdict::missingPhysics;
+/// A share that is not quite all is not said to be all.
+std::string shareText(double share) { return share > 0.99 && share < 1 ? "more than 99 %" : wholePercent(share); }
+
+std::string ofGivenText(const GapReport& report) {
+  return shareText(report.explainedShare) + " of the squared error of the simulator as given";
+}
+
+struct Named {
   std::string list, rivals;
+};
+Named namedIn(const GapReport& report) {
+  Named named;
   for (const GapReport::Effect& effect : report.tried) {
     if (!effect.accepted) continue;
-    list += (list.empty() ? "" : "; ") + effectText(effect);
-    rivals += rivalsText(effect);
+    named.list += (named.list.empty() ? "" : "; ") + effectText(effect);
+    named.rivals += rivalsText(effect);
   }
-  report.sentence = caveatText(report, e, limits) + whereText(report) + "What was left out: " + list + ". " +
-                    errorText(e) + rivals + movedByRivalsText(report);
+  return named;
+}
+
+/// What was learned in the place of a name, and what it is worth.
+std::string lawText(const GapReport& report) {
+  if (!report.law.known()) return "";
+  return "Its shape was measured: " + report.law.sentence + ". With it " + digits(report.law.error) + noiseFloors +
+         " are left; it takes " + shareText(report.law.shareOfRest) + " of the squared error that is left without it. ";
+}
+
+void judgeNamed(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
+  report.verdict = Verdict::missingPhysics;
+  const Named named = namedIn(report);
+  report.sentence = "What was left out explains " + ofGivenText(report) + ": " + named.list + ". " +
+                    caveatText(report, e, limits) + whereText(report) + errorText(e) + named.rivals +
+                    movedByRivalsText(report);
+}
+
+/// What is named stays when a learned law takes up the rest, or takes most where nothing was learned.
+void judgePartly(GapReport& report, const Findings& e) {
+  report.verdict = Verdict::partlyExplained;
+  const Named named = namedIn(report);
+  report.sentence = "What was left out explains " + ofGivenText(report) + ": " + named.list + ". Beside it " +
+                    inFloors(e.final) + " are left that have no name here. " + lawText(report) + whereText(report) +
+                    errorText(e) + named.rivals + movedByRivalsText(report);
 }
 
 void judgeUnexplained(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
@@ -256,14 +288,17 @@ void judgeUnexplained(GapReport& report, const Findings& e, const SearchThreshol
   std::string partly;
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted) partly += (partly.empty() ? "" : "; ") + effectText(effect);
+  const std::string first = "Named effects and other numbers explain " + ofGivenText(report) + ". ";
   if (e.named && e.leftBeyondStep() <= limits.unexplainedShare * e.excess)
-    report.sentence = whereText(report) + errorText(e) + "Most of it, " + explainedText(report) +
+    report.sentence = first + whereText(report) + errorText(e) + "Most of it, " + explainedText(report) +
                       " of the squared error, is taken up by " + partly + ", but what is left, " + inFloors(e.final) +
                       ", no effect of the library explains: the cause may be another. ";
   else
     report.sentence =
-        whereText(report) + errorText(e) + "No effect of the library explains what is missing" +
-        (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". ";
+        (e.named ? first : "Other numbers explain " + ofGivenText(report) + ". ") + whereText(report) + errorText(e) +
+        "No effect of the library explains what is missing" +
+        (partly.empty() ? "" : " (it is partly taken up by " + partly + ", which need not be the cause)") + ". " +
+        lawText(report);
 }
 
 void judgeNoMismatch(GapReport& report, const Findings& e) {
@@ -310,21 +345,28 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   const SearchThresholds::Verdict& limits = thresholds.verdict;
   const Findings e = findingsOf(report, problem, found, limits);
   report.remainder.explainedShare = e.excess > 0 ? std::clamp(1 - std::max(0.0, e.final - 1) / e.excess, 0.0, 1.0) : 1;
+  if (e.given > 0) report.explainedShare = std::clamp(1 - e.final / e.given, 0.0, 1.0);
   if (tellsNothing(e, limits)) {
     report.verdict = Verdict::notExcited;
     report.sentence = tellsNothingText(e, limits);
     return;
   }
+  const bool hasUntestedShape =
+      !report.law.known() && !report.remainder.on.empty() && report.remainder.shareOfRest > limits.shapeLeft;
   const bool tooMuchLeft =
-      e.named
-          ? e.beyondStep() > limits.stillNoise &&
-                (curveIsBetter || (!report.remainder.on.empty() && report.remainder.shareOfRest > limits.shapeLeft) ||
-                 e.leftBeyondStep() > limits.unexplainedShare * e.excess ||
-                 (e.beyondStep() > limits.clearlyLeft && e.leftBeyondStep() > limits.clearlyLeftShare * e.excess) ||
-                 e.beyondStep() > limits.muchLeft)
-          : e.beyondStep() > limits.unexplained;
+      e.named ? e.beyondStep() > limits.stillNoise &&
+                    (curveIsBetter || hasUntestedShape || report.law.known() ||
+                     e.leftBeyondStep() > limits.unexplainedShare * e.excess ||
+                     (e.beyondStep() > limits.clearlyLeft && e.leftBeyondStep() > limits.clearlyLeftShare * e.excess) ||
+                     e.beyondStep() > limits.muchLeft)
+              : e.beyondStep() > limits.unexplained;
+  // Beside a law the names were tested with it in the model; where no law was found they must take most.
+  const bool namesHold = e.named && !curveIsBetter && !hasUntestedShape &&
+                         (report.law.known() || e.leftBeyondStep() <= limits.partlyLeft * e.excess);
   if (e.named && !tooMuchLeft)
     judgeNamed(report, e, limits);
+  else if (tooMuchLeft && namesHold)
+    judgePartly(report, e);
   else if (tooMuchLeft)
     judgeUnexplained(report, e, limits);
   else if (!e.calibrationHelps && e.given <= limits.atNoise)
@@ -337,9 +379,10 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     report.sentence += "Nothing in the recordings moves by more than " + toText(limits.leastMotion) + noiseFloors +
                        ": they can show little. ";
   if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named, limits);
-  if (report.verdict == Verdict::unexplained || e.beyondStep() > limits.clearlyLeft)
+  if (report.verdict == Verdict::unexplained || report.verdict == Verdict::partlyExplained ||
+      e.beyondStep() > limits.clearlyLeft)
     report.sentence += swingText(problem, report, thresholds);
-  if (!report.remainder.on.empty())
+  if (!report.remainder.on.empty() && !report.law.known())
     report.sentence += "A force at " + report.remainder.at + " that depends on " + report.remainder.on +
                        " would take " + wholePercent(report.remainder.shareOfRest) +
                        " of the rest; its curve is in the report. ";

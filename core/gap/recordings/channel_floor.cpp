@@ -1,0 +1,65 @@
+#include "core/gap/recordings/channel_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/extent.h"
+#include "core/gap/recordings/noise_floor.h"
+
+namespace btr {
+namespace {
+
+constexpr double withoutAnything = 1e-6;  // [the channel's unit]
+
+/// Root mean square of the speed over ten samples, by their numbers: stamps may be off.
+double usualSpeed(const std::vector<double>& values, double period_s) {
+  constexpr std::size_t over = 10;
+  double squares = 0, count = 0;
+  for (std::size_t i = over; i < values.size(); ++i, ++count)
+    squares += std::pow((values[i] - values[i - over]) / (static_cast<double>(over) * period_s), 2);
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+}  // namespace
+
+bool followsRowsNotStamps(const ChannelFloor& floor) {
+  constexpr double clearly = 1.5;
+  return floor.shown && floor.byStamps > clearly * floor.byRows;
+}
+
+ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
+  constexpr std::size_t leastNumbers = 5;
+  std::vector<double> time, values;
+  Extent extent;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const double value = recording.columns[column][row];
+    if (!std::isfinite(value)) continue;
+    time.push_back(recording.columns[0][row]);
+    values.push_back(value);
+    extent.add(value);
+  }
+  ChannelFloor floor;
+  if (values.empty()) return floor;
+  const double rounding = quantisationStep(values) / std::sqrt(12.0);
+  floor.byRows = noiseFloor(values);
+  floor.byStamps = noiseFloor(time, values);
+  const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
+  floor.level = std::max({floor.byStamps, rounding, filtered});
+  // A constant's differences show the rounding of the arithmetic.
+  floor.shown = floor.level > 1e-12 * std::max(std::abs(extent.low), std::abs(extent.high));
+  if (followsRowsNotStamps(floor)) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+    floor.ofTime = usualSpeed(values, median(std::move(steps))) * noiseFloor(time);
+    floor.level = std::max(floor.level, std::hypot(std::max(floor.byRows, rounding), floor.ofTime));
+  }
+  const double digit = column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;
+  const double written = digit / std::sqrt(12.0);
+  floor.few = !floor.shown && values.size() < leastNumbers;
+  floor.level = floor.shown ? std::max(floor.level, written) : written > 0 ? written : withoutAnything;
+  return floor;
+}
+
+}  // namespace btr

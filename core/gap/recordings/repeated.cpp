@@ -1,0 +1,108 @@
+#include "core/gap/recordings/repeated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/noise_floor.h"
+#include "core/gap/recordings/row_order.h"
+#include "core/spec/figures.h"
+
+namespace btr {
+namespace {
+
+using Columns = std::vector<std::size_t>;
+
+/// Measured channels by sensor: joint channels one by one, the columns of a body or ball together.
+std::map<std::string, Columns> sensorsOf(const Recording& trial) {
+  std::map<std::string, Columns> sensors;
+  for (std::size_t column = 1; column < trial.channels.size(); ++column) {
+    const std::string& channel = trial.channels[column];
+    const auto name = parseChannel(channel);
+    if (!name || isInputChannel(channel) || std::ranges::find(trial.notCompared, channel) != trial.notCompared.end())
+      continue;
+    const bool body = name->part.empty() || name->part == "base";
+    sensors[body ? name->owner + "." + name->part : channel].push_back(column);
+  }
+  return sensors;
+}
+
+/// Rows in a run of equal readings of one sensor, by the run's first row; rows with an empty cell stand alone.
+struct Runs {
+  std::vector<std::size_t> first, length;
+};
+
+Runs runsOf(const Recording& trial, const Columns& columns) {
+  Runs runs;
+  for (std::size_t row = 0; row < trial.rows(); ++row) {
+    const bool repeats = row > 0 && std::ranges::all_of(columns, [&](std::size_t column) {
+                           return trial.columns[column][row] == trial.columns[column][row - 1];  // never for NaN
+                         });
+    if (!repeats) {
+      runs.first.push_back(row);
+      runs.length.push_back(0);
+    }
+    ++runs.length.back();
+  }
+  return runs;
+}
+
+/// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
+std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Runs& runs) {
+  constexpr double severalCounts = 5, leastShare = 0.35;
+  constexpr std::size_t enough = 20;
+  std::vector<double> counts;
+  for (const std::size_t column : columns) {
+    const double digit = column < trial.places.lastDigit.size() ? trial.places.lastDigit[column] : 0;
+    counts.push_back(severalCounts * std::max(quantisationStep(trial.columns[column]), digit));
+  }
+  std::vector<double> lengths;
+  std::size_t held = 0;
+  for (std::size_t run = 1; run + 1 < runs.first.size(); ++run) {
+    // A run in motion: it is reached and left by more than a few counts.
+    const auto moves = [&](std::size_t row) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const std::vector<double>& values = trial.columns[columns[i]];
+        if (const double step = std::abs(values[row] - values[row - 1]); step > 0 && step >= counts[i]) return true;
+      }
+      return false;
+    };
+    if (!moves(runs.first[run]) || !moves(runs.first[run + 1])) continue;
+    lengths.push_back(static_cast<double>(runs.length[run]));
+    held += runs.length[run] > 1;
+  }
+  if (lengths.size() < enough || static_cast<double>(held) < leastShare * static_cast<double>(lengths.size())) return 1;
+  // A rhythm of 1.5 rows gives runs of one and of two: the longer ones; a few reads that failed do not count.
+  std::ranges::sort(lengths);
+  return static_cast<std::size_t>(lengths[9 * lengths.size() / 10]);
+}
+
+}  // namespace
+
+void emptyRepeated(Recording& trial) {
+  const std::size_t rows = trial.rows();
+  for (const auto& [sensor, columns] : sensorsOf(trial)) {
+    const Runs runs = runsOf(trial, columns);
+    const std::size_t each = readingsPerMeasurement(trial, columns, runs);
+    if (each < 2) continue;
+    std::size_t emptied = 0;
+    for (std::size_t run = 0; run < runs.first.size(); ++run)
+      for (std::size_t i = 1; i < runs.length[run]; ++i) {
+        if (i % each == 0) continue;
+        for (const std::size_t column : columns)
+          trial.columns[column][runs.first[run] + i] = std::numeric_limits<double>::quiet_NaN();
+        ++emptied;
+      }
+    for (const std::size_t column : columns) trial.thinned.push_back(trial.channels[column]);
+    trial.notes.push_back((columns.size() == 1 ? trial.channels[columns[0]] : sensor) + ": " + std::to_string(emptied) +
+                          " of " + std::to_string(rows) +
+                          " readings only repeat the one before, as its sensor measures every " +
+                          digits(static_cast<double>(rows) / static_cast<double>(rows - emptied), 2) +
+                          " rows; compared where new values come");
+  }
+}
+
+}  // namespace btr

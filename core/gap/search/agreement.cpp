@@ -1,0 +1,103 @@
+#include "core/gap/search/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gap/search/disagreement.h"
+
+namespace btr {
+namespace {
+
+std::vector<Recording> leftOut(const std::vector<Recording>& recordings, const std::vector<std::size_t>& which) {
+  std::vector<Recording> kept;
+  for (std::size_t t = 0; t < recordings.size(); ++t)
+    if (std::ranges::find(which, t) == which.end()) kept.push_back(recordings[t]);
+  return kept;
+}
+
+double medianError(const std::vector<double>& errors, const std::vector<std::size_t>& but) {
+  std::vector<double> others;
+  for (std::size_t t = 0; t < errors.size(); ++t)
+    if (std::ranges::find(but, t) == but.end() && std::isfinite(errors[t])) others.push_back(errors[t]);
+  if (others.empty()) return NAN;
+  const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
+  std::nth_element(others.begin(), middle, others.end());
+  return *middle;
+}
+
+double meanError(const std::vector<double>& errors, const std::vector<std::size_t>& but) {
+  double sum = 0, count = 0;
+  for (std::size_t t = 0; t < errors.size(); ++t)
+    if (std::ranges::find(but, t) == but.end()) {
+      sum += errors[t];
+      ++count;
+    }
+  return count > 0 ? sum / count : NAN;
+}
+
+Agreement::Without searched(const std::vector<Recording>& recordings, const std::vector<std::size_t>& aside,
+                            const SearchOptions& options,
+                            const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
+  SearchOptions again = options;
+  if (options.progress)
+    again.progress = [&](const std::string& stage, double share) {
+      return options.progress(stage + " without trials that disagree", share);
+    };
+  FitProblem problem = ready(leftOut(recordings, aside));
+  SearchResult found = searchEffects(problem, again);
+  return {std::move(problem), std::move(found)};
+}
+
+}  // namespace
+
+Agreement agreeOn(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
+                  const SearchOptions& options, const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
+  const SearchThresholds::Trials& limits = options.thresholds.trials;
+  Agreement result;
+  // Of a walk nobody can foretell where a foot lands; of a toss where it hits: one is never like another.
+  if (problem.walks || problem.impacts || found.unstable) return result;
+  std::vector<std::size_t> suspects = outlyingTrials(problem, found, options.jobs, limits);
+  if (suspects.empty()) return result;
+  auto without = searched(recordings, suspects, options, ready);
+  const FitModel& others = without.found.final.fit.model;
+
+  // What was found of all of them fits the suspects and the others as well: they show more, and nothing is wrong.
+  const std::vector<double> byAll = errorsByTrial(problem, found.final.fit.model, limits.iterations);
+  const std::vector<double> byOthers = errorsByTrial(problem, others, limits.iterations);
+  const double median = medianError(byOthers, suspects);
+  if (outlying(byAll, limits).empty() &&
+      meanError(byAll, suspects) <= limits.worseTogether * std::max(1.0, meanError(byOthers, suspects)))
+    return result;
+
+  std::vector<std::size_t> aside;
+  for (const std::size_t trial : suspects) {
+    // What the others made fits it: it only shows more of the same.
+    if (std::sqrt(byOthers[trial]) <= limits.asOthers * std::sqrt(std::max(1.0, median))) continue;
+    result.told.push_back(explainDisagreement(problem, trial, others, median, ready, limits));
+    if (result.told.back().setAside) aside.push_back(trial);
+  }
+  if (aside.empty()) return result;
+  if (aside != suspects) without = searched(recordings, aside, options, ready);
+  result.aside = aside;
+  result.without = std::move(without);
+  return result;
+}
+
+std::string textOf(const std::vector<GapReport::Disagreement>& told, std::size_t trials) {
+  std::string aside, named;
+  std::size_t count = 0;
+  for (const GapReport::Disagreement& each : told) {
+    std::string& list = each.setAside ? aside : named;
+    list += (list.empty() ? "" : "; ") + each.trial + ": " + each.what;
+    count += each.setAside;
+  }
+  std::string text;
+  if (count > 0)
+    text += std::to_string(count) + " of " + std::to_string(trials) + " trials " +
+            (count == 1 ? "was set aside, as it disagrees" : "were set aside, as they disagree") +
+            " with the others (" + aside + "). ";
+  if (!named.empty()) text += "Far off the others, and fitted like them (" + named + "). ";
+  return text;
+}
+
+}  // namespace btr

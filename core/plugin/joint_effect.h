@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "core/sim/scene.h"
+#include "core/spec/error.h"
+
+namespace btr {
+
+/// The drive of the joint `at` (ROBOT.JOINT). Throws InputError that names the effect if the scene has no such joint.
+inline Drive& driveAt(Scene& scene, const std::string& at, const std::string& effect) {
+  for (SceneRobot& robot : scene.robots)
+    for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
+      if (at == robot.name + "." + robot.model.joints[j].name) return robot.drives[j];
+  throw InputError(effect + ": the scene has no joint \"" + at + "\"; write ROBOT.JOINT");
+}
+
+/// What a servo's loop follows and what is recorded, where motor and joint can part: a whole number that an analysis
+/// tries one by one.
+inline Parameter sensorsParameter() {
+  Parameter sensors{
+      "sensors", "", "loop and recording: 0 joint and joint, 1 motor and joint, 2 joint and motor, 3 motor and motor",
+      0,         3,  0};
+  sensors.integer = true;
+  return sensors;
+}
+
+inline void placeSensors(Drive& drive, double sensors) {
+  const int bits = static_cast<int>(sensors);
+  drive.loopAtMotor = drive.loopAtMotor || (bits & 1) != 0;
+  drive.recordedAtMotor = drive.recordedAtMotor || (bits & 2) != 0;
+}
+
+}  // namespace btr

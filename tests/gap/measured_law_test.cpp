@@ -1,0 +1,148 @@
+// Forces that no effect of the library is, in a pendulum that is integrated in the test: what they depend on is said,
+// recordings that no fit saw are predicted, and nothing is made up where nothing is missing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/law_shape.h"
+#include "core/gap/search/law_terms.h"
+#include "tests/gap/pendulum_world.h"
+
+namespace btr {
+namespace {
+
+using testing::HasSubstr;
+using Verdict = GapReport::Verdict;
+
+double detent(double q) {
+  const double u = (q - 0.2) / 0.06;
+  return -0.3 * u * std::exp(0.5 - u * u / 2);
+}
+
+AnalysisOptions usualEffects() {
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "joint_spring",
+                     "force_offset",     "torque_ripple",    "backlash"};
+  options.designNext = false;
+  return options;
+}
+
+void expectLaw(const GapReport& report, const std::string& on, const std::string& family) {
+  ASSERT_TRUE(report.law.known()) << toPlainText(report);
+  EXPECT_EQ(report.law.curves[0].on, on) << report.law.sentence;
+  EXPECT_EQ(report.law.family, family) << report.law.sentence;
+  EXPECT_THAT(report.law.sentence, HasSubstr("at rig.hinge that depends on " + on)) << report.law.sentence;
+  EXPECT_THAT(report.sentence, HasSubstr(report.law.sentence));
+  const GapReport::Channel& channel = report.channels[0];
+  EXPECT_LT(channel.heldoutWithEffects, 0.4 * channel.heldoutCalibrated) << toPlainText(report);
+  const auto& effects = report.after.effects;
+  EXPECT_TRUE(std::ranges::any_of(effects, [](const PlacedEffect& e) { return e.effect == measuredLaw; }));
+}
+
+TEST(MeasuredLaw, OfADetent) {
+  const GapReport report =
+      analyse(test::pendulumProblem([](double q, double, double) { return detent(q); }), library(), usualEffects());
+  expectLaw(report, "position", "detent");
+  EXPECT_EQ(report.verdict, Verdict::unexplained) << report.sentence;
+  const GapReport::LawCurve& curve = report.law.curves[0];
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (std::abs(curve.x[i] - 0.1) < 0.4) {
+      EXPECT_NEAR(curve.y[i], detent(curve.x[i]), 0.06) << curve.x[i];
+    }
+}
+
+TEST(MeasuredLaw, OfACam) {
+  const auto cam = [](double q, double, double) { return 0.25 * std::sin(2 * M_PI * (q - 0.1) / 0.9); };
+  expectLaw(analyse(test::pendulumProblem(cam), library(), usualEffects()), "position", "cam");
+}
+
+TEST(MeasuredLaw, OfASpringThatHardens) {
+  const auto spring = [](double q, double, double) { return -4 * q * q * q; };
+  expectLaw(analyse(test::pendulumProblem(spring), library(), usualEffects()), "position", "hardening spring");
+}
+
+TEST(MeasuredLaw, OfADriftWithTime) {
+  const auto drift = [](double, double, double t) { return -0.4 * (1 - std::exp(-t / 1.5)); };
+  expectLaw(analyse(test::pendulumProblem(drift), library(), usualEffects()), "time", "drift");
+}
+
+TEST(MeasuredLaw, IsNoneWhereNothingIsMissing) {
+  const GapReport report =
+      analyse(test::pendulumProblem([](double, double, double) { return 0.0; }), library(), usualEffects());
+  EXPECT_EQ(report.verdict, Verdict::noMismatch) << report.sentence;
+  EXPECT_FALSE(report.law.known());
+}
+
+TEST(MeasuredLaw, LeavesFrictionItsNameBesideADetent) {
+  const auto both = [](double q, double rate, double) { return detent(q) - 0.08 * std::tanh(rate / 0.005); };
+  const GapReport report = analyse(test::pendulumProblem(both), library(), usualEffects());
+  expectLaw(report, "position", "detent");
+  EXPECT_EQ(report.verdict, Verdict::partlyExplained) << toPlainText(report);
+  std::vector<std::string> names;
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) {
+      names.push_back(effect.effect);
+      EXPECT_NEAR(effect.parameters[0].value, 0.08, 0.02) << toPlainText(report);
+    }
+  EXPECT_THAT(names, testing::ElementsAre("coulomb_friction"));
+}
+
+/// The effect as the host has it.
+double torqueAt(const Law& law, const JointState& joint) {
+  const auto effect = host().effectFactory()(measuredLaw);
+  const std::vector<Parameter> declared = effect->parameters();
+  return effect->torque(joint, resolve(declared, law.placed().parameters, "law"));
+}
+
+TEST(MeasuredLaw, IsTheSumOfItsCurvesInTheSimulator) {
+  Law law{"rig.hinge", 1, {}, {}};
+  law.terms = {{LawTerm::On::position, LawTerm::Kind::force, -1, 1, 3},
+               {LawTerm::On::time, LawTerm::Kind::force, 0, 10, 2}};
+  law.values = {{0, 2, 4}, {0, 1}};
+  JointState joint;
+  joint.position = 0.5;
+  joint.time = 5;
+  EXPECT_DOUBLE_EQ(torqueAt(law, joint), 3 + 0.5);
+  joint.position = 7;
+  joint.time = -1;
+  EXPECT_DOUBLE_EQ(torqueAt(law, joint), 4) << "the ends' values hold outside";
+  law.terms[0].on = LawTerm::On::angle;
+  law.terms[0].low = 0;
+  law.terms[0].high = 2 * M_PI;
+  joint.position = 5 * M_PI / 2;
+  EXPECT_NEAR(torqueAt(law, joint), 1, 1e-12) << "a quarter of a turn after one turn";
+  for (double x = -2; x < 9; x += 0.1) {
+    joint.position = x;
+    EXPECT_NEAR(torqueAt(law, joint), lawValue(law.terms[0], law.values[0], x), 1e-9);
+  }
+}
+
+TEST(LawShape, IsNamedOnlyWhereItsFormulaFits) {
+  const LawTerm term{LawTerm::On::position, LawTerm::Kind::force, -1, 1, 25};
+  const std::vector<double> error(25, 0.01);
+  const auto of = [&](const std::function<double(double)>& f) {
+    std::vector<double> values;
+    for (int i = 0; i < 25; ++i) values.push_back(f(term.knot(i)));
+    return shapeOf(term, values, error);
+  };
+  const LawShape pulls =
+      of([](double x) { return -(x - 0.3) / 0.1 * std::exp(0.5 - std::pow((x - 0.3) / 0.1, 2) / 2); });
+  EXPECT_EQ(pulls.family, "detent");
+  EXPECT_NEAR(pulls.middle, 0.3, 0.03);
+  EXPECT_NEAR(pulls.size, 1, 0.1);
+  const LawShape wave = of([](double x) { return 0.4 * std::sin(5 * x); });
+  EXPECT_EQ(wave.family, "cam");
+  EXPECT_NEAR(wave.reach, 2 * M_PI / 5, 0.05);
+  EXPECT_NEAR(wave.size, 0.4, 0.02);
+  EXPECT_EQ(of([](double x) { return -3 * x * x * x; }).family, "hardening spring");
+  const LawShape slack = of([](double x) { return x > 0.4 ? -2 * (x - 0.4) : x < -0.2 ? -2 * (x + 0.2) : 0; });
+  EXPECT_EQ(slack.family, "dead zone");
+  EXPECT_NEAR(slack.middle, 0.1, 0.05);
+  EXPECT_NEAR(slack.size, 2, 0.2);
+  EXPECT_EQ(of([](double x) { return std::cos(17 * x * x) + (x > 0.2 ? 1 : 0); }).family, "");
+}
+
+}  // namespace
+}  // namespace btr

@@ -40,7 +40,9 @@ void hitFloor(BallMotion& ball, const BallBody& body, const ContactSurface& surf
   const Vector3d lowest(0, 0, -body.radius_m);
   Vector3d sliding = ball.velocity_m_s + ball.spin_rad_s.cross(lowest);
   sliding.z() = 0;
-  const double upward = -(1 + surface.restitution) * body.mass_kg * ball.velocity_m_s.z();
+  const double approach = -ball.velocity_m_s.z();
+  const double restitution = surface.restitution / (1 + surface.bounceLoss_s_m * approach);
+  const double upward = (1 + restitution) * body.mass_kg * approach;
   Vector3d impulse = alongFloor(sliding, 1 / body.mass_kg + body.radius_m * body.radius_m / inertia,
                                 surface.friction * upward, surface);
   ball.spin_rad_s += lowest.cross(impulse) / inertia;

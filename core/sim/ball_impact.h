@@ -18,8 +18,9 @@ struct BallBody {
 };
 
 /// A hit on the level floor in no time, the same law as a contact's that bounces (ContactBuilder::add): v' = −e·v along
-/// the normal; along the floor an impulse of at most μ times the normal one against the sliding of the ball's lowest
-/// point, as large as it takes to end that (with creep: to bring it to slip·impulse/hitDuration_s along either axis).
+/// the normal, e falling with the speed; along the floor an impulse of at most μ times the normal one against the
+/// sliding of the ball's lowest point, as large as it takes to end that (with creep: to bring it to
+/// slip·impulse/hitDuration_s along either axis).
 void hitFloor(BallMotion& ball, const BallBody& body, const ContactSurface& surface);
 
 /// The motion `step` seconds later of a ball that flies under a constant acceleration and meets the floor (z = 0) on

@@ -74,6 +74,7 @@ TEST(BallImpact, IsTheLawOfTheEnginesContact) {
     Scene scene = floorWith(0.6, 0.3, 0.001);
     scene.gravity_m_s2.setZero();
     scene.floor->slip1_m_s_n = scene.floor->slip2_m_s_n = slip;
+    scene.floor->bounceLoss_s_m = 0.2;
     BallState start;
     start.position_m << 0, 0, bouncingRadius_m - 1e-6;
     start.velocity_m_s << 0.8, -0.5, -2;

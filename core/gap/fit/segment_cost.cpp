@@ -63,17 +63,16 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
       column = known->raw.block(known->first[index_], i, here.size(), 1);
       continue;
     }
-    if (known && i >= parameters) {
-      column = known->rawStarts[index_].col(i - parameters);
+    const bool felt = i < parameters || isFelt(segment_, segment_.nuisances[static_cast<std::size_t>(i - parameters)],
+                                               scenes_.scene(numbersOf(x), segment_.trial));
+    if (!felt) {
+      column.setZero();
       continue;
     }
-    if (i >= parameters) {
-      const Nuisance& nuisance = segment_.nuisances[static_cast<std::size_t>(i - parameters)];
-      if (nuisance.what == Nuisance::What::ballSpin &&
-          !isFelt(segment_, nuisance, scenes_.scene(numbersOf(x), segment_.trial))) {
-        column.setZero();
-        continue;
-      }
+    if (known && i >= parameters) {
+      column = known->rawStarts[index_].col(i - parameters);
+      // A spin that nothing felt before, and that the model's new effect asks for.
+      if (!column.isZero(0)) continue;
     }
     const double step =
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;

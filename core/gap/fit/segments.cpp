@@ -371,8 +371,14 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
   for (std::size_t i = 0; i < shift.size(); ++i)
     if (segment.nuisances[i].what == Nuisance::What::rounding)
       rounding[segment.nuisances[i].object] = shift[i] * segment.nuisances[i].unit;
+  StartState start = shiftedStart(segment, shift);
+  // A spin that the fit changes as a number of the scene.
+  for (std::size_t b = 0; b < start.balls.size() && segment.first == 0; ++b)
+    if (!start.balls[b].onFloor)
+      start.balls[b].spin_rad_s +=
+          Eigen::Vector3d::Map(scene.balls[b].spin_rad_s.data()) - segment.start.balls[b].spin_rad_s;
   const ReplayedRecording replayed =
-      replayRecording(scene, trial.recording, trial.binding, shiftedStart(segment, shift), segment.first, segment.last);
+      replayRecording(scene, trial.recording, trial.binding, start, segment.first, segment.last);
   std::vector<double> residuals(segment.row.size(), afterFault);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];

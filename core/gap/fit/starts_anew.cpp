@@ -12,6 +12,7 @@ namespace {
 
 constexpr double farFromNoise = 1.5, asOthers = 2;  // mean squared error; times that of the (lower) middle segment
 constexpr double kick = 3;                          // standard errors
+constexpr double spinKick = 0.3;                    // of a spin: standard deviations of its prior
 constexpr int iterations = 20;
 constexpr std::size_t mostBeginnings = 7;  // as many as a ball without spin has
 constexpr double better = 0.98;
@@ -32,10 +33,10 @@ double sumOfSquares(const std::vector<double>& values) {
 std::vector<std::vector<double>> beginnings(const Segment& segment, const std::vector<double>& shift) {
   std::vector<std::vector<double>> all{std::vector<double>(shift.size(), 0.0)};
   for (std::size_t k = 0; k < segment.nuisances.size(); ++k)
-    if (isRate(segment.nuisances[k]))
-      for (const double by : {-kick, kick}) {
+    if (const Nuisance& nuisance = segment.nuisances[k]; isRate(nuisance))
+      for (const double way : {-1.0, 1.0}) {
         all.push_back(shift);
-        all.back()[k] += by;
+        all.back()[k] += way * (nuisance.what == Nuisance::What::ballSpin ? spinKick / nuisance.hold : kick);
       }
   return all;
 }

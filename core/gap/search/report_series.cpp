@@ -9,6 +9,7 @@
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/segments.h"
+#include "core/gap/fit/starts_anew.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/recording.h"
 
@@ -47,8 +48,10 @@ Simulated simulateAll(const FitProblem& problem, const FitModel& model,
   return simulated;
 }
 
-/// The model with its numbers fixed, for other recordings.
-Fit carriedOver(const FitProblem& problem, const FitModel& model) { return scoreAsIs(problem, {model, {}, 0}).fit; }
+/// The model with its numbers fixed, for other recordings: only how each of them began is fitted.
+Fit carriedOver(const FitProblem& problem, const FitModel& model) {
+  return withStartsAnew(problem, scoreAsIs(problem, {model, {}, 0}).fit);
+}
 
 /// Of one channel; NaN, for none, where a fault took one of its samples away.
 struct Errors {

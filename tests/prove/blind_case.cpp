@@ -1,5 +1,6 @@
 #include "tests/prove/blind_case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -43,6 +44,13 @@ std::string drawSalt(Random random) {
   return text;
 }
 
+/// A motor that moves on its own behind a gear. The other engine's world has none: its rotors turn with their joints.
+bool hasOwnMotor(const BlindWorld& world, const SimulatorSpec& simulator, const EffectFactory& effects) {
+  const Scene scene = makeScene(world.scene, world.models, simulator, effects);
+  return std::ranges::any_of(
+      scene.robots, [](const SceneRobot& robot) { return std::ranges::any_of(robot.drives, &Drive::hasGear); });
+}
+
 /// Hidden effects, each large enough to be worth hiding; false if there are none in this world.
 bool hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& names, const Hideable& library,
           Random random) {
@@ -51,6 +59,10 @@ bool hide(BlindCase& blind, std::size_t wanted, const std::vector<std::string>& 
     const auto placed = drawHidden(random, blind.world, blind.simulator, names, effects);
     if (!placed) continue;
     blind.simulator.effects.push_back(*placed);
+    if (blind.answer.engine == "mujoco" && hasOwnMotor(blind.world, blind.simulator, effects)) {
+      blind.simulator.effects.pop_back();
+      continue;
+    }
     ConcealedAnswer::Hidden hidden = describeHidden(*placed, blind.world, effects);
     // Priced alone here, so that the next one may be drawn; with all of them in the end.
     priceRemoval(hidden, blind.simulator.effects.size() - 1, blind.world, blind.simulator, library, effects);

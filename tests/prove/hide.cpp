@@ -33,6 +33,10 @@ std::vector<std::string> placesOf(Effect::Place place, const BlindWorld& world) 
 }
 
 double drawShape(Random& random, const Parameter& parameter) {
+  // Which of a few ways to build it.
+  constexpr double fewWays = 5;
+  if (const double ways = parameter.maximum - parameter.minimum + 1; parameter.integer && ways <= fewWays)
+    return parameter.minimum + static_cast<double>(random.below(static_cast<std::size_t>(ways)));
   const double by = parameter.byDefault;
   const double drawn = by > 0 && parameter.minimum >= 0
                            ? drawLog(random, by / 2, by * 2)

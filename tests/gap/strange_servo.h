@@ -1,0 +1,134 @@
+#pragma once
+// A servo with a pendulum, integrated here by Runge and Kutta's fourth-order method and written down once more, so that
+// an analysis is tried on a machine that shares nothing with our engine but physics. Two inertias, motor and link, with
+// a gear between them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace btr::strange {
+
+struct Plant {
+  // PD on the angle of `loopAtMotor ? motor : link`, within ±maxTorque.
+  double p = 6, d = 0.3, maxTorque = 3;
+  double motorInertia = 2e-3;                   ///< seen at the joint [kg·m²]
+  double linkInertia = 0.0201, weight = 0.981;  ///< of 0.5 kg at 0.2 m; m·g·l [N·m]
+  bool loopAtMotor = false, recordedAtMotor = false;
+  double play = 0;                             ///< [rad]
+  double stiffness = 4000, damping = 3;        ///< of the gear, or of the flanks of its gap
+  double motorFriction = 0, linkFriction = 0;  ///< dry [N·m], sign(ω) smoothed over 0.005 rad/s
+  double lossPerSecond = 0, lossTime = 1e9;    ///< strength = 1 − loss·T·(1 − e^(−t/T))
+  double deadBand = 0;                         ///< torque that is lost [N·m]
+  bool leastPulse = false;                     ///< the rest passes whole
+  double integral = 0, integralClamp = 0;      ///< N·m/(rad·s), N·m
+  double filterTime = 0;                       ///< first-order filter of the command [s]
+  double profileSpeed = 0;                     ///< slew rate of the command [rad/s]
+  double loopPeriod = 0;                       ///< torque held for so long [s]
+};
+
+struct Trial {
+  std::vector<double> time, command, position;
+};
+
+/// States: motor angle and rate, link angle and rate.
+using State = std::array<double, 4>;
+
+class Servo {
+ public:
+  explicit Servo(const Plant& plant) : plant_(plant) {}
+
+  /// `command` of time, rows every `sample` s, white noise of that deviation and the rounding of `counts` per turn.
+  Trial run(const std::function<double(double)>& command, double duration, double sample, double noise,
+            std::mt19937_64& random) {
+    constexpr double h = 2e-5;
+    std::normal_distribution<double> normal(0, noise);
+    State x{};
+    double integral = 0, followed = command(0), held = 0, nextLook = 0;
+    const long per = std::lround(sample / h), rows = std::lround(duration / sample);
+    Trial trial;
+    for (long row = 0; row < rows; ++row) {
+      const double at = plant_.recordedAtMotor ? x[0] : x[2];
+      const double now = static_cast<double>(row) * sample;
+      trial.time.push_back(now);
+      trial.command.push_back(command(now));
+      trial.position.push_back(at + normal(random));
+      for (long k = 0; k < per; ++k) {
+        const double t = now + static_cast<double>(k) * h;
+        const double wanted = trial.command.back();
+        if (plant_.filterTime > 0)
+          followed += h / plant_.filterTime * (wanted - followed);
+        else if (plant_.profileSpeed > 0)
+          followed += std::clamp(wanted - followed, -plant_.profileSpeed * h, plant_.profileSpeed * h);
+        else
+          followed = wanted;
+        integral = std::clamp(integral + plant_.integral * (followed - (plant_.loopAtMotor ? x[0] : x[2])) * h,
+                              -plant_.integralClamp, plant_.integralClamp);
+        const auto law = [&](const State& s) { return torque(s, followed, integral, t); };
+        if (plant_.loopPeriod > 0 && t >= nextLook - 1e-9) {
+          held = law(x);
+          nextLook += plant_.loopPeriod;
+        }
+        const auto slope = [&](const State& s) { return change(s, plant_.loopPeriod > 0 ? held : law(s)); };
+        const State a = slope(x), b = slope(plus(x, a, h / 2)), c = slope(plus(x, b, h / 2)), e = slope(plus(x, c, h));
+        for (std::size_t i = 0; i < 4; ++i) x[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + e[i]);
+      }
+    }
+    return trial;
+  }
+
+ private:
+  static State plus(const State& x, const State& slope, double by) {
+    State sum = x;
+    for (std::size_t i = 0; i < 4; ++i) sum[i] += by * slope[i];
+    return sum;
+  }
+  double torque(const State& x, double command, double integral, double t) const {
+    const std::size_t at = plant_.loopAtMotor ? 0 : 2;
+    const double strength = 1 - plant_.lossPerSecond * plant_.lossTime * -std::expm1(-t / plant_.lossTime);
+    double torque = plant_.p * (command - x[at]) - plant_.d * x[at + 1] + integral;
+    torque = std::clamp(torque, -plant_.maxTorque, plant_.maxTorque) * strength;
+    if (plant_.leastPulse) return std::abs(torque) < plant_.deadBand ? 0 : torque;
+    return torque - std::clamp(torque, -plant_.deadBand, plant_.deadBand);
+  }
+  State change(const State& x, double motor) const {
+    const double twist = x[0] - x[2], half = plant_.play / 2, over = twist - std::clamp(twist, -half, half);
+    double gear = over == 0 && half > 0 ? 0 : plant_.stiffness * over + plant_.damping * (x[1] - x[3]);
+    if (half > 0 && gear * over < 0) gear = 0;
+    constexpr double smooth = 0.005;
+    const double dryMotor = plant_.motorFriction * std::tanh(x[1] / smooth);
+    const double dryLink = plant_.linkFriction * std::tanh(x[3] / smooth);
+    return {x[1], (motor - gear - dryMotor) / plant_.motorInertia, x[3],
+            (gear - plant_.weight * std::sin(x[2]) - dryLink) / plant_.linkInertia};
+  }
+  Plant plant_;
+};
+
+/// Steps, a chirp, set points at random: what people drive a servo with, in turn by trial.
+inline std::function<double(double)> excitation(int trial, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto held = [](double t) { return std::floor(t / 0.01 + 1e-9) * 0.01; };
+  const double size = 0.5 + 0.5 * unit(random);
+  if (trial % 3 == 0) {
+    const double period = 0.7 + 0.5 * unit(random);
+    return [=](double t) {
+      const double at = held(t);
+      return at < 0.3 ? 0 : std::fmod(at - 0.3, period) < period / 2 ? size : -size;
+    };
+  }
+  if (trial % 3 == 1) {
+    const double low = 0.2 + 0.2 * unit(random), rate = 0.25 + 0.2 * unit(random);
+    return [=](double t) {
+      const double at = std::max(0.0, held(t) - 0.3);
+      return size * std::sin(2 * M_PI * (low + rate * at / 2) * at);
+    };
+  }
+  std::vector<double> points;
+  for (int i = 0; i < 64; ++i) points.push_back(2 * size * (unit(random) - 0.5));
+  points[0] = 0;
+  return [=](double t) { return points[static_cast<std::size_t>(held(t) / 0.45)]; };
+}
+
+}  // namespace btr::strange

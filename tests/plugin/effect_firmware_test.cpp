@@ -1,0 +1,198 @@
+// What a servo's firmware, supply and gear add, each against its own equation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/plugin/effect_worlds.h"
+
+namespace btr {
+namespace {
+
+using Numbers = std::vector<double>;
+
+using test::effect;
+
+TEST(StrengthDecline, FallsExponentiallyAndLinearlyWhereItsTimeIsLong) {
+  const auto decline = effect("strength_decline");
+  const auto at = [&](double time, const Numbers& values) {
+    return decline->driveTorque(2, {.time = time}, values, {}, 1e-3);
+  };
+  EXPECT_DOUBLE_EQ(2, at(0, {0.1, 3}));
+  EXPECT_NEAR(2 * (1 - 0.3 * (1 - std::exp(-2.0 / 3))), at(2, {0.1, 3}), 1e-15);
+  EXPECT_NEAR(2 * (1 - 0.05 * 4), at(4, {0.05, 1000}), 1e-3);
+  EXPECT_EQ(0, at(20, {1, 1000}));
+}
+
+TEST(DriveDeadBand, TakesFromAllTorquesOrSwallowsTheSmallOnes) {
+  const auto band = effect("drive_dead_band");
+  const auto of = [&](double torque, double kind) {
+    return band->driveTorque(torque, {}, Numbers{0.2, kind}, {}, 1e-3);
+  };
+  EXPECT_DOUBLE_EQ(0.3, of(0.5, 0));
+  EXPECT_DOUBLE_EQ(-0.3, of(-0.5, 0));
+  EXPECT_EQ(0, of(0.1, 0));
+  EXPECT_EQ(0.5, of(0.5, 1));
+  EXPECT_EQ(0, of(-0.1, 1));
+}
+
+TEST(IntegralAction, AddsUpTheErrorUntilItsClampAndStaysWithinTheDrivesLimit) {
+  const auto integral = effect("integral_action");
+  Numbers state{0};
+  const JointState joint{.position = 0.1, .command = 0.3, .limit = 0.9};
+  double torque = 0;
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15}, state, 1e-3);
+  EXPECT_NEAR(0.6 + 2 * 0.2 * 0.25, torque, 1e-12);
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15}, state, 1e-3);
+  EXPECT_NEAR(0.75, torque, 1e-12);
+  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15}, state, 1e-3));
+}
+
+TEST(IntegralAction, LeavesATorqueCommandAlone) {
+  Numbers state{0};
+  EXPECT_EQ(0.6, effect("integral_action")
+                     ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15}, state, 1e-3));
+}
+
+TEST(CommandFilter, AnswersAStepAsAFirstOrderLowPass) {
+  const auto filter = effect("command_filter");
+  for (const double step : {1e-3, 4e-3}) {
+    Numbers state(2);
+    filter->command({0, 1}, {}, Numbers{0.03}, state, step);  // the command jumps at t = 0
+    for (int i = 1; i < 20; ++i) {
+      const double t = i * step, h = step / 2;
+      const auto mean = [&](double from, double to) {
+        return 1 - 0.03 * (std::exp(-from / 0.03) - std::exp(-to / 0.03)) / (to - from);
+      };
+      const CommandAround followed = filter->command({1, 1}, {}, Numbers{0.03}, state, step);
+      EXPECT_NEAR(mean(t - h, t), followed.before, 1e-12);
+      EXPECT_NEAR(mean(t, t + h), followed.after, 1e-12);
+    }
+  }
+}
+
+TEST(CommandProfile, TravelsATrapezoidThatNeitherOvershootsNorComesLate) {
+  // 1 rad at no more than 2 rad/s and 20 rad/s²: 0.1 s up, 0.4 s even, 0.1 s down.
+  const auto profile = effect("command_profile");
+  Numbers state(3);
+  profile->command({0, 1}, {}, Numbers{0.5, 0.05}, state, 1e-3);
+  for (int i = 1; i < 700; ++i) {
+    const double t = i * 1e-3;
+    const double expected = t < 0.1   ? 10 * t * t
+                            : t < 0.5 ? 0.1 + 2 * (t - 0.1)
+                            : t < 0.6 ? 1 - 10 * (0.6 - t) * (0.6 - t)
+                                      : 1;
+    const CommandAround followed = profile->command({1, 1}, {}, Numbers{0.5, 0.05}, state, 1e-3);
+    EXPECT_NEAR(expected, followed.mean(), 1e-3) << t;
+    EXPECT_LE(followed.after, 1 + 1e-9);
+  }
+}
+
+TEST(CommandProfile, WithoutABoundOnAccelerationIsASlewRate) {
+  const auto profile = effect("command_profile");
+  Numbers state(3);
+  profile->command({0, 1}, {}, Numbers{0.5, 0}, state, 1e-3);
+  for (int i = 1; i < 600; ++i)
+    EXPECT_NEAR(std::min(1.0, 2 * i * 1e-3), profile->command({1, 1}, {}, Numbers{0.5, 0}, state, 1e-3).mean(), 3e-4);
+}
+
+TEST(LoopPeriod, HoldsTheTorqueOfItsLastLook) {
+  const auto period = effect("loop_period");
+  Numbers state(2);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(i / 8 * 8, period->driveTorque(i, {.time = i * 1e-3}, Numbers{0.008}, state, 1e-3)) << i;
+}
+
+TEST(LoopPeriod, ThatEndsWithinAStepGivesBothTorquesTheirShare) {
+  const auto period = effect("loop_period");
+  Numbers state(2);
+  EXPECT_EQ(1, period->driveTorque(1, {.time = 0}, Numbers{0.0015}, state, 1e-3));
+  EXPECT_NEAR(0.5 * 1 + 0.5 * 3, period->driveTorque(3, {.time = 1e-3}, Numbers{0.0015}, state, 1e-3), 1e-12);
+}
+
+TEST(MagnusLift, OfFastSpinFollowsNathansCurve) {
+  const BallState ball{.velocity_m_s = {5, 0, 0}, .spin_rad_s = {0, 60, 0}, .radius_m = 0.1, .mass_kg = 0.1};
+  const double ratio = 0.1 * 60 / 5, lift = ratio / (0.4 + 2.32 * ratio);
+  const double expected = -0.5 * 1.2 * M_PI * 0.01 * lift * 25;
+  EXPECT_NEAR(expected, effect("magnus_lift")->ballForce(ball, Numbers{2.5, 1}).z(), 1e-12);
+}
+
+/// The height to which a ball comes back that falls by that much on a floor of restitution 0.8.
+double comesBackTo(double height, double loss) {
+  BallSpec ball{.name = "ball", .position_m = {0, 0, 0.0425 + height}};
+  ball.restitution = 0.8;
+  Scene scene = test::ballScene(ball, 1e-4);
+  scene = test::withEffect(scene, effect("restitution_by_speed"), "restitution_by_speed", {loss});
+  World world(scene, 1);
+  double top = 0;
+  for (int i = 0; i < 3000 && world.fault().empty(); ++i) {
+    world.advance(test::commands(scene, 0), 1e-3);
+    if (i > 1.1e3 * std::sqrt(2 * height / 9.81) && world.ball(0).velocity_m_s.z() > 0)
+      top = std::max(top, world.ball(0).position_m.z() - 0.0425);
+    if (top > 0 && world.ball(0).velocity_m_s.z() < 0) break;
+  }
+  return top;
+}
+
+TEST(RestitutionBySpeed, LowersFastHitsMoreThanSlowOnes) {
+  for (const double height : {0.05, 0.5}) {
+    const double speed = std::sqrt(2 * 9.81 * height), back = 0.8 / (1 + 0.2 * speed);
+    EXPECT_NEAR(back * back * height, comesBackTo(height, 0.2), 0.02 * height) << height;
+  }
+}
+
+/// A wheel of 2e-3 kg·m² without weight, its rotor of 1e-3 behind a gap; where joint and motor are after a while under
+/// 0.2 N·m.
+std::pair<double, double> behindGap(double width, double step, double time, double sensors) {
+  const Drive drive{.kind = Drive::Kind::torque, .rotorInertia_kg_m2 = 1e-3};
+  Scene scene = test::weightless(test::sceneOf(test::robot(test::wheelModel(2e-3), false, drive), step));
+  scene = test::withEffect(scene, effect("backlash"), "backlash", {width, 100, sensors});
+  World world(scene, 1);
+  world.advance(test::commands(scene, 0.2), time);
+  return {world.robot(0).position[0], world.robot(0).rate[0]};
+}
+
+TEST(Backlash, WithItsSensorAtTheMotorCrossesTheGapAsTheRotorDoesAndMovesBothAfterAnInelasticHit) {
+  // Half the gap, 0.01 rad, from its middle: φ'' = (τ − φ'/s)/J, s = 100. Then both go on with the rotor's momentum.
+  const double torque = 0.2, rotor = 1e-3, wheel = 2e-3, drag = 0.01, gap = 0.01;
+  double crossing = 0, way = 0, rate = 0;
+  for (; way < gap; crossing += 1e-7) {
+    rate += 1e-7 * (torque - drag * rate) / rotor;
+    way += 1e-7 * rate;
+  }
+  const double together = rate * rotor / (rotor + wheel), rest = 0.1 - crossing;
+  const double joint = together * rest + torque / (rotor + wheel) * rest * rest / 2;
+  for (const double step : {1e-4, 1e-3}) {
+    const double tolerance = 20 * step * together;
+    EXPECT_NEAR(joint, behindGap(2 * gap, step, 0.1, 1).first, tolerance) << step;
+    EXPECT_NEAR(joint + gap, behindGap(2 * gap, step, 0.1, 3).first, tolerance) << step;
+    EXPECT_NEAR(together + torque / (rotor + wheel) * rest, behindGap(2 * gap, step, 0.1, 3).second, 0.05 * together)
+        << step;
+  }
+}
+
+TEST(Backlash, OfHardlyAnyWidthIsARigidGearWhereverTheSensorsSit) {
+  const double rigid = behindGap(0, 1e-3, 0.1, 0).first;
+  for (const double sensors : {1.0, 2.0, 3.0})
+    EXPECT_NEAR(rigid, behindGap(1e-7, 1e-3, 0.1, sensors).first, 0.01 * rigid);
+}
+
+/// The arm's hinge at rest under its own weight, commanded to 0.6 rad.
+double restsAt(double sensors) {
+  Scene scene = test::armScene();
+  scene = test::withEffect(scene, effect("gear_elasticity"), "gear_elasticity", {0.2, 1e-3, 0.05, sensors});
+  World world(scene, 1);
+  world.advance(test::commands(scene, 0.6), 5);
+  EXPECT_LT(std::abs(world.robot(0).rate[0]), 1e-3);
+  return world.robot(0).position[0];
+}
+
+TEST(GearElasticity, RestsWhereTheLoopsSensorAndTheRecordingsSensorSay) {
+  // τ = p·(c − what the loop follows) = weight(q) = what twists the gear by τ·compliance. The wrist is rigid.
+  const double atJoint = restsAt(0), jointOfMotor = restsAt(1), motorOfJoint = restsAt(2), atMotor = restsAt(3);
+  EXPECT_NEAR(3 * (0.6 - atJoint) * 0.2, motorOfJoint - atJoint, 2e-3);
+  EXPECT_NEAR(3 * (0.6 - atMotor) * 0.2, atMotor - jointOfMotor, 2e-3);
+  EXPECT_GT(atJoint, jointOfMotor + 0.01);
+}
+
+}  // namespace
+}  // namespace btr

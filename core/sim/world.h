@@ -44,6 +44,8 @@ class World {
   World& operator=(const World&) = delete;
 
   double time() const;
+  /// Before the first step: the time at which it begins. What depends on time goes on in a window as in the trial.
+  void startAt(double time_s);
   /// Puts joints of a robot at positions and rates (by joint of the model) and its root frame at a pose with a
   /// velocity.
   void setRobot(std::size_t robot, const Eigen::Isometry3d& base, const Eigen::Vector3d& velocity,

@@ -163,6 +163,7 @@ Isometry3d World::ballPose(std::size_t index) const { return impl_->balls.at(ind
 const ObstacleState& World::obstacle(std::size_t index) const { return impl_->obstacles.at(index).state; }
 bool World::ballTouched(std::size_t index) const { return impl_->balls.at(index).touched; }
 double World::time() const { return impl_->time(); }
+void World::startAt(double time_s) { impl_->start_s = time_s; }
 std::string World::fault() const { return impl_->fault; }
 
 void World::measureForces(bool on) { impl_->contacts.measureForces(on); }

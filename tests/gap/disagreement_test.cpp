@@ -18,9 +18,16 @@ using testing::IsEmpty;
 
 double dryFriction(double, double rate, double) { return -0.08 * std::tanh(rate / 0.005); }
 
-GapProblem tenTrials(const test::ExtraTorque& extra = dryFriction) {
-  GapProblem problem = test::pendulumProblem(extra, 10);
+/// 2.5 s each; `odd` makes one of them different.
+Recording shortTrial(std::uint64_t number, test::TrialWorld odd = {}, const test::ExtraTorque& extra = dryFriction) {
+  odd.length_s = 2.5;
+  return test::recordedPendulum(extra, number, odd);
+}
+
+GapProblem tenTrials() {
+  GapProblem problem = test::pendulumProblem(dryFriction, 0);
   problem.heldOut.clear();
+  for (std::uint64_t i = 0; i < 10; ++i) problem.recordings.push_back(shortTrial(i));
   return problem;
 }
 
@@ -58,7 +65,7 @@ TEST(DisagreeingTrials, AreNoneWhereAllAreRight) {
 
 TEST(DisagreeingTrials, ASlippedMarkerIsFoundAndHidesNothing) {
   GapProblem problem = tenTrials();
-  problem.recordings[3] = test::recordedPendulum(dryFriction, 3, {.offset_rad = 0.2});
+  problem.recordings[3] = shortTrial(3, {.offset_rad = 0.2});
   const GapReport report = analysed(problem);
   expectDryFriction(report);
   ASSERT_THAT(setAside(report), ElementsAre("pendulum_3.csv")) << toPlainText(report);
@@ -77,10 +84,10 @@ TEST(DisagreeingTrials, ASlippedMarkerIsFoundAndHidesNothing) {
 
 TEST(DisagreeingTrials, ThreeOfTenAreFound) {
   GapProblem problem = tenTrials();
-  problem.recordings[1] = test::recordedPendulum(dryFriction, 1, {.offset_rad = -0.15});
-  problem.recordings[4] = test::recordedPendulum(dryFriction, 4, {.p = 10});
+  problem.recordings[1] = shortTrial(1, {.offset_rad = -0.15});
+  problem.recordings[4] = shortTrial(4, {.p = 10});
   // The commands of one trial with the motion of another.
-  problem.recordings[8].columns[2] = test::recordedPendulum(dryFriction, 77).columns[2];
+  problem.recordings[8].columns[2] = shortTrial(77).columns[2];
   const GapReport report = analysed(problem);
   expectDryFriction(report);
   EXPECT_THAT(setAside(report), ElementsAre("pendulum_1.csv", "pendulum_4.csv", "pendulum_8.csv"))
@@ -107,9 +114,9 @@ TEST(DisagreeingTrials, ATrialThatShowsMoreOfAnEffectStays) {
 
 TEST(DisagreeingTrials, ATrialThatShowsMoreOfWhatNobodyKnowsStays) {
   const auto spring = [](double q, double, double) { return -3 * q * q * q; };
-  GapProblem problem = tenTrials(spring);
+  GapProblem problem = tenTrials();
   for (std::uint64_t i = 0; i < 10; ++i)
-    problem.recordings[i] = test::recordedPendulum(spring, i, {.size_rad = i == 6 ? 1.2 : 0.4});
+    problem.recordings[i] = shortTrial(i, {.size_rad = i == 6 ? 1.2 : 0.4}, spring);
   const GapReport report = analysed(problem);
   EXPECT_THAT(setAside(report), IsEmpty()) << toPlainText(report);
 }

@@ -19,9 +19,10 @@ struct TrialWorld {
   double size_rad = 0.6;  ///< of its command
   double offset_rad = 0;  ///< of its marker
   double most_nm = 3;     ///< of its motor; the scene has 3
+  double length_s = 4;
 };
 
-/// 4 s at 5 ms of rigUrdf's hinge under hingeScene()'s servo: I·q̈ = clamp(p·(c − q) − d·q̇, ±3) − m·g·l·sin q + τ,
+/// A trial at 5 ms of rigUrdf's hinge under hingeScene()'s servo: I·q̈ = clamp(p·(c − q) − d·q̇, ±3) − m·g·l·sin q + τ,
 /// fourth-order Runge–Kutta in steps of 0.1 ms, white noise of noise_rad.
 inline Recording recordedPendulum(const ExtraTorque& extra, std::uint64_t number, const TrialWorld& world = {}) {
   constexpr double inertia = 0.5 * 0.2 * 0.2 + 1e-4, weight = 0.5 * 9.81 * 0.2, dt = 1e-4;
@@ -50,7 +51,7 @@ inline Recording recordedPendulum(const ExtraTorque& extra, std::uint64_t number
     q += dt * rate;
   }
   rate = 0;
-  for (int i = 0; i < 40000; ++i) {
+  for (int i = 0; i < std::lround(world.length_s / dt); ++i) {
     const double t = i * dt, held = command(std::floor(t / 0.01 + 1e-6) * 0.01);
     if (i % 50 == 0) {
       recording.columns[0].push_back(t);

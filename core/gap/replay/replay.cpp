@@ -241,6 +241,8 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     if (input.what == Input::What::command)
       inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double>& time = recording.columns[0];
+  const std::size_t begins = earlier ? earlier->row : first;
+  world.startAt(time[begins] - time[0]);
 
   const auto begin = [&](const StartState& state) {
     stand(world, binding, state, prescribed.any());
@@ -250,7 +252,6 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
   };
   begin(earlier ? earlier->state : start);
   // Inputs of a window that begins in the middle: the last ones that were given.
-  const std::size_t begins = earlier ? earlier->row : first;
   for (std::size_t row = 0; row < begins; ++row) setInputs(recording, binding, row, inputs);
   if (earlier) {
     for (std::size_t row = begins; row < first; ++row) {

@@ -50,13 +50,17 @@ Agreement::Without searched(const std::vector<Recording>& recordings, const std:
 
 }  // namespace
 
-Agreement agreeOn(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
-                  const SearchOptions& options, const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
+namespace {
+
+/// One round: trials that disagree with the others of `recordings`, and the search without them.
+Agreement oneRound(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
+                   const SearchOptions& options,
+                   const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
   const SearchThresholds::Trials& limits = options.thresholds.trials;
   Agreement result;
   // Of a walk nobody can foretell where a foot lands; of a toss where it hits: one is never like another.
   if (problem.walks || problem.impacts || found.unstable) return result;
-  std::vector<std::size_t> suspects = outlyingTrials(problem, found, options.jobs, limits);
+  const std::vector<std::size_t> suspects = outlyingTrials(problem, found, options.jobs, limits);
   if (suspects.empty()) return result;
   auto without = searched(recordings, suspects, options, ready);
   const FitModel& others = without.found.final.fit.model;
@@ -69,17 +73,39 @@ Agreement agreeOn(const std::vector<Recording>& recordings, const FitProblem& pr
       meanError(byAll, suspects) <= limits.worseTogether * std::max(1.0, meanError(byOthers, suspects)))
     return result;
 
-  std::vector<std::size_t> aside;
   for (const std::size_t trial : suspects) {
     // What the others made fits it: it only shows more of the same.
     if (std::sqrt(byOthers[trial]) <= limits.asOthers * std::sqrt(std::max(1.0, median))) continue;
-    result.told.push_back(explainDisagreement(problem, trial, others, median, ready, limits));
-    if (result.told.back().setAside) aside.push_back(trial);
+    result.told.push_back(explainDisagreement(problem, trial, suspects, others, median, ready, limits));
+    if (result.told.back().setAside) result.aside.push_back(trial);
   }
-  if (aside.empty()) return result;
-  if (aside != suspects) without = searched(recordings, aside, options, ready);
-  result.aside = aside;
+  if (result.aside.empty()) return result;
+  if (result.aside != suspects) without = searched(recordings, result.aside, options, ready);
   result.without = std::move(without);
+  return result;
+}
+
+}  // namespace
+
+Agreement agreeOn(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
+                  const SearchOptions& options, const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
+  constexpr int rounds = 3;  // what is large hides what is small: looked for again without it [time]
+  Agreement result = oneRound(recordings, problem, found, options, ready);
+  for (int round = 1; result.without && round < rounds; ++round) {
+    std::vector<std::size_t> kept;  // by trial of this round: its place among all
+    for (std::size_t t = 0; t < recordings.size(); ++t)
+      if (std::ranges::find(result.aside, t) == result.aside.end()) kept.push_back(t);
+    Agreement next =
+        oneRound(leftOut(recordings, result.aside), result.without->problem, result.without->found, options, ready);
+    // Those that were only named are judged anew with every round.
+    std::erase_if(result.told, [](const GapReport::Disagreement& each) { return !each.setAside; });
+    result.told.insert(result.told.end(), next.told.begin(), next.told.end());
+    if (!next.without) break;
+    for (const std::size_t trial : next.aside) result.aside.push_back(kept[trial]);
+    std::ranges::sort(result.aside);
+    result.without = std::move(next.without);
+  }
+  std::ranges::stable_sort(result.told, std::ranges::less{}, &GapReport::Disagreement::trial);
   return result;
 }
 

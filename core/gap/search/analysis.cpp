@@ -250,7 +250,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   LawBesideNames law;
   if (options.learnRest) {
     if (progress && !progress("measuring what has no name", 0.93)) throw Cancelled{};
-    law = learnBesideNames(problem, found, options.jobs, limits);
+    law = learnBesideNames(problem, found, search);
   }
   const SearchResult final = law.law ? withLearned(problem, found, *law.law) : found;
 

@@ -92,6 +92,49 @@ struct Explanation {
   double error = INFINITY;
 };
 
+constexpr double beyondOthers = 1.2;  // times the others' reach or speed: it can show what they do not [hand]
+
+/// How far a column goes, and how fast [its unit, and that per second].
+struct Reach {
+  double range = 0, rate = 0;
+};
+
+Reach reachOf(const Recording& recording, std::size_t column) {
+  constexpr std::size_t apart = 4;  // samples of a slope: noise counts less
+  const std::vector<double>&values = recording.columns[column], &time = recording.columns[0];
+  double low = INFINITY, high = -INFINITY;
+  Reach reach;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) continue;
+    low = std::min(low, values[row]);
+    high = std::max(high, values[row]);
+    if (row >= apart && std::isfinite(values[row - apart]))
+      reach.rate = std::max(reach.rate, std::abs(values[row] - values[row - apart]) / (time[row] - time[row - apart]));
+  }
+  reach.range = high > low ? high - low : 0;
+  return reach;
+}
+
+/// Whether a trial moves, or is moved, farther or faster than all the others, so that it can show what they do not.
+bool goesBeyond(const FitProblem& problem, std::size_t trial, const std::vector<std::size_t>& suspects, double beyond) {
+  const Recording& own = problem.trials[trial].recording;
+  for (std::size_t column = 1; column < own.columns.size(); ++column) {
+    const Reach reach = reachOf(own, column);
+    Reach most;
+    bool known = false;
+    for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+      const Recording& other = problem.trials[t].recording;
+      const int same = other.column(own.channels[column]);
+      if (t == trial || same < 0 || std::ranges::find(suspects, t) != suspects.end()) continue;
+      const Reach each = reachOf(other, static_cast<std::size_t>(same));
+      most = {std::max(most.range, each.range), std::max(most.rate, each.rate)};
+      known = true;
+    }
+    if (known && (reach.range > beyond * most.range || reach.rate > beyond * most.rate)) return true;
+  }
+  return false;
+}
+
 /// A path's last part: "spin_x".
 std::string shortName(const std::string& path) {
   const std::size_t dot = path.rfind('.');
@@ -331,7 +374,8 @@ std::vector<std::size_t> outlyingTrials(const FitProblem& problem, const SearchR
   return list;
 }
 
-GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size_t trial, const FitModel& others,
+GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size_t trial,
+                                            const std::vector<std::size_t>& suspects, const FitModel& others,
                                             double errorOfOthers,
                                             const std::function<FitProblem(const std::vector<Recording>&)>& ready,
                                             const SearchThresholds::Trials& limits) {
@@ -354,11 +398,16 @@ GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size
     told.errorAlone = std::sqrt(std::min(best->error, own.error));
   } else if (own.error <= enough) {
     told.what = own.what;
-  } else if (std::sqrt(error) > limits.unlike * odd.motion() && std::sqrt(own.error) > limits.unlike * odd.motion()) {
-    told.what = "no numbers make the simulator move as it does: it may be a recording of something else";
+  } else if (!goesBeyond(problem, trial, suspects, beyondOthers) ||
+             (std::sqrt(error) > limits.unlike * odd.motion() && std::sqrt(own.error) > limits.unlike * odd.motion())) {
+    told.what =
+        "no numbers make the simulator move as it does, though it goes no farther and no faster than the others: "
+        "it may be a recording of something else";
   } else {
     told.setAside = false;
-    told.what = "no other number of its own explains it: it may show more of what is missing than the others do";
+    told.what =
+        "no other number of its own explains it, and it goes farther or faster than the others: it may show more of "
+        "what is missing than they do";
   }
   return told;
 }

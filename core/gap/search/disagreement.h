@@ -23,9 +23,11 @@ std::vector<std::size_t> outlying(const std::vector<double>& errors, const Searc
 
 /// What a trial would need to agree with a simulator that the others made: another value of one number (of its own
 /// settings, of those that are calibrated, of its position sensors), else other values of all that is fitted, else
-/// nothing that the simulator has. `ready` makes a fit problem of recordings. What stands out for none of these reasons
-/// is told and not set aside.
-GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size_t trial, const FitModel& others,
+/// nothing that the simulator has. `ready` makes a fit problem of recordings. What nothing explains is set aside only
+/// if it goes no farther and no faster than the others (without the other `suspects`): else it may show what they do
+/// not.
+GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size_t trial,
+                                            const std::vector<std::size_t>& suspects, const FitModel& others,
                                             double errorOfOthers,
                                             const std::function<FitProblem(const std::vector<Recording>&)>& ready,
                                             const SearchThresholds::Trials& limits);

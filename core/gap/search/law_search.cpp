@@ -189,68 +189,125 @@ bool standsAlone(const LearnedLaw& alone, const SearchResult& found, const LawBe
   return !beside.law || alone.scored.mean() <= limits.asWell * beside.law->scored.mean();
 }
 
+/// By a paired test among all that was looked at, and by its share of what was left beyond the noise.
+bool passes(const Scored& before, const Scored& after, double share, std::size_t looked,
+            const SearchThresholds::Law& limits) {
+  const PairedTest test = compare(before.blocks, after.blocks);
+  return test.t > limits.leastT && test.pValue * static_cast<double>(looked) <= limits.mostFalse &&
+         before.mean() - after.mean() >= share * excessOf(before);
+}
+
+void rate(LearnedLaw& law, const Scored& without, std::size_t looked) {
+  law.shareOfRest = std::clamp(1 - law.scored.mean() / without.mean(), 0.0, 1.0);
+  law.pValue = std::min(
+      1.0, compare(without.blocks, law.scored.blocks).pValue * static_cast<double>(std::max<std::size_t>(1, looked)));
+}
+
+Scored withoutEffects(const FitProblem& problem, const SearchResult& found, int iterations) {
+  FitModel model = found.final.fit.model;
+  while (!model.effects.empty()) model = model.without(model.effects.size() - 1);
+  return fitAndScore(problem, model, found.calibrated.fit.shifts, iterations);
+}
+
+/// The law with a second curve, where it takes enough of what the first leaves. `without`: the model without a law.
+std::optional<LearnedLaw> secondCurve(const FitProblem& problem, const LearnedLaw& first, const Scored& without,
+                                      int jobs, const SearchThresholds& thresholds) {
+  LawSearch search(problem, first.scored.fit.model.without(first.scored.fit.model.effects.size() - 1), jobs,
+                   thresholds);
+  auto two = search.extend(first.law, first.scored.fit, first.linear);
+  if (!two || !passes(first.scored, two->scored, thresholds.law.secondShare, search.looked(), thresholds.law))
+    return std::nullopt;
+  measure(problem, *two);
+  rate(*two, without, search.looked());
+  return two;
+}
+
+/// Looks for names once more, with the law in the simulator: what is large hides what is small. They count where both
+/// together do clearly better than the law, and as well as a second curve in their place. True: `found` has them, and
+/// a final simulator of them alone; the result has the law fitted together with them.
+bool nameBesideLaw(const FitProblem& problem, SearchResult& found, LawBesideNames& result,
+                   const std::optional<LearnedLaw>& second, const SearchOptions& options) {
+  const SearchThresholds::Law& limits = options.thresholds.law;
+  FitProblem withLaw = problem;
+  withLaw.given.effects.push_back(result.law->law.placed());
+  SearchOptions again = options;
+  if (options.progress)
+    again.progress = [&](const std::string& stage, double share) {
+      return options.progress(stage + " beside a law", share);
+    };
+  const SearchResult names = searchEffects(withLaw, again);
+  if (names.unstable || names.effects.empty()) return false;
+  const FitModel& named = names.final.fit.model;
+  const Fit fit = fitModel(problem, result.law->law.in(problem, named), names.final.fit.shifts, {limits.iterations});
+  LearnedLaw both{result.law->law.of(fit.model), crossValidate(problem, fit), {}, {}, 0, 1};
+  if (!passes(result.law->scored, both.scored, limits.secondShare, 1, limits)) return false;
+  if (second && both.scored.mean() > limits.asWell * second->scored.mean()) return false;
+  const Scored without = fitAndScore(problem, named, found.final.fit.shifts, limits.iterations);
+  measure(problem, both);
+  rate(both, without, 1);
+  found.effects = names.effects;
+  for (Found& each : found.effects) {
+    // Their simulators have a law that the problem does not.
+    each.rivalFits.clear();
+    each.rivalUncertainties.clear();
+  }
+  found.attempts = names.attempts;
+  found.final = without;
+  found.finalLinear = linearise(problem, without.fit);
+  found.finalUncertainty = uncertaintyOf(problem, without.fit, found.finalLinear);
+  found.ladder.push_back(rungOf("+ " + named.text(), without));
+  result.law = std::move(both);
+  return true;
+}
+
 }  // namespace
 
 std::optional<LearnedLaw> learnLaw(const FitProblem& problem, const Scored& without, const Linearised& linear, int jobs,
                                    const SearchThresholds& thresholds) {
   const SearchThresholds::Law& limits = thresholds.law;
-  const double rest = excessOf(without);
-  if (rest < limits.leastExcess || !canLearn(problem)) return std::nullopt;
+  if (excessOf(without) < limits.leastExcess || !canLearn(problem)) return std::nullopt;
   LawSearch search(problem, without.fit.model, jobs, thresholds);
   auto law = search.extend({}, without.fit, linear);
-  if (!law) return std::nullopt;
-  const auto passes = [&](const Scored& before, const Scored& after, double share) {
-    const PairedTest test = compare(before.blocks, after.blocks);
-    return test.t > limits.leastT && test.pValue * static_cast<double>(search.looked()) <= limits.mostFalse &&
-           before.mean() - after.mean() >= share * excessOf(before);
-  };
-  if (!passes(without, law->scored, limits.leastShare)) return std::nullopt;
+  if (!law || !passes(without, law->scored, limits.leastShare, search.looked(), limits)) return std::nullopt;
   measure(problem, *law);
-  if (excessOf(law->scored) > limits.leastExcess) {
-    auto two = search.extend(law->law, law->scored.fit, law->linear);
-    if (two && passes(law->scored, two->scored, limits.secondShare)) {
-      law = std::move(two);
-      measure(problem, *law);
-    }
-  }
-  law->shareOfRest = std::clamp(1 - law->scored.mean() / without.mean(), 0.0, 1.0);
-  law->pValue =
-      std::min(1.0, compare(without.blocks, law->scored.blocks).pValue * static_cast<double>(search.looked()));
+  rate(*law, without, search.looked());
   return law;
 }
 
-LawBesideNames learnBesideNames(const FitProblem& problem, SearchResult& found, int jobs,
-                                const SearchThresholds& thresholds) {
+LawBesideNames learnBesideNames(const FitProblem& problem, SearchResult& found, const SearchOptions& options) {
+  const SearchThresholds& thresholds = options.thresholds;
+  const int jobs = options.jobs;
   LawBesideNames result;
   result.applies = canLearn(problem);
   if (!result.applies) return result;
   const double left = found.final.mean() - stepErrorOf(found.stepChange);
   if (left < 1 + thresholds.law.leastExcess) return result;
   result.law = learnLaw(problem, found.final, found.finalLinear, jobs, thresholds);
-  if (found.effects.empty()) {
-    if (left <= thresholds.verdict.unexplained) result.law.reset();
-    return result;
-  }
-
-  Fit base = found.calibrated.fit;
-  base.model = found.final.fit.model;
-  while (!base.model.effects.empty()) base.model = base.model.without(base.model.effects.size() - 1);
-  const Scored bare = fitAndScore(problem, base.model, found.calibrated.fit.shifts, thresholds.law.iterations);
-  auto alone = learnLaw(problem, bare, linearise(problem, bare.fit), jobs, thresholds);
-  if (alone && standsAlone(*alone, found, result, thresholds.law)) {
-    while (!found.effects.empty()) {
-      result.fell.push_back(found.effects.back().effect.text());
-      takeBack(problem, found, found.effects.size() - 1, bare, aCurveDoes);
+  if (!found.effects.empty()) {
+    const auto bare = withoutEffects(problem, found, thresholds.law.iterations);
+    auto alone = learnLaw(problem, bare, linearise(problem, bare.fit), jobs, thresholds);
+    if (alone && standsAlone(*alone, found, result, thresholds.law)) {
+      while (!found.effects.empty()) {
+        result.fell.push_back(found.effects.back().effect.text());
+        takeBack(problem, found, found.effects.size() - 1, bare, aCurveDoes);
+      }
+      result.law = std::move(alone);
+    } else {
+      dropWhatTheLawReplaces(problem, found, result, thresholds);
     }
-    result.law = std::move(alone);
-    return result;
   }
-  dropWhatTheLawReplaces(problem, found, result, thresholds);
+  const bool unnamed = found.effects.empty();
+  if (result.law && excessOf(result.law->scored) > thresholds.law.leastExcess) {
+    auto second = secondCurve(problem, *result.law, found.final, jobs, thresholds);
+    const bool named = unnamed && nameBesideLaw(problem, found, result, second, options);
+    if (!named && second) result.law = std::move(second);
+  }
   // Little that is left beside names, with little shape, puts no curve into the simulator.
   const SearchThresholds::Verdict& verdict = thresholds.verdict;
-  if (result.law && !found.effects.empty() && left <= verdict.clearlyLeft &&
-      result.law->shareOfRest <= verdict.shapeLeft)
-    result.law.reset();
+  const bool isLittle = unnamed
+                            ? left <= verdict.unexplained
+                            : left <= verdict.clearlyLeft && result.law && result.law->shareOfRest <= verdict.shapeLeft;
+  if (isLittle) result.law.reset();
   return result;
 }
 

@@ -38,10 +38,10 @@ struct ResidualRequest {
   /// Path of a mapping for all recordings; "": the one beside the recording, else SCENE.mapping.json beside the scene
   /// (for recordings that have no column time_s of their own).
   std::string mapping;
-  std::string simulator;    ///< path of a simulator.json, "": the scene as given
-  bool asRecorded = false;  ///< goes on where the doctor is certain that the time is not in seconds
-  StartEstimator start;     ///< where each trial begins; none: where its first samples say
-  std::string out;          ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
+  std::string simulator;      ///< path of a simulator.json, "": the scene as given
+  bool asRecorded = false;    ///< goes on where the doctor is certain that the time is not in seconds
+  StartEstimator start = {};  ///< where each trial begins; none: where its first samples say
+  std::string out;  ///< folder for residual.json, residual.txt and one SVG a channel; made if absent; "": none
 };
 /// Loads everything, applies each recording's settings, replays, writes. `progress(done, all)` counts recordings,
 /// and is asked again in the middle of each; when it returns false the work ends early with what is done, and nothing

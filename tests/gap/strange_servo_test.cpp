@@ -1,0 +1,119 @@
+// What an analysis makes of a servo that was integrated elsewhere (strange_servo.h): real machines differ from the laws
+// of the library in structure, above all in where their sensors sit.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
+#include "tests/gap/strange_servo.h"
+#include "tests/gap/temporary_folder.h"
+#include "tests/plugin/built_plugins.h"
+
+namespace btr {
+namespace {
+
+constexpr const char* strangeUrdf = R"(<robot name="rig">
+  <link name="wall"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hinge" type="continuous"><parent link="wall"/><child link="bob"/><axis xyz="0 1 0"/></joint>
+  <link name="bob"><inertial><origin xyz="0 0 -0.2"/><mass value="0.5"/>
+    <inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)";
+
+/// The rig as its owner describes it: a link, a rotor, a servo whose gains are not trusted.
+GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int trials) {
+  const TemporaryFolder folder;
+  folder.write("rig.urdf", strangeUrdf);
+  GapProblem problem;
+  problem.scene = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.001, "control_period_s": 0.01, "robots": [
+    {"name": "rig", "model": "rig.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
+      "hinge": {"p": 6, "d": 0.3, "max_torque_nm": 3, "rotor_inertia_kg_m2": 0.002}}}],
+    "calibrate": [{"path": "robots.rig.servos.hinge.p", "min": 3, "max": 12},
+                  {"path": "robots.rig.servos.hinge.d", "min": 0.1, "max": 0.9}]})",
+                                "scene", folder.file("."));
+  problem.models = loadModels(problem.scene);
+  std::mt19937_64 random(seed);
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto command = strange::excitation(trial, random);
+    const strange::Trial made = strange::Servo(plant).run(command, 4, 0.005, 5e-4, random);
+    Recording recording;
+    recording.source = "trial_" + std::to_string(trial) + ".csv";
+    recording.channels = {"time_s", "rig.hinge.command_rad", "rig.hinge.position_rad"};
+    recording.columns = {made.time, made.command, made.position};
+    problem.recordings.push_back(recording);
+  }
+  return problem;
+}
+
+GapReport reportOn(const strange::Plant& plant, std::uint64_t seed, const std::vector<std::string>& among = {}) {
+  AnalysisOptions options;
+  options.effects = among;
+  return analyse(strangeProblem(plant, seed, 4), {test::host().effectFactory(), test::host().effects()}, options);
+}
+
+/// What is named, first its rivals are asked for that it cannot be told from.
+bool names(const GapReport& report, const std::string& effect) {
+  for (const GapReport::Effect& each : report.tried) {
+    if (!each.accepted) continue;
+    if (each.effect == effect && each.at == "rig.hinge") return true;
+    if (each.rivals.size() > 2) continue;
+    for (const GapReport::Rival& rival : each.rivals)
+      if (rival.effect == effect && rival.at == "rig.hinge") return true;
+  }
+  return false;
+}
+
+TEST(StrangeServo, ThatLacksNothingIsMerelyCalibrated) {
+  strange::Plant plant;
+  plant.p = 5.6;
+  plant.d = 0.33;
+  const GapReport report = reportOn(plant, 1);
+  EXPECT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << toPlainText(report);
+}
+
+/// Play that is named wherever its sensors sit, among what it is most like.
+class StrangePlay : public testing::TestWithParam<int> {};
+
+TEST_P(StrangePlay, IsNamed) {
+  strange::Plant plant;
+  plant.play = 0.04;
+  plant.loopAtMotor = (GetParam() & 1) != 0;
+  plant.recordedAtMotor = (GetParam() & 2) != 0;
+  const GapReport report = reportOn(plant, 2, {"backlash", "coulomb_friction", "command_delay", "gear_elasticity"});
+  EXPECT_TRUE(names(report, "backlash")) << toPlainText(report);
+}
+INSTANTIATE_TEST_SUITE_P(WithItsLoopAtTheMotor, StrangePlay, testing::Values(1, 3));
+
+class StrangeSpring : public testing::TestWithParam<int> {};
+
+TEST_P(StrangeSpring, InTheGearIsNamed) {
+  strange::Plant plant;
+  plant.stiffness = 25;
+  plant.damping = 0.1;
+  plant.loopAtMotor = (GetParam() & 1) != 0;
+  plant.recordedAtMotor = (GetParam() & 2) != 0;
+  const GapReport report = reportOn(plant, 3, {"backlash", "coulomb_friction", "gear_elasticity", "joint_spring"});
+  EXPECT_TRUE(names(report, "gear_elasticity")) << toPlainText(report);
+}
+INSTANTIATE_TEST_SUITE_P(WithItsLoopAtTheMotor, StrangeSpring, testing::Values(1, 3));
+
+TEST(StrangeServo, ThatGrowsWeakerWithTimeIsSaidTo) {
+  strange::Plant plant;
+  plant.lossPerSecond = 0.04;
+  const GapReport report = reportOn(plant, 4, {"strength_decline", "voltage_sag", "torque_speed_limit", "payload"});
+  EXPECT_TRUE(names(report, "strength_decline")) << toPlainText(report);
+}
+
+TEST(StrangeServo, WithAnIntegralTermOrASlewRateIsSaidToHaveIt) {
+  strange::Plant plant;
+  plant.integral = 6;
+  plant.integralClamp = 0.4;
+  GapReport report = reportOn(plant, 5, {"integral_action", "joint_spring", "coulomb_friction", "force_offset"});
+  EXPECT_TRUE(names(report, "integral_action")) << toPlainText(report);
+  plant = {};
+  plant.profileSpeed = 2.5;
+  report = reportOn(plant, 6, {"command_profile", "command_filter", "command_delay", "sensor_lag"});
+  EXPECT_TRUE(names(report, "command_profile")) << toPlainText(report);
+}
+
+}  // namespace
+}  // namespace btr

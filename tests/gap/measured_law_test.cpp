@@ -77,7 +77,9 @@ TEST(MeasuredLaw, IsNoneWhereNothingIsMissing) {
 
 TEST(MeasuredLaw, LeavesFrictionItsNameBesideADetent) {
   const auto both = [](double q, double rate, double) { return detent(q) - 0.08 * std::tanh(rate / 0.005); };
-  const GapReport report = analyse(test::pendulumProblem(both), library(), usualEffects());
+  AnalysisOptions options = usualEffects();
+  options.effects = {"coulomb_friction", "viscous_friction"};
+  const GapReport report = analyse(test::pendulumProblem(both, 3), library(), options);
   expectLaw(report, "position", "detent");
   EXPECT_EQ(report.verdict, Verdict::partlyExplained) << toPlainText(report);
   std::vector<std::string> names;

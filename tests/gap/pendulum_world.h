@@ -69,7 +69,7 @@ inline Recording recordedPendulum(const ExtraTorque& extra, std::uint64_t number
 }
 
 /// The hinge with `trials` to fit and two that no fit sees.
-inline GapProblem pendulumProblem(const ExtraTorque& extra, std::uint64_t trials = 4, std::uint64_t seed = 0) {
+inline GapProblem pendulumProblem(const ExtraTorque& extra, std::uint64_t trials = 3, std::uint64_t seed = 0) {
   GapProblem problem;
   problem.scene = hingeScene();
   const TemporaryFolder folder;

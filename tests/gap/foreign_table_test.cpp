@@ -6,6 +6,7 @@
 
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/table_preview.h"
 #include "core/gap/recordings/time_stamp.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/foreign_table.h"
@@ -120,6 +121,19 @@ TEST(ForeignTable, LeavesALastLineOutThatWasCutOff) {
 TEST(ForeignTable, HasSwitchesInWords) {
   EXPECT_EQ(readText("time_s,leg.knee.enabled\n0,True\n1,false\n").columns[1], (std::vector<double>{1, 0}));
   EXPECT_THAT(refusalOfText("time_s,leg.knee.duty\n0,True\n"), HasSubstr("line 2, column 2 (leg.knee.duty): \"True\""));
+}
+
+TEST(ForeignTable, ShowsItsColumnsBeforeAnyMappingIsWritten) {
+  const TemporaryFolder folder;
+  const std::string rig =
+      "Rig 3\n\nstamp;\"q [deg]\"\ns;deg\n2026-11-27T14:03:01,25Z;-1,5\n2026-11-27T14:03:01,26Z;2,25\n";
+  const TablePreview preview = previewTable(folder.write("log.csv", rig));
+  ASSERT_EQ(preview.columns.size(), 2u);
+  EXPECT_EQ(preview.columns[0].name, "stamp");
+  EXPECT_TRUE(std::isnan(preview.columns[0].low));
+  EXPECT_EQ(preview.columns[1].name, "q [deg]");
+  EXPECT_EQ(preview.columns[1].low, -1.5);
+  EXPECT_EQ(preview.columns[1].high, 2.25);
 }
 
 TEST(ForeignTable, AsksForAHeading) {

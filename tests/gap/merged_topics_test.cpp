@@ -94,7 +94,9 @@ TEST(MergedTopics, AreTheirTopicsHoweverTheyWereMerged) {
     const Recording read = topics(rows);
     std::vector<double> found;
     for (std::size_t row = 0; row < read.rows(); ++row) {
-      if (row > 0) { EXPECT_GT(read.columns[0][row], read.columns[0][row - 1]); }
+      if (row > 0) {
+        EXPECT_GT(read.columns[0][row], read.columns[0][row - 1]);
+      }
       if (std::isfinite(read.columns[2][row])) found.push_back(read.columns[2][row]);
     }
     EXPECT_EQ(found, wantedPositions) << draw;

@@ -66,7 +66,9 @@ TEST(Repeated, ARhythmThatIsNoWholeNumberOfRowsIsOne) {
   emptyRepeated(trial);
   ASSERT_THAT(trial.thinned, ElementsAre("leg.knee.position_rad"));
   for (std::size_t row = 1; row < trial.rows(); ++row)
-    if (before.columns[2][row] != before.columns[2][row - 1]) { EXPECT_TRUE(std::isfinite(trial.columns[2][row])); }
+    if (before.columns[2][row] != before.columns[2][row - 1]) {
+      EXPECT_TRUE(std::isfinite(trial.columns[2][row]));
+    }
 }
 
 TEST(Repeated, ASensorThatMeasuresInEveryRowKeepsAll) {

@@ -3,16 +3,14 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
-#include "core/gap/recordings/number_reader.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/table_reader.h"
+#include "core/gap/recordings/table_preview.h"
 #include "core/spec/error.h"
 #include "ui/common/number_entry.h"
 
@@ -137,20 +135,11 @@ std::vector<std::pair<QString, double>> unitsFor(const QString& channel) {
 }
 
 CsvPreview previewCsv(const QString& path) {
-  TableReader table(path.toStdString(), "time_s", {});
   CsvPreview preview;
-  for (const std::string& name : table.header()) preview.columns << QString::fromStdString(name);
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  preview.ranges.assign(table.header().size(), {none, none});
-  NumberReader numbers;
-  std::vector<std::string> cells;
-  for (int row = 0; row < 5000 && table.next(cells); ++row)
-    for (std::size_t i = 0; i < std::min(cells.size(), preview.ranges.size()); ++i)
-      if (const auto number = numbers.read(cells[i], table.line())) {
-        auto& [low, high] = preview.ranges[i];
-        low = std::isnan(low) ? number->value : std::min(low, number->value);
-        high = std::isnan(high) ? number->value : std::max(high, number->value);
-      }
+  for (const TablePreview::Column& column : previewTable(path.toStdString()).columns) {
+    preview.columns << QString::fromStdString(column.name);
+    preview.ranges.emplace_back(column.low, column.high);
+  }
   return preview;
 }
 

@@ -6,8 +6,8 @@ namespace btr {
 /// Standard deviation of the noise of evenly sampled values: the fourth difference is free of slow motion and
 /// multiplies white noise by √70; its root mean square in blocks of 50 samples, and the median of the blocks, so that a
 /// few fast moments do not count. Differencing overestimates where the motion itself is fast within five samples.
-/// Values that are not finite are passed over, as if the sensor measured more slowly, in blocks of as many rows. 0 for fewer than five values; a
-/// channel that rests within one quantisation step also gives 0.
+/// Values that are not finite are passed over, as if the sensor measured more slowly, in blocks of as many rows. 0 for
+/// fewer than five values; a channel that rests within one quantisation step also gives 0.
 double noiseFloor(std::span<const double> values);
 
 /// The same for samples at their own times, which increase: the fourth divided difference, scaled to what it makes of

@@ -31,9 +31,9 @@ struct Recording {
   Values settings;                           ///< scene numbers that held in this trial, by path (see Mapping)
   std::vector<std::string> thinned;          ///< channels of which repeated readings were emptied (see repeated.h)
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
-  std::vector<double> filteredNoise;         ///< by channel: what a filter left of its noise, where it hides it; 0: none
-  std::vector<std::string> notes;            ///< what was skipped or looks odd
-  bool beginsAtRest = false;                 ///< known beforehand: nothing moves at its first row
+  std::vector<double> filteredNoise;  ///< by channel: what a filter left of its noise, where it hides it; 0: none
+  std::vector<std::string> notes;     ///< what was skipped or looks odd
+  bool beginsAtRest = false;          ///< known beforehand: nothing moves at its first row
   FilePlaces places;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }

@@ -15,11 +15,15 @@ inline Drive& driveAt(Scene& scene, const std::string& at, const std::string& ef
 }
 
 /// What a servo's loop follows and what is recorded, where motor and joint can part: a whole number that an analysis
-/// tries one by one.
-inline Parameter sensorsParameter() {
+/// tries one by one. Further ways to build it follow from 4 on.
+inline Parameter sensorsParameter(int most = 3, const std::string& further = "") {
   Parameter sensors{
-      "sensors", "", "loop and recording: 0 joint and joint, 1 motor and joint, 2 joint and motor, 3 motor and motor",
-      0,         3,  0};
+      "sensors",
+      "",
+      "loop and recording: 0 joint and joint, 1 motor and joint, 2 joint and motor, 3 motor and motor" + further,
+      0,
+      static_cast<double>(most),
+      0};
   sensors.integer = true;
   return sensors;
 }

@@ -13,24 +13,18 @@ constexpr double flankFrequency_rad_s =
 GearRow::GearRow(const Drive& drive, double ahead, double motorRate, double jointRate, const DriveRow& motor, double b,
                  double jointInertia, double h)
     : h_(h), inertia_(drive.rotorInertia_kg_m2), b_(b), motor_(motor) {
-  if (drive.gearPlay > 0) drag_ = drive.gearDrag;
-  if (drive.loopAtMotor) followRotor(motorRate, jointRate);
-  if (drive.gearPlay == 0) {
-    touch(drive, ahead, motorRate, jointRate, jointInertia);
-  } else {
-    // Where the rotor would be without flanks; one without inertia that nothing brakes is at once at one of them.
-    const double half = drive.gearPlay / 2, moved = rotorRate(motorRate, jointRate) - jointRate;
-    const double free = std::isfinite(moved) ? ahead + h * moved : std::copysign(2 * half, motor.p);
-    if (std::abs(free) > half) {
-      const double drag = drag_, side = std::copysign(1.0, free);
-      drag_ = 0;
-      touch(drive, ahead - side * half, motorRate, jointRate, jointInertia);
-      if (side * (spring_ + stiffness_ * (rotorRate(motorRate, jointRate) - jointRate)) < 0) {
-        spring_ = stiffness_ = 0;
-        drag_ = drag;
-      }
+  if (drive.loopAtMotor) {
+    // As a row of the rotor's rate: a brake beside b, or a constant where that would exceed its limit.
+    b_ = b + motor.d;
+    motor_ = {motor.p, 0};
+    meet(drive, ahead, motorRate, jointRate, jointInertia);
+    const double torque = motor.p - motor.d * rotorRate(motorRate, jointRate);
+    if (std::abs(torque) > motor.limit) {
+      b_ = b;
+      motor_ = {std::copysign(motor.limit, torque), 0};
     }
   }
+  meet(drive, ahead, motorRate, jointRate, jointInertia);
   // Eliminating the rotor's new rate.
   if (stiffness_ == 0) return;
   const double passed = h * stiffness_ / all();
@@ -39,17 +33,21 @@ GearRow::GearRow(const Drive& drive, double ahead, double motorRate, double join
            stiffness_ * (inertia_ + h * b_) / all()};
 }
 
-/// The row as one of the rotor's rate: a constant within its limit, and a brake beside b.
-void GearRow::followRotor(double motorRate, double jointRate) {
-  const double before = b_;
-  b_ += motor_.d;
-  const double now = motor_.p - motor_.d * rotorRate(motorRate, jointRate);
-  if (!(std::abs(now) >= motor_.limit)) {
-    motor_ = {motor_.p, 0};
-    return;
-  }
-  motor_ = {std::copysign(motor_.limit, now), 0};
-  b_ = before;
+/// Whether the gear's spring, or which flank of its gap, is touched in this step.
+void GearRow::meet(const Drive& drive, double ahead, double motorRate, double jointRate, double jointInertia) {
+  if (drive.gearPlay == 0) return touch(drive, ahead, motorRate, jointRate, jointInertia);
+  spring_ = stiffness_ = 0;
+  drag_ = drive.gearDrag;
+  // Where the rotor would be without flanks; one without inertia that nothing brakes is at once at one of them.
+  const double half = drive.gearPlay / 2, moved = rotorRate(motorRate, jointRate) - jointRate;
+  const double free = std::isfinite(moved) ? ahead + h_ * moved : std::copysign(2 * half, motor_.p);
+  if (std::abs(free) <= half) return;
+  const double side = std::copysign(1.0, free);
+  drag_ = 0;
+  touch(drive, ahead - side * half, motorRate, jointRate, jointInertia);
+  if (side * (spring_ + stiffness_ * (rotorRate(motorRate, jointRate) - jointRate)) >= 0) return;
+  spring_ = stiffness_ = 0;
+  drag_ = drive.gearDrag;
 }
 
 double GearRow::rotorRate(double motorRate, double jointRate) const {

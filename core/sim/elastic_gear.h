@@ -31,7 +31,7 @@ class GearRow {
   double turn(double& ahead, double& motorRate, double jointRate) const;
 
  private:
-  void followRotor(double motorRate, double jointRate);
+  void meet(const Drive& drive, double ahead, double motorRate, double jointRate, double jointInertia);
   double rotorRate(double motorRate, double jointRate) const;
   void touch(const Drive& drive, double ahead, double motorRate, double jointRate, double jointInertia);
   double all() const { return inertia_ + h_ * b_ + h_ * stiffness_ + h_ * drag_; }

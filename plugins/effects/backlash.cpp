@@ -18,7 +18,8 @@
 ///   1  the motor, the joint    a servo's encoder before the gear, the joint seen from outside
 ///   2  the joint, the motor    a second encoder closes the loop, the log is the motor's
 ///   3  the motor, the motor    a servo that says what it follows
-/// In 1 to 3 the motor is there between the flanks (core/sim/elastic_gear.h): J·θ̈ = τ − (θ̇ − q̇)/s in the gap, J what
+///   4  the joint, the joint    as 0, with the motor's own inertia
+/// In 1 to 4 the motor is there between the flanks (core/sim/elastic_gear.h): J·θ̈ = τ − (θ̇ − q̇)/s in the gap, J what
 /// the drive has or the effect rotor_inertia gives it, rigid flanks that take the energy of a hit.
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ class Backlash final : public btr::Effect {
     return {{"width_rad", "rad", "width of the gap, m on a slide joint", 0, 0.2, 0.02, 0.0},
             {"free_speed_rad_s_nm", "rad/(s·N·m)",
              "speed of the motor per torque while it crosses the gap, m/(s·N) on a slide joint", 1, 100, 6},
-            btr::sensorsParameter()};
+            btr::sensorsParameter(4, ", 4 joint and joint with the motor's own inertia")};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::gear, "gear play: the drive reaches the joint only after crossing a gap",

@@ -99,7 +99,7 @@ TEST(LoopPeriod, HoldsTheTorqueOfItsLastLook) {
   const auto period = effect("loop_period");
   Numbers state(2);
   for (int i = 0; i < 100; ++i)
-    EXPECT_EQ(i / 8 * 8, period->driveTorque(i, {.time = i * 1e-3}, Numbers{0.008}, state, 1e-3)) << i;
+    EXPECT_NEAR(i / 8 * 8, period->driveTorque(i, {.time = i * 1e-3}, Numbers{0.008}, state, 1e-3), 1e-9) << i;
 }
 
 TEST(LoopPeriod, ThatEndsWithinAStepGivesBothTorquesTheirShare) {

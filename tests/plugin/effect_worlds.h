@@ -48,6 +48,13 @@ inline Trial flying() {
   return {ballScene(ball, 0.001), 0.8};
 }
 
+/// Let fall from that height, onto a floor that it bounces from.
+inline Trial bouncing(double height_m) {
+  BallSpec ball{.name = "ball", .position_m = {0, 0, 0.0425 + height_m}, .velocity_m_s = {0.5, 0.2, 0}};
+  ball.restitution = 0.7;
+  return {ballScene(ball, 0.001), 0.8};
+}
+
 /// A box on the floor whose weight pulls it along the floor too.
 inline Trial creeping(double x_m_s2, double y_m_s2, double height_m) {
   const Eigen::Vector3d size(0.2, 0.2, 0.1);
@@ -62,6 +69,7 @@ inline Trial creeping(double x_m_s2, double y_m_s2, double height_m) {
 inline std::vector<Trial> trialsFor(Effect::Place place, const std::string& name) {
   if (place == Effect::Place::joint || place == Effect::Place::link || name == "voltage_sag")
     return {{armScene(), 3}, {armScene(), 1.5, false}};
+  if (name == "restitution_by_speed") return {bouncing(0.1), bouncing(0.6)};
   if (place == Effect::Place::floor)
     return {creeping(2, 0, 0), creeping(0.5, 1.5, 0), creeping(0.5, 0.3, 0.05), rolling(0.8, 0.4), flying()};
   return {rolling(0.8, 0.4), rolling(0.3, -0.9), flying()};

@@ -21,8 +21,8 @@ struct PredictRequest {
   std::string scene, recording;
   std::string mapping;        ///< "": as for a residual
   std::string simulator;      ///< "": the scene as given
-  StartEstimator start = {};  ///< where each trial begins; none: where its first samples say
   std::string out;            ///< a .csv; of a file with several trials NAME-1.csv, NAME-2.csv …
+  StartEstimator start = {};  ///< where each trial begins; none: where its first samples say
 };
 /// Loads, predicts, then writes; returns what was written, with their notes. Throws InputError, also where a file would
 /// replace one that was read, and Cancelled when `goesOn` says no: then nothing was written.

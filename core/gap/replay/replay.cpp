@@ -137,12 +137,26 @@ class Prescribed {
     for (const Input& input : inputs_) {
       const auto& path = recording_.columns[input.column];
       const auto slope = [&](std::size_t a, std::size_t b) { return (path[b] - path[a]) / (time[b] - time[a]); };
-      state.robots[input.robot].positions[input.joint] = path[first_];
+      // Rows at which the path is known: a channel may be there in some of them only.
+      const auto knownFrom = [&](std::size_t row) {
+        while (row < path.size() && !std::isfinite(path[row])) ++row;
+        return row;
+      };
+      const std::size_t here = knownFrom(first_), next = knownFrom(here + 1), afterNext = knownFrom(next + 1);
+      if (here >= path.size()) continue;
+      std::size_t before = first_;  // first_: there is none
+      for (std::size_t row = first_; row-- > 0 && before == first_;)
+        if (std::isfinite(path[row])) before = row;
+      state.robots[input.robot].positions[input.joint] =
+          here > first_ && before < first_ ? path[before] + slope(before, here) * (time[first_] - time[before])
+                                           : path[here];
       double rate = 0;
-      if (first_ > 0 && first_ + 1 < path.size())
-        rate = slope(first_ - 1, first_ + 1);
-      else if (first_ + 2 < path.size())
-        rate = 2 * slope(first_, first_ + 1) - slope(first_, first_ + 2);
+      if (before < first_ && next < path.size())
+        rate = slope(before, next);
+      else if (afterNext < path.size())
+        rate = 2 * slope(here, next) - slope(here, afterNext);
+      else if (next < path.size())
+        rate = slope(here, next);
       state.robots[input.robot].rates[input.joint] = rate;
     }
   }

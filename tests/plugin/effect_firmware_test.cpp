@@ -70,45 +70,6 @@ TEST(CommandFilter, AnswersAStepAsAFirstOrderLowPass) {
   }
 }
 
-TEST(CommandProfile, TravelsATrapezoidThatNeitherOvershootsNorComesLate) {
-  // 1 rad at no more than 2 rad/s and 20 rad/s²: 0.1 s up, 0.4 s even, 0.1 s down.
-  const auto profile = effect("command_profile");
-  Numbers state(3);
-  profile->command({0, 1}, {}, Numbers{0.5, 0.05}, state, 1e-3);
-  for (int i = 1; i < 700; ++i) {
-    const double t = i * 1e-3;
-    const double expected = t < 0.1   ? 10 * t * t
-                            : t < 0.5 ? 0.1 + 2 * (t - 0.1)
-                            : t < 0.6 ? 1 - 10 * (0.6 - t) * (0.6 - t)
-                                      : 1;
-    const CommandAround followed = profile->command({1, 1}, {}, Numbers{0.5, 0.05}, state, 1e-3);
-    EXPECT_NEAR(expected, followed.mean(), 1e-3) << t;
-    EXPECT_LE(followed.after, 1 + 1e-9);
-  }
-}
-
-TEST(CommandProfile, WithoutABoundOnAccelerationIsASlewRate) {
-  const auto profile = effect("command_profile");
-  Numbers state(3);
-  profile->command({0, 1}, {}, Numbers{0.5, 0}, state, 1e-3);
-  for (int i = 1; i < 600; ++i)
-    EXPECT_NEAR(std::min(1.0, 2 * i * 1e-3), profile->command({1, 1}, {}, Numbers{0.5, 0}, state, 1e-3).mean(), 3e-4);
-}
-
-TEST(LoopPeriod, HoldsTheTorqueOfItsLastLook) {
-  const auto period = effect("loop_period");
-  Numbers state(2);
-  for (int i = 0; i < 100; ++i)
-    EXPECT_NEAR(i / 8 * 8, period->driveTorque(i, {.time = i * 1e-3}, Numbers{0.008}, state, 1e-3), 1e-9) << i;
-}
-
-TEST(LoopPeriod, ThatEndsWithinAStepGivesBothTorquesTheirShare) {
-  const auto period = effect("loop_period");
-  Numbers state(2);
-  EXPECT_EQ(1, period->driveTorque(1, {.time = 0}, Numbers{0.0015}, state, 1e-3));
-  EXPECT_NEAR(0.5 * 1 + 0.5 * 3, period->driveTorque(3, {.time = 1e-3}, Numbers{0.0015}, state, 1e-3), 1e-12);
-}
-
 TEST(MagnusLift, OfFastSpinFollowsNathansCurve) {
   const BallState ball{.velocity_m_s = {5, 0, 0}, .spin_rad_s = {0, 60, 0}, .radius_m = 0.1, .mass_kg = 0.1};
   const double ratio = 0.1 * 60 / 5, lift = ratio / (0.4 + 2.32 * ratio);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace btr {
 
@@ -175,10 +176,11 @@ double driveTorque(const Drive& drive, const JointState& state, double integral,
 
 void JointEffects::add(const SceneEffect& effect) {
   placed_.push_back({effect.effect.get(), &effect.values,
-                     std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0)});
+                     std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0), effect.name});
   changeDrive_ = changeDrive_ || effect.effect->changesDrive();
-  const auto stageOf = [&](std::size_t i) { return placed_[i].effect->stage(); };
-  chain_.insert(std::ranges::upper_bound(chain_, effect.effect->stage(), {}, stageOf), placed_.size() - 1);
+  const auto placeOf = [&](std::size_t i) { return std::pair(placed_[i].effect->stage(), placed_[i].name); };
+  const std::size_t last = placed_.size() - 1;
+  chain_.insert(std::ranges::upper_bound(chain_, placeOf(last), {}, placeOf), last);
 }
 
 void JointEffects::reset() {

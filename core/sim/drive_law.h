@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/sim/effect.h"
@@ -99,6 +100,7 @@ class JointEffects {
     const Effect* effect;
     const std::vector<double>* values;
     std::vector<double> state;
+    std::string name;
   };
   /// Torques before and after a jump of the command. Effects with a memory see their mean.
   struct Torques {
@@ -108,7 +110,7 @@ class JointEffects {
   double throughEffects(Torques torques, const JointState& state, double h, bool keepState);
 
   std::vector<Placed> placed_;      ///< in the order of the simulator's list
-  std::vector<std::size_t> chain_;  ///< of these, by stage
+  std::vector<std::size_t> chain_;  ///< of these, by stage; in a stage by name, however they are listed
   std::vector<double> scratch_;
   bool changeDrive_ = false;
 };

@@ -19,7 +19,8 @@ class CommandFilter final : public btr::Effect {
             "T: time_constant_s; c: command", "Ellis 2012"};
   }
   Place place() const override { return Place::joint; }
-  Stage stage() const override { return Stage::command; }
+  /// In the servo: after the way of the command to it, with its delay.
+  Stage stage() const override { return Stage::motor; }
   int stateSize() const override { return 2; }
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState&, std::span<const double> values,

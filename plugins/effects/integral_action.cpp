@@ -19,6 +19,8 @@ class IntegralAction final : public btr::Effect {
             "k: gain_nm_rad_s; Z: clamp_nm; c: command, q: joint", "Åström and Hägglund 1995"};
   }
   Place place() const override { return Place::joint; }
+  /// Part of the servo's law: before what the output stage and the motor make of the torque.
+  Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 1; }
 
   bool changesDrive() const override { return true; }

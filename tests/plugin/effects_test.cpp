@@ -124,9 +124,9 @@ std::string placeOf(const Effect& effect) { return test::placeFor(effect.place()
 std::vector<double> numbersOf(const Scene& scene) {
   std::vector<double> numbers(scene.gravity_m_s2.begin(), scene.gravity_m_s2.end());
   const FloorSpec& floor = *scene.floor;
-  numbers.insert(numbers.end(), {floor.friction, floor.restitution, floor.slip1_m_s_n, floor.slip2_m_s_n,
-                                 floor.stiffness_n_m, floor.damping_n_s_m, floor.slipXY_m_s_n, floor.bounce,
-                                 floor.bounceLoss_s_m});
+  numbers.insert(numbers.end(),
+                 {floor.friction, floor.restitution, floor.slip1_m_s_n, floor.slip2_m_s_n, floor.stiffness_n_m,
+                  floor.damping_n_s_m, floor.slipXY_m_s_n, floor.bounce, floor.bounceLoss_s_m});
   const BallSpec& ball = scene.balls[0];
   numbers.insert(numbers.end(), {ball.radius_m, ball.mass_kg, ball.inertiaFactor, ball.rollingDeceleration_m_s2,
                                  ball.restitution, ball.position_m[2]});
@@ -139,10 +139,11 @@ std::vector<double> numbersOf(const Scene& scene) {
     numbers.insert(numbers.end(), inertia.data(), inertia.data() + 9);
   }
   const Drive& drive = scene.robots[0].drives[0];
-  numbers.insert(numbers.end(), {drive.p, drive.i, drive.d, drive.maxTorque, drive.firmwareGain_v_rad, drive.supply_v,
-                                 drive.torqueConstant_nm_a, drive.resistance_ohm, drive.maxDuty,
-                                 drive.rotorInertia_kg_m2, drive.coulombFriction, drive.viscousFriction,
-                                 drive.offBraking, drive.gearCompliance, drive.gearDamping, drive.gearPlay, drive.gearDrag});
+  numbers.insert(
+      numbers.end(),
+      {drive.p, drive.i, drive.d, drive.maxTorque, drive.firmwareGain_v_rad, drive.supply_v, drive.torqueConstant_nm_a,
+       drive.resistance_ohm, drive.maxDuty, drive.rotorInertia_kg_m2, drive.coulombFriction, drive.viscousFriction,
+       drive.offBraking, drive.gearCompliance, drive.gearDamping, drive.gearPlay, drive.gearDrag});
   return numbers;
 }
 

@@ -112,7 +112,9 @@ TEST(KickTrial, EffectsAtTheirNeutralValuesLeaveTheTraceBitForBit) {
     SimulatorSpec simulator;
     simulator.effects.push_back(placed);
     EXPECT_EQ(plain, trial(kickExperiment(0, simulator), sweep, true).trace.sha256()) << name;
-    // And with a strong one it is noticed. (A usual torque-speed line lies outside the one that the dog has already.)
+    // And with a strong one it is noticed. (A usual torque-speed line lies outside the one that the dog has already; a
+    // measured law is nothing until it was measured; nothing in a kick bounces.)
+    if (name == "measured_law" || name == "restitution_by_speed") continue;
     for (const Parameter& p : effect->parameters())
       placed.parameters[p.name] = p.neutral && !p.integer ? p.byDefault + 0.2 * (p.maximum - p.byDefault) : p.byDefault;
     simulator.effects = {placed};

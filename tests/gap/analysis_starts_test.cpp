@@ -98,22 +98,30 @@ Recording bouncingBall(std::uint64_t number, double radius_m, double restitution
   return recording;
 }
 
-TEST(AnalysisStarts, AnIntervalHoldsTheTruthThoughTheStepHasMovedTheValue) {
-  for (const double restitution : {0.55, 0.7, 0.8}) {
-    GapProblem problem;
-    problem.scene = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.0005, "control_period_s": 0.004,
-      "floor": {"friction": 1, "restitution": 0.65},
-      "balls": [{"name": "ball", "radius_m": 0.04, "mass_kg": 0.022, "position_m": [0, 0, 0.04], "restitution": 0}],
-      "robots": [], "calibrate": [{"path": "floor.restitution", "min": 0.3, "max": 1}]})",
-                                  "scene", "");
-    for (std::uint64_t k = 0; k < 8; ++k) problem.recordings.push_back(bouncingBall(k, 0.04, restitution));
-    const GapReport report = analyse(problem, library(), {});
-    ASSERT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << report.sentence;
-    const GapReport::Number& number = report.calibrated.at(0);
-    EXPECT_LE(number.ci95.low, restitution) << number.value;
-    EXPECT_GE(number.ci95.high, restitution) << number.value;
-    EXPECT_LT(number.ci95.high - number.ci95.low, 0.01 * restitution);
-  }
+// Of eighteen intervals of 95 % four or more miss the truth in one of a hundred sets of draws.
+TEST(AnalysisStarts, IntervalsHoldTheTruthThoughTheStepMovesTheValue) {
+  int missed = 0;
+  std::string values;
+  for (const double restitution : {0.55, 0.7, 0.8})
+    for (std::uint64_t draw = 0; draw < 6; ++draw) {
+      GapProblem problem;
+      problem.scene = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.0005, "control_period_s": 0.004,
+        "floor": {"friction": 1, "restitution": 0.65},
+        "balls": [{"name": "ball", "radius_m": 0.04, "mass_kg": 0.022, "position_m": [0, 0, 0.04], "restitution": 0}],
+        "robots": [], "calibrate": [{"path": "floor.restitution", "min": 0.3, "max": 1}]})",
+                                    "scene", "");
+      for (std::uint64_t k = 0; k < 8; ++k) problem.recordings.push_back(bouncingBall(8 * draw + k, 0.04, restitution));
+      const GapReport report = analyse(problem, library(), {});
+      ASSERT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << report.sentence;
+      const GapReport::Number& number = report.calibrated.at(0);
+      EXPECT_LT(number.ci95.high - number.ci95.low, 0.01 * restitution);
+      EXPECT_NEAR(number.value, restitution, 0.01 * restitution);
+      if (number.ci95.low > restitution || number.ci95.high < restitution) {
+        ++missed;
+        values += std::to_string(number.value) + " of " + std::to_string(restitution) + ", ";
+      }
+    }
+  EXPECT_LT(missed, 4) << values;
 }
 
 }  // namespace

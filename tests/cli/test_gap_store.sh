@@ -87,7 +87,7 @@ python3 -c 'import json,sys; assert [r["recording"] for r in json.load(open(sys.
 printf 't_ms,q\n10,10\n10,20\n' > "$folder/bad.csv"
 expect 1 "a damaged recording" "$btr" gap recordings import --db "$db" --run 1 --mapping "$folder/map.json" "$folder/bad.csv"
 one_line
-says err "line 3, column 1"
+says err "line 3, column 2"
 expect 1 "a damaged one makes no database" "$btr" gap recordings import --db "$folder/fresh.db" --rig "$folder/bench.json" --mapping "$folder/map.json" "$folder/bad.csv"
 [ -e "$folder/fresh.db" ] && fail "an empty database was left"
 expect 0 "a rig needs no database of runs" "$btr" gap recordings import --db "$folder/fresh.db" --rig "$folder/bench.json" --mapping "$folder/map.json" "$folder/swing.csv"

@@ -51,7 +51,7 @@ declare -A public=(
   [gap/recordings]="channel_name doctor mapping objection recording recording_health table_preview"
   [gap/replay]="number_table residual trial_scenes"
   [gap/search]="gap_report report_words"
-  [gap/report]="report_figures report_files report_html report_json report_text"
+  [gap/report]="report_figures report_files report_html report_json report_lead report_text"
   [gap/proof]="proof_marks"
 )
 seen=" "

@@ -36,8 +36,7 @@ int main(int argc, char** argv) {
   }
   try {
     const PluginHost host(PluginHost::searchPath());
-    Hideable library{host.effectFactory(), host.effects()};
-    std::erase(library.names, "measured_law");  // a table; nothing in its defaults
+    const Hideable library{host.effectFactory(), host.effects()};
     const BlindCase blind = drawCase(request, library);
     const std::string answer = toJsonText(blind.answer);
     if (make->parsed()) writeCase(blind, library, folder);

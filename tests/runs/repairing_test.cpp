@@ -129,6 +129,8 @@ std::pair<int, int> outsideOfWhatWasTold(const Database& database, Id run) {
 
 TEST_F(Repairing, L3LeavesWhatRecordingsToldInItsIntervalWhereThatIsWanted) {
   text_["adaptation"]["parameters"] = {"servo_p_nm_rad", "body_mass_kg"};
+  // Long enough for a knee to tell its gain.
+  text_["controller"]["settings"] = {{"accumulate_s", 0.4}, {"hold_s", 0.3}, {"return_s", 0.4}};
   for (const char* wanted : {"anywhere", "within_intervals"}) {
     text_["recordings"]["settings"]["told_numbers"] = wanted;
     Database database = fresh(std::string(wanted) + ".db");

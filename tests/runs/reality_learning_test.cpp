@@ -413,7 +413,8 @@ TEST_F(RealityLearning, TheReportShowsTheArithmeticOfTheStepsThatWereTaken) {
       EXPECT_EQ(4, s.gradient.below.count + s.gradient.same.count + s.gradient.above.count);
       const double epsilon = 0.1 * (declared[n].maximum - declared[n].minimum);
       const double expected = squares > 0 ? epsilon * s.gradient.gradient / std::sqrt(squares) : 0;
-      EXPECT_NEAR(std::clamp(s.centreBefore + expected, declared[n].minimum, declared[n].maximum), *s.centreAfter,
+      const double reached = std::clamp(s.centreBefore + expected, declared[n].minimum, declared[n].maximum);
+      EXPECT_NEAR(declared[n].integer ? std::round(reached) : reached, *s.centreAfter,
                   1e-12 * (declared[n].maximum - declared[n].minimum) + 1e-12)
           << s.parameter.name;
     }

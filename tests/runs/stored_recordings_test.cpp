@@ -68,7 +68,7 @@ TEST_F(StoredRecordings, DamagedOnesDoNotGetIn) {
     importRecording(database_, experiment_, csv_);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("line 3, column 1 (time_s)"));
+    EXPECT_THAT(error.what(), HasSubstr("line 3, column 2 (leg.knee.position_rad)"));
   }
   EXPECT_TRUE(database_.recordings(experiment_).empty());
 }

@@ -1,6 +1,7 @@
 #include "core/run/stand_in.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <istream>
@@ -68,6 +69,44 @@ Values drawSize(const std::vector<Parameter>& parameters, double times, Random& 
   return values;
 }
 
+/// What a stand-in may draw where its experiment does not say. A list of its own: the reality of a seed stays what it
+/// was when effects are added to the library, or a plugin to a folder.
+constexpr std::array drawnByDefault{"air_drag",
+                                    "anisotropic_rolling_resistance",
+                                    "anisotropic_slip",
+                                    "asymmetric_friction",
+                                    "backlash",
+                                    "command_delay",
+                                    "constant_wind",
+                                    "contact_compliance",
+                                    "coulomb_friction",
+                                    "force_offset",
+                                    "gear_elasticity",
+                                    "gravity_tilt",
+                                    "ground_slope",
+                                    "joint_spring",
+                                    "load_dependent_friction",
+                                    "magnus_lift",
+                                    "payload",
+                                    "position_offset",
+                                    "restitution",
+                                    "rolling_resistance",
+                                    "rotor_inertia",
+                                    "sensor_lag",
+                                    "slip",
+                                    "stribeck_friction",
+                                    "torque_ripple",
+                                    "torque_speed_limit",
+                                    "viscous_friction",
+                                    "voltage_sag"};
+
+std::vector<std::string> drawnFrom(const ConcealedSpec& from, const PluginHost& host) {
+  if (!from.effects.empty()) return from.effects;
+  std::vector<std::string> names = host.effects();
+  std::erase_if(names, [](const std::string& name) { return std::ranges::count(drawnByDefault, name) == 0; });
+  return names;
+}
+
 /// Those of the places where an effect can sit that the experiment allows.
 std::vector<std::string> allowedPlaces(Effect::Place place, const Scene& scene,
                                        const std::vector<std::string>& allowed) {
@@ -92,7 +131,7 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
   const Scene plain = prepared.scene(prepared.spec.simulator);
   const ConcealedSpec& from = prepared.spec.concealed;
   std::vector<std::string> drawable;
-  for (const std::string& name : from.effects.empty() ? host.effects() : from.effects) {
+  for (const std::string& name : drawnFrom(from, host)) {
     const auto effect = host.effect(name);
     if (hasTypicalSize(effect->parameters()) && !allowedPlaces(effect->place(), plain, from.at).empty())
       drawable.push_back(name);

@@ -70,13 +70,7 @@ inline Recording recordedPendulum(const ExtraTorque& extra, std::uint64_t number
 
 /// The hinge with `trials` to fit and two that no fit sees.
 inline GapProblem pendulumProblem(const ExtraTorque& extra, std::uint64_t trials = 3, std::uint64_t seed = 0) {
-  GapProblem problem;
-  problem.scene = hingeScene();
-  const TemporaryFolder folder;
-  folder.write("rig.urdf", rigUrdf);
-  SceneSpec spec = problem.scene;
-  spec.directory = folder.file(".");
-  problem.models = loadModels(spec);
+  GapProblem problem = hingeProblem();
   for (std::uint64_t i = 0; i < trials + 2; ++i)
     (i < trials ? problem.recordings : problem.heldOut).push_back(recordedPendulum(extra, 100 * seed + i));
   return problem;

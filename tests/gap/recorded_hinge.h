@@ -31,12 +31,8 @@ inline SceneSpec hingeScene() {
                        "scene", folder.file("."));
 }
 
-inline constexpr double noise_rad = 0.0005;
-
-/// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise. The hinge moves
-/// from the beginning at `startRate_rad_s`. Reality takes steps of `step_s`.
-inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0,
-                               const EffectLibrary& effects = library(), double step_s = 0.0001) {
+/// The hinge with its model, without recordings.
+inline GapProblem hingeProblem() {
   GapProblem problem;
   problem.scene = hingeScene();
   const TemporaryFolder folder;
@@ -44,6 +40,17 @@ inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6
   SceneSpec spec = problem.scene;
   spec.directory = folder.file(".");
   problem.models = loadModels(spec);
+  return problem;
+}
+
+inline constexpr double noise_rad = 0.0005;
+
+/// What a robot that is `truth` records: sines of drawn frequencies, steps, every 5 ms, white noise. The hinge moves
+/// from the beginning at `startRate_rad_s`. Reality takes steps of `step_s`.
+inline GapProblem recordedFrom(const SimulatorSpec& truth, double size_rad = 0.6, double startRate_rad_s = 0,
+                               const EffectLibrary& effects = library(), double step_s = 0.0001) {
+  GapProblem problem = hingeProblem();
+  SceneSpec spec = problem.scene;
   spec.step_s = step_s;
   const Scene scene = makeScene(spec, problem.models, truth, effects.make);
   for (std::uint64_t trial = 0; trial < 3; ++trial) {

@@ -110,13 +110,12 @@ QWidget* ReportView::makeFindings() {
   return splitter;
 }
 
-void ReportView::showFindings() {
+void ReportView::showFindings(const ReportLead& lead) {
   if (!report_) {
     findings_->clear();
     picture_->setData(overlayPlot(GapReport{}, 0, 0));
     return;
   }
-  const ReportLead lead = leadOf(*report_);
   findings_->setHtml(word(leadHtml(*report_, lead)) + "<p>" + word(report_->sentence).toHtmlEscaped() + "</p>");
   const auto [trial, series] = lead.picture.value_or(std::pair<std::size_t, std::size_t>(0, 0));
   // What lies between as given and in the end is under "Where it differs".
@@ -271,10 +270,11 @@ void ReportView::showVerdict() {
   QPalette colours = headline_->palette();
   colours.setColor(QPalette::WindowText, colour);
   headline_->setPalette(colours);
-  headline_->setText(report_ ? word(leadOf(*report_).headline) : tr("No report yet"));
+  const ReportLead lead = report_ ? leadOf(*report_) : ReportLead{};
+  headline_->setText(report_ ? word(lead.headline) : tr("No report yet"));
   sentence_->setText(tr("Start an analysis, or open the folder of a report that is there already."));
   sentence_->setVisible(!report_);
-  showFindings();
+  showFindings(lead);
 }
 
 void ReportView::fillChoices() {

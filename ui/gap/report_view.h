@@ -10,6 +10,9 @@ class QPushButton;
 class QTabWidget;
 class QTextBrowser;
 
+namespace btr {
+struct ReportLead;
+}
 namespace btr::ui {
 class CalibratedTable;
 class EffectsTable;
@@ -51,7 +54,7 @@ class ReportView : public QWidget {
  private:
   QWidget* makeFindings();
   QWidget* makeWhere();
-  void showFindings();
+  void showFindings(const ReportLead& lead);
   QWidget* makeRegimes();
   QWidget* makeNext();
   void showVerdict();

@@ -133,6 +133,12 @@ bool comesDown(const Scene& scene, const FitTrial& trial, std::size_t ball) {
   return std::ranges::any_of(height, [&](double z) { return z < near; });
 }
 
+bool anyComesDown(const Scene& scene, const FitTrial& trial) {
+  for (std::size_t ball = 0; ball < scene.balls.size(); ++ball)
+    if (comesDown(scene, trial, ball)) return true;
+  return false;
+}
+
 /// A ball's spin is seen where it bounces, and in the air by what lifts it. What the trial or the scene says of it was
 /// measured, too; where nothing is said of it, it may be any, up to that of rolling at the ball's speed.
 void addSpin(const Scene& scene, const FitTrial& trial, std::size_t ball, bool begins,
@@ -265,6 +271,7 @@ void cutSegments(FitProblem& problem, double window_s) {
     const FitTrial& trial = problem.trials[t];
     const auto& time = trial.recording.columns[0];
     const std::size_t rows = trial.rows();
+    const bool bounces = anyComesDown(problem.sceneOf(problem.given, t), trial);
     const auto blockOf = [&](std::size_t row) { return static_cast<int>((time[row] - time[0]) / problem.block_s); };
     for (std::size_t first = 0; first + 4 < rows;) {
       std::size_t last = rows;
@@ -280,8 +287,7 @@ void cutSegments(FitProblem& problem, double window_s) {
       segment.first = segment.scored = first;
       segment.last = last;
       segment.start = stateAt(problem, t, first, segment.nuisances);
-      for (std::size_t b = 0; b < segment.start.balls.size(); ++b)
-        segment.bounces = segment.bounces || comesDown(problem.sceneOf(problem.given, t), trial, b);
+      segment.bounces = bounces;
       for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c) {
         if (trial.noiseFloor[c] <= 0) continue;
         const auto& values = trial.recording.columns[trial.binding.measured[c].column];

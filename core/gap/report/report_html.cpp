@@ -57,6 +57,14 @@ std::string cell(const std::string& content, bool isNumber = false) {
 }
 std::string numberCell(double value) { return cell(brief(value), true); }
 
+/// Name, unit and remark of a fitted number, its values, and how well they are known.
+std::string numberRow(const GapReport::Number& n, const std::string& values) {
+  const char* remark = !n.excited ? "not identifiable from these recordings" : n.atBound ? "at its bound" : "";
+  return "<tr>" + cell(n.name) + cell(n.unit) + cell(remark) + values +
+         cell(n.ci95.known() ? brief(n.ci95) : "–", true) +
+         cell(n.amongRivals.known() ? brief(n.amongRivals) : "–", true) + "</tr>\n";
+}
+
 std::string headerRow(std::initializer_list<const char*> names, std::size_t words) {
   std::string row = "<tr>";
   std::size_t i = 0;
@@ -87,13 +95,7 @@ std::string effectCard(const GapReport& report, const ReportLead::Finding& findi
             "</p>\n<p class=\"faint\">" + escaped(e.law.symbols) + " (" + escaped(e.law.source) + ")</p>\n";
   html += "<div class=\"wide\"><table>" +
           headerRow({"parameter", "unit", "remark", "value", "95 % interval", "among rivals"}, 3);
-  for (const GapReport::Number& n : e.parameters)
-    html += "<tr>" + cell(n.name) + cell(n.unit) +
-            cell(!n.excited  ? "not identifiable from these recordings"
-                 : n.atBound ? "at its bound"
-                             : "") +
-            numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) +
-            cell(n.amongRivals.known() ? brief(n.amongRivals) : "–", true) + "</tr>\n";
+  for (const GapReport::Number& n : e.parameters) html += numberRow(n, numberCell(n.value));
   html += "</table></div>\n<p>";
   if (std::isfinite(finding.share))
     html += "It took " + escaped(wholePercent(finding.share)) + " of the squared error that was taken. ";
@@ -142,13 +144,7 @@ std::string calibratedTable(const GapReport& report) {
   if (report.calibrated.empty()) return "<p>The scene names no number to calibrate.</p>\n";
   std::string html = "<div class=\"wide\"><table>" +
                      headerRow({"number", "unit", "remark", "as given", "fitted", "95 % interval", "among rivals"}, 3);
-  for (const GapReport::Number& n : report.calibrated)
-    html += "<tr>" + cell(n.name) + cell(n.unit) +
-            cell(!n.excited  ? "not identifiable from these recordings"
-                 : n.atBound ? "at its bound"
-                             : "") +
-            numberCell(n.before) + numberCell(n.value) + cell(n.ci95.known() ? brief(n.ci95) : "–", true) +
-            cell(n.amongRivals.known() ? brief(n.amongRivals) : "–", true) + "</tr>\n";
+  for (const GapReport::Number& n : report.calibrated) html += numberRow(n, numberCell(n.before) + numberCell(n.value));
   html += "</table></div>\n";
   if (std::ranges::any_of(report.calibrated, isWiderAmongRivals))
     html +=

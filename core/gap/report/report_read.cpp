@@ -50,15 +50,21 @@ GapReport::Number numberFrom(JsonReader& r, const std::string& name, bool calibr
   return n;
 }
 
+/// That of `all` whose text stands under the key; any other text is refused.
+template <class Choice>
+Choice oneOf(JsonReader& r, const std::string& key, const std::vector<Choice>& all) {
+  std::vector<std::string> words;
+  for (const Choice choice : all) words.emplace_back(toText(choice));
+  const std::string word = r.word(key, words);
+  return all[static_cast<std::size_t>(std::ranges::find(words, word) - words.begin())];
+}
+
 EffectLaw effectLawFrom(JsonReader r) {
   using Acts = EffectLaw::Acts;
-  const std::vector all{Acts::notSaid, Acts::command, Acts::drive, Acts::gear,    Acts::joint,
-                        Acts::link,    Acts::gravity, Acts::air,   Acts::contact, Acts::sensor};
-  std::vector<std::string> words;
-  for (const Acts acts : all) words.emplace_back(toText(acts));
   EffectLaw law;
-  const std::string word = r.word("acts_on", words);
-  law.acts = *std::ranges::find_if(all, [&](Acts acts) { return word == toText(acts); });
+  law.acts = oneOf<Acts>(r, "acts_on",
+                         {Acts::notSaid, Acts::command, Acts::drive, Acts::gear, Acts::joint, Acts::link, Acts::gravity,
+                          Acts::air, Acts::contact, Acts::sensor});
   law.says = r.text("says");
   law.equation = r.text("equation");
   law.symbols = r.text("symbols");
@@ -223,14 +229,9 @@ GapReport::Remainder remainderFrom(JsonReader r, GapReport::MeasuredLaw& law) {
 
 GapReport::Verdict verdictOf(JsonReader& r) {
   using Verdict = GapReport::Verdict;
-  std::vector<std::string> words;
-  const std::vector all{Verdict::noMismatch,      Verdict::parametersSuffice, Verdict::missingPhysics,
-                        Verdict::partlyExplained, Verdict::unexplained,       Verdict::notExcited};
-  for (const Verdict verdict : all) words.emplace_back(toText(verdict));
-  const std::string word = r.word("verdict", words);
-  for (const Verdict verdict : all)
-    if (word == toText(verdict)) return verdict;
-  return Verdict::notExcited;
+  return oneOf<Verdict>(r, "verdict",
+                        {Verdict::noMismatch, Verdict::parametersSuffice, Verdict::missingPhysics,
+                         Verdict::partlyExplained, Verdict::unexplained, Verdict::notExcited});
 }
 
 SimulatorSpec simulatorOf(JsonReader r) {

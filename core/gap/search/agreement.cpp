@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/gap/recordings/even_grid.h"
 #include "core/gap/search/disagreement.h"
 
 namespace btr {
@@ -19,10 +21,7 @@ double medianError(const std::vector<double>& errors, const std::vector<std::siz
   std::vector<double> others;
   for (std::size_t t = 0; t < errors.size(); ++t)
     if (std::ranges::find(but, t) == but.end() && std::isfinite(errors[t])) others.push_back(errors[t]);
-  if (others.empty()) return NAN;
-  const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
-  std::nth_element(others.begin(), middle, others.end());
-  return *middle;
+  return others.empty() ? NAN : median(std::move(others));
 }
 
 double meanError(const std::vector<double>& errors, const std::vector<std::size_t>& but) {
@@ -47,10 +46,6 @@ Agreement::Without searched(const std::vector<Recording>& recordings, const std:
   SearchResult found = searchEffects(problem, again);
   return {std::move(problem), std::move(found)};
 }
-
-}  // namespace
-
-namespace {
 
 /// One round: trials that disagree with the others of `recordings`, and the search without them.
 Agreement oneRound(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
@@ -89,9 +84,8 @@ Agreement oneRound(const std::vector<Recording>& recordings, const FitProblem& p
 
 Agreement agreeOn(const std::vector<Recording>& recordings, const FitProblem& problem, const SearchResult& found,
                   const SearchOptions& options, const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
-  constexpr int rounds = 3;  // what is large hides what is small: looked for again without it [time]
   Agreement result = oneRound(recordings, problem, found, options, ready);
-  for (int round = 1; result.without && round < rounds; ++round) {
+  for (int round = 1; result.without && round < options.thresholds.trials.rounds; ++round) {
     std::vector<std::size_t> kept;  // by trial of this round: its place among all
     for (std::size_t t = 0; t < recordings.size(); ++t)
       if (std::ranges::find(result.aside, t) == result.aside.end()) kept.push_back(t);

@@ -92,8 +92,6 @@ struct Explanation {
   double error = INFINITY;
 };
 
-constexpr double beyondOthers = 1.2;  // times the others' reach or speed: it can show what they do not [hand]
-
 /// How far a column goes, and how fast [its unit, and that per second].
 struct Reach {
   double range = 0, rate = 0;
@@ -398,7 +396,7 @@ GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size
     told.errorAlone = std::sqrt(std::min(best->error, own.error));
   } else if (own.error <= enough) {
     told.what = own.what;
-  } else if (!goesBeyond(problem, trial, suspects, beyondOthers) ||
+  } else if (!goesBeyond(problem, trial, suspects, limits.beyondOthers) ||
              (std::sqrt(error) > limits.unlike * odd.motion() && std::sqrt(own.error) > limits.unlike * odd.motion())) {
     told.what =
         "no numbers make the simulator move as it does, though it goes no farther and no faster than the others: "

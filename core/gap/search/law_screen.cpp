@@ -93,8 +93,7 @@ Eigen::VectorXd columnOf(const FitProblem& problem, const FitModel& named, const
   moved.values.back().assign(static_cast<std::size_t>(law.terms.back().knots), 0.0);
   moved.values.back()[static_cast<std::size_t>(knot)] = law.scale;
   // Named effects and numbers stand in `fit` before the law's knots.
-  FitModel model = named;
-  std::copy_n(fit.model.values.begin(), model.values.size(), model.values.begin());
+  const FitModel model = withNumbersOf(named, fit.model);
   const Eigen::VectorXd residuals = residualsOf(problem, moved.in(problem, model, true), fit.shifts);
   return linear.profile(problem, residuals - linear.residuals);
 }
@@ -106,17 +105,22 @@ struct Normal {
   double square = 0;
 };
 
-/// Of each residual: the part that is left out together with it.
-std::vector<std::size_t> partsOf(const FitProblem& problem, std::size_t& count) {
+/// Of each residual: the part that is left out together with it, of so many.
+struct Parts {
+  std::size_t count = 0;
+  std::vector<std::size_t> of;
+};
+
+Parts partsOf(const FitProblem& problem) {
   constexpr std::size_t enoughTrials = 3, mostParts = 6;
   std::set<std::size_t> trials;
   for (const Segment& segment : problem.segments) trials.insert(segment.trial);
   const bool byTrial = trials.size() >= enoughTrials;
-  count = byTrial ? std::min(trials.size(), mostParts) : 2;
-  std::vector<std::size_t> parts;
+  Parts parts{byTrial ? std::min(trials.size(), mostParts) : 2, {}};
   for (const Segment& segment : problem.segments) {
     const auto order = static_cast<std::size_t>(std::distance(trials.begin(), trials.find(segment.trial)));
-    for (const char fold : segment.fold) parts.push_back(byTrial ? order % count : static_cast<std::size_t>(fold));
+    for (const char fold : segment.fold)
+      parts.of.push_back(byTrial ? order % parts.count : static_cast<std::size_t>(fold));
   }
   return parts;
 }
@@ -127,14 +131,13 @@ struct Regression {
   Eigen::VectorXd values;  ///< in the columns' units
 };
 
-Regression regress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left, int knots,
-                   const std::vector<std::size_t>& parts, std::size_t count) {
+Regression regress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left, int knots, const Parts& parts) {
   const Eigen::Index width = columns.cols();
-  std::vector<Normal> normals(count, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width), 0});
-  for (std::size_t part = 0; part < count; ++part) {
+  std::vector<Normal> normals(parts.count, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width), 0});
+  for (std::size_t part = 0; part < parts.count; ++part) {
     std::vector<Eigen::Index> rows;
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      if (parts[k] == part) rows.push_back(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < parts.of.size(); ++k)
+      if (parts.of[k] == part) rows.push_back(static_cast<Eigen::Index>(k));
     const Eigen::MatrixXd own = columns(rows, Eigen::all);
     const Eigen::VectorXd right = left(rows);
     normals[part] = {own.transpose() * own, own.transpose() * right, right.squaredNorm()};
@@ -171,13 +174,11 @@ Regression regress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left, 
 }
 
 /// The law's last term over its knots, with values and share.
-LawOption promised(const FitProblem& problem, const Linearised& linear, const Eigen::MatrixXd& curve, const Law& law,
+LawOption promised(const Linearised& linear, const Eigen::MatrixXd& curve, const Law& law, const Parts& parts,
                    double costWithout) {
-  std::size_t count = 0;
-  const std::vector<std::size_t> parts = partsOf(problem, count);
   Eigen::MatrixXd columns(linear.columns.rows(), linear.columns.cols() + curve.cols());
   columns << linear.columns, curve;
-  const Regression found = regress(columns, -linear.profiled, static_cast<int>(curve.cols()), parts, count);
+  const Regression found = regress(columns, -linear.profiled, static_cast<int>(curve.cols()), parts);
   LawOption option{law, 1 - found.cost / costWithout};
   for (Eigen::Index i = 0; i < curve.cols(); ++i) {
     double& value = option.law.values.back()[static_cast<std::size_t>(i)];
@@ -187,10 +188,8 @@ LawOption promised(const FitProblem& problem, const Linearised& linear, const Ei
   return option;
 }
 
-double costWithout(const FitProblem& problem, const Linearised& linear) {
-  std::size_t count = 0;
-  const std::vector<std::size_t> parts = partsOf(problem, count);
-  return regress(linear.columns, -linear.profiled, 0, parts, count).cost;
+double costWithout(const Linearised& linear, const Parts& parts) {
+  return regress(linear.columns, -linear.profiled, 0, parts).cost;
 }
 
 /// Columns of all knots of the laws' last terms; an empty matrix where the scene refuses one.
@@ -247,11 +246,12 @@ std::vector<LawOption> screenLaws(const FitProblem& problem, const FitModel& nam
       if (!known) laws.push_back(withTerm(there, joint, term));
     }
   const std::vector<Eigen::MatrixXd> columns = columnsOf(problem, named, fit, linear, laws, jobs);
-  const double without = costWithout(problem, linear);
+  const Parts parts = partsOf(problem);
+  const double without = costWithout(linear, parts);
   std::vector<LawOption> options;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     if (columns[i].squaredNorm() <= 0) continue;
-    const LawOption option = promised(problem, linear, columns[i], laws[i], without);
+    const LawOption option = promised(linear, columns[i], laws[i], parts, without);
     if (option.share > thresholds.leastPromise) options.push_back(option);
   }
   std::ranges::stable_sort(options, std::ranges::greater{}, &LawOption::share);
@@ -269,7 +269,8 @@ LawOption refineTerm(const FitProblem& problem, const FitModel& named, const Fit
   law.values.emplace_back(static_cast<std::size_t>(term.knots), 0.0);
   const std::vector<Eigen::MatrixXd> columns = columnsOf(problem, named, fit, linear, {law}, jobs);
   if (columns[0].squaredNorm() <= 0) return option;
-  const LawOption finer = promised(problem, linear, columns[0], law, costWithout(problem, linear));
+  const Parts parts = partsOf(problem);
+  const LawOption finer = promised(linear, columns[0], law, parts, costWithout(linear, parts));
   return finer.share > option.share ? finer : option;
 }
 

@@ -26,12 +26,6 @@ bool canLearn(const FitProblem& problem) {
   });
 }
 
-FitModel namedPart(const FitModel& named, const FitModel& fitted) {
-  FitModel model = named;
-  std::copy_n(fitted.values.begin(), model.values.size(), model.values.begin());
-  return model;
-}
-
 /// Finds a law step by step: one curve, then a second.
 class LawSearch {
  public:
@@ -57,7 +51,7 @@ class LawSearch {
 };
 
 Law LawSearch::damped(Law law, const Fit& fit) const {
-  const FitModel named = namedPart(named_, fit.model);
+  const FitModel named = withNumbersOf(named_, fit.model);
   const std::vector<double> full = law.values.back();
   double least = INFINITY;
   Law best = law;
@@ -73,7 +67,7 @@ Law LawSearch::damped(Law law, const Fit& fit) const {
 }
 
 Fit LawSearch::fitted(const Law& law, const Fit& from, int iterations) const {
-  return fitModel(problem_, law.in(problem_, namedPart(named_, from.model)), from.shifts, {iterations});
+  return fitModel(problem_, law.in(problem_, withNumbersOf(named_, from.model)), from.shifts, {iterations});
 }
 
 const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fit& fit) const {
@@ -83,7 +77,7 @@ const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fi
   const auto errors = parallel(count > 1 ? jobs_ : 1, count, [&](std::size_t i) -> std::vector<double> {
     FitProblem alone = problem_;
     if (count > 1) alone.jobs = 1;
-    const FitModel model = damped(options[i].law, fit).in(alone, namedPart(named_, fit.model));
+    const FitModel model = damped(options[i].law, fit).in(alone, withNumbersOf(named_, fit.model));
     return {crossValidate(alone, fitModel(alone, model, fit.shifts, {limits_.firstIterations})).mean()};
   });
   const LawOption* chosen = nullptr;

@@ -51,8 +51,7 @@ FitModel Law::in(const FitProblem& problem, const FitModel& model, bool isFixed)
   constexpr double most = 1e3;  // typical forces
   FitModel with = model.withFixed(problem, placed());
   if (isFixed) return with;
-  const Parameter aTorque{"", "N·m", "value at a knot, N on a slide joint", 0, 1, 0};
-  const std::string unit = unitAt(problem.scene, problem.models, at, aTorque);
+  const std::string unit = forceUnit(problem, at);
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const double least = terms[t].kind == LawTerm::Kind::friction ? 0 : -most * scale;
     for (int i = 0; i < terms[t].knots; ++i) {
@@ -72,6 +71,16 @@ Law Law::of(const FitModel& fitted) const {
   for (std::vector<double>& list : law.values)
     for (double& each : list) each = *value++;
   return law;
+}
+
+std::string forceUnit(const FitProblem& problem, const std::string& at) {
+  return unitAt(problem.scene, problem.models, at, {"", "N·m", "value at a knot, N on a slide joint", 0, 1, 0});
+}
+
+FitModel withNumbersOf(const FitModel& named, const FitModel& fitted) {
+  FitModel model = named;
+  std::copy_n(fitted.values.begin(), model.values.size(), model.values.begin());
+  return model;
 }
 
 double lawValue(const LawTerm& term, const std::vector<double>& values, double x) {

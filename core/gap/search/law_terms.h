@@ -39,6 +39,10 @@ struct Law {
   Law of(const FitModel& fitted) const;
 };
 
+/// The unit of a force at a joint, "N·m" or "N".
+std::string forceUnit(const FitProblem& problem, const std::string& at);
+/// `named` with the numbers that it has in `fitted`, a model with more (a law's knots) behind them.
+FitModel withNumbersOf(const FitModel& named, const FitModel& fitted);
 /// The value of one curve at x.
 double lawValue(const LawTerm& term, const std::vector<double>& values, double x);
 

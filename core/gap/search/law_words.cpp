@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/fit/unit_at.h"
 #include "core/gap/search/law_shape.h"
 #include "core/spec/figures.h"
 
@@ -83,8 +82,7 @@ GapReport::MeasuredLaw inReport(const FitProblem& problem, const LearnedLaw& lea
   constexpr double normal95 = 1.96;
   GapReport::MeasuredLaw law;
   law.at = learned.law.at;
-  const Parameter aTorque{"", "N·m", "value at a knot, N on a slide joint", 0, 1, 0};
-  const std::string force = unitAt(problem.scene, problem.models, law.at, aTorque);
+  const std::string force = forceUnit(problem, law.at);
   std::size_t knots = 0;
   for (const auto& values : learned.law.values) knots += values.size();
   std::size_t parameter = learned.uncertainty.standardError.size() - knots;

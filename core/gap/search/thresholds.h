@@ -297,6 +297,8 @@ struct SearchThresholds {
     double worseTogether = 1.3;  ///< mean squared error with all, over that without: all do not fit together [hand]
     double unlike = 0.5;         ///< of its motion (r.m.s.), its error: it is something else that was recorded [hand]
     double range = 10;           ///< times its size, how far a number of a trial is looked for [hand]
+    double beyondOthers = 1.2;   ///< times the others' reach or speed: it can show what they do not [hand]
+    int rounds = 3;              ///< what is large hides what is small: looked for again without it [time]
   };
 
   /// The recording that would distinguish rivals (next_recording.h).

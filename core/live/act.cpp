@@ -83,6 +83,11 @@ Act actFrom(JsonReader& reader, const std::string& kind) {
     act.commands = reader.anyValues("commands");
     return act;
   }
+  if (kind == "orders") {
+    OrdersAct act{reader.text("robot"), reader.anyValues("targets")};
+    act.orders = ordersFromReader(reader);
+    return act;
+  }
   if (kind == "number") return NumberAct{reader.text("robot", ""), reader.text("name"), optionalNumber("value")};
   if (kind == "effect") return effectFrom(reader);
   if (kind == "simulator") {
@@ -151,6 +156,13 @@ json written(const ControllerAct& act) {
   if (!act.commands.empty()) object["commands"] = act.commands;
   return object;
 }
+json written(const OrdersAct& act) {
+  json object = btr::toJson(act.orders);
+  object["act"] = "orders";
+  object["robot"] = act.robot;
+  if (!act.targets.empty()) object["targets"] = act.targets;
+  return object;
+}
 json written(const NumberAct& act) {
   json object{{"act", "number"}, {"robot", act.robot}, {"name", act.name}};
   if (act.value) object["value"] = *act.value;
@@ -183,7 +195,7 @@ Act actFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);
   const std::string kind =
       reader.word("act", {"place", "throw", "add", "remove", "pull", "let_go", "hold", "parameter", "controller",
-                          "number", "effect", "simulator", "kick_off", "score", "checkpoint"});
+                          "orders", "number", "effect", "simulator", "kick_off", "score", "checkpoint"});
   Act act = actFrom(reader, kind);
   reader.finish();
   return act;

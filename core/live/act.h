@@ -64,6 +64,14 @@ struct ControllerAct {
   Values commands{};  ///< without controller: what joints are told then; those that are not named hold where they are
 };
 
+/// What a robot's OPEN-R program orders for the period that begins now and those after it: the robot's controller is a
+/// stick (GameStick). One a period, if anything changes.
+struct OrdersAct {
+  std::string robot;
+  Values targets{};  ///< by joint: where it shall be [rad or m]
+  Orders orders{};
+};
+
 /// A number of the simulator (see SimulatorSpec::values); of one robot's own simulator, or of all that have none.
 /// Without a value it is again what scene and models say.
 struct NumberAct {
@@ -100,7 +108,7 @@ struct CheckpointAct {};
 
 /// Whatever reaches into a running world from outside: a hand, a slider, another program.
 using Act = std::variant<PlaceAct, ThrowAct, AddAct, RemoveAct, PullAct, LetGoAct, HoldAct, ParameterAct, ControllerAct,
-                         NumberAct, EffectAct, SimulatorAct, KickOffAct, ScoreAct, CheckpointAct>;
+                         OrdersAct, NumberAct, EffectAct, SimulatorAct, KickOffAct, ScoreAct, CheckpointAct>;
 
 /// {"act": "place", "object": "ball", "position_m": [0, 0, 0.5]} …; see manual/formats/game.md. `place` begins
 /// messages.

@@ -57,6 +57,10 @@ GameState stateFrom(JsonReader reader) {
     senses->finish();
   }
   if (auto referee = reader.objectIfAny("referee")) state.referee = refereeStateFromReader(*referee);
+  reader.members("orders", [&](const std::string& robot, JsonReader orders) {
+    state.orders[robot] = ordersFromReader(orders);
+    orders.finish();
+  });
   reader.finish();
   return state;
 }
@@ -68,16 +72,38 @@ json toJson(const GameState& state) {
   for (const PullAct& pull : state.pulls) object["pulls"].push_back(btr::toJson(pull));
   if (!state.senses.empty()) object["senses"] = state.senses;
   if (state.referee) object["referee"] = btr::toJson(*state.referee);
+  for (const auto& [robot, orders] : state.orders) object["orders"][robot] = btr::toJson(orders);
   return object;
 }
 
-/// Paths of models that are relative stay relative, from there.
+GameStick stickFromReader(JsonReader& reader) {
+  GameStick stick;
+  stick.folder = reader.text("stick");
+  stick.design = reader.word("design", {"ERS-7", "ERS-210", "ERS-220", ""}, "");
+  stick.motorPower = reader.flag("motor_power", false);
+  stick.camera = reader.flag("camera", false);
+  reader.finish();
+  return stick;
+}
+
+json toJson(const GameStick& stick) {
+  json object{{"stick", stick.folder}};
+  if (!stick.design.empty()) object["design"] = stick.design;
+  if (stick.motorPower) object["motor_power"] = true;
+  if (stick.camera) object["camera"] = true;
+  return object;
+}
+
+/// A path that is relative stays relative, in another folder.
+void moveIfRelative(std::string& path, const std::string& fromDirectory, const std::string& toDirectory) {
+  if (!fs::path(path).is_relative()) return;
+  const fs::path from = fs::absolute(fromDirectory.empty() ? "." : fromDirectory);
+  const fs::path to = fs::absolute(toDirectory.empty() ? "." : toDirectory);
+  path = (from / path).lexically_normal().lexically_relative(to.lexically_normal()).string();
+}
+
 void moveModels(SceneSpec& scene, const std::string& directory) {
-  const fs::path from = fs::absolute(scene.directory.empty() ? "." : scene.directory);
-  const fs::path to = fs::absolute(directory.empty() ? "." : directory);
-  for (RobotSpec& robot : scene.robots)
-    if (const fs::path path = robot.model; path.is_relative())
-      robot.model = (from / path).lexically_normal().lexically_relative(to.lexically_normal()).string();
+  for (RobotSpec& robot : scene.robots) moveIfRelative(robot.model, scene.directory, directory);
   scene.directory = directory;
 }
 
@@ -167,8 +193,57 @@ json toJson(const PullAct& pull) {
           {"most_n", pull.most_n}};
 }
 
+void Orders::add(const Orders& later) {
+  for (const auto& [joint, gain] : later.gains) gains[joint] = gain;
+  for (const auto& [joint, on] : later.enabled) enabled[joint] = on;
+  if (later.motorPower) motorPower = later.motorPower;
+  for (const auto& [lamp, light] : later.lamps) lamps[lamp] = light;
+}
+
+Orders ordersFromReader(JsonReader& reader) {
+  Orders orders;
+  constexpr double mostGain = 1e6;
+  if (auto gains = reader.objectIfAny("gains")) {
+    for (const auto& member : gains->node().items()) {
+      const std::vector<double> pid = gains->numbers(member.key(), 3);
+      for (const double times : pid)
+        if (!(times >= 0 && times <= mostGain)) gains->refuse(member.key(), "numbers from 0 to " + toText(mostGain));
+      orders.gains[member.key()] = {pid[0], pid[1], pid[2]};
+    }
+    gains->finish();
+  }
+  if (auto enabled = reader.objectIfAny("enabled")) {
+    for (const auto& member : enabled->node().items())
+      orders.enabled[member.key()] = enabled->flag(member.key(), false);
+    enabled->finish();
+  }
+  if (reader.has("motor_power")) orders.motorPower = reader.flag("motor_power", false);
+  reader.members("lamps", [&](const std::string& lamp, JsonReader light) {
+    orders.lamps[lamp] = {light.number("brightness", 0, 1), light.word("mode", {"A", "B", ""}, "")};
+    light.finish();
+  });
+  return orders;
+}
+
+json toJson(const Orders& orders) {
+  json object = json::object();
+  if (!orders.gains.empty()) object["gains"] = orders.gains;
+  if (!orders.enabled.empty()) object["enabled"] = orders.enabled;
+  if (orders.motorPower) object["motor_power"] = *orders.motorPower;
+  for (const auto& [name, lamp] : orders.lamps) {
+    json& light = object["lamps"][name] = {{"brightness", lamp.brightness}};
+    if (!lamp.mode.empty()) light["mode"] = lamp.mode;
+  }
+  return object;
+}
+
 GameController gameControllerFromReader(JsonReader& reader) {
   GameController controller;
+  if (auto openr = reader.objectIfAny("openr")) {
+    controller.openr = stickFromReader(*openr);
+    reader.finish();
+    return controller;
+  }
   controller.plugin = reader.text("plugin");
   controller.settings = reader.anyValues("settings");
   controller.parameters = reader.anyValues("parameters");
@@ -178,6 +253,7 @@ GameController gameControllerFromReader(JsonReader& reader) {
 }
 
 json toJson(const GameController& controller) {
+  if (controller.openr) return {{"openr", toJson(*controller.openr)}};
   return {{"plugin", controller.plugin},
           {"settings", controller.settings},
           {"parameters", controller.parameters},
@@ -270,6 +346,9 @@ std::string toJsonText(const Game& game) {
 }
 
 Game movedTo(Game game, const std::string& directory) {
+  for (auto& robot : game.robots)
+    if (robot.second.hasStick())
+      moveIfRelative(robot.second.controller->openr->folder, game.scene.directory, directory);
   moveModels(game.scene, directory);
   return game;
 }

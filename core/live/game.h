@@ -19,11 +19,22 @@ namespace btr {
 
 class JsonReader;
 
-/// Who moves a robot: a controller plugin with its settings and parameters; what is left out has its default.
+/// OPEN-R objects that move a robot: what stands on its memory stick.
+struct GameStick {
+  std::string folder;       ///< relative to the scene's directory
+  std::string design{};     ///< "ERS-7", "ERS-210", "ERS-220"; "" as the robot's model says
+  bool motorPower = false;  ///< its motors are on when the program starts
+  bool camera = false;      ///< its camera looks: drawing takes time
+  bool operator==(const GameStick&) const = default;
+};
+
+/// Who moves a robot: a controller plugin with its settings and parameters (what is left out has its default), or an
+/// OPEN-R program, which is not part of the game: what it does comes as OrdersAct.
 struct GameController {
-  std::string plugin;
+  std::string plugin;  ///< "" of an OPEN-R program
   Values settings, parameters;
   bool repeats = true;  ///< the motion begins again when it is over; else its last commands are held
+  std::optional<GameStick> openr{};
   bool operator==(const GameController&) const = default;
 };
 
@@ -36,6 +47,26 @@ struct GameRobot {
   bool posture = true;
   std::vector<SenseSpec> senses{};
   bool operator==(const GameRobot&) const = default;
+  bool hasPlugin() const { return controller && !controller->openr; }
+  bool hasStick() const { return controller && controller->openr; }
+};
+
+struct Lamp {
+  double brightness = 0;  ///< 0 … 1
+  std::string mode{};     ///< "A" or "B" of lamps that have them, else ""
+  bool operator==(const Lamp&) const = default;
+};
+
+/// What a robot's program has ordered beside the places of joints; what is not named is as it was.
+struct Orders {
+  std::map<std::string, std::array<double, 3>> gains{};  ///< by joint: p, i, d times those of the scene
+  std::map<std::string, bool> enabled{};                 ///< by joint: false is limp, as at the start
+  std::optional<bool> motorPower{};                      ///< off: all joints are limp
+  std::map<std::string, Lamp> lamps{};                   ///< at the start all are dark
+  bool operator==(const Orders&) const = default;
+  /// Takes over what the later one names.
+  void add(const Orders& later);
+  bool empty() const { return *this == Orders{}; }
 };
 
 /// A hand's spring from a point of an object to a place, see Pull; one an object. A further act moves it on.
@@ -56,6 +87,7 @@ struct GameState {
   std::vector<PullAct> pulls;
   std::map<std::string, std::vector<std::vector<double>>> senses;  ///< by robot, see Senses::memory()
   std::optional<RefereeState> referee;
+  std::map<std::string, Orders> orders{};  ///< by robot
 };
 
 /// A scene with who plays in it ("format": "uchilsim-game-1"). A value.
@@ -74,7 +106,7 @@ struct Game {
 Game gameFromJson(const std::string& text, const std::string& place, const std::string& directory);
 std::string toJsonText(const Game& game);
 
-/// The same game for a file in another folder: paths of models that are relative stay relative, from there.
+/// The same game for a file in another folder: paths of models and sticks that are relative stay relative, from there.
 Game movedTo(Game game, const std::string& directory);
 
 /// Opens a game, a scene, or a robot file (*.wrl, *.urdf), which then stands alone on a floor.
@@ -84,6 +116,9 @@ GameRobot gameRobotFromReader(JsonReader& reader);
 nlohmann::json toJson(const GameRobot& robot);
 PullAct pullFromReader(JsonReader& reader);  ///< the caller calls finish()
 nlohmann::json toJson(const PullAct& pull);
+/// Leaves finish() to the caller.
+Orders ordersFromReader(JsonReader& reader);
+nlohmann::json toJson(const Orders& orders);
 GameController gameControllerFromReader(JsonReader& reader);
 nlohmann::json toJson(const GameController& controller);
 

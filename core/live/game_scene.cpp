@@ -70,12 +70,12 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
     if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
     SceneRobot& robot = scene.robots[i];
     if (!plays.posture || !robot.freeBase || !scene.floor) continue;
-    if (!plays.controller && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model))) continue;
+    if (!plays.hasPlugin() && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model))) continue;
     // A controller arranges the first robot of a scene.
     Scene posture = scene;
     std::swap(posture.robots.front(), posture.robots[i]);
     const std::string who = "robots " + robot.name;
-    if (plays.controller)
+    if (plays.hasPlugin())
       host.controller(plays.controller->plugin)->arrange(posture, plays.controller->settings);
     else
       arrangeStance(posture, who);

@@ -49,7 +49,13 @@ std::vector<double> vectorOf(const Controller& controller, const GameController&
 /// What makeScene() would say of it later: a controller that is not there, settings or parameters out of bounds.
 void check(const Game& game, const PluginHost& host) {
   for (const auto& [name, player] : game.robots)
-    if (player.controller) {
+    if (player.hasStick()) {
+      constexpr double frame_s = 0.008;
+      if (game.scene.controlPeriod_s != frame_s)
+        throw InputError("robots " + name + "/controller/openr",
+                         "a control period of " + toText(game.scene.controlPeriod_s) + " s",
+                         "a scene whose control_period_s is 0.008, a frame of OPEN-R");
+    } else if (player.controller) {
       const auto controller = host.controller(player.controller->plugin);
       resolve(controller->settings(), player.controller->settings, "robots " + name + "/controller/settings");
       vectorOf(*controller, *player.controller, "robots " + name + "/controller");
@@ -70,6 +76,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
   if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
   std::map<std::string, double> clocks;
   Commands commands;
+  orders_ = ordersOf(game_, game_.state ? game_.state->orders : std::map<std::string, Orders>{});
   if (game_.state) {
     for (const RobotMemory& robot : game_.state->world.robots)
       if (const auto i = indexOf(game_.scene.robots, robot.name); i == game_.scene.robots.size())
@@ -98,7 +105,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
   }
   holdCommands(lastGood_, commands);
   for (const auto& [name, player] : game_.robots)
-    if (player.controller) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
+    if (player.hasPlugin()) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
   sense(true);
   hashChannels();
 }
@@ -234,6 +241,7 @@ void Session::step() {
     }
     if (const auto found = held_.find(name); found != held_.end())
       for (const auto& [joint, position] : found->second) inputs_[i][jointOf(i, joint)].command = position;
+    obey(i);
     for (std::size_t j = 0; j < inputs_[i].size(); ++j)
       if (!std::isfinite(inputs_[i][j].command)) {
         fault_ = name + ": its controller gave a command for " + scene_.robots[i].model.joints[j].name +
@@ -280,7 +288,7 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
         now.senses.remember(was.senses.memory(), "senses");
   std::map<std::string, Player> players;
   for (const auto& [name, player] : game.robots)
-    if (player.controller)
+    if (player.hasPlugin())
       players[name] = playerOf(game, scene, name, players_.contains(name) ? players_.at(name).clock : 0);
   // One world a process: the old one goes first, and comes back if the new one cannot be.
   world_.reset();
@@ -299,6 +307,7 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   scene_ = std::move(scene);
   players_ = std::move(players);
   sensing_ = std::move(sensing);
+  orders_ = ordersOf(game_, orders_);
   holdCommands(memory, told);
   setPulls();
   sense(true);
@@ -321,6 +330,7 @@ Game Session::save() {
   for (const auto& [name, pull] : pulls_) state.pulls.push_back(pull);
   for (const Sensing& sensing : sensing_) state.senses[scene_.robots[sensing.robot].name] = sensing.senses.memory();
   if (game_.referee) state.referee = referee_;
+  state.orders = orders_;
   saved.state = std::move(state);
   return saved;
 }
@@ -471,19 +481,23 @@ void Session::change(const ControllerAct& act) {
   Game game = game_;
   game.robots[act.robot].controller = act.controller;
   check(game, host_);
-  if (act.controller) {
+  if (game.robots[act.robot].hasPlugin()) {
     Player player = playerOf(game, scene_, act.robot, 0);
     game_ = std::move(game);
     players_[act.robot] = std::move(player);
+    orders_.erase(act.robot);
+    for (JointInput& input : inputs_[robot]) input = JointInput{input.command};
     return;
   }
   std::map<std::size_t, double> told;
   for (const auto& [joint, command] : act.commands) told[jointOf(robot, joint)] = command;
   game_ = std::move(game);
   players_.erase(act.robot);
+  orders_.erase(act.robot);
+  orders_ = ordersOf(game_, orders_);
   const RobotReadings now = world_->robot(robot);
   for (std::size_t j = 0; j < inputs_[robot].size(); ++j)
-    inputs_[robot][j].command = scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j];
+    inputs_[robot][j] = JointInput{scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j]};
   for (const auto& [joint, command] : told) inputs_[robot][joint].command = command;
 }
 

@@ -50,6 +50,8 @@ class Session {
   const std::vector<std::vector<JointInput>>& inputs() const { return inputs_; }
   const std::map<std::string, PullAct>& pulls() const { return pulls_; }  ///< by object
   const std::map<std::string, std::map<std::string, double>>& held() const { return held_; }
+  /// What their programs have ordered, by robots whose controller is a stick.
+  const std::map<std::string, Orders>& orders() const { return orders_; }
   long periods() const { return periods_; }
   double time_s() const { return static_cast<double>(periods_) * game_.scene.controlPeriod_s; }
   /// Why it no longer goes on; "" while it does. The world is as it was at most a tenth of a second before.
@@ -80,6 +82,7 @@ class Session {
   void change(const HoldAct& act);
   void change(const ParameterAct& act);
   void change(const ControllerAct& act);
+  void change(const OrdersAct& act);
   void change(const NumberAct& act);
   void change(const EffectAct& act);
   void change(const SimulatorAct& act);
@@ -94,6 +97,9 @@ class Session {
   Commands commands() const;
   void holdCommands(const WorldMemory& memory, const Commands& commands);
   void setPulls();
+  // session_orders.cpp
+  std::map<std::string, Orders> ordersOf(const Game& game, const std::map<std::string, Orders>& before) const;
+  void obey(std::size_t robot);
   /// A world of this scene with what is remembered of another one.
   std::unique_ptr<World> worldOf(const Game& game, const Scene& scene, const WorldMemory* memory) const;
   // session_referee.cpp
@@ -120,6 +126,7 @@ class Session {
   std::map<std::string, Player> players_;
   std::map<std::string, PullAct> pulls_;  ///< by object
   std::map<std::string, std::map<std::string, double>> held_;
+  std::map<std::string, Orders> orders_;  ///< by robot, of all whose controller is a stick
   std::vector<std::vector<JointInput>> inputs_;
   std::vector<double> row_;
   std::vector<Sensing> sensing_;

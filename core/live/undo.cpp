@@ -155,6 +155,9 @@ std::vector<Act> before(const Session& session, const ControllerAct& act) {
   return {was};
 }
 
+/// No hand's doing: its program orders again.
+std::vector<Act> before(const Session&, const OrdersAct&) { return {}; }
+
 SimulatorAct simulatorOf(const Session& session, const std::string& robot) {
   if (robot.empty()) return {robot, session.game().simulator};
   const auto player = session.game().robots.find(robot);
@@ -192,6 +195,7 @@ std::string named(const LetGoAct& act) { return "let go of " + act.object; }
 std::string named(const HoldAct& act) { return (act.position ? "hold " : "free ") + act.robot + "." + act.joint; }
 std::string named(const ParameterAct& act) { return act.robot + " " + act.name; }
 std::string named(const ControllerAct& act) { return "controller of " + act.robot; }
+std::string named(const OrdersAct& act) { return "orders of " + act.robot; }
 std::string named(const NumberAct& act) { return act.robot.empty() ? act.name : act.robot + " " + act.name; }
 std::string named(const EffectAct& act) { return act.effect.text(); }
 std::string named(const SimulatorAct& act) { return act.robot.empty() ? "simulator" : "simulator of " + act.robot; }

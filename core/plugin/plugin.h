@@ -59,7 +59,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 7;
+inline constexpr int pluginApiVersion = 8;
 
 /// Changes when a type that passes between plugin and program changes its size.
 inline constexpr std::size_t pluginLayout = sizeof(Parameter) + 3 * sizeof(JointState) + 5 * sizeof(BallState) +

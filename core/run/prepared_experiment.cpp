@@ -29,6 +29,32 @@ void settle(PluginChoice& choice, const std::vector<Parameter>& declared) {
   resolve(declared, choice.settings, place);
 }
 
+/// The controller for the paths that it wants, which become absolute: what is stored does not know the experiment's
+/// folder.
+std::shared_ptr<const Controller> controllerWithPaths(std::shared_ptr<const Controller> controller,
+                                                      ExperimentSpec& spec) {
+  const std::vector<std::string> names = controller->paths();
+  if (names.empty()) return controller;
+  std::map<std::string, std::string> paths;
+  for (const std::string& name : names) {
+    const auto word = spec.controller.words.find(name);
+    if (word == spec.controller.words.end())
+      throw InputError("settings of " + spec.controller.name + "/" + name, "nothing",
+                       "a path relative to the experiment's file");
+    const auto path = std::filesystem::absolute(std::filesystem::path(spec.directory) / word->second);
+    word->second = path.lexically_normal().string();
+    paths[name] = word->second;
+  }
+  return controller->with(paths);
+}
+
+/// A choice as it is stored: choices as words, and the controller's paths.
+PluginChoice controllerInWords(const PluginChoice& numbers, const PluginChoice& given, const Controller& controller) {
+  PluginChoice choice = choiceOf(numbers.name, numbers.settings, controller.settings());
+  for (const std::string& name : controller.paths()) choice.words[name] = given.words.at(name);
+  return choice;
+}
+
 /// A mesh of a robot is stored beside it, under the robot's name and the name that the robot gives it.
 std::string nameOfMesh(const std::string& robot, const std::string& mesh) { return robot + ": " + mesh; }
 
@@ -89,7 +115,7 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   host.load(prepared.spec.plugins, "experiment /plugins");
   prepared.sceneSpec = std::move(sceneSpec);
   prepared.files = std::move(files);
-  prepared.controller = host.controller(spec.controller.name);
+  prepared.controller = controllerWithPaths(host.controller(spec.controller.name), prepared.spec);
   prepared.fitness = host.fitness(spec.fitness.name);
   prepared.effects = host.effectFactory();
   prepared.genotype = prepared.controller->genotype();
@@ -111,7 +137,10 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
     prepared.specInWords.*choice = choiceOf((prepared.spec.*choice).name, (prepared.spec.*choice).settings, declared);
   };
   settleReality(prepared, host, fromFiles);
-  settleBoth(&ExperimentSpec::controller, prepared.controller->settings());
+  const PluginChoice controller = prepared.spec.controller;
+  for (const std::string& path : prepared.controller->paths()) prepared.spec.controller.words.erase(path);
+  settle(prepared.spec.controller, prepared.controller->settings());
+  prepared.specInWords.controller = controllerInWords(prepared.spec.controller, controller, *prepared.controller);
   settleBoth(&ExperimentSpec::fitness, prepared.fitness->settings());
   settleBoth(&ExperimentSpec::learner, learner->settingsFor(prepared.genotype));
   settleBoth(&ExperimentSpec::adaptation, adaptation->settingsFor(simulatorParameters()));
@@ -196,7 +225,7 @@ PreparedExperiment PreparedExperiment::withTask(const Values& settings) const {
   PreparedExperiment other = *this;
   for (const auto& [name, value] : settings) other.spec.controller.settings[name] = value;
   resolve(controller->settings(), other.spec.controller.settings, "settings of " + spec.controller.name);
-  other.specInWords.controller = choiceOf(spec.controller.name, other.spec.controller.settings, controller->settings());
+  other.specInWords.controller = controllerInWords(other.spec.controller, specInWords.controller, *controller);
   return other;
 }
 

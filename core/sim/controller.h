@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,7 +14,8 @@ namespace btr {
 class Motion {
  public:
   virtual ~Motion() = default;
-  /// Fills the command of each joint of the robot it drives for the control period that begins at `time` [s].
+  /// Fills the command of each joint of the robot it drives for the control period that begins at `time` [s]. What it
+  /// throws makes the trial a failure with that text.
   virtual void command(double time, const RobotReadings& readings, std::span<JointInput> inputs) = 0;
   /// Time at which the motion itself has ended [s].
   virtual double duration() const = 0;
@@ -29,6 +31,13 @@ class Controller {
   virtual std::vector<Parameter> genotype() const = 0;
   /// What the user fixes for an experiment: the task, timings.
   virtual std::vector<Parameter> settings() const = 0;
+  /// Names of further settings that are paths of files or folders: "stick". Where there are any, what evolves may
+  /// depend on them, and with() gives the controller that is used.
+  virtual std::vector<std::string> paths() const { return {}; }
+  /// The controller for these paths, each absolute, by name. Throws InputError for what is not there or wrong in it.
+  virtual std::shared_ptr<const Controller> with(const std::map<std::string, std::string>& /*paths*/) const {
+    return nullptr;
+  }
   /// Puts robot and ball to their starting places for this task. The scene's first robot is driven.
   virtual void arrange(Scene& scene, const Values& settings) const = 0;
   /// Makes the motion. `scene` is arranged. Never fails: a vector within the genotype's bounds always gives a motion.

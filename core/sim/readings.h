@@ -13,6 +13,7 @@ struct JointInput {
   /// DC motor: the share of the supply that a recording says was applied (−1 … 1); not a number: the firmware computes
   /// it, duty = gain·(command − q)/(the scene's supply), clamped to ±maxDuty. Volts = duty × measured supply.
   double duty = std::numeric_limits<double>::quiet_NaN();
+  double pTimes = 1, iTimes = 1, dTimes = 1;  ///< servo: its gains now, times those of the scene
 };
 
 /// What the robot's sensors say now.

@@ -199,7 +199,7 @@ bool World::Impl::strains(std::size_t index, const std::vector<JointInput>& inpu
     const auto model = static_cast<std::size_t>(joint.modelJoint);
     const Drive& drive = robot.scene->drives[model];
     if (drive.kind == Drive::Kind::servo && inputs[model].enabled &&
-        drive.p * std::abs(inputs[model].command - joint.position) > drive.maxTorque)
+        drive.p * inputs[model].pTimes * std::abs(inputs[model].command - joint.position) > drive.maxTorque)
       return true;
   }
   return false;

@@ -1,6 +1,7 @@
 // Servos, friction, stops: everything that acts at a joint becomes rows of ODE's solver.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/sim/world_impl.h"
 
@@ -32,6 +33,16 @@ void setExtraRow(const RobotJoint& joint, int row, double velocity, double softn
   set(joint.extra, dParamCFM + g, softness);
   set(joint.extra, dParamFMax + g, most);
 }
+
+/// A drive as firmware sets it while it runs.
+Drive withGains(Drive drive, const JointInput& input) {
+  drive.p *= input.pTimes;
+  drive.i *= input.iTimes;
+  drive.d *= input.dTimes;
+  return drive;
+}
+
+bool otherGains(const JointInput& input) { return input.pTimes != 1 || input.iTimes != 1 || input.dTimes != 1; }
 
 /// What a motor turns that has its law to itself: its rotor, and the joint once a gap is closed.
 double turnedByMotor(const Drive& spec, const JointDrive& drive, const RobotJoint& joint) {
@@ -114,7 +125,9 @@ void World::Impl::addStop(DriveRow& passive, const RobotJoint& joint, double h) 
 void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointInput& input, double now, double h) {
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
-  const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+  const Drive& given = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
+  const std::optional<Drive> changed = otherGains(input) ? std::optional<Drive>(withGains(given, input)) : std::nullopt;
+  const Drive& spec = changed ? *changed : given;
   const StepOf step{h, joint.heldInertia + spec.rotorInertia_kg_m2, std::max(h, until - now)};
   const bool prescribed = spec.kind == Drive::Kind::motion;
 
@@ -141,7 +154,8 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   }
   if (switched && !input.enabled) command.after = command.before;
   state.command = command.mean();
-  if (spec.i > 0) drive.integral = input.enabled ? drive.integral + (state.command - state.position) * h : 0;
+  if (given.i > 0)
+    drive.integral = spec.i > 0 && input.enabled ? drive.integral + (state.command - state.position) * h : 0;
   DriveRow row = driveRow(spec, state, command, drive.integral, acting, driven);
   if (drive.effects.changeDrive() && acting.enabled && !prescribed && spec.kind != Drive::Kind::none)
     row = drive.effects.drive(row, spec, state, command, drive.integral, acting, driven);

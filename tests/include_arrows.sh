@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → remote → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -21,6 +21,7 @@ declare -A may=(
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [core/openr]="core/spec core/openr"
+  [core/remote]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/live core/remote"
   [plugins]="core/plugin"
   [ui]="core ui"
   [app]="core ui app"

@@ -47,14 +47,15 @@ void EvaluationDesk::prepare(const v1::Experiment& experiment, Id run) {
     simulator = db.latestSimulator(run).simulator;
     made = "run " + std::to_string(run) + toJsonText(simulator);
   } else {
-    spec = experimentOf(experiment, folder_);
+    spec = experimentOf(experiment, folder_, host_);
     made = spec->directory + toJsonText(*spec);
   }
   if (made == known_) return;
   known_.clear();
   evaluator_.reset();
   if (spec && !spec->plugins.empty()) host_.load(pluginFolders(*spec), "experiment /plugins");
-  prepared_ = std::make_unique<PreparedExperiment>(record ? prepareFromRun(*record, host_) : prepareFromFiles(*spec, host_));
+  prepared_ =
+      std::make_unique<PreparedExperiment>(record ? prepareFromRun(*record, host_) : prepareFromFiles(*spec, host_));
   simulator_ = record ? simulator : firstSimulator(prepared_->spec).simulator;
   seed_ = record ? record->seed : prepared_->spec.seed;
   known_ = made;

@@ -6,7 +6,8 @@
 
 namespace btr::remote {
 
-ExperimentSpec experimentOf(const uchilsim::v1::Experiment& message, const GamesFolder& folder) {
+ExperimentSpec experimentOf(const uchilsim::v1::Experiment& message, const GamesFolder& folder,
+                            const PluginHost& host) {
   if (message.file().empty() == message.json().empty())
     throw InputError("experiment", "both or none of file and json", "one of them");
   if (message.json().empty()) return loadExperiment(folder.file(message.file(), {".json"}, "experiment"));
@@ -16,6 +17,8 @@ ExperimentSpec experimentOf(const uchilsim::v1::Experiment& message, const Games
   if (!spec.plugins.empty()) throw InputError(place + " /plugins", spec.plugins.front(), "none in a text that is sent");
   if (spec.reality != "person" && spec.reality != "stand_in" && spec.reality != "remote")
     throw InputError(place + " /reality", spec.reality, "person, stand_in or remote in a text that is sent");
+  if (!host.controller(spec.controller.name)->paths().empty())
+    throw InputError(place + " /controller", spec.controller.name, "one without files in a text that is sent");
   folder.requireInside(spec.scene, directory, place + " /scene");
   return spec;
 }

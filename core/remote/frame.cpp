@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdint>
 #include <cstring>
 
+#include "core/remote/clock.h"
+
 namespace btr::remote {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 bool receiveAll(int socket, char* data, std::size_t size) {
   while (size > 0) {

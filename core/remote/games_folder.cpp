@@ -23,9 +23,8 @@ std::string quoted(const std::string& text) {
 
 /// Nothing that the system or a terminal would read otherwise than a person.
 bool isPlain(const std::string& text) {
-  return !text.empty() && text.size() <= longestPath && std::ranges::none_of(text, [](char c) {
-    return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\';
-  });
+  return !text.empty() && text.size() <= longestPath &&
+         std::ranges::none_of(text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127 || c == '\\'; });
 }
 
 bool isPlainRelative(const std::string& text) {
@@ -70,8 +69,7 @@ std::string GamesFolder::file(const std::string& given, std::initializer_list<co
                               const std::string& place) const {
   if (!isPlainRelative(given)) throw InputError(place, quoted(given), allowed);
   const fs::path path = fs::path(root_) / given;
-  const bool rightEnding =
-      std::ranges::any_of(endings, [&](const char* ending) { return path.extension() == ending; });
+  const bool rightEnding = std::ranges::any_of(endings, [&](const char* ending) { return path.extension() == ending; });
   std::error_code error;
   const fs::path real = fs::canonical(path, error);
   if (!rightEnding || error || !isInside(real.string()) || !fs::is_regular_file(real, error))

@@ -19,7 +19,8 @@ class GamesFolder {
 
   /// The full path of a file that is there, with one of these endings (".json"). `place` begins the message. Throws
   /// InputError; what is outside and what is not there sound the same.
-  std::string file(const std::string& given, std::initializer_list<const char*> endings, const std::string& place) const;
+  std::string file(const std::string& given, std::initializer_list<const char*> endings,
+                   const std::string& place) const;
   /// The full path of a folder that is there; "" is the folder itself.
   std::string folder(const std::string& given, const std::string& place) const;
   /// The full path of a *.json file to be written, new or there; its folder may have to be

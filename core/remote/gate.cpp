@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <sstream>
 
+#include "core/remote/clock.h"
 #include "core/remote/refusal.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -17,8 +17,6 @@
 
 namespace btr::remote {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// Looks at every character, whatever it finds. Both have the same length.
 bool isSame(const std::string& a, const std::string& b) {
@@ -37,7 +35,8 @@ std::string addressOf(const std::string& peer) {
 /// Only its owner may read and write it; asked of the opened file, so that it is the one that is read.
 void requirePrivate(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) throw InputError("--token-file", path, std::string("a file that can be read (") + std::strerror(errno) + ")");
+  if (file < 0)
+    throw InputError("--token-file", path, std::string("a file that can be read (") + std::strerror(errno) + ")");
   struct stat status {};
   const bool known = fstat(file, &status) == 0;
   close(file);
@@ -48,9 +47,7 @@ void requirePrivate(const std::string& path) {
 
 }  // namespace
 
-const char* toText(Role role) {
-  return role == Role::watch ? "watch" : role == Role::drive ? "drive" : "administrate";
-}
+const char* toText(Role role) { return role == Role::watch ? "watch" : role == Role::drive ? "drive" : "administrate"; }
 
 bool isLoopback(const std::string& address) {
   if (address == "localhost" || address == "::1") return true;

@@ -52,9 +52,9 @@ class Bucket {
 class Gate {
  public:
   struct Options {
-    std::string tokenFile;           ///< "": who reaches the server may drive
-    double callsPerSecond = 10000;   ///< of one client
-    double failuresPerSecond = 5;    ///< tries with a wrong token from one address
+    std::string tokenFile;          ///< "": who reaches the server may drive
+    double callsPerSecond = 10000;  ///< of one client
+    double failuresPerSecond = 5;   ///< tries with a wrong token from one address
   };
   explicit Gate(const Options& options);
 

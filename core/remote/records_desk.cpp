@@ -107,7 +107,7 @@ std::string RecordsDesk::individuals(Id run, int generation) {
 
 std::string RecordsDesk::start(const v1::StartRequest& request) {
   if (path_.empty()) throw Refusal(Code::notNow, "this server has no database: btr serve --db FILE");
-  const ExperimentSpec spec = experimentOf(request.experiment(), folder_);
+  const ExperimentSpec spec = experimentOf(request.experiment(), folder_, host_);
   prepareFromFiles(spec, host_);  // before a database is made for it
   const Id id = startRun(writing(), host_, spec, request.has_seed() ? request.seed() : spec.seed, request.again());
   v1::Run out;
@@ -128,8 +128,8 @@ std::string RecordsDesk::wanted(Id id) {
     v1::Task& out = *reply.add_tasks();
     out.set_individual(task.individual);
     out.set_wanted(task.wantedRepeats);
-    out.set_have(static_cast<int>(std::ranges::count_if(
-        measured, [&](const MeasurementRecord& m) { return m.individual == task.individual; })));
+    out.set_have(static_cast<int>(
+        std::ranges::count_if(measured, [&](const MeasurementRecord& m) { return m.individual == task.individual; })));
     const std::vector<double> parameters = db.individual(task.individual).parameters;
     out.mutable_parameters()->Add(parameters.begin(), parameters.end());
     out.set_stage(task.stage);
@@ -148,7 +148,8 @@ std::string RecordsDesk::measured(const v1::MeasuredRequest& request) {
     throw InputError("values", std::to_string(request.values_size()) + " values",
                      "1 to " + std::to_string(mostRepeats) + ", or none for a void trial");
   if (request.note().size() > longestNote)
-    throw InputError("note", std::to_string(request.note().size()) + " bytes", "at most " + std::to_string(longestNote));
+    throw InputError("note", std::to_string(request.note().size()) + " bytes",
+                     "at most " + std::to_string(longestNote));
   MeasurementRecord m;
   m.run = run.id;
   m.individual = request.individual();
@@ -176,7 +177,8 @@ std::string RecordsDesk::measured(const v1::MeasuredRequest& request) {
     said += (said.empty() ? "" : "; ") + doubt.sentence;
     isImpossible = isImpossible || doubt.isImpossible;
   }
-  if (!said.empty()) throw InputError(said + (isImpossible ? "" : "; nothing was stored; if it is right, send it as sure"));
+  if (!said.empty())
+    throw InputError(said + (isImpossible ? "" : "; nothing was stored; if it is right, send it as sure"));
   v1::MeasuredReply reply;
   for (const Id id : db.addMeasurements(all)) reply.add_measurements(id);
   db.moveLogIntoFile();

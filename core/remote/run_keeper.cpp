@@ -31,10 +31,10 @@ struct RunKeeper::Work {
   std::unique_ptr<Child> child;
   std::mutex mutex;
   std::condition_variable changed;
-  std::string question;       ///< JSON that waits for an answer; else ""
-  long number = 0;            ///< of the last question
-  long taken = 0;             ///< of the last one that was answered
-  bool answering = false;     ///< an answer is on its way to the learner
+  std::string question;                ///< JSON that waits for an answer; else ""
+  long number = 0;                     ///< of the last question
+  long taken = 0;                      ///< of the last one that was answered
+  bool answering = false;              ///< an answer is on its way to the learner
   std::optional<std::string> refused;  ///< what the learner said of it; "" if it was taken
   Clock::time_point asked;
   bool endTold = false, over = false;
@@ -195,9 +195,9 @@ void RunKeeper::tell(Id run, long number, const std::string& answer) {
   if (work->over) throw Refusal(Code::notNow, name + " is over: " + work->message);
   if (number == work->taken && number > 0) return;
   if (work->question.empty() || number != work->number)
-    throw Refusal(Code::notNow, name + " has not asked question " + std::to_string(number) +
-                                    (work->question.empty() ? "; it asks none now"
-                                                            : "; it asks " + std::to_string(work->number)));
+    throw Refusal(Code::notNow,
+                  name + " has not asked question " + std::to_string(number) +
+                      (work->question.empty() ? "; it asks none now" : "; it asks " + std::to_string(work->number)));
   work->answering = true;
   work->refused.reset();
   const std::string text = answer + "\n";

@@ -28,9 +28,9 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  int port() const;            ///< 0 without an address
-  std::string where() const;   ///< "127.0.0.1:50051 and unix:/run/user/1000/uchilsim"
-  bool isToEnd() const;        ///< an administrator asked for it
+  int port() const;           ///< 0 without an address
+  std::string where() const;  ///< "127.0.0.1:50051 and unix:/run/user/1000/uchilsim"
+  bool isToEnd() const;       ///< an administrator asked for it
 
  private:
   struct Impl;

@@ -50,7 +50,8 @@ std::string answerOf(const v1::TellRequest& request) {
   const int count = request.vectors();
   if (count < 1 || request.parameters_size() % count != 0)
     throw Refusal(Code::invalid, "parameters: " + std::to_string(request.parameters_size()) +
-                                     " numbers is not allowed; as many for each of " + std::to_string(count) + " vectors");
+                                     " numbers is not allowed; as many for each of " + std::to_string(count) +
+                                     " vectors");
   const int n = request.parameters_size() / count;
   json vectors = json::array();
   for (int i = 0; i < count; ++i) {
@@ -152,8 +153,8 @@ grpc::Status LearningService::Ask(grpc::ServerContext* context, const v1::AskReq
     const StreamPlace place(desks_);  // it waits as long as one
     constexpr double longest_s = 30;
     const double wait_s = std::isfinite(request->wait_s()) ? std::clamp(request->wait_s(), 0.0, longest_s) : 0;
-    const RunNews news = desks_.switchboard.runs().news(
-        request->run(), wait_s, [&] { return context->IsCancelled() || desks_.ends; });
+    const RunNews news =
+        desks_.switchboard.runs().news(request->run(), wait_s, [&] { return context->IsCancelled() || desks_.ends; });
     if (news.what == RunNews::What::working) return;
     const v1::Run run = runOf(request->run());
     if (news.what == RunNews::What::asks) return fill(news, run.state(), *reply);

@@ -24,8 +24,10 @@ void sendFile(const std::string& path, const std::string& shown, grpc::ServerWri
     if (count == 0) break;
     std::size_t back = 0;
     while (file && back < 3 && (static_cast<unsigned char>(bytes[count - 1 - back]) & 0xC0) == 0x80) ++back;
-    if (file && (static_cast<unsigned char>(bytes[count - 1 - back]) & 0xC0) == 0xC0) count -= back + 1;
-    else if (file && back > 0) count -= back;
+    if (file && (static_cast<unsigned char>(bytes[count - 1 - back]) & 0xC0) == 0xC0)
+      count -= back + 1;
+    else if (file && back > 0)
+      count -= back;
     if (count < static_cast<std::size_t>(file.gcount()))
       file.seekg(-static_cast<std::streamoff>(static_cast<std::size_t>(file.gcount()) - count), std::ios::cur);
     part.set_text(bytes.substr(0, count));
@@ -89,7 +91,8 @@ grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchR
     *get.mutable_wanted() = request->wanted();
     const std::string call = callOf(Method::get, get.SerializeAsString());
     using Clock = std::chrono::steady_clock;
-    const auto each = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / request->rate_hz()));
+    const auto each =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / request->rate_hz()));
     auto due = Clock::now();
     std::pair<std::int64_t, std::int64_t> told{-1, -1};
     while (!context->IsCancelled() && !desks_.ends) {

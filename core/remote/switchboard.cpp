@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/remote/clock.h"
 #include "core/remote/evaluation_desk.h"
 #include "core/remote/records_desk.h"
 #include "core/remote/run_desk.h"
@@ -14,8 +15,6 @@
 
 namespace btr::remote {
 namespace {
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// 16 letters that nobody guesses.
 std::string newName() {
@@ -77,7 +76,8 @@ void Switchboard::closeIdle() {
     const double now = now_s();
     std::vector<std::string> idle;
     for (const auto& [name, world] : worlds_)
-      if (world->callers == 0 && (now - world->used_s > options_.idle_s || !world->child->alive())) idle.push_back(name);
+      if (world->callers == 0 && (now - world->used_s > options_.idle_s || !world->child->alive()))
+        idle.push_back(name);
     std::erase_if(evaluators_, [&](const auto& each) {
       return each.second->callers == 0 && (now - each.second->used_s > options_.idle_s || !each.second->child->alive());
     });
@@ -95,8 +95,8 @@ Answer Switchboard::open(const std::string& request, const Cancelled& cancelled)
   {
     const std::lock_guard lock(mutex_);
     if (worlds_.size() >= static_cast<std::size_t>(options_.mostWorlds))
-      return {Code::tooMuch, "this server has " + std::to_string(worlds_.size()) +
-                                 " worlds already, and may have no more; close one"};
+      return {Code::tooMuch,
+              "this server has " + std::to_string(worlds_.size()) + " worlds already, and may have no more; close one"};
     world->child = nursery_.start('w');
     worlds_[name] = world;
   }
@@ -161,7 +161,8 @@ Answer Switchboard::evaluate(const std::string& key, const std::string& call, do
       if (evaluators_.size() >= mostEvaluators) {
         auto least = evaluators_.end();
         for (auto each = evaluators_.begin(); each != evaluators_.end(); ++each)
-          if (each->second->callers == 0 && (least == evaluators_.end() || each->second->used_s < least->second->used_s))
+          if (each->second->callers == 0 &&
+              (least == evaluators_.end() || each->second->used_s < least->second->used_s))
             least = each;
         if (least == evaluators_.end())
           return {Code::tooMuch, "this server evaluates " + std::to_string(mostEvaluators) + " experiments already"};

@@ -23,11 +23,11 @@ class Switchboard {
  public:
   struct Options {
     GamesFolder folder;
-    std::string database{};      ///< "" for none
-    int jobs = 0;                ///< worker processes of an evaluator, a run; 0: as many as processors
+    std::string database{};  ///< "" for none
+    int jobs = 0;            ///< worker processes of an evaluator, a run; 0: as many as processors
     int mostWorlds = 16;
-    double patience_s = 60;      ///< for one call to a world
-    double idle_s = 600;         ///< a world that nobody has called for so long is closed
+    double patience_s = 60;  ///< for one call to a world
+    double idle_s = 600;     ///< a world that nobody has called for so long is closed
   };
   using Cancelled = std::function<bool()>;
 

@@ -1,12 +1,12 @@
 #include "core/remote/world_desk.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/remote/act_messages.h"
+#include "core/remote/clock.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "uchilsim.pb.h"
@@ -20,12 +20,21 @@ namespace fs = std::filesystem;
 constexpr double workAtMost_s = 0.03;   ///< then calls are looked at again
 constexpr double behindAtMost_s = 0.2;  ///< what cannot be caught up is given up
 
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 void requireFewObjects(const Game& game) {
   const std::size_t count = game.scene.robots.size() + game.scene.balls.size() + game.scene.obstacles.size();
   if (count > WorldDesk::mostObjects)
     throw InputError("game", std::to_string(count) + " objects", "at most " + std::to_string(WorldDesk::mostObjects));
+}
+
+/// The host says which programs run on his machine.
+[[noreturn]] void refuseStick(const std::string& place) {
+  throw InputError(place, "openr", "a controller plugin in what a client sends");
+}
+
+Game withoutSticks(Game game) {
+  for (const auto& [name, robot] : game.robots)
+    if (robot.hasStick()) refuseStick("game_json /robots/" + name + "/controller");
+  return game;
 }
 
 const char* nameOf(Drive::Kind kind) {
@@ -63,7 +72,7 @@ void describeRobot(const Session& session, const SceneRobot& robot, const Plugin
   }
   for (const Link& link : robot.model.links) out.add_links(link.name);
   const auto player = session.game().robots.find(robot.name);
-  if (player == session.game().robots.end() || !player->second.controller) return;
+  if (player == session.game().robots.end() || !player->second.hasPlugin()) return;
   const GameController& controller = *player->second.controller;
   out.set_controller(controller.plugin);
   const std::vector<Parameter> genotype = host.controller(controller.plugin)->genotype();
@@ -100,7 +109,7 @@ Game WorldDesk::gameOf(const v1::OpenRequest& request) const {
   JsonReader reader = JsonReader::parse(request.game_json(), "game_json");
   folder_.judgeGame(reader.node(), directory, "game_json");
   if (reader.word("format", {"uchilsim-game-1", "uchilsim-scene-1"}) == "uchilsim-game-1")
-    return gameFromJson(request.game_json(), "game_json", directory);
+    return withoutSticks(gameFromJson(request.game_json(), "game_json", directory));
   Game game;
   game.scene = sceneFromJson(request.game_json(), "game_json", directory);
   game.pitch = pitchFromJson(request.game_json(), "game_json");
@@ -170,10 +179,13 @@ void WorldDesk::apply(const Act& act) {
   if (const auto* add = std::get_if<AddAct>(&act)) {
     if (const auto* robot = std::get_if<RobotSpec>(&add->what))
       folder_.requireInside(robot->model, now.game().scene.directory, "act /robot/model");
+    if (add->player.hasStick()) refuseStick("act /player/controller");
     Game game = now.game();
     game.scene.balls.emplace_back();
     requireFewObjects(game);
   }
+  if (const auto* given = std::get_if<ControllerAct>(&act); given && given->controller && given->controller->openr)
+    refuseStick("act /controller");
   session().apply(act);
   const bool samePlaces = std::holds_alternative<HoldAct>(act) || std::holds_alternative<PlaceAct>(act) ||
                           std::holds_alternative<ThrowAct>(act) || std::holds_alternative<PullAct>(act);
@@ -239,7 +251,8 @@ void WorldDesk::fillRow(const v1::Wanted& wanted, v1::State& out) {
     std::vector<std::size_t> at;
     for (const std::string& channel : wanted.channels()) {
       const auto found = std::ranges::find(channels_, channel);
-      if (found == channels_.end()) throw InputError("wanted channels", "\"" + channel + "\"", "a channel of this world");
+      if (found == channels_.end())
+        throw InputError("wanted channels", "\"" + channel + "\"", "a channel of this world");
       at.push_back(static_cast<std::size_t>(found - channels_.begin()));
     }
     chosenAt_ = std::move(at);

@@ -24,7 +24,7 @@ namespace btr::remote {
 /// is logged where the folder can be written.
 class WorldDesk final : public Desk {
  public:
-  static constexpr int mostPeriods = 10000;       ///< of one step
+  static constexpr int mostPeriods = 10000;         ///< of one step
   static constexpr std::size_t mostObjects = 1000;  ///< of a game that a client sends
   static constexpr double fastestPlay = 100;
 
@@ -52,7 +52,7 @@ class WorldDesk final : public Desk {
 
   const PluginHost& host_;
   const GamesFolder& folder_;
-  std::string name_;        ///< of the world
+  std::string name_;          ///< of the world
   std::optional<Game> game_;  ///< as it begins
   bool logged_ = false;
   std::string gameFile_, logFile_;  ///< of this episode, full paths
@@ -60,8 +60,8 @@ class WorldDesk final : public Desk {
   std::unique_ptr<SessionLogWriter> log_;
   std::vector<std::string> channels_;
   bool channelsChanged_ = false;
-  std::vector<std::string> chosen_;      ///< the channels that were wanted last …
-  std::vector<std::size_t> chosenAt_;    ///< … and where they are
+  std::vector<std::string> chosen_;    ///< the channels that were wanted last …
+  std::vector<std::size_t> chosenAt_;  ///< … and where they are
   std::vector<double> row_;
   long episode_ = 0;
   double speed_ = 0;  ///< 0: it waits for steps

@@ -33,8 +33,9 @@ class Line {
     const char* named = std::getenv("UCHILSIM_LEARNER");
     const auto number = btr::toNumber(named ? named : "");
     if (!number || *number < 0 || *number > 1e6)
-      throw btr::InputError("learner remote: nobody is connected; another program is the learner of a run that btr serve "
-                            "works on");
+      throw btr::InputError(
+          "learner remote: nobody is connected; another program is the learner of a run that btr serve "
+          "works on");
     descriptor_ = static_cast<int>(*number);
   }
 
@@ -72,8 +73,14 @@ class Line {
 class Remote final : public btr::Learner {
  public:
   std::vector<btr::Parameter> settings() const override {
-    return {{"population", "", "vectors of a generation; 0: as many as the other program gives", 0,
-             static_cast<double>(mostVectors), 0, {}, true}};
+    return {{"population",
+             "",
+             "vectors of a generation; 0: as many as the other program gives",
+             0,
+             static_cast<double>(mostVectors),
+             0,
+             {},
+             true}};
   }
 
   void start(std::vector<btr::Parameter> genotype, const btr::Values& values, btr::Random&) override {
@@ -160,9 +167,12 @@ class Remote final : public btr::Learner {
                             {"default", p.byDefault},
                             {"integer", p.integer},
                             {"choices", p.choices}});
-    return {{"ask", number_ + 1}, {"parameters", parameters},
-            {"population", population_}, {"start", start_},
-            {"told", {{"vectors", told_}, {"fitness", fitness_}}}, {"state", text_}};
+    return {{"ask", number_ + 1},
+            {"parameters", parameters},
+            {"population", population_},
+            {"start", start_},
+            {"told", {{"vectors", told_}, {"fitness", fitness_}}},
+            {"state", text_}};
   }
 
   void take(const json& answer) {

@@ -21,6 +21,8 @@ struct Primitive {
 struct RobotDesign {
   std::string name;  ///< "ERS-7", "ERS-210", "ERS-220"
   std::vector<Primitive> joints, sensors, lamps, others;
+  /// Locators of the joints and sensors that a sensor vector tells of, in its order.
+  std::vector<std::string> sensorVector;
   std::uint16_t imageWidth = 0, imageHeight = 0;  ///< of layer H
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Small worlds in which every effect has something to do, run with one effect placed in them.
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -75,8 +76,12 @@ inline std::vector<Trial> trialsFor(Effect::Place place, const std::string& name
   return {rolling(0.8, 0.4), rolling(0.3, -0.9), flying()};
 }
 
+/// `values` in the order of the effect's parameters; those after the last that is given are what they usually are.
 inline Scene withEffect(Scene scene, std::shared_ptr<const Effect> effect, const std::string& name,
-                        const std::vector<double>& values) {
+                        std::vector<double> values) {
+  const auto parameters = effect->parameters();
+  if (values.size() > parameters.size()) throw std::invalid_argument(name + " has fewer parameters");
+  for (std::size_t i = values.size(); i < parameters.size(); ++i) values.push_back(parameters[i].byDefault);
   const std::string at = placeFor(effect->place(), "rig.hinge", "rig.arm");
   effect->changeScene(scene, at, values);
   scene.effects.push_back({std::move(effect), name, at, values});

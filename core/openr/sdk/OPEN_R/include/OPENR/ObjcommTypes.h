@@ -1,0 +1,84 @@
+// What subjects and observers know of each other.
+#ifndef BTR_OPENR_OBJCOMMTYPES_H
+#define BTR_OPENR_OBJCOMMTYPES_H
+
+#include <OPENR/OPENR.h>
+#include <OPENR/RCRegion.h>
+
+#include <list>
+#include <vector>
+
+using std::list;
+
+enum OConnectCmd { CONNECT, DISCONNECT };
+enum ObjcommCommand { ADD_OBSERVER, REMOVE_OBSERVER, ASSERT_READY, DEASSERT_READY };
+
+const int objcommMAX_DATA = 13;  ///< in one notice
+
+struct OMemoryLocator {
+  MemoryRegionID memID;
+  unsigned int offset;
+  size_t size;
+  OMemoryLocator() : memID(0), offset(0), size(0) {}
+  OMemoryLocator(MemoryRegionID id, unsigned int off, size_t sz = 0) : memID(id), offset(off), size(sz) {}
+};
+
+/// A subject as its observer sees it, and what the observer still holds of it.
+struct OSubjectInfo {
+  SubjectID id;
+  std::vector<RCRegion*> held;
+
+  OSubjectInfo() {}
+  explicit OSubjectInfo(const SubjectID& subject) : id(subject) {}
+  const SubjectID& GetID() const { return id; }
+  const SubjectID& ID() const { return id; }
+  operator const SubjectID&() const { return id; }
+};
+
+struct OPairBuffer;
+
+/// An observer as its subject sees it.
+struct OObserverInfo {
+  ObserverID id;
+  int ready;  ///< 1 asserted, 0 not known or just sent to, -1 deasserted
+  OPairBuffer* buffer;
+
+  OObserverInfo() : ready(0), buffer(0) {}
+  explicit OObserverInfo(const ObserverID& observer) : id(observer), ready(0), buffer(0) {}
+  const ObserverID& GetID() const { return id; }
+  const ObserverID& ID() const { return id; }
+  operator const ObserverID&() const { return id; }
+};
+
+typedef std::list<OObserverInfo>::const_iterator ObserverConstIterator;
+typedef std::list<OObserverInfo>::iterator ObserverIterator;
+typedef std::list<OSubjectInfo>::const_iterator SubjectConstIterator;
+typedef std::list<OSubjectInfo>::iterator SubjectIterator;
+
+struct OControlMessage {
+  ObjcommCommand command;
+  ObserverID observer;
+  char name[oserviceNAME_MAX + 1];
+};
+
+struct OConnectMessage {
+  OConnectCmd command;
+  SubjectID subject;
+  char name[oserviceNAME_MAX + 1];
+};
+
+struct OReadyMessage {
+  ObjcommCommand command;
+  ObserverID observer;
+  int numRegions;
+  RCRegion** regions;  ///< that come back
+};
+
+struct ONotifyMessage {
+  SubjectID subject;
+  int numNotify;
+  int numData;
+  RCRegion* data[objcommMAX_DATA];
+};
+
+#endif

@@ -1,0 +1,47 @@
+// Numbers as the robot's processor has them: a longword is 32 bits here too.
+#ifndef BTR_OPENR_TYPES_H
+#define BTR_OPENR_TYPES_H
+
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+typedef unsigned char byte;
+typedef unsigned short word;
+typedef unsigned int longword;
+typedef signed char sbyte;
+typedef short sword;
+typedef int slongword;
+
+typedef signed char int8;
+typedef short int16;
+typedef int int32;
+typedef unsigned char uint8;
+typedef unsigned short uint16;
+typedef unsigned int uint32;
+typedef long long int64;
+typedef unsigned long long uint64;
+
+typedef bool Boolean;
+typedef bool boolean;
+
+typedef longword Selector;
+typedef unsigned int MemoryRegionID;
+typedef longword offset_t;
+typedef void (*Entry)(...);
+
+#define UNDEF 0xffffffff
+
+#ifndef TRUE
+#define TRUE 1
+#endif
+#ifndef FALSE
+#define FALSE 0
+#endif
+
+// The C library has it no longer, old programs ask for it.
+extern "C" char* gets(char* line);
+
+#endif

@@ -1,0 +1,13 @@
+// The IP stack: endpoints, shared buffers, messages.
+#ifndef BTR_OPENR_ANTENVBASEMSG_H
+#define BTR_OPENR_ANTENVBASEMSG_H
+
+#include <EndpointTypes.h>
+#include <IPAddress.h>
+#include <antEnvMsg.h>
+#include <antModuleRef.h>
+#include <antSharedBuffer.h>
+#include <antStackRef.h>
+#include <antTypes.h>
+
+#endif

@@ -20,6 +20,7 @@ declare -A may=(
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
+  [core/openr]="core/spec core/model core/sim core/plugin core/live core/openr"
   [core/openr]="core/spec core/openr"
   [plugins]="core/plugin"
   [ui]="core ui"

@@ -21,7 +21,6 @@ declare -A may=(
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [core/openr]="core/spec core/model core/sim core/plugin core/live core/openr"
-  [core/openr]="core/spec core/openr"
   [plugins]="core/plugin"
   [ui]="core ui"
   [app]="core ui app"

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   btr::cli::addGaitCommands(app, shell);
   btr::cli::addGridCommands(app, shell);
   btr::cli::addLiveCommand(app, shell);
+  btr::cli::addOpenrCommands(app, shell);
   btr::cli::addCameraCommand(app);
   btr::cli::addServeCommand(app);
   btr::cli::warnOfNetworkFiles(app);

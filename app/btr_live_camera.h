@@ -1,8 +1,9 @@
 #pragma once
-#include <sys/types.h>
-
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "app/btr_camera_process.h"
 #include "app/btr_commands.h"
 #include "core/live/session.h"
 
@@ -22,9 +23,6 @@ class LiveCamera {
  public:
   /// Starts it and tells the game and its first row. Throws InputError if it cannot be started.
   LiveCamera(const LiveCameraOptions& options, const Session& session);
-  ~LiveCamera();
-  LiveCamera(const LiveCamera&) = delete;
-  LiveCamera& operator=(const LiveCamera&) = delete;
 
   /// The world as it is now; objects that came or went first. Throws InputError if the camera ended.
   void tell(const Session& session);
@@ -34,8 +32,7 @@ class LiveCamera {
  private:
   void send(const std::string& line);
 
-  pid_t process_ = -1;
-  int pipe_ = -1;
+  std::unique_ptr<CameraProcess> process_;
   std::vector<std::string> channels_;
 };
 

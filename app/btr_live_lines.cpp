@@ -44,6 +44,18 @@ json contacts(const Session& session) {
   return all;
 }
 
+/// What can be seen of what programs ordered, by robot.
+json lamps(const Session& session) {
+  json all = json::object();
+  for (const auto& [robot, orders] : session.orders()) {
+    Orders seen;
+    seen.motorPower = orders.motorPower.value_or(false);
+    seen.lamps = orders.lamps;
+    all[robot] = toJson(seen);
+  }
+  return all;
+}
+
 }  // namespace
 
 json gameLine(const Session& session) {
@@ -62,6 +74,7 @@ json rowLine(const Session& session, bool playing, double realTimeFactor) {
             {"fixed", fixedObstacles(session)}};
   if (json hands = handForces(session); !hands.empty()) line["hands_n"] = std::move(hands);
   if (session.measuresContacts()) line["contacts"] = contacts(session);
+  if (json orders = lamps(session); !orders.empty()) line["orders"] = std::move(orders);
   if (!session.fault().empty()) line["fault"] = session.fault();
   return line;
 }

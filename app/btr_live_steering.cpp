@@ -39,8 +39,8 @@ void say(const nlohmann::json& line) {
 
 void tellLine(const nlohmann::json& line) { say(line); }
 
-LiveSteering::LiveSteering(Session& session, std::function<void(const std::string&)> save)
-    : session_(session), save_(std::move(save)) {
+LiveSteering::LiveSteering(Session& session, OpenrRobots& openr, std::function<void(const std::string&)> save)
+    : session_(session), openr_(openr), save_(std::move(save)) {
   if (const RefereeState* referee = session_.referee()) {
     over_ = referee->over;
     eventsTold_ = referee->seen;
@@ -87,7 +87,7 @@ void LiveSteering::obey(const std::string& line) {
     JsonReader reader = JsonReader::parse(line, "line");
     if (reader.has("act")) return act(reader);
     const std::string wanted = reader.word(
-        "do", {"play", "pause", "step", "speed", "save", "game", "signals", "contacts", "undo", "redo", "end"});
+        "do", {"play", "pause", "step", "speed", "save", "game", "signals", "contacts", "type", "undo", "redo", "end"});
     if (wanted == "play") playing_ = true;
     if (wanted == "pause") playing_ = false;
     if (wanted == "end") ended_ = true;
@@ -99,6 +99,7 @@ void LiveSteering::obey(const std::string& line) {
     if (wanted == "signals") chooseSignals(reader);
     if (wanted == "contacts") session_.measureContacts(reader.flag("on", true));
     if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
+    if (wanted == "type") openr_.type(reader.text("robot"), reader.text("text"));
     if (wanted == "save") {
       const std::string path = reader.text("path");
       if (const nlohmann::json* view = reader.any("view")) session_.setView(view->dump());
@@ -178,6 +179,7 @@ void LiveSteering::advance() {
 }
 
 void LiveSteering::stepOnce() {
+  openr_.step();
   session_.step();
   if (!signals_.wanted() || !session_.fault().empty()) return;
   sampled_.clear();
@@ -217,10 +219,19 @@ void addReferee(const Session& session, nlohmann::json& line, long from) {
     line["events"].push_back(toJson(*event));
 }
 
+void LiveSteering::tellPrograms(nlohmann::json& line) {
+  for (const openr::LivePrograms::Line& said : openr_.takeLines())
+    line["console"].push_back({said.robot, said.object, said.text});
+  if (openr_.changes() == programsTold_) return;
+  programsTold_ = openr_.changes();
+  line["programs"] = openr_.states();
+}
+
 void LiveSteering::tellRow() {
   nlohmann::json line = rowLine(session_, playing_, factor_);
   if (signals_.wanted()) line["samples"] = signals_.take();
   if (session_.referee()) tellReferee(line);
+  tellPrograms(line);
   say(line);
 }
 

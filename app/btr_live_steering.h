@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/btr_live_signals.h"
+#include "app/btr_openr_robots.h"
 #include "core/live/session.h"
 #include "core/live/undo.h"
 
@@ -18,7 +19,7 @@ namespace btr::cli {
 class LiveSteering {
  public:
   /// `save(path)` writes the game; what it throws as InputError is answered as a refusal.
-  LiveSteering(Session& session, std::function<void(const std::string& path)> save);
+  LiveSteering(Session& session, OpenrRobots& openr, std::function<void(const std::string& path)> save);
   void run(const std::atomic<bool>& stop);
 
  private:
@@ -28,6 +29,7 @@ class LiveSteering {
   void stepOnce();
   void tellGame();
   void tellRow();
+  void tellPrograms(nlohmann::json& line);
   void tellReferee(nlohmann::json& line);
   /// What can be undone and redone, if that is no longer what was told.
   void tellUndo();
@@ -38,6 +40,8 @@ class LiveSteering {
   int untilNext_ms() const;
 
   Session& session_;
+  OpenrRobots& openr_;
+  long programsTold_ = -1;  ///< OpenrRobots::changes()
   std::function<void(const std::string&)> save_;
   UndoStack undo_;
   std::string undoTold_, redoTold_;

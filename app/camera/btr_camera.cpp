@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   btr::cli::Shell shell;
   btr::cli::beginCommands(app, shell);
   btr::cli::addWatchCommand(app, shell);
+  btr::cli::addEyeCommand(app, shell);
   btr::cli::addApplyCommand(app, shell);
   btr::cli::addFitCommand(app, shell);
   btr::cli::addFitColourCommand(app, shell);

@@ -15,6 +15,20 @@
 #include "ui/live/live_lines.h"
 
 namespace btr::cli {
+
+CameraSpec cameraOfRobot(const Game& game, const ModelSet& models, const std::string& name) {
+  for (const RobotSpec& robot : game.scene.robots) {
+    if (robot.name != name) continue;
+    const std::string known =
+        ui::cameraOf(models.at(robot.model)->name + " " + std::filesystem::path(robot.model).stem().string());
+    if (known.empty())
+      throw InputError("camera", "the model \"" + models.at(robot.model)->name + "\" has none of its own",
+                       "a camera file, by --camera or as ROBOT=FILE");
+    return loadCamera((ui::resourceDirectory() + "/cameras/").toStdString() + known + ".json");
+  }
+  return {};  // LiveEye says which robots there are
+}
+
 namespace {
 
 struct WatchArguments {
@@ -49,7 +63,7 @@ class Watch {
   void begin(const nlohmann::json& line) {
     const ui::ToldGame told = ui::toldGameFrom(line);
     const ModelSet models = loadModels(told.game.scene);
-    if (!camera_) camera_ = cameraOfRobot(told.game, models);
+    if (!camera_) camera_ = cameraOfRobot(told.game, models, arguments_.robot);
     auto eye = std::make_unique<ui::LiveEye>(told.game, models, told.channels, arguments_.robot, *camera_);
     if (!video_ && !arguments_.video.empty())
       video_ = std::make_unique<VideoWriter>(arguments_.video, camera_->width, camera_->height, camera_->frameRate_hz);
@@ -58,19 +72,6 @@ class Watch {
                        "a session with the same objects from its start to its end, or none of --truth and --frames");
     if (!truth_) truth_ = std::make_unique<TruthTable>(eye->objects(), eye->jointColumns());
     eye_ = std::move(eye);
-  }
-
-  CameraSpec cameraOfRobot(const Game& game, const ModelSet& models) const {
-    for (const RobotSpec& robot : game.scene.robots) {
-      if (robot.name != arguments_.robot) continue;
-      const std::string known =
-          ui::cameraOf(models.at(robot.model)->name + " " + std::filesystem::path(robot.model).stem().string());
-      if (known.empty())
-        throw InputError("camera", "the model \"" + models.at(robot.model)->name + "\" has none of its own",
-                         "a camera file, by --camera or as ROBOT=FILE");
-      return loadCamera((ui::resourceDirectory() + "/cameras/").toStdString() + known + ".json");
-    }
-    return {};  // LiveEye says which robots there are
   }
 
   void write(const ui::EyeFrame& frame) {

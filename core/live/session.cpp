@@ -115,7 +115,7 @@ std::unique_ptr<World> Session::worldOf(const Game& game, const Scene& scene, co
   world->measureForces(contacts_);
   for (std::size_t i = 0; i < scene.robots.size(); ++i)
     if (const auto player = game.robots.find(scene.robots[i].name);
-        player != game.robots.end() && !player->second.senses.empty())
+        player != game.robots.end() && (player->second.hasStick() || !player->second.senses.empty()))
       world->measureAcceleration(i);
   if (memory) world->remember(*memory);
   return world;
@@ -495,6 +495,7 @@ void Session::change(const ControllerAct& act) {
   players_.erase(act.robot);
   orders_.erase(act.robot);
   orders_ = ordersOf(game_, orders_);
+  if (game_.robots[act.robot].hasStick()) world_->measureAcceleration(robot);
   const RobotReadings now = world_->robot(robot);
   for (std::size_t j = 0; j < inputs_[robot].size(); ++j)
     inputs_[robot][j] = JointInput{scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j]};

@@ -94,15 +94,25 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
   }
 }
 
-/// Every input before the recording says anything: a servo holds where it starts.
-std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const StartState& start) {
+/// Every input before the recording says anything: a servo holds where it starts, and one that nobody recorded where the
+/// scene puts it.
+std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const Binding& binding,
+                                                   const StartState& start) {
+  std::vector<std::vector<bool>> recorded;
+  for (const SceneRobot& robot : scene.robots) recorded.emplace_back(robot.model.joints.size());
+  for (const auto* columns : {&binding.measured, &binding.startOnly})
+    for (const Measured& measured : *columns)
+      if (measured.what == Measured::What::position) recorded[measured.object][measured.part] = true;
+  for (const Input& input : binding.inputs) recorded[input.robot][input.joint] = true;
+
   std::vector<std::vector<JointInput>> inputs;
   for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
     inputs.emplace_back(scene.robots[robot].model.joints.size());
     for (std::size_t joint = 0; joint < inputs[robot].size(); ++joint) {
       const Drive::Kind kind = scene.robots[robot].drives[joint].kind;
       if (kind == Drive::Kind::servo || kind == Drive::Kind::motion)
-        inputs[robot][joint].command = start.robots[robot].positions[joint];
+        inputs[robot][joint].command =
+            recorded[robot][joint] ? start.robots[robot].positions[joint] : scene.robots[robot].jointStart[joint];
       if (kind == Drive::Kind::dcMotor) inputs[robot][joint].duty = 0;
     }
   }
@@ -250,7 +260,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
   const std::optional<Earlier> earlier =
       prescribed.any() ? std::nullopt : beforeWindow(scene, recording, binding, first);
   World world(scene, seed);
-  auto inputs = restingInputs(scene, start);
+  auto inputs = restingInputs(scene, binding, start);
   for (const Input& input : binding.inputs)
     if (input.what == Input::What::command)
       inputs[input.robot][input.joint].duty = std::numeric_limits<double>::quiet_NaN();

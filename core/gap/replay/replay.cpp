@@ -94,8 +94,8 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
   }
 }
 
-/// Every input before the recording says anything: a servo holds where it starts, and one that nobody recorded where the
-/// scene puts it.
+/// Every input before the recording says anything: a servo holds where it starts, and one that nobody recorded where
+/// the scene puts it.
 std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const Binding& binding,
                                                    const StartState& start) {
   std::vector<std::vector<bool>> recorded;

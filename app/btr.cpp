@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   btr::cli::addLiveCommand(app, shell);
   btr::cli::addOpenrCommands(app, shell);
   btr::cli::addCameraCommand(app);
+  btr::cli::addServeCommand(app);
   btr::cli::warnOfNetworkFiles(app);
-  if (const auto code = btr::cli::passOnCamera(argc, argv)) return *code;
+  if (const auto code = btr::cli::passOn(argc, argv)) return *code;
   return btr::cli::runCommands(app, shell, argc, argv);
 }

@@ -72,8 +72,10 @@ void addLiveCommand(CLI::App& app, Shell& shell);        ///< live
 void addOpenrCommands(CLI::App& app, Shell& shell);      ///< openr
 void addOpenrRunCommand(CLI::App& openr, Shell& shell);  ///< openr run, below "openr"
 void addCameraCommand(CLI::App& app);                    ///< camera, for the list of commands only
-/// If the command is camera: becomes btr-camera; returns, with an exit code, only if that cannot be started.
-std::optional<int> passOnCamera(int argc, char** argv);
+void addServeCommand(CLI::App& app);                     ///< serve, likewise
+/// If the command is camera or serve: becomes btr-camera or btr-serve; returns, with an exit code, only if that cannot
+/// be started.
+std::optional<int> passOn(int argc, char** argv);
 
 /// One JSON document on standard output. Bytes that are no UTF-8 come out as U+FFFD.
 void printJson(const nlohmann::json& document);

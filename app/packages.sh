@@ -3,6 +3,7 @@ BUILD_PACKAGES="g++ cmake ninja-build ccache pkg-config
   qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev libqt6svg6 libgl-dev libegl-dev libopenscenegraph-dev
   libode-dev libeigen3-dev libceres-dev libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev
   libtinyxml2-dev libassimp-dev libboost-dev zlib1g-dev libssl-dev pandoc
+  libgrpc++-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc python3-grpcio python3-protobuf python3-numpy
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev"
 WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
 TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal opencv-doc"

@@ -12,8 +12,11 @@ string(REGEX MATCH "[0-9]+" UCHILSIM_PLUGIN_API "${UCHILSIM_PLUGIN_API}")
 
 # Component "window" is the workbench; everything else is "headless".
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME headless)
-set_target_properties(btr PROPERTIES INSTALL_RPATH "$ORIGIN/../${UCHILSIM_INSTALL_LIBRARY}")
-install(TARGETS btr RUNTIME DESTINATION bin)
+set_target_properties(btr btr-serve PROPERTIES INSTALL_RPATH "$ORIGIN/../${UCHILSIM_INSTALL_LIBRARY}")
+install(TARGETS btr btr-serve RUNTIME DESTINATION bin)
+# For PYTHONPATH, or a line in a .pth file of a venv; its examples lie beside it.
+install(DIRECTORY ${PYTHON_PACKAGE} DESTINATION ${UCHILSIM_INSTALL_RESOURCES}/python PATTERN __pycache__ EXCLUDE)
+install(FILES core/remote/uchilsim.proto DESTINATION ${UCHILSIM_INSTALL_RESOURCES})
 if(UCHILSIM_UI)
   set_target_properties(uchilsim btr-camera PROPERTIES INSTALL_RPATH "$ORIGIN/../${UCHILSIM_INSTALL_LIBRARY}")
   install(TARGETS uchilsim btr-camera RUNTIME DESTINATION bin COMPONENT window)

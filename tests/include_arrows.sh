@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → remote → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -20,6 +20,7 @@ declare -A may=(
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
+  [core/remote]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/live core/remote"
   [core/openr]="core/spec core/model core/sim core/plugin core/live core/openr"
   [plugins]="core/plugin"
   [ui]="core ui"

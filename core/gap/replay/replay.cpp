@@ -7,6 +7,7 @@
 
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/hanging.h"
 #include "core/gap/replay/start_state.h"
 #include "core/sim/world.h"
 #include "core/spec/cancelled.h"
@@ -94,17 +95,11 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
   }
 }
 
-/// Every input before the recording says anything: a servo holds where it starts, and one that nobody recorded where the
-/// scene puts it.
+/// Every input before the recording says anything: a servo holds where it starts, and one that nobody recorded where
+/// the scene puts it.
 std::vector<std::vector<JointInput>> restingInputs(const Scene& scene, const Binding& binding,
                                                    const StartState& start) {
-  std::vector<std::vector<bool>> recorded;
-  for (const SceneRobot& robot : scene.robots) recorded.emplace_back(robot.model.joints.size());
-  for (const auto* columns : {&binding.measured, &binding.startOnly})
-    for (const Measured& measured : *columns)
-      if (measured.what == Measured::What::position) recorded[measured.object][measured.part] = true;
-  for (const Input& input : binding.inputs) recorded[input.robot][input.joint] = true;
-
+  const auto recorded = recordedJoints(scene, binding);
   std::vector<std::vector<JointInput>> inputs;
   for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
     inputs.emplace_back(scene.robots[robot].model.joints.size());

@@ -6,6 +6,7 @@
 
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/hanging.h"
 #include "core/gap/replay/initial_state.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/start_state.h"
@@ -175,6 +176,7 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
     ball.onFloor = scene.floor && ball.position_m.z() < 1.1 * ball.radius_m;
     if (ball.onFloor) ball.spin_rad_s = Eigen::Vector3d::UnitZ().cross(ball.velocity_m_s) / ball.radius_m;
   }
+  letUnrecordedServosHang(scene, binding, state);
   if (row > 0) return state;
   if (!rests) restWhereThatExplainsMore(scene, recording, binding, state);
   for (std::size_t i = 0; i < scene.robots.size(); ++i)

@@ -1,0 +1,188 @@
+"""The connection to a server."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+from dataclasses import dataclass
+from typing import Mapping
+
+import grpc
+import numpy as np
+
+from . import uchilsim_pb2 as pb
+from . import uchilsim_pb2_grpc as services
+from .errors import Unreachable, sentences
+from .learning import Run
+from .numbers import Number
+from .world import World
+
+_LARGEST = 64 << 20  # of an answer
+
+
+@dataclass(frozen=True)
+class Info:
+    """What a server is and allows."""
+
+    version: str
+    schema: str
+    role: str                    #: of this client: "watch", "drive" or "administrate"
+    largest_message_bytes: int
+    calls_per_second: float
+    most_worlds: int
+    most_periods: int
+    has_database: bool
+    keeps_logs: bool
+    workers: int
+    controllers: tuple[str, ...]
+    effects: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What whole trials were worth, one for each vector."""
+
+    fitness: np.ndarray          #: (vectors,), more is better
+    outcomes: list[str]          #: "finished", or why one did not
+    details: list[str]
+    trace_sha256: list[str]      #: equal means bit-identical
+    figures: list[dict[str, float]]
+
+
+def _experiment_message(experiment: str | Mapping, directory: str):
+    if isinstance(experiment, str):
+        return pb.Experiment(file=experiment)
+    return pb.Experiment(json=json.dumps(experiment), directory=directory)
+
+
+class Experiment:
+    """An experiment of the server: its parameters, and whole trials of vectors of them. Made by Client.experiment()."""
+
+    def __init__(self, client: "Client", experiment: str | Mapping, directory: str = ""):
+        self._client = client
+        self._message = _experiment_message(experiment, directory)
+        reply = client._call(client._learning.Describe, pb.ExperimentRequest(experiment=self._message))
+        self.name: str = reply.name
+        self.genotype: list[Number] = [Number.of(p) for p in reply.genotype]
+        self.adapted: list[Number] = [Number.of(p) for p in reply.adapted]
+        self.unit: str = reply.unit  #: of the fitness
+        self.seed: int = reply.seed
+        #: (parameters,) the vector that a search may begin around
+        self.start = np.array(reply.start if reply.start else [p.default for p in self.genotype])
+
+    @property
+    def lower(self) -> np.ndarray:
+        """(parameters,) the smallest values, in the parameters' own units."""
+        return np.array([p.minimum for p in self.genotype])
+
+    @property
+    def upper(self) -> np.ndarray:
+        return np.array([p.maximum for p in self.genotype])
+
+    def evaluate(self, population, seed: int | None = None, run: int = 0, timeout: float | None = None) -> Evaluation:
+        """Whole trials of a population, array (vectors, parameters), on all the server's cores: the bits that a run of
+        this experiment with this seed has. run: in the newest simulator of that run of the server's database."""
+        population = np.atleast_2d(np.asarray(population, dtype=float))
+        request = pb.EvaluateRequest(experiment=self._message, seed=seed, run=run, vectors=len(population),
+                                     parameters=population.ravel())
+        trials = self._client._call(self._client._learning.Evaluate, request, timeout=timeout).trials
+        return Evaluation(np.array([t.fitness for t in trials]), [t.outcome for t in trials],
+                          [t.detail for t in trials], [t.trace_sha256 for t in trials],
+                          [dict(t.figures) for t in trials])
+
+    def start_run(self, seed: int | None = None, again: bool = False, patience_s: float = 0) -> Run:
+        """Starts it as a run in the server's database, or goes on with the one that is there."""
+        message = self._client._call(self._client._learning.Start, pb.StartRequest(
+            experiment=self._message, seed=seed, again=again, patience_s=patience_s))
+        return Run(self._client, message)
+
+
+class Client:
+    """A connection to `btr serve`. From one thread, or several.
+
+    address: "127.0.0.1:50051", or "unix:/path" of a Unix socket.
+    token: the caller's token, where the server wants one; sent only over TLS, loopback or a Unix socket.
+    certificate: file with the certificate (PEM) that the server's is signed by; then the connection is TLS.
+    timeout: the longest time for one call [s]; evaluations take as long as they take.
+    """
+
+    def __init__(self, address: str = "127.0.0.1:50051", token: str | None = None,
+                 certificate: str | pathlib.Path | None = None, timeout: float = 60.0):
+        options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0)]
+        if certificate is None:
+            self._channel = grpc.insecure_channel(address, options)
+        else:
+            credentials = grpc.ssl_channel_credentials(pathlib.Path(certificate).read_bytes())
+            self._channel = grpc.secure_channel(address, credentials, options)
+        self._timeout = timeout
+        self._metadata = (("authorization", "Bearer " + token),) if token else ()
+        self._worlds = services.WorldsStub(self._channel)
+        self._learning = services.LearningStub(self._channel)
+        self.address = address
+
+    def _call(self, method, request, timeout: float | None = ...):
+        with sentences():
+            return method(request, timeout=self._timeout if timeout is ... else timeout, metadata=self._metadata)
+
+    # ---- the server
+    def info(self) -> Info:
+        m = self._call(self._worlds.Info, pb.InfoRequest())
+        return Info(m.version, m.schema, m.role, m.largest_message_bytes, m.calls_per_second, m.most_worlds,
+                    m.most_periods, m.has_database, m.keeps_logs, m.workers, tuple(m.controllers), tuple(m.effects))
+
+    def wait(self, timeout: float = 10.0) -> Info:
+        """Waits until the server is there."""
+        try:
+            grpc.channel_ready_future(self._channel).result(timeout)
+        except grpc.FutureTimeoutError:
+            raise Unreachable(f"{self.address}: no server has answered for {timeout:g} s") from None
+        return self.info()
+
+    def shut_down(self) -> None:
+        """Ends the server; needs the role "administrate"."""
+        self._call(self._worlds.ShutDown, pb.ShutDownRequest())
+
+    # ---- worlds
+    def open(self, game: str | Mapping, seed: int | None = None, directory: str = "", logged: bool = True) -> World:
+        """A world of a game, scene or robot file below the server's folder, or of a game's contents as a dictionary
+        (paths in it are relative to `directory` there)."""
+        request = pb.OpenRequest(seed=seed, unlogged=not logged)
+        if isinstance(game, str):
+            request.game = game
+        else:
+            request.game_json, request.directory = json.dumps(game), directory
+        return World(self, self._call(self._worlds.Open, request))
+
+    def worlds(self) -> list[str]:
+        """Names of all worlds that run."""
+        return list(self._call(self._worlds.List, pb.ListWorldsRequest()).worlds)
+
+    def world(self, name: str) -> World:
+        """One that runs already."""
+        return World(self, self._call(self._worlds.Describe, pb.DescribeRequest(world=name)))
+
+    # ---- learning
+    def experiment(self, experiment: str | Mapping, directory: str = "") -> Experiment:
+        """An experiment's file below the server's folder, or its contents as a dictionary."""
+        return Experiment(self, experiment, directory)
+
+    def runs(self) -> list[Run]:
+        """All runs of the server's database."""
+        return [Run(self, m) for m in self._call(self._learning.Runs, pb.RunsRequest()).runs]
+
+    def run(self, number: int) -> Run:
+        for run in self.runs():
+            if run.number == number:
+                return run
+        from .errors import NotFound
+        raise NotFound(f"run {number}: the database has none of this number")
+
+    # ---- the end
+    def close(self) -> None:
+        self._channel.close()
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()

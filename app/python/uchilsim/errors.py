@@ -1,0 +1,66 @@
+"""What can go wrong, each with the server's one sentence: place, value, what is allowed."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Iterator
+
+import grpc
+
+
+class Error(RuntimeError):
+    """Any call that failed."""
+
+
+class Refused(Error, ValueError):
+    """Something in the call is not allowed."""
+
+
+class NotFound(Error, LookupError):
+    """No such world, run or individual."""
+
+
+class NotNow(Error):
+    """Right in itself, but not now."""
+
+
+class NoAccess(Error, PermissionError):
+    """No token, a wrong one, or one whose role may not do this."""
+
+
+class TooMuch(Error):
+    """More than the server allows: calls a second, worlds, bytes."""
+
+
+class TooLate(Error, TimeoutError):
+    """No answer in time."""
+
+
+class Unreachable(Error, ConnectionError):
+    """No server, or the process of a world has ended."""
+
+
+_KINDS = {
+    grpc.StatusCode.INVALID_ARGUMENT: Refused,
+    grpc.StatusCode.NOT_FOUND: NotFound,
+    grpc.StatusCode.FAILED_PRECONDITION: NotNow,
+    grpc.StatusCode.UNAUTHENTICATED: NoAccess,
+    grpc.StatusCode.PERMISSION_DENIED: NoAccess,
+    grpc.StatusCode.RESOURCE_EXHAUSTED: TooMuch,
+    grpc.StatusCode.DEADLINE_EXCEEDED: TooLate,
+    grpc.StatusCode.UNAVAILABLE: Unreachable,
+}
+
+
+def error_of(error: grpc.RpcError) -> Error:
+    """The package's error for one of gRPC's."""
+    return _KINDS.get(error.code(), Error)(error.details() or str(error.code()))
+
+
+@contextlib.contextmanager
+def sentences() -> Iterator[None]:
+    """gRPC's errors inside become this package's."""
+    try:
+        yield
+    except grpc.RpcError as error:
+        raise error_of(error) from None

@@ -1,0 +1,63 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/remote/refusal.h"
+
+namespace btr::remote {
+
+/// What the server passes on to its processes; the first byte of a call, a message of the schema follows.
+enum class Method : char {
+  open = 'o',
+  describe = 'd',
+  get = 'g',
+  reset = 'r',
+  step = 's',
+  pose = 'p',
+  play = 'y',
+  save = 'v',
+  close = 'c',
+  logFiles = 'l',
+  describeExperiment = 'D',
+  evaluate = 'E',
+  runs = 'R',
+  generations = 'G',
+  individuals = 'I',
+  start = 'S',
+  run = 'O',
+  stop = 'X',
+  wanted = 'W',
+  measured = 'M',
+  work = 'w',
+};
+
+inline std::string callOf(Method method, const std::string& message) { return static_cast<char>(method) + message; }
+
+/// Where one kind of calls is answered, in a process of its own.
+class Desk {
+ public:
+  virtual ~Desk() = default;
+  /// The bytes of the answer's message. Throws Refusal or InputError.
+  virtual std::string answer(Method method, std::string_view message) = 0;
+  /// How long it can wait for a call [s], negative: for ever; then goOn() is due.
+  virtual double patience_s() const { return -1; }
+  virtual void goOn() {}
+};
+
+/// One call, whatever its bytes: never throws.
+Answer answerCall(Desk& desk, std::string_view call);
+
+/// Answers calls at a socket until its other end hangs up.
+void serve(Desk& desk, int socket);
+
+/// Throws Refusal where the bytes are no such message.
+template <class Message>
+Message messageOf(std::string_view bytes) {
+  Message message;
+  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    throw Refusal(Code::invalid, "the bytes of a request are no message of uchilsim.v1");
+  return message;
+}
+
+}  // namespace btr::remote

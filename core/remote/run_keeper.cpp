@@ -1,0 +1,228 @@
+#include "core/remote/run_keeper.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/remote/desk.h"
+#include "core/remote/frame.h"
+
+namespace btr::remote {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+bool say(int socket, const json& object) {
+  const std::string line = object.dump() + "\n";
+  return send(socket, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
+}
+
+}  // namespace
+
+struct RunKeeper::Work {
+  Id run = 0;
+  double patience_s = 0;
+  std::unique_ptr<Child> child;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::string question;                ///< JSON that waits for an answer; else ""
+  long number = 0;                     ///< of the last question
+  long taken = 0;                      ///< of the last one that was answered
+  bool answering = false;              ///< an answer is on its way to the learner
+  std::optional<std::string> refused;  ///< what the learner said of it; "" if it was taken
+  Clock::time_point asked;
+  bool endTold = false, over = false;
+  RunNews::What end = RunNews::What::stopped;
+  std::string message;
+  std::thread follower;
+
+  ~Work() {
+    child->kill("the server ends");
+    if (follower.joinable()) follower.join();
+  }
+
+  void hear(const std::string& line) {
+    const json object = json::parse(line);
+    const std::lock_guard lock(mutex);
+    if (object.contains("ask")) {
+      number = object.at("ask").get<long>();
+      question = line;
+      asked = Clock::now();
+    } else if (object.contains("taken")) {
+      taken = number;
+      question.clear();
+      refused = "";
+    } else {
+      refused = object.at("refused").get<std::string>();
+    }
+    changed.notify_all();
+  }
+
+  void tellEnd(const std::string& why) {
+    if (endTold) return;
+    endTold = true;
+    say(child->line(), {{"end", why}});
+  }
+
+  void finish(const Answer& answer) {
+    const std::lock_guard lock(mutex);
+    over = true;
+    question.clear();
+    if (answer.code != Code::ok)
+      message = answer.bytes;
+    else if (answer.bytes == "finished")
+      end = RunNews::What::finished;
+    else if (answer.bytes == "waiting")
+      end = RunNews::What::waiting;
+    if (!refused) refused = "the run has stopped";
+    changed.notify_all();
+  }
+};
+
+// What the run's process asks by itself, until it is over.
+void RunKeeper::follow(Work& work) {
+  std::string pending;
+  const int socket = work.child->socket(), line = work.child->line();
+  if (!sendFrame(socket, callOf(Method::work, std::to_string(work.run))))
+    return work.finish({Code::unavailable, "the run's process has ended"});
+  while (true) {
+    pollfd both[2] = {{socket, POLLIN, 0}, {line, POLLIN, 0}};
+    constexpr int look_ms = 200;
+    if (poll(both, 2, look_ms) < 0 && errno != EINTR) return work.finish({Code::internal, "poll failed"});
+    if (both[1].revents != 0) {
+      char bytes[65536];
+      const ssize_t n = recv(line, bytes, sizeof bytes, MSG_DONTWAIT);
+      if (n > 0) pending.append(bytes, static_cast<std::size_t>(n));
+      for (std::size_t end; (end = pending.find('\n')) != std::string::npos; pending.erase(0, end + 1))
+        work.hear(pending.substr(0, end));
+      if (n > 0) continue;
+    }
+    if (both[0].revents != 0) {
+      std::string frame;
+      if (receiveFrame(socket, frame, 10) != Got::frame || frame.empty())
+        return work.finish({Code::unavailable, "the run's process has ended; what it did is stored"});
+      return work.finish({static_cast<Code>(frame[0]), frame.substr(1)});
+    }
+    const std::lock_guard lock(work.mutex);
+    if (!work.question.empty() && Clock::now() - work.asked > std::chrono::duration<double>(work.patience_s))
+      work.tellEnd("it has not answered for " + std::to_string(static_cast<long>(work.patience_s)) +
+                   " s; continue the run at any time");
+  }
+}
+
+RunKeeper::~RunKeeper() {
+  std::map<Id, std::shared_ptr<Work>> works;
+  {
+    const std::lock_guard lock(mutex_);
+    works.swap(works_);
+  }
+  for (auto& [run, work] : works) {
+    const std::lock_guard lock(work->mutex);
+    if (!work->question.empty()) work->tellEnd("the server ends; continue the run at any time");
+  }
+  // One that waits for its learner says so in the database and ends; one that simulates is ended, which loses at most
+  // the trials of one generation.
+  for (auto& [run, work] : works) {
+    std::unique_lock lock(work->mutex);
+    constexpr auto patience = std::chrono::seconds(2);
+    if (work->endTold) work->changed.wait_for(lock, patience, [&] { return work->over; });
+  }
+}
+
+std::shared_ptr<RunKeeper::Work> RunKeeper::find(Id run) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = works_.find(run);
+  return found == works_.end() ? nullptr : found->second;
+}
+
+void RunKeeper::begin(Id run, double patience_s) {
+  std::shared_ptr<Work> before;  // ends outside of the lock
+  const std::lock_guard lock(mutex_);
+  std::size_t active = 0;
+  for (const auto& [id, work] : works_) {
+    const std::lock_guard each(work->mutex);
+    if (work->over) continue;
+    if (id == run) return;
+    ++active;
+  }
+  if (active >= most)
+    throw Refusal(Code::tooMuch, "this server works on " + std::to_string(most) + " runs already; stop one or wait");
+  auto work = std::make_shared<Work>();
+  work->run = run;
+  constexpr double usual_s = 600, most_s = 86400;
+  work->patience_s = patience_s > 0 ? std::min(patience_s, most_s) : usual_s;
+  work->child = nursery_.start('r');
+  work->follower = std::thread([&w = *work] { follow(w); });
+  before = std::exchange(works_[run], std::move(work));
+}
+
+bool RunKeeper::isHere(Id run) const {
+  const auto work = find(run);
+  if (!work) return false;
+  const std::lock_guard lock(work->mutex);
+  return !work->over;
+}
+
+RunNews RunKeeper::news(Id run, double wait_s, const std::function<bool()>& cancelled) {
+  const auto work = find(run);
+  if (!work) return {RunNews::What::notHere, 0, "", ""};
+  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wait_s));
+  std::unique_lock lock(work->mutex);
+  while (true) {
+    if (work->over) return {work->end, 0, "", work->message};
+    if (!work->question.empty() && !work->endTold) {
+      work->asked = Clock::now();  // whoever asks is there
+      return {RunNews::What::asks, work->number, work->question, ""};
+    }
+    if (Clock::now() >= until || cancelled()) return {};
+    work->changed.wait_for(lock, std::chrono::milliseconds(100));
+  }
+}
+
+void RunKeeper::tell(Id run, long number, const std::string& answer) {
+  const auto work = find(run);
+  const std::string name = "run " + std::to_string(run);
+  if (!work) throw Refusal(Code::notNow, name + " is not worked on by this server; continue it first");
+  std::unique_lock lock(work->mutex);
+  constexpr auto patience = std::chrono::seconds(30);
+  work->changed.wait_for(lock, patience, [&] { return !work->answering; });
+  if (work->over) throw Refusal(Code::notNow, name + " is over: " + work->message);
+  if (number == work->taken && number > 0) return;
+  if (work->question.empty() || number != work->number)
+    throw Refusal(Code::notNow,
+                  name + " has not asked question " + std::to_string(number) +
+                      (work->question.empty() ? "; it asks none now" : "; it asks " + std::to_string(work->number)));
+  work->answering = true;
+  work->refused.reset();
+  const std::string text = answer + "\n";
+  // The learner reads at once, so that the socket's room suffices for any answer.
+  lock.unlock();
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const ssize_t n = send(work->child->line(), text.data() + at, text.size() - at, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    at += static_cast<std::size_t>(n);
+  }
+  lock.lock();
+  work->changed.wait_for(lock, patience, [&] { return work->refused.has_value(); });
+  work->answering = false;
+  work->changed.notify_all();
+  if (!work->refused) throw Refusal(Code::tooLate, name + " has not taken the answer");
+  if (!work->refused->empty()) throw Refusal(Code::invalid, *work->refused);
+}
+
+void RunKeeper::end(Id run, const std::string& why) {
+  const auto work = find(run);
+  if (!work) return;
+  const std::lock_guard lock(work->mutex);
+  if (!work->question.empty()) work->tellEnd(why);
+}
+
+}  // namespace btr::remote

@@ -1,0 +1,56 @@
+#pragma once
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "core/remote/nursery.h"
+#include "core/store/records.h"
+
+namespace btr::remote {
+
+/// What a run that is worked on says to whoever asks.
+struct RunNews {
+  enum class What { working, asks, finished, waiting, stopped, notHere };
+  What what = What::working;
+  long number = 0;       ///< of the question
+  std::string question;  ///< JSON, see plugins/learners/remote.cpp
+  std::string message;   ///< why it stopped
+};
+
+/// The runs that processes of this server work on, and the questions of their learners. From any thread.
+class RunKeeper {
+ public:
+  static constexpr std::size_t most = 4;  ///< at a time
+
+  explicit RunKeeper(Nursery& nursery) : nursery_(nursery) {}
+  /// Each run stops where it is; its process is ended.
+  ~RunKeeper();
+  RunKeeper(const RunKeeper&) = delete;
+  RunKeeper& operator=(const RunKeeper&) = delete;
+
+  /// Nothing happens if it is worked on already. Throws Refusal.
+  void begin(Id run, double patience_s);
+  bool isHere(Id run) const;
+  /// Waits until there is something to say, at most `wait_s`, or until `cancelled`.
+  RunNews news(Id run, double wait_s, const std::function<bool()>& cancelled);
+  /// An answer to question `number`, JSON as the plugin wants it. Throws Refusal where it is not taken; an answer that
+  /// was taken already is no error.
+  void tell(Id run, long number, const std::string& answer);
+  /// The learner is asked no longer: its run stops, with why.
+  void end(Id run, const std::string& why);
+
+ private:
+  struct Work;
+  std::shared_ptr<Work> find(Id run) const;
+  static void follow(Work& work);
+
+  Nursery& nursery_;
+  mutable std::mutex mutex_;
+  std::map<Id, std::shared_ptr<Work>> works_;
+};
+
+}  // namespace btr::remote

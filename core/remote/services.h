@@ -1,0 +1,128 @@
+#pragma once
+// The two services of the schema. Only server.cpp and service_*.cpp include this: gRPC's headers take seconds.
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "core/remote/desk.h"
+#include "core/remote/server.h"
+#include "uchilsim.grpc.pb.h"
+
+namespace btr::remote {
+
+namespace v1 = uchilsim::v1;
+
+/// What both services share.
+struct Desks {
+  const Server::Options& options;
+  Switchboard& switchboard;
+  Gate& gate;
+  std::atomic<bool> isToEnd{false}, ends{false};
+  std::atomic<int> streams{0};
+};
+
+inline std::string metadataOf(const grpc::ServerContext& context, const char* key) {
+  const auto& all = context.client_metadata();
+  const auto found = all.find(key);
+  return found == all.end() ? "" : std::string(found->second.data(), found->second.size());
+}
+
+inline grpc::Status statusOf(Code code, const std::string& sentence) {
+  // What goes into a header must not be long.
+  constexpr std::size_t longest = 2000;
+  return {static_cast<grpc::StatusCode>(code), sentence.substr(0, longest)};
+}
+
+/// Judges the call, then does `work(caller)`.
+template <class Work>
+grpc::Status guarded(Desks& desks, grpc::ServerContext* context, Role needed, Work&& work) {
+  try {
+    const Gate::Caller caller = desks.gate.admit(context->peer(), metadataOf(*context, "authorization"), needed);
+    work(caller);
+    return grpc::Status::OK;
+  } catch (const Refusal& refusal) {
+    return statusOf(refusal.code, refusal.what());
+  } catch (const std::exception& error) {
+    return statusOf(Code::internal, error.what());
+  }
+}
+
+/// The message of an answer, or its refusal.
+template <class Message>
+void take(const Answer& answer, Message& message) {
+  if (answer.code != Code::ok) throw Refusal(answer.code, answer.bytes);
+  if (!message.ParseFromString(answer.bytes)) throw Refusal(Code::internal, "an answer that cannot be read");
+}
+
+/// A stream holds a thread: there may be only so many.
+class StreamPlace {
+ public:
+  explicit StreamPlace(Desks& desks) : desks_(desks) {
+    if (++desks_.streams > desks_.options.mostStreams) {
+      --desks_.streams;
+      throw Refusal(Code::tooMuch, "too many streams at once");
+    }
+  }
+  ~StreamPlace() { --desks_.streams; }
+  StreamPlace(const StreamPlace&) = delete;
+  StreamPlace& operator=(const StreamPlace&) = delete;
+
+ private:
+  Desks& desks_;
+};
+
+class WorldsService final : public v1::Worlds::Service {
+ public:
+  explicit WorldsService(Desks& desks) : desks_(desks) {}
+
+  grpc::Status Info(grpc::ServerContext*, const v1::InfoRequest*, v1::InfoReply*) override;
+  grpc::Status List(grpc::ServerContext*, const v1::ListWorldsRequest*, v1::ListWorldsReply*) override;
+  grpc::Status Describe(grpc::ServerContext*, const v1::DescribeRequest*, v1::World*) override;
+  grpc::Status Get(grpc::ServerContext*, const v1::GetRequest*, v1::State*) override;
+  grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::State>*) override;
+  grpc::Status Log(grpc::ServerContext*, const v1::LogRequest*, grpc::ServerWriter<v1::LogPart>*) override;
+  grpc::Status Picture(grpc::ServerContext*, const v1::PictureRequest*, v1::PictureReply*) override;
+  grpc::Status Open(grpc::ServerContext*, const v1::OpenRequest*, v1::World*) override;
+  grpc::Status Close(grpc::ServerContext*, const v1::CloseRequest*, v1::CloseReply*) override;
+  grpc::Status Reset(grpc::ServerContext*, const v1::ResetRequest*, v1::State*) override;
+  grpc::Status Step(grpc::ServerContext*, const v1::StepRequest*, v1::State*) override;
+  grpc::Status Steps(grpc::ServerContext*, grpc::ServerReaderWriter<v1::State, v1::StepRequest>*) override;
+  grpc::Status Poses(grpc::ServerContext*, grpc::ServerReader<v1::PoseRequest>*, v1::PosesReply*) override;
+  grpc::Status Play(grpc::ServerContext*, const v1::PlayRequest*, v1::State*) override;
+  grpc::Status Save(grpc::ServerContext*, const v1::SaveRequest*, v1::SaveReply*) override;
+  grpc::Status ShutDown(grpc::ServerContext*, const v1::ShutDownRequest*, v1::ShutDownReply*) override;
+
+ private:
+  template <class Request, class Reply>
+  grpc::Status pass(grpc::ServerContext* context, Role needed, Method method, const Request& request, Reply& reply);
+
+  Desks& desks_;
+};
+
+class LearningService final : public v1::Learning::Service {
+ public:
+  explicit LearningService(Desks& desks) : desks_(desks) {}
+
+  grpc::Status Describe(grpc::ServerContext*, const v1::ExperimentRequest*, v1::ExperimentReply*) override;
+  grpc::Status Evaluate(grpc::ServerContext*, const v1::EvaluateRequest*, v1::EvaluateReply*) override;
+  grpc::Status Runs(grpc::ServerContext*, const v1::RunsRequest*, v1::RunsReply*) override;
+  grpc::Status Generations(grpc::ServerContext*, const v1::GenerationsRequest*, v1::GenerationsReply*) override;
+  grpc::Status Individuals(grpc::ServerContext*, const v1::IndividualsRequest*, v1::IndividualsReply*) override;
+  grpc::Status Start(grpc::ServerContext*, const v1::StartRequest*, v1::Run*) override;
+  grpc::Status Continue(grpc::ServerContext*, const v1::ContinueRequest*, v1::Run*) override;
+  grpc::Status Stop(grpc::ServerContext*, const v1::StopRequest*, v1::Run*) override;
+  grpc::Status Ask(grpc::ServerContext*, const v1::AskRequest*, v1::Question*) override;
+  grpc::Status Tell(grpc::ServerContext*, const v1::TellRequest*, v1::TellReply*) override;
+  grpc::Status Wanted(grpc::ServerContext*, const v1::MeasureRequest*, v1::MeasureReply*) override;
+  grpc::Status Measured(grpc::ServerContext*, const v1::MeasuredRequest*, v1::MeasuredReply*) override;
+
+ private:
+  v1::Run runOf(std::int64_t run);
+  template <class Request, class Reply>
+  grpc::Status pass(grpc::ServerContext* context, Role needed, Method method, const Request& request, Reply& reply);
+
+  Desks& desks_;
+};
+
+}  // namespace btr::remote

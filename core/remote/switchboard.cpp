@@ -1,0 +1,196 @@
+#include "core/remote/switchboard.h"
+
+#include <sys/random.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/remote/clock.h"
+#include "core/remote/evaluation_desk.h"
+#include "core/remote/records_desk.h"
+#include "core/remote/run_desk.h"
+#include "core/remote/world_desk.h"
+#include "core/spec/error.h"
+
+namespace btr::remote {
+namespace {
+
+/// 16 letters that nobody guesses.
+std::string newName() {
+  unsigned char bytes[8];
+  if (getrandom(bytes, sizeof bytes, 0) != sizeof bytes) throw Refusal(Code::internal, "no random numbers");
+  std::string name;
+  for (const unsigned char byte : bytes)
+    for (const int half : {byte >> 4, byte & 15}) name += "0123456789abcdef"[half];
+  return name;
+}
+
+/// A world or evaluator that a client blew up ends alone.
+void limitMemory() {
+#if !defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  return;
+#endif
+#endif
+  constexpr rlim_t most = 4ull << 30;
+  const rlimit limit{most, most};
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host) {
+  return [&options, &host](char kind) {
+    const auto answer = [](Desk&& desk) { serve(desk, Nursery::socketOfChild); };
+    if (kind == 'w') limitMemory();
+    if (kind == 'w') answer(WorldDesk(host, options.folder));
+    if (kind == 'e') answer(EvaluationDesk(host, options.folder, options.database, options.jobs));
+    if (kind == 'd') answer(RecordsDesk(host, options.folder, options.database));
+    if (kind == 'r') answer(RunDesk(host, options.database, options.jobs));
+  };
+}
+
+}  // namespace
+
+Switchboard::Switchboard(Options options, const PluginHost& host)
+    : options_(std::move(options)),
+      host_(host),
+      nursery_(lifeOf(options_, host)),
+      runs_(std::make_unique<RunKeeper>(nursery_)),
+      janitor_([this] { closeIdle(); }) {}
+
+Switchboard::~Switchboard() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  ends_.notify_all();
+  janitor_.join();
+  for (const std::string& name : worlds()) close(name);
+}
+
+void Switchboard::closeIdle() {
+  std::unique_lock lock(mutex_);
+  while (!ends_.wait_for(lock, std::chrono::seconds(1), [this] { return ending_; })) {
+    const double now = now_s();
+    std::vector<std::string> idle;
+    for (const auto& [name, world] : worlds_)
+      if (world->callers == 0 && (now - world->used_s > options_.idle_s || !world->child->alive()))
+        idle.push_back(name);
+    std::erase_if(evaluators_, [&](const auto& each) {
+      return each.second->callers == 0 && (now - each.second->used_s > options_.idle_s || !each.second->child->alive());
+    });
+    lock.unlock();
+    for (const std::string& name : idle) close(name);
+    lock.lock();
+  }
+}
+
+Answer Switchboard::open(const std::string& request, const Cancelled& cancelled) {
+  const std::string name = newName();
+  auto world = std::make_shared<World>();
+  world->used_s = now_s();
+  world->callers = 1;
+  {
+    const std::lock_guard lock(mutex_);
+    if (worlds_.size() >= static_cast<std::size_t>(options_.mostWorlds))
+      return {Code::tooMuch,
+              "this server has " + std::to_string(worlds_.size()) + " worlds already, and may have no more; close one"};
+    world->child = nursery_.start('w');
+    worlds_[name] = world;
+  }
+  Answer answer = world->child->ask(callOf(Method::open, name + request), options_.patience_s, cancelled);
+  world->used_s = now_s();
+  world->callers = 0;
+  if (answer.code != Code::ok) {
+    const std::lock_guard lock(mutex_);
+    worlds_.erase(name);
+  }
+  return answer;
+}
+
+// What was begun is done, whether or not its caller still waits: others may be there too.
+Answer Switchboard::world(const std::string& name, const std::string& call) {
+  std::shared_ptr<World> world;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = worlds_.find(name);
+    if (found == worlds_.end()) return {Code::notFound, "this server has no such world; it may have been closed"};
+    world = found->second;
+    ++world->callers;
+  }
+  Answer answer = world->child->ask(call, options_.patience_s);
+  world->used_s = now_s();
+  --world->callers;
+  if (!world->child->alive()) answer.bytes = "the world has ended: " + answer.bytes;
+  return answer;
+}
+
+Answer Switchboard::close(const std::string& name) {
+  std::shared_ptr<World> world;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = worlds_.find(name);
+    if (found == worlds_.end()) return {Code::notFound, "this server has no such world; it may have been closed"};
+    world = found->second;
+    worlds_.erase(found);
+  }
+  constexpr double patience_s = 5;
+  return world->child->ask(callOf(Method::close, ""), patience_s);
+}
+
+std::vector<std::string> Switchboard::worlds() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> names;
+  for (const auto& [name, world] : worlds_) names.push_back(name);
+  return names;
+}
+
+Answer Switchboard::evaluate(const std::string& key, const std::string& call, double patience_s,
+                             const Cancelled& cancelled) {
+  std::shared_ptr<Evaluator> evaluator, oldest;
+  {
+    const std::lock_guard lock(mutex_);
+    auto found = evaluators_.find(key);
+    if (found != evaluators_.end() && !found->second->child->alive()) {
+      evaluators_.erase(found);
+      found = evaluators_.end();
+    }
+    if (found == evaluators_.end()) {
+      if (evaluators_.size() >= mostEvaluators) {
+        auto least = evaluators_.end();
+        for (auto each = evaluators_.begin(); each != evaluators_.end(); ++each)
+          if (each->second->callers == 0 &&
+              (least == evaluators_.end() || each->second->used_s < least->second->used_s))
+            least = each;
+        if (least == evaluators_.end())
+          return {Code::tooMuch, "this server evaluates " + std::to_string(mostEvaluators) + " experiments already"};
+        oldest = least->second;
+        evaluators_.erase(least);
+      }
+      auto fresh = std::make_shared<Evaluator>();
+      fresh->child = nursery_.start('e');
+      found = evaluators_.emplace(key, std::move(fresh)).first;
+    }
+    evaluator = found->second;
+    ++evaluator->callers;
+  }
+  const Answer answer = evaluator->child->ask(call, patience_s, cancelled);
+  const std::lock_guard lock(mutex_);
+  --evaluator->callers;
+  evaluator->used_s = now_s();
+  return answer;
+}
+
+Answer Switchboard::records(const std::string& call) {
+  std::shared_ptr<Child> records;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!records_ || !records_->alive()) records_ = nursery_.start('d');
+    records = records_;
+  }
+  return records->ask(call, options_.patience_s);
+}
+
+}  // namespace btr::remote

@@ -1,0 +1,81 @@
+#pragma once
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/plugin/plugin_host.h"
+#include "core/remote/games_folder.h"
+#include "core/remote/nursery.h"
+#include "core/remote/run_keeper.h"
+
+namespace btr::remote {
+
+/// Passes calls on to the processes that answer them: each world, each evaluator, each run and the database has one of
+/// its own. Knows nothing of networks. From any thread.
+class Switchboard {
+ public:
+  struct Options {
+    GamesFolder folder;
+    std::string database{};  ///< "" for none
+    int jobs = 0;            ///< worker processes of an evaluator, a run; 0: as many as processors
+    int mostWorlds = 16;
+    double patience_s = 60;  ///< for one call to a world
+    double idle_s = 600;     ///< a world that nobody has called for so long is closed
+  };
+  using Cancelled = std::function<bool()>;
+
+  /// Before this process has other threads. The host must outlive it. Throws InputError.
+  Switchboard(Options options, const PluginHost& host);
+  ~Switchboard();
+  Switchboard(const Switchboard&) = delete;
+  Switchboard& operator=(const Switchboard&) = delete;
+
+  const Options& options() const { return options_; }
+  const PluginHost& host() const { return host_; }
+  RunKeeper& runs() { return *runs_; }
+
+  /// `request` and answers are bytes of messages.
+  Answer open(const std::string& request, const Cancelled& cancelled);
+  Answer world(const std::string& name, const std::string& call);
+  Answer close(const std::string& name);
+  std::vector<std::string> worlds() const;
+  /// `key` is equal for calls that the same workers may answer.
+  Answer evaluate(const std::string& key, const std::string& call, double patience_s, const Cancelled& cancelled);
+  Answer records(const std::string& call);
+
+ private:
+  struct World {
+    std::unique_ptr<Child> child;
+    std::atomic<double> used_s{0};
+    std::atomic<int> callers{0};
+  };
+  struct Evaluator {
+    std::unique_ptr<Child> child;
+    double used_s = 0;
+    int callers = 0;
+  };
+  static constexpr std::size_t mostEvaluators = 3;
+
+  void closeIdle();
+
+  const Options options_;
+  const PluginHost& host_;
+  Nursery nursery_;
+  std::unique_ptr<RunKeeper> runs_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<World>> worlds_;
+  std::map<std::string, std::shared_ptr<Evaluator>> evaluators_;
+  std::shared_ptr<Child> records_;
+  std::condition_variable ends_;
+  bool ending_ = false;
+  std::thread janitor_;
+};
+
+}  // namespace btr::remote

@@ -1,0 +1,72 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/live/session.h"
+#include "core/live/session_log.h"
+#include "core/remote/desk.h"
+#include "core/remote/games_folder.h"
+
+namespace uchilsim::v1 {
+class OpenRequest;
+class State;
+class StepRequest;
+class Targets;
+class Wanted;
+class World;
+}  // namespace uchilsim::v1
+
+namespace btr::remote {
+
+/// One running world and everything that clients do to it. One a process. Every change is an act of its session, which
+/// is logged where the folder can be written.
+class WorldDesk final : public Desk {
+ public:
+  static constexpr int mostPeriods = 10000;         ///< of one step
+  static constexpr std::size_t mostObjects = 1000;  ///< of a game that a client sends
+  static constexpr double fastestPlay = 100;
+
+  /// Both must outlive it.
+  WorldDesk(const PluginHost& host, const GamesFolder& folder) : host_(host), folder_(folder) {}
+  ~WorldDesk() override;
+
+  std::string answer(Method method, std::string_view message) override;
+  double patience_s() const override;
+  void goOn() override;
+
+ private:
+  std::string open(const uchilsim::v1::OpenRequest& request);
+  Game gameOf(const uchilsim::v1::OpenRequest& request) const;
+  void begin();  ///< an episode
+  std::string end();
+  Session& session();
+  void apply(const Act& act);
+  void apply(const uchilsim::v1::Targets& targets, int row, int rows);
+  void step(const uchilsim::v1::StepRequest& request);
+  void describe(uchilsim::v1::World& world);
+  std::string state(const uchilsim::v1::Wanted& wanted);
+  void fillRow(const uchilsim::v1::Wanted& wanted, uchilsim::v1::State& state);
+  void refreshChannels();
+
+  const PluginHost& host_;
+  const GamesFolder& folder_;
+  std::string name_;          ///< of the world
+  std::optional<Game> game_;  ///< as it begins
+  bool logged_ = false;
+  std::string gameFile_, logFile_;  ///< of this episode, full paths
+  std::unique_ptr<Session> session_;
+  std::unique_ptr<SessionLogWriter> log_;
+  std::vector<std::string> channels_;
+  bool channelsChanged_ = false;
+  std::vector<std::string> chosen_;    ///< the channels that were wanted last …
+  std::vector<std::size_t> chosenAt_;  ///< … and where they are
+  std::vector<double> row_;
+  long episode_ = 0;
+  double speed_ = 0;  ///< 0: it waits for steps
+  double anchor_s_ = 0;
+  long anchorPeriods_ = 0;
+};
+
+}  // namespace btr::remote

@@ -3,9 +3,11 @@
 #include <QDockWidget>
 #include <nlohmann/json.hpp>
 
+#include "ui/live/console_panel.h"
 #include "ui/live/extra_view.h"
 #include "ui/live/eye_panel.h"
 #include "ui/live/live_world.h"
+#include "ui/live/program_record.h"
 
 namespace btr::ui {
 namespace {
@@ -23,12 +25,15 @@ QList<Content*> contentsOf(const QMainWindow& desk) {
 }  // namespace
 
 LiveDesk::LiveDesk(LiveWorld& world, LiveView* view, QWidget* parent)
-    : QMainWindow(parent, Qt::Widget), world_(world), view_(view) {
+    : QMainWindow(parent, Qt::Widget), world_(world), view_(view), programs_(new ProgramRecord(world, this)) {
   setObjectName("liveDesk");
   setDockNestingEnabled(true);
   setContextMenuPolicy(Qt::NoContextMenu);
   setCentralWidget(view_);
   connect(view_, &LiveView::markToggled, this, &LiveDesk::askContacts);
+  connect(programs_, &ProgramRecord::began, this, &LiveDesk::showConsole);
+  connect(programs_, &ProgramRecord::ended, this,
+          [this](const QString& robot, const QString& why) { emit problem(tr("%1: %2").arg(robot, why)); });
 }
 
 QDockWidget* LiveDesk::addDock(QWidget* content, const QString& title, Qt::DockWidgetArea area) {
@@ -60,6 +65,16 @@ EyePanel* LiveDesk::addEye() {
   return eye;
 }
 
+ConsolePanel* LiveDesk::showConsole() {
+  if (const auto there = contentsOf<ConsolePanel>(*this); !there.isEmpty()) {
+    there.first()->parentWidget()->raise();
+    return there.first();
+  }
+  auto* console = new ConsolePanel(world_, *programs_);
+  addDock(console, tr("Robots' programs"), Qt::BottomDockWidgetArea);
+  return console;
+}
+
 QList<ExtraView*> LiveDesk::views() const { return contentsOf<ExtraView>(*this); }
 QList<EyePanel*> LiveDesk::eyes() const { return contentsOf<EyePanel>(*this); }
 
@@ -81,6 +96,7 @@ std::string LiveDesk::state() const {
     if (const auto* view = qobject_cast<ExtraView*>(dock->widget()))
       document["docks"].push_back({{"view", view->state()}});
     if (const auto* eye = qobject_cast<EyePanel*>(dock->widget())) document["docks"].push_back({{"eye", eye->state()}});
+    if (qobject_cast<ConsolePanel*>(dock->widget())) document["docks"].push_back({{"console", json::object()}});
   }
   document["layout"] = saveState().toBase64().toStdString();
   return document.dump();
@@ -97,6 +113,7 @@ void LiveDesk::restore(const std::string& state) {
       if (static_cast<std::size_t>(counted_) >= mostDocks || !dock.is_object()) continue;
       if (dock.contains("view")) addView()->restore(dock.at("view"));
       if (dock.contains("eye")) addEye()->restore(dock.at("eye"));
+      if (dock.contains("console")) showConsole();
     }
   if (const auto layout = document.find("layout"); layout != document.end() && layout->is_string())
     restoreState(QByteArray::fromBase64(QByteArray::fromStdString(layout->get<std::string>())));

@@ -5,6 +5,8 @@
 class QDockWidget;
 
 namespace btr::ui {
+class ConsolePanel;
+class ProgramRecord;
 class EyePanel;
 class ExtraView;
 class LiveView;
@@ -21,6 +23,8 @@ class LiveDesk : public QMainWindow {
 
   ExtraView* addView();
   EyePanel* addEye();
+  /// What robots' own programs say, and their lamps; there is one.
+  ConsolePanel* showConsole();
   QList<ExtraView*> views() const;
   QList<EyePanel*> eyes() const;
 
@@ -41,6 +45,7 @@ class LiveDesk : public QMainWindow {
 
   LiveWorld& world_;
   LiveView* view_;
+  ProgramRecord* programs_;
   int counted_ = 0;
 };
 

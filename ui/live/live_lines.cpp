@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/spec/json_reader.h"
+
 namespace btr::ui {
 
 using nlohmann::json;
@@ -15,6 +17,8 @@ QString eventText(const json& event) {
   const QString team = QString::fromStdString(event.value("team", ""));
   return team.isEmpty() ? what : QObject::tr("%1 of %2").arg(what, team);
 }
+
+QString textAt(const json& list, std::size_t at) { return QString::fromStdString(list.at(at).get<std::string>()); }
 
 }  // namespace
 
@@ -45,6 +49,20 @@ LiveRow liveRowFrom(const json& line) {
   row.clock_s = line.value("clock_s", 0.0);
   if (line.contains("events"))
     for (const json& event : line.at("events")) row.events << eventText(event);
+  if (line.contains("orders"))
+    for (const auto& [robot, orders] : line.at("orders").items()) {
+      JsonReader reader = JsonReader::parse(orders.dump(), "orders");
+      row.orders[robot] = ordersFromReader(reader);
+    }
+  if (line.contains("console"))
+    for (const json& said : line.at("console"))
+      row.console.push_back({textAt(said, 0), textAt(said, 1), textAt(said, 2)});
+  if (line.contains("programs")) {
+    row.programs.emplace();
+    for (const auto& [robot, state] : line.at("programs").items())
+      (*row.programs)[robot] =
+          state.at("running").get<bool>() ? QString() : QString::fromStdString(state.at("what").get<std::string>());
+  }
   if (line.contains("contacts"))
     for (const json& contact : line.at("contacts")) {
       const auto n = contact.get<std::array<double, 6>>();

@@ -140,6 +140,7 @@ void LivePage::connectWorld() {
 void LivePage::fillViews(QMenu& menu) {
   connect(menu.addAction(tr("New &view")), &QAction::triggered, desk_, &LiveDesk::addView);
   connect(menu.addAction(tr("Robot's &camera")), &QAction::triggered, desk_, &LiveDesk::addEye);
+  connect(menu.addAction(tr("Robots' &programs")), &QAction::triggered, desk_, &LiveDesk::showConsole);
   menu.addSeparator();
   menu.addActions(view_->viewActions());
 }

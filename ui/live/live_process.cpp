@@ -75,6 +75,9 @@ void LiveProcess::beginGesture() {
   if (gestureDepth_++ == 0) ++gesture_;
 }
 void LiveProcess::endGesture() { gestureDepth_ = std::max(0, gestureDepth_ - 1); }
+void LiveProcess::type(const std::string& robot, const QString& line) {
+  send(QByteArray::fromStdString(json{{"do", "type"}, {"robot", robot}, {"text", line.toStdString() + "\n"}}.dump()));
+}
 void LiveProcess::kickOff() { send(R"({"act": "kick_off"})"); }
 void LiveProcess::undo() { send(R"({"do": "undo"})"); }
 void LiveProcess::redo() { send(R"({"do": "redo"})"); }
@@ -112,7 +115,9 @@ void LiveProcess::read() {
   qsizetype begin = 0;
   for (qsizetype end; (end = pending_.indexOf('\n', begin)) >= 0; begin = end + 1) {
     const QByteArray line = pending_.mid(begin, end - begin);
-    if (line.contains("\"row\":") && !line.contains("\"samples\":") && !line.contains("\"events\":")) {
+    const auto has = [&line](const char* key) { return line.contains(key); };
+    if (has("\"row\":") && !has("\"samples\":") && !has("\"events\":") && !has("\"console\":") &&
+        !has("\"programs\":")) {
       newest = line;
       continue;
     }

@@ -19,7 +19,8 @@ struct LiveSamples {
 };
 
 /// A session in a process of its own (btr live --steered): the window never waits for it, and survives it. What it
-/// tells comes as signals; of rows that came together only the newest.
+/// tells comes as signals; of rows that came together only the newest, and those
+/// that tell what happened once.
 class LiveProcess : public QObject {
   Q_OBJECT
  public:
@@ -51,6 +52,8 @@ class LiveProcess : public QObject {
   void beginGesture();
   void endGesture();
   void undo();
+  /// On the console of a robot's program, as if a line was typed there.
+  void type(const std::string& robot, const QString& line);
   void kickOff();  ///< of the referee, where there is one
   void redo();
 

@@ -14,6 +14,11 @@
 
 namespace btr::ui {
 
+/// A line that a robot's program said; of the program itself: without an object.
+struct ProgramLine {
+  QString robot, object, text;
+};
+
 /// What a running session tells of one moment.
 struct LiveRow {
   std::vector<double> values;  ///< by channel
@@ -27,6 +32,10 @@ struct LiveRow {
   std::map<std::string, Eigen::Vector3d> hands_n;  ///< by object that is pulled: the force [N], world axes
   std::vector<WorldMarks::Contact> contacts;       ///< of the last step, if they were asked for
   QStringList events;                              ///< since the last row: "goal of red" …
+  std::map<std::string, Orders> orders;            ///< by robot with a program: motor power and lamps
+  std::vector<ProgramLine> console;                ///< since the last row
+  /// By robot with a program, when that changed: "" it runs, else why no longer.
+  std::optional<std::map<std::string, QString>> programs;
 };
 
 /// An object of a game, as it is picked, moved and listed.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ui/common/theme.h"
+#include "ui/live/lamp_places.h"
 
 namespace btr::ui {
 
@@ -196,6 +197,7 @@ void LiveView::paintEvent(QPaintEvent* event) {
   if (row_.values.empty()) return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
+  paintLamps(painter);
   for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
     const LiveObject& object = scene_.objects()[i];
     const Vector3d at = scene_.poseOf(i, row_).translation();
@@ -208,6 +210,39 @@ void LiveView::paintEvent(QPaintEvent* event) {
   if (!drop_) return;
   painter.setPen(QPen(palette().highlight().color(), 2));
   painter.drawEllipse(*drop_, 12, 6);
+}
+
+// Over the picture, where their side of the robot faces the eye: light, no bodies. Robots' cameras do not see them.
+void LiveView::paintLamps(QPainter& painter) {
+  if (row_.orders.empty()) return;
+  const ScenePose pose = scene_.pose(row_);
+  painter.setPen(Qt::NoPen);
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
+    const auto orders = row_.orders.find(scene_.objects()[i].name);
+    if (orders == row_.orders.end() || i >= scene_.models().size()) continue;
+    const RobotModel& model = *scene_.models()[i];
+    for (const LampSpot& spot : lampSpots(model.name)) {
+      const QColor colour = shining(spot, orders->second);
+      const int link = model.findLink(spot.link);
+      if (!colour.isValid() || link < 0) continue;
+      const Eigen::Isometry3d& at = pose.others.at(i).at(static_cast<std::size_t>(link));
+      const Vector3d place = at * spot.place_m, way = camera().eye() - place;
+      const auto pixel = camera().project(place, size());
+      if (!pixel || way.dot(at.linear() * spot.outward) <= 0) continue;
+      constexpr double radius_m = 0.0035, least_px = 1.5, glow = 2.2;
+      const double radius = std::max(
+          least_px, radius_m * height() / (2 * std::tan(camera().fieldOfView / 2) * std::max(0.05, way.norm())));
+      QRadialGradient light(*pixel, glow * radius);
+      QColor rim = colour;
+      rim.setAlpha(0);
+      light.setColorAt(0, colour);
+      light.setColorAt(1 / glow, colour);
+      light.setColorAt(1, rim);
+      painter.setBrush(light);
+      painter.drawEllipse(*pixel, glow * radius, glow * radius);
+    }
+  }
+  painter.setBrush(Qt::NoBrush);
 }
 
 void LiveView::paintRing(QPainter& painter, const LiveObject& object, const Vector3d& at) {

@@ -57,6 +57,7 @@ class LiveView : public SceneView {
 
  private:
   void paintRing(QPainter& painter, const LiveObject& object, const Eigen::Vector3d& at);
+  void paintLamps(QPainter& painter);
   void paintHand(QPainter& painter, const std::string& object, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
   std::optional<Eigen::Vector3d> onPlane(QPointF pixel, double height) const;
 

@@ -73,7 +73,7 @@ void ParameterSets::showState() {
 
 void ParameterSets::store(int set) {
   const GameRobot player = world_.playerOf(robot_);
-  if (!player.controller) return;
+  if (!player.hasPlugin()) return;
   mine().plugin = player.controller->plugin;
   mine().values[std::size_t(set)] = player.controller->parameters;
   mine().inUse = set;
@@ -83,7 +83,7 @@ void ParameterSets::store(int set) {
 void ParameterSets::use(int set) {
   const GameRobot player = world_.playerOf(robot_);
   const std::optional<Values> wanted = mine().values[std::size_t(set)];
-  if (!player.controller || !wanted) return;
+  if (!player.hasPlugin() || !wanted) return;
   world_.process().beginGesture();
   for (const ParameterAct& act : differences(robot_, world_.host().controller(player.controller->plugin)->genotype(),
                                              player.controller->parameters, *wanted))
@@ -113,7 +113,7 @@ void ParameterSets::save(int set, const QString& path) const {
 
 void ParameterSets::load(int set, const QString& path) {
   const GameRobot player = world_.playerOf(robot_);
-  if (!player.controller) return;
+  if (!player.hasPlugin()) return;
   JsonReader reader = JsonReader::open(path.toStdString());
   reader.word("format", {"uchilsim-parameters-1"});
   reader.word("plugin", {player.controller->plugin});

@@ -1,6 +1,8 @@
 #include "ui/live/selection_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -110,6 +112,7 @@ QWidget* SelectionPanel::makePlayer() {
   controller_->setAccessibleName(tr("Controller"));
   controller_->addItem(tr("stands still"));
   for (const std::string& name : world_.host().controllers()) controller_->addItem(QString::fromStdString(name));
+  controller_->addItem(tr("OPEN-R stick…"), true);
   connect(controller_, &QComboBox::activated, this, [this] { changeController(); });
   column->addWidget(controller_);
   stored_ = new QPushButton(themeIcon("view-list-details"), tr("Stored &individual…"), part);
@@ -118,6 +121,7 @@ QWidget* SelectionPanel::makePlayer() {
   stored_->hide();
   connect(stored_, &QPushButton::clicked, this, &SelectionPanel::chooseStored);
   column->addWidget(stored_);
+  column->addWidget(stick_ = makeStick());
   sets_ = new ParameterSets(world_, part);
   connect(sets_, &ParameterSets::problem, this, &SelectionPanel::problem);
   connect(sets_, &ParameterSets::used, this, &SelectionPanel::showParameters);
@@ -133,6 +137,66 @@ QWidget* SelectionPanel::makePlayer() {
   area->setWidget(form_);
   column->addWidget(area, 1);
   return part;
+}
+
+QWidget* SelectionPanel::makeStick() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 0);
+  folder_ = new QLabel(part);
+  folder_->setObjectName("stickFolder");
+  folder_->setWordWrap(true);
+  folder_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  column->addWidget(folder_);
+  motorPower_ = new QCheckBox(tr("&Motors are on at its start"), part);
+  motorPower_->setObjectName("stickMotors");
+  motorPower_->setToolTip(tr("For programs that leave that to another one, as MovingHead7 does"));
+  camera_ = new QCheckBox(tr("Its &camera looks"), part);
+  camera_->setObjectName("stickCamera");
+  camera_->setToolTip(tr("For programs that look at images; drawing takes time"));
+  for (QCheckBox* box : {motorPower_, camera_}) {
+    connect(box, &QCheckBox::clicked, this, [this] { putIn(folder_->property("folder").toString()); });
+    column->addWidget(box);
+  }
+  auto* row = new QHBoxLayout;
+  auto* again = new QPushButton(themeIcon("view-refresh"), tr("&Restart"), part);
+  again->setObjectName("stickRestart");
+  again->setToolTip(tr("The program begins anew"));
+  connect(again, &QPushButton::clicked, this, [this] { putIn(folder_->property("folder").toString()); });
+  auto* stop = new QPushButton(themeIcon("media-playback-stop"), tr("&Stop"), part);
+  stop->setObjectName("stickStop");
+  stop->setToolTip(tr("The program ends; the robot stays as it is now"));
+  connect(stop, &QPushButton::clicked, this, [this] {
+    world_.act(ControllerAct{world_.selected(), std::nullopt});
+    showController();
+  });
+  row->addWidget(again);
+  row->addWidget(stop);
+  column->addLayout(row);
+  column->addStretch();
+  part->hide();
+  return part;
+}
+
+void SelectionPanel::showStick() {
+  const GameRobot player = world_.playerOf(world_.selected());
+  stick_->setVisible(player.hasStick());
+  if (!player.hasStick()) return;
+  const GameStick& stick = *player.controller->openr;
+  folder_->setText(word(stick.folder));
+  folder_->setProperty("folder", QString::fromStdString(stick.folder));
+  motorPower_->setChecked(stick.motorPower);
+  camera_->setChecked(stick.camera);
+}
+
+/// The program on this stick begins, with what is ticked.
+void SelectionPanel::putIn(const QString& folder) {
+  GameController controller;
+  controller.openr = GameStick{folder.toStdString(), "", motorPower_->isChecked(), camera_->isChecked()};
+  if (const GameRobot player = world_.playerOf(world_.selected()); player.hasStick())
+    controller.openr->design = player.controller->openr->design;
+  world_.act(ControllerAct{world_.selected(), controller});
+  showController();
 }
 
 void SelectionPanel::showSelected() {
@@ -181,12 +245,14 @@ void SelectionPanel::showPlace() {
 
 void SelectionPanel::showController() {
   const GameRobot player = world_.playerOf(world_.selected());
-  controller_->setCurrentIndex(
-      player.controller ? std::max(0, controller_->findText(QString::fromStdString(player.controller->plugin))) : 0);
-  sets_->setVisible(player.controller.has_value());
+  const int plugin = player.hasPlugin() ? controller_->findText(QString::fromStdString(player.controller->plugin)) : 0;
+  controller_->setCurrentIndex(player.hasStick() ? controller_->count() - 1 : std::max(0, plugin));
+  showStick();
+  form_->setVisible(!player.hasStick());
+  sets_->setVisible(player.hasPlugin());
   sets_->showRobot(world_.selected());
   std::vector<Parameter> parameters;
-  if (player.controller) try {
+  if (player.hasPlugin()) try {
       parameters = world_.host().controller(player.controller->plugin)->genotype();
     } catch (const InputError& error) {
       emit problem(QString::fromUtf8(error.what()));
@@ -201,11 +267,16 @@ void SelectionPanel::showParameters() {
 }
 
 void SelectionPanel::tune(const std::string& name, std::optional<double>) {
-  if (world_.playerOf(world_.selected()).controller)
+  if (world_.playerOf(world_.selected()).hasPlugin())
     world_.act(ParameterAct{world_.selected(), name, form_->value(name)});
 }
 
 void SelectionPanel::changeController() {
+  if (controller_->currentData().toBool()) {
+    const QString folder =
+        QFileDialog::getExistingDirectory(this, tr("OPEN-R memory stick: the folder with OPEN-R in it"));
+    return folder.isEmpty() ? showController() : putIn(folder);
+  }
   ControllerAct act{world_.selected(), std::nullopt};
   if (controller_->currentIndex() > 0)
     act.controller = GameController{controller_->currentText().toStdString(), {}, {}, true};

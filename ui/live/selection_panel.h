@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
@@ -43,6 +44,9 @@ class SelectionPanel : public QWidget {
   void throwSelected();
   void changeController();
   void chooseStored();
+  QWidget* makeStick();
+  void showStick();
+  void putIn(const QString& folder);
   void tune(const std::string& name, std::optional<double> value);
 
   LiveWorld& world_;
@@ -51,6 +55,9 @@ class SelectionPanel : public QWidget {
   QDoubleSpinBox *x_, *y_, *z_, *heading_, *speed_, *direction_, *rise_;
   QComboBox* controller_;
   QPushButton* stored_;
+  QWidget* stick_;  ///< of a robot with an OPEN-R program
+  QLabel* folder_;
+  QCheckBox *motorPower_, *camera_;
   SliderForm* form_;
   ParameterSets* sets_;
   DatabaseReader* reader_ = nullptr;

@@ -1,6 +1,7 @@
 #include "core/gap/replay/hanging.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/model/kinematics.h"
 
@@ -40,7 +41,9 @@ std::vector<std::vector<bool>> recordedJoints(const Scene& scene, const Binding&
 }
 
 void letUnrecordedServosHang(const Scene& scene, const Binding& binding, StartState& state) {
-  constexpr int turns = 3;  // a hanging joint moves its own lever, and those of the joints before it
+  // A hanging joint moves its own lever, and those of the joints before it.
+  constexpr int turns = 50;
+  constexpr double still_rad = 1e-9;
   const auto recorded = recordedJoints(scene, binding);
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
     const SceneRobot& robot = scene.robots[r];
@@ -53,14 +56,18 @@ void letUnrecordedServosHang(const Scene& scene, const Binding& binding, StartSt
       if (!recorded[r][j] && standsStill(j)) hanging.push_back(j);
     if (hanging.empty()) continue;
     const std::vector<double> told = state.robots[r].positions;
-    for (int turn = 0; turn < turns; ++turn) {
+    double moved = 1;
+    for (int turn = 0; turn < turns && moved > still_rad; ++turn) {
+      moved = 0;
       const auto weights =
           weightsOnJoints(robot.model, state.robots[r].base, state.robots[r].positions, scene.gravity_m_s2);
       for (const std::size_t j : hanging) {
         const Drive& drive = robot.drives[j];
         const Joint& joint = robot.model.joints[j];
         const double held = std::clamp(weights[j], -drive.maxTorque, drive.maxTorque);
-        state.robots[r].positions[j] = std::clamp(told[j] + held / drive.p, joint.lower, joint.upper);
+        const double hangs = std::clamp(told[j] + held / drive.p, joint.lower, joint.upper);
+        moved = std::max(moved, std::abs(hangs - state.robots[r].positions[j]));
+        state.robots[r].positions[j] = hangs;
       }
     }
   }

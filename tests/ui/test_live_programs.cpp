@@ -1,0 +1,113 @@
+// Robots' own programs on the page of a running world: their lines, lamps and ends; a stick as a controller.
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include "tests/ui/open_live_page.h"
+#include "ui/live/console_panel.h"
+#include "ui/live/lamp_places.h"
+#include "ui/live/live_desk.h"
+#include "ui/live/live_lines.h"
+#include "ui/live/selection_panel.h"
+
+using namespace btr;
+using namespace btr::ui;
+
+namespace {
+
+/// The page's row as its process told it, with more in it.
+LiveRow rowWith(LivePage& page, const nlohmann::json& more) {
+  nlohmann::json line{{"row", page.row().values},
+                      {"period", page.row().period},
+                      {"playing", false},
+                      {"real_time_factor", 1},
+                      {"fixed", nlohmann::json::array()}};
+  line.update(more);
+  return liveRowFrom(line);
+}
+
+GameController stickAt(const QString& folder) {
+  GameController controller;
+  controller.openr = GameStick{folder.toStdString(), "", true, false};
+  return controller;
+}
+
+}  // namespace
+
+class TestLivePrograms : public QObject {
+  Q_OBJECT
+
+ private slots:
+  /// The console comes by itself with the first program, and shows lines by robot and object.
+  void linesLampsAndEndsAreShown() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    QVERIFY(!open.page.findChild<ConsolePanel*>());
+    emit open.page.process().rowTold(rowWith(
+        open.page,
+        {{"programs", {{"dog", {{"running", true}}}, {"cat", {{"running", true}}}}},
+         {"console", {{"dog", "MovingHead7", "DoStart()"}, {"cat", "Other", "meow"}}},
+         {"orders",
+          {{"dog", {{"motor_power", true}, {"lamps", {{"face_13", {{"brightness", 0.5}, {"mode", "A"}}}}}}}}}}));
+    auto* console = open.page.findChild<ConsolePanel*>();
+    QVERIFY(console);
+    auto* states = open.page.findChild<QLabel*>("programStates");
+    QVERIFY2(states->text().contains("dog runs"), qPrintable(states->text()));
+    // What was said in the row with which the console came is there, too.
+    QCOMPARE(console->text()->toPlainText(), QString("dog MovingHead7: DoStart()\ncat Other: meow"));
+    QCOMPARE(console->lamps()->rowCount(), 1);
+    QCOMPARE(console->lamps()->item(0, 1)->text(), QString("face_13"));
+    QCOMPARE(console->lamps()->item(0, 2)->text(), QString("50 %"));
+    QCOMPARE(console->lamps()->item(0, 3)->text(), QString("A"));
+    auto* robot = open.page.findChild<QComboBox*>("consoleRobot");
+    robot->setCurrentIndex(robot->findText("dog"));
+    emit robot->activated(robot->currentIndex());
+    QCOMPARE(console->text()->toPlainText(), QString("dog MovingHead7: DoStart()"));
+    emit open.page.process().rowTold(
+        rowWith(open.page, {{"programs", {{"dog", {{"running", false}, {"what", "MovingHead7 crashed in Ready"}}}}}}));
+    QVERIFY2(states->text().contains("MovingHead7 crashed in Ready"), qPrintable(states->text()));
+    open.picture("programs");
+  }
+
+  /// A stick is a controller like others; what is wrong with it is said, and the window and its world go on.
+  void aStickIsAControllerThatCanFail() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.select("dog");
+    auto* controller = open.page.findChild<QComboBox*>("liveController");
+    QVERIFY(controller->findText("OPEN-R stick…") == controller->count() - 1);
+    open.page.world().act(ControllerAct{"dog", stickAt(open.folder.filePath("no-stick"))});
+    auto* panel = open.page.findChild<SelectionPanel*>();
+    panel->showSelected();
+    QCOMPARE(controller->currentIndex(), controller->count() - 1);
+    QVERIFY(open.page.findChild<QLabel*>("stickFolder")->text().contains("no-stick"));
+    QVERIFY(QTest::qWaitFor([&] { return open.page.findChild<QLabel*>("programStates") != nullptr; }, 10000));
+    QVERIFY(open.page.findChild<QLabel*>("programStates")->text().contains("no-stick"));
+    open.page.process().play(true);
+    const long now = open.page.row().period;
+    QVERIFY(QTest::qWaitFor([&] { return open.page.row().period > now + 10; }, 10000));
+    QCOMPARE(open.page.row().fault, QString());
+    open.page.findChild<QPushButton*>("stickStop")->click();
+    QVERIFY(!open.page.world().playerOf("dog").controller);
+  }
+
+  /// Every lamp of the table of places sits on a link that the model has, and shines in its mode's colour.
+  void lampsShineInTheirColour() {
+    Orders orders;
+    orders.lamps["face_13"] = {1, "B"};
+    int shown = 0;
+    for (const LampSpot& spot : lampSpots("ERS-7"))
+      if (const QColor colour = shining(spot, orders); colour.isValid()) {
+        ++shown;
+        QVERIFY(colour.blue() > colour.red());
+      }
+    QCOMPARE(shown, 2);
+    QVERIFY(lampSpots("a robot of mine").empty());
+  }
+};
+
+QTEST_MAIN(TestLivePrograms)
+#include "test_live_programs.moc"

@@ -80,14 +80,16 @@ TEST_F(Paths, ToWriteToLeadNowhereElse) {
 
 TEST_F(Paths, InsideAGamesTextAreJudgedToo) {
   const auto said = [&](const std::string& text, const std::string& directory = "") {
-    return refusal([&] { folder.judgeGame(nlohmann::json::parse(text), folder.folder(directory, "directory"), "game"); });
+    return refusal(
+        [&] { folder.judgeGame(nlohmann::json::parse(text), folder.folder(directory, "directory"), "game"); });
   };
   EXPECT_EQ("accepted", said(R"({"scene": {"robots": [{"model": "robots/ers7.wrl"}]}})"));
   EXPECT_EQ("accepted", said(R"({"scene": {"robots": [{"model": "../robots/ers7.wrl"}]}})", "deep"));
   EXPECT_EQ("accepted", said(R"({"scene": "scenes/kick.json"})"));
-  for (const char* bad : {R"({"scene": {"robots": [{"model": "../secret.json"}]}})", R"({"scene": "../secret.json"})",
-                          R"({"scene": "/etc/passwd"})", R"({"scene": {}, "field": "way-out/secret.json"})",
-                          R"({"robots": [{"model": "/etc/passwd"}]})", R"({"scene": {"robots": [{"model": "pipe.json"}]}})"})
+  for (const char* bad :
+       {R"({"scene": {"robots": [{"model": "../secret.json"}]}})", R"({"scene": "../secret.json"})",
+        R"({"scene": "/etc/passwd"})", R"({"scene": {}, "field": "way-out/secret.json"})",
+        R"({"robots": [{"model": "/etc/passwd"}]})", R"({"scene": {"robots": [{"model": "pipe.json"}]}})"})
     EXPECT_THAT(said(bad), HasSubstr("a file below the server's folder")) << bad;
   EXPECT_NE("accepted", said("{}", "way-out"));
   EXPECT_NE("accepted", said("{}", ".."));

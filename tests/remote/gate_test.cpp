@@ -29,9 +29,7 @@ class Tokens : public testing::Test {
     chmod(path.c_str(), mode);
     return path;
   }
-  std::string book() {
-    return written(std::string("# who\nwatch ") + watcher + " eye\n\ndrive " + driver + "\n");
-  }
+  std::string book() { return written(std::string("# who\nwatch ") + watcher + " eye\n\ndrive " + driver + "\n"); }
   static std::string said(Gate& gate, const std::string& authorization, Role needed, const std::string& from = peer) {
     try {
       gate.admit(from, authorization, needed);
@@ -69,14 +67,16 @@ TEST_F(Tokens, ThatAreTriedAreCountedByAddressAndOwnersStillGetIn) {
   Gate gate({.tokenFile = book(), .failuresPerSecond = 5});
   int refusals = 0;
   for (int i = 0; i < 1000; ++i)  // each over a connection of its own
-    refusals += said(gate, "Bearer guess", Role::watch, "ipv4:10.0.0.1:" + std::to_string(1000 + i)).starts_with("too many");
+    refusals +=
+        said(gate, "Bearer guess", Role::watch, "ipv4:10.0.0.1:" + std::to_string(1000 + i)).starts_with("too many");
   EXPECT_GE(refusals, 900);
   EXPECT_EQ("admitted", said(gate, std::string("Bearer ") + driver, Role::drive, "ipv4:10.0.0.1:2"));
 }
 
 TEST_F(Tokens, LieInAFileThatOnlyItsOwnerReads) {
   for (const mode_t mode : {0644, 0640, 0604, 0660, 0777})
-    EXPECT_THAT(refusal([&] { TokenBook book(written("watch " + std::string(watcher), mode)); }), HasSubstr("mode 0600"));
+    EXPECT_THAT(refusal([&] { TokenBook book(written("watch " + std::string(watcher), mode)); }),
+                HasSubstr("mode 0600"));
   EXPECT_EQ("accepted", refusal([&] { TokenBook book(written("watch " + std::string(watcher), 0600)); }));
   EXPECT_EQ("accepted", refusal([&] { TokenBook book(written("watch " + std::string(watcher), 0400)); }));
   EXPECT_THAT(refusal([&] { TokenBook book(folder_.file("none")); }), HasSubstr("a file that can be read"));
@@ -127,7 +127,8 @@ TEST(Bucket, FillsAgainWithTime) {
 
 TEST(Loopback, IsThisMachineAlone) {
   for (const char* own : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) EXPECT_TRUE(isLoopback(own)) << own;
-  for (const char* other : {"0.0.0.0", "::", "192.168.1.2", "127.0.0.1.example.org", "127.example.org", "127.1", "", "localhost.example.org"})
+  for (const char* other : {"0.0.0.0", "::", "192.168.1.2", "127.0.0.1.example.org", "127.example.org", "127.1", "",
+                            "localhost.example.org"})
     EXPECT_FALSE(isLoopback(other)) << other;
 }
 

@@ -1,15 +1,14 @@
 #pragma once
 // A folder for a server's files, and what tests play in it.
-#include <unistd.h>
-
+#include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
-
-#include <gtest/gtest.h>
+#include <vector>
 
 #include "core/plugin/plugin_host.h"
 #include "core/remote/desk.h"
@@ -47,7 +46,8 @@ class RemoteFolder {
   std::string listing() const {
     std::string names;
     std::vector<std::string> all;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(outside_)) all.push_back(entry.path().string());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(outside_))
+      all.push_back(entry.path().string());
     std::ranges::sort(all);
     for (const std::string& name : all) names += name + "\n";
     return names;

@@ -78,7 +78,8 @@ Reply answered(remote::Desk& desk, remote::Method method, const Request& request
   const remote::Answer answer = answerCall(desk, callOf(method, before + request.SerializeAsString()));
   EXPECT_EQ(remote::Code::ok, answer.code) << answer.bytes;
   Reply reply;
-  if (answer.code == remote::Code::ok) EXPECT_TRUE(reply.ParseFromString(answer.bytes));
+  const bool isRead = answer.code != remote::Code::ok || reply.ParseFromString(answer.bytes);
+  EXPECT_TRUE(isRead);
   return reply;
 }
 

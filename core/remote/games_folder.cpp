@@ -54,6 +54,9 @@ GamesFolder::GamesFolder(const std::string& folder, bool writable) : writable_(w
   std::error_code error;
   root_ = fs::canonical(folder, error).string();
   if (error || !fs::is_directory(root_)) throw InputError("--games", folder, "a folder that is there");
+  if (!writable) return;
+  fs::create_directories(fs::path(root_) / sessions, error);
+  if (error) throw InputError("--games", folder + " (" + error.message() + ")", "a folder that can be written");
 }
 
 bool GamesFolder::isInside(const std::string& full) const {

@@ -11,7 +11,10 @@ void requireShallow(const std::string& text, const std::string& place);
 /// path without "..", whose real place (links followed) lies in the folder.
 class GamesFolder {
  public:
-  /// Throws InputError if it is no folder.
+  /// Where logs go.
+  static constexpr const char* sessions = "sessions";
+
+  /// Throws InputError if it is no folder. In one that is writable the folder of logs is made.
   explicit GamesFolder(const std::string& folder, bool writable);
 
   const std::string& path() const { return root_; }

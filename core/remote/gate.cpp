@@ -47,7 +47,7 @@ void requirePrivate(const std::string& path) {
 
 }  // namespace
 
-const char* toText(Role role) { return role == Role::watch ? "watch" : role == Role::drive ? "drive" : "administrate"; }
+const char* wordOf(Role role) { return role == Role::watch ? "watch" : role == Role::drive ? "drive" : "administrate"; }
 
 bool isLoopback(const std::string& address) {
   if (address == "localhost" || address == "::1") return true;
@@ -129,15 +129,15 @@ Gate::Caller Gate::admit(const std::string& peer, const std::string& authorizati
   }
   count(caller);
   if (caller.role < needed)
-    throw Refusal(Code::notAllowed, std::string("this call needs the role ") + toText(needed) + "; " +
+    throw Refusal(Code::notAllowed, std::string("this call needs the role ") + wordOf(needed) + "; " +
                                         (tokens_ ? "the token's" : "without a token the role") + " is " +
-                                        toText(caller.role));
+                                        wordOf(caller.role));
   return caller;
 }
 
 void Gate::count(const Caller& caller) {
   if (!take(calls_, caller.name, options_.callsPerSecond))
-    throw Refusal(Code::tooMuch, "more than " + btr::toText(options_.callsPerSecond) + " calls a second");
+    throw Refusal(Code::tooMuch, "more than " + toText(options_.callsPerSecond) + " calls a second");
 }
 
 }  // namespace btr::remote

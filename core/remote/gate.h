@@ -9,7 +9,7 @@ namespace btr::remote {
 
 /// What a client may do; each may what those before may.
 enum class Role { watch, drive, administrate };
-const char* toText(Role role);
+const char* wordOf(Role role);
 
 /// True for an address that nobody but this machine reaches: 127.0.0.0/8, ::1, localhost.
 bool isLoopback(const std::string& address);

@@ -23,7 +23,7 @@ std::shared_ptr<grpc::ServerCredentials> credentialsOf(const Server::Options& op
   return grpc::SslServerCredentials(ssl);
 }
 
-void check(const Server::Options& options) {
+void requireAllowed(const Server::Options& options) {
   if (options.address.empty() && options.unixPath.empty())
     throw InputError("--address", "none", "an address, or a Unix socket with --unix");
   if (options.certificate.empty() != options.key.empty())
@@ -52,7 +52,7 @@ struct Server::Impl {
 };
 
 Server::Server(const Options& options, Switchboard& switchboard) {
-  check(options);
+  requireAllowed(options);
   impl_ = std::make_unique<Impl>(options, switchboard);
   grpc::ServerBuilder builder;
   const auto credentials = credentialsOf(options);

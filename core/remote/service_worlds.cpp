@@ -50,7 +50,7 @@ grpc::Status WorldsService::Info(grpc::ServerContext* context, const v1::InfoReq
     const Switchboard::Options& options = desks_.switchboard.options();
     reply->set_version(programVersion());
     reply->set_schema("uchilsim.v1");
-    reply->set_role(toText(caller.role));
+    reply->set_role(wordOf(caller.role));
     reply->set_largest_message_bytes(static_cast<std::int64_t>(desks_.options.largestMessage));
     reply->set_calls_per_second(desks_.options.gate.callsPerSecond);
     reply->set_most_worlds(options.mostWorlds);

@@ -123,7 +123,7 @@ std::string WorldDesk::open(const v1::OpenRequest& request) {
   if (request.has_seed()) game.seed = request.seed();
   logged_ = folder_.writable() && !request.unlogged();
   // The file that the log is bound to lies beside it.
-  if (logged_) game = movedTo(std::move(game), (fs::path(folder_.path()) / "sessions").string());
+  if (logged_) game = movedTo(std::move(game), (fs::path(folder_.path()) / GamesFolder::sessions).string());
   game_ = std::move(game);
   try {
     begin();
@@ -146,10 +146,9 @@ void WorldDesk::begin() {
   chosen_.clear();
   chosenAt_.clear();
   if (!logged_) return;
-  const std::string name = "sessions/" + name_ + "-" + std::to_string(episode_);
+  const std::string name = GamesFolder::sessions + ("/" + name_) + "-" + std::to_string(episode_);
   gameFile_ = folder_.toWrite(name + ".json", "log");
   logFile_ = fs::path(gameFile_).replace_extension(".log").string();
-  fs::create_directories(fs::path(gameFile_).parent_path());
   writeFile(gameFile_, toJsonText(*game_));
   log_ = std::make_unique<SessionLogWriter>(logFile_, *game_);
   session_->onAct([this](long period, const Act& act) { log_->act(period, act); });

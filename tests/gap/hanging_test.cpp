@@ -28,7 +28,7 @@ Scene stretchedArm() {
   folder.write("arm.urdf", urdf);
   const SceneSpec spec = sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.0005, "control_period_s": 0.005,
     "robots": [{"name": "arm", "model": "arm.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none",
-    "servos": {"shoulder": {"p": 12, "d": 0.5}, "elbow": {"p": 5, "d": 0.2}}}]})",
+    "servos": {"shoulder": {"p": 12, "d": 0.5, "max_torque_nm": 9}, "elbow": {"p": 5, "d": 0.2, "max_torque_nm": 9}}}]})",
                                        "scene", folder.file("."));
   return makeScene(spec, loadModels(spec), {}, {});
 }

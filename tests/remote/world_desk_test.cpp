@@ -1,0 +1,328 @@
+// One world and what clients do to it, without a network.
+#include "core/remote/world_desk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "core/spec/json_reader.h"
+#include "tests/remote/remote_folder.h"
+#include "uchilsim.pb.h"
+
+namespace {
+
+using namespace btr;
+using namespace btr::remote;
+using namespace btr::test;
+using testing::HasSubstr;
+namespace v1 = uchilsim::v1;
+namespace fs = std::filesystem;
+
+class WorldDeskTest : public testing::Test {
+ protected:
+  v1::World open(const std::string& game, bool unlogged = false) {
+    v1::OpenRequest request;
+    request.set_game(game);
+    request.set_unlogged(unlogged);
+    return answered<v1::World>(desk, Method::open, request, worldName);
+  }
+  v1::State step(int periods, const std::function<void(v1::StepRequest&)>& settle = {}) {
+    v1::StepRequest request;
+    request.set_periods(periods);
+    if (settle) settle(request);
+    return answered<v1::State>(desk, Method::step, request);
+  }
+  double value(const v1::State& state, const std::string& channel) const {
+    const auto at = std::ranges::find(world.channels(), channel);
+    return state.row(static_cast<int>(at - world.channels().begin()));
+  }
+  std::string stepRefused(const std::function<void(v1::StepRequest&)>& settle) {
+    v1::StepRequest request;
+    request.set_periods(1);
+    settle(request);
+    return refused(desk, Method::step, request);
+  }
+
+  RemoteFolder files;
+  GamesFolder folder{files.server().string(), true};
+  WorldDesk desk{plugins(), folder};
+  v1::World world;
+};
+
+/// Plays a log again, without any client; the hash of its trace.
+std::string replayed(const fs::path& gameFile, const fs::path& logFile) {
+  const SessionLog log = loadSessionLog(logFile.string());
+  const Game game = loadGame(gameFile.string());
+  EXPECT_EQ(log.gameSha256, gameSha256(game));
+  Session session(game, plugins());
+  std::size_t next = 0;
+  while (true) {
+    while (next < log.acts.size() && log.acts[next].period <= session.periods()) session.apply(log.acts[next++].act);
+    if (session.periods() >= log.periods) break;
+    session.step();
+  }
+  const std::string sha = session.traceSha256();
+  EXPECT_EQ(log.traceSha256, sha);
+  return sha;
+}
+
+TEST_F(WorldDeskTest, FallsAsABallDoes) {
+  world = open("ball.json");
+  EXPECT_EQ(0.008, world.control_period_s());
+  const v1::State state = step(10);
+  EXPECT_EQ(10, state.period());
+  EXPECT_NEAR(0.2 - 9.81 * 0.08 * 0.08 / 2, value(state, "ball.z_m"), 1e-9);
+}
+
+TEST_F(WorldDeskTest, ItsLogPlaysAgainWithTheSameBitsWithoutTheClient) {
+  world = open("dog.json");
+  EXPECT_EQ("sessions/" + std::string(worldName) + "-1.log", world.log());
+  const int joints = world.robots(0).joints_size();
+  for (int i = 0; i < 20; ++i)
+    step(3, [&](v1::StepRequest& request) {
+      v1::Targets& targets = *request.add_targets();
+      targets.set_robot("red1");
+      for (int k = 0; k < joints; ++k) targets.add_positions(0.1 * std::sin(0.3 * i + k));
+      if (i == 5) {
+        v1::Throw& thrown = *request.add_acts()->mutable_throw_();
+        thrown.set_object("ball");
+        for (const double v : {-1.0, 0.1, 0.5}) thrown.add_velocity_m_s(v);
+      }
+      if (i == 7)
+        request.add_acts()->set_json(R"({"act": "add", "ball": {"name": "b2", "position_m": [0.2, 0.2, 0.3]}})");
+      if (i == 9) {
+        v1::Number& number = *request.add_acts()->mutable_number();
+        number.set_name("friction");
+        number.set_value(0.4);
+      }
+      if (i == 11) request.add_acts()->set_remove("b2");
+    });
+  v1::PoseRequest pose;
+  pose.set_object("ball");
+  for (const double x : {0.2, 0.1, 0.3}) pose.add_position_m(x);
+  for (const double v : {0.0, 0.5, 0.0}) pose.add_velocity_m_s(v);
+  answered<v1::PosesReply>(desk, Method::pose, pose);
+  step(5);
+  const auto closed = answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
+  const fs::path log = files.server() / world.log();
+  EXPECT_EQ(closed.trace_sha256(), replayed(fs::path(log).replace_extension(".json"), log));
+}
+
+TEST_F(WorldDeskTest, TheSameSeedGivesTheSameBitsAndEachEpisodeALogOfItsOwn) {
+  open("dog.json");
+  std::vector<std::string> rows;
+  for (const std::uint64_t seed : {5, 6, 5}) {
+    v1::ResetRequest reset;
+    reset.set_seed(seed);
+    EXPECT_EQ(0, answered<v1::State>(desk, Method::reset, reset).period());
+    rows.push_back(step(40).SerializeAsString());
+  }
+  answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
+  const auto withoutEpisode = [](const std::string& bytes) {
+    v1::State state;
+    state.ParseFromString(bytes);
+    state.set_episode(0);
+    return state.SerializeAsString();
+  };
+  EXPECT_EQ(withoutEpisode(rows[0]), withoutEpisode(rows[2]));
+  for (const char* episode : {"-1", "-2", "-3", "-4"}) {
+    const fs::path log = files.server() / "sessions" / (std::string(worldName) + episode + ".log");
+    replayed(fs::path(log).replace_extension(".json"), log);
+  }
+}
+
+TEST_F(WorldDeskTest, TargetsOfEachPeriodAreToldInTurn) {
+  world = open("dog.json", true);
+  const int n = world.robots(0).joints_size();
+  const v1::State once = step(4, [&](v1::StepRequest& request) {
+    v1::Targets& targets = *request.add_targets();
+    targets.set_robot("red1");
+    for (int i = 0; i < 4 * n; ++i) targets.add_positions(0.01 * (i / n));
+  });
+  v1::ResetRequest reset;
+  answered<v1::State>(desk, Method::reset, reset);
+  v1::State each;
+  for (int period = 0; period < 4; ++period)
+    each = step(1, [&](v1::StepRequest& request) {
+      v1::Targets& targets = *request.add_targets();
+      targets.set_robot("red1");
+      for (int k = 0; k < n; ++k) targets.add_positions(0.01 * period);
+    });
+  EXPECT_TRUE(std::ranges::equal(once.row(), each.row()));
+}
+
+TEST_F(WorldDeskTest, ASavedGameGoesOnWithTheSameBits) {
+  open("dog.json");
+  step(7);
+  v1::SaveRequest save;
+  save.set_file("mine/now.json");
+  answered<v1::SaveReply>(desk, Method::save, save);
+  const v1::State here = step(30);
+  answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
+  WorldDesk other(plugins(), folder);
+  v1::OpenRequest request;
+  request.set_game("mine/now.json");
+  answered<v1::World>(other, Method::open, request, "fedcba9876543210");
+  v1::StepRequest on;
+  on.set_periods(30);
+  const v1::State there = answered<v1::State>(other, Method::step, on);
+  EXPECT_TRUE(std::ranges::equal(here.row(), there.row()));
+}
+
+TEST_F(WorldDeskTest, WhatIsNotAllowedIsSaidInOneSentenceAndChangesNothing) {
+  world = open("dog.json");
+  const v1::State before = step(3);
+  const std::string listing = files.listing();
+  const auto act = [](const std::string& json) {
+    return [json](v1::StepRequest& request) { request.add_acts()->set_json(json); };
+  };
+  EXPECT_THAT(stepRefused([](auto& r) { r.set_periods(-1); }), HasSubstr("periods: -1 is not allowed; 0 to 10000"));
+  EXPECT_THAT(stepRefused([](auto& r) { r.set_periods(10001); }), HasSubstr("0 to 10000"));
+  EXPECT_THAT(stepRefused([](auto& r) { r.add_acts(); }), HasSubstr("says nothing"));
+  EXPECT_THAT(stepRefused([](auto& r) { r.add_targets()->set_robot("red2"); }), HasSubstr("a robot of this game"));
+  EXPECT_THAT(stepRefused([](auto& r) {
+                r.add_targets()->set_robot("red1");
+                r.mutable_targets(0)->add_positions(0);
+              }),
+              HasSubstr("1 numbers"));
+  EXPECT_THAT(stepRefused([](auto& r) {
+                r.add_targets()->set_robot("red1");
+                r.mutable_targets(0)->add_positions(std::numeric_limits<double>::quiet_NaN());
+              }),
+              HasSubstr("finite"));
+  EXPECT_THAT(stepRefused(act("{")), HasSubstr("act"));
+  EXPECT_THAT(stepRefused(act(std::string(100000, '['))), HasSubstr("levels"));
+  EXPECT_THAT(stepRefused(act(R"({"act": "add", "robot": {"name": "r", "model": "../secret.wrl"}})")),
+              HasSubstr("a file below the server's folder"));
+  EXPECT_THAT(stepRefused(act(R"({"act": "add", "robot": {"name": "r", "model": "/etc/passwd"}})")),
+              HasSubstr("a file below the server's folder"));
+  EXPECT_THAT(stepRefused([](auto& r) {
+                auto& place = *r.add_acts()->mutable_place();
+                place.set_object("ball");
+                for (const double x : {0.0, 0.0, 1e9}) place.add_position_m(x);
+              }),
+              HasSubstr("position_m"));
+  v1::SaveRequest save;
+  save.set_file("../out.json");
+  EXPECT_THAT(refused(desk, Method::save, save), HasSubstr("below the server's folder"));
+  v1::PlayRequest play;
+  play.set_speed(std::numeric_limits<double>::infinity());
+  EXPECT_THAT(refused(desk, Method::play, play), HasSubstr("speed"));
+  EXPECT_EQ(listing, files.listing());
+  const v1::State after = answered<v1::State>(desk, Method::get, v1::GetRequest());
+  EXPECT_TRUE(std::ranges::equal(before.row(), after.row()));
+  EXPECT_EQ(before.period(), after.period());
+}
+
+TEST_F(WorldDeskTest, AGameThatCannotBePlayedIsRefusedAndNothingIsWritten) {
+  const std::string listing = files.listing();
+  const auto said = [&](const std::function<void(v1::OpenRequest&)>& settle) {
+    v1::OpenRequest request;
+    settle(request);
+    return refused(desk, Method::open, request, worldName);
+  };
+  EXPECT_THAT(said([](auto&) {}), HasSubstr("one of them"));
+  EXPECT_THAT(said([](auto& r) { r.set_game("../dog.json"); }), HasSubstr("below the server's folder"));
+  EXPECT_THAT(said([](auto& r) { r.set_game_json("{\"format\": 1}"); }), HasSubstr("format"));
+  EXPECT_THAT(said([](auto& r) { r.set_game_json(R"({"format": "uchilsim-game-1", "scene": "/etc/passwd"})"); }),
+              HasSubstr("below the server's folder"));
+  EXPECT_THAT(said([](auto& r) {
+                r.set_game_json(R"({"format": "uchilsim-game-1", "scene": {"format": "uchilsim-scene-1",
+                  "robots": [{"name": "r", "model": "robots/ers7.wrl"}]},
+                  "robots": {"r": {"controller": {"openr": {"stick": "/tmp"}}}}})");
+              }),
+              HasSubstr("openr"));
+  EXPECT_THAT(said([](auto& r) {
+                nlohmann::json scene{{"format", "uchilsim-scene-1"}, {"balls", nlohmann::json::array()}};
+                for (int i = 0; i < 1001; ++i)
+                  scene["balls"].push_back({{"name", "b" + std::to_string(i)}, {"position_m", {i, 0, 1}}});
+                r.set_game_json(scene.dump());
+              }),
+              HasSubstr("at most 1000"));
+  EXPECT_EQ(listing, files.listing());
+  v1::StepRequest step;
+  EXPECT_EQ("this world is not open", refused(desk, Method::step, step));
+}
+
+TEST_F(WorldDeskTest, ChannelsComeAndGoWithObjects) {
+  world = open("dog.json");
+  const v1::State more = step(0, [](auto& r) { r.add_acts()->set_json(R"({"act": "add", "ball": {"name": "b2"}})"); });
+  EXPECT_GT(more.channels_size(), world.channels_size());
+  EXPECT_EQ(more.channels_size(), more.row_size());
+  EXPECT_EQ(0, step(1).channels_size());
+  EXPECT_EQ(world.channels_size(), step(0, [](auto& r) { r.add_acts()->set_remove("b2"); }).channels_size());
+  v1::GetRequest get;
+  get.mutable_wanted()->add_channels("ball.z_m");
+  get.mutable_wanted()->set_links(true);
+  get.mutable_wanted()->set_contacts(true);
+  const auto state = answered<v1::State>(desk, Method::get, get);
+  EXPECT_EQ(1, state.row_size());
+  EXPECT_EQ(7 * world.robots(0).links_size(), state.links(0).pose_size());
+  get.mutable_wanted()->add_channels("ball.temperature");
+  EXPECT_THAT(refused(desk, Method::get, get), HasSubstr("a channel of this world"));
+}
+
+/// Every call answers, whatever its bytes, and no file appears where none may.
+TEST_F(WorldDeskTest, AMillionDamagedCallsAreAnsweredAndNothingIsWrittenOutside) {
+  open("ball.json");
+  const std::string methods = "odgrspyvclDERGISOXWMw";
+  std::vector<std::string> whole;
+  const auto keep = [&](Method method, const google::protobuf::Message& message) {
+    whole.push_back(callOf(method, message.SerializeAsString()));
+  };
+  v1::StepRequest step;
+  step.set_periods(2);
+  auto& place = *step.add_acts()->mutable_place();
+  place.set_object("ball");
+  for (const double x : {0.1, 0.0, 0.3}) place.add_position_m(x);
+  step.add_acts()->set_json(R"({"act": "throw", "object": "ball", "velocity_m_s": [1, 0, 0]})");
+  keep(Method::step, step);
+  v1::PoseRequest pose;
+  pose.set_object("ball");
+  for (const double x : {0.1, 0.0, 0.3}) pose.add_position_m(x);
+  keep(Method::pose, pose);
+  v1::GetRequest get;
+  get.mutable_wanted()->add_channels("ball.x_m");
+  get.mutable_wanted()->set_contacts(true);
+  keep(Method::get, get);
+  v1::SaveRequest save;
+  save.set_file("../../outside/../save.json");
+  keep(Method::save, save);
+  std::mt19937 random(1);
+  const std::string outside = [&] {
+    std::string names;
+    for (const auto& entry : fs::directory_iterator(files.outside())) names += entry.path().string() + "\n";
+    return names;
+  }();
+  std::map<Code, int> codes;
+  for (int i = 0; i < 1'000'000; ++i) {
+    std::string call;
+    if (i % 20 < 17) {
+      call = methods[random() % methods.size()];
+      if (call[0] == 'r' || call[0] == 'c') call[0] = 's';  // a new beginning takes long, and is tried elsewhere
+      for (std::size_t left = random() % 24; left > 0; --left) call += static_cast<char>(random());
+      if (call[0] == 's' && call.size() > 1) call[1] = static_cast<char>(random() % 8 * 8 + 2);  // no long steps
+    } else {
+      call = whole[random() % whole.size()];
+      if (random() % 2) call.resize(random() % call.size());
+      for (int flips = static_cast<int>(random() % 4); flips > 0 && call.size() > 3; --flips)
+        call[3 + random() % (call.size() - 3)] ^= static_cast<char>(1 << random() % 8);
+    }
+    ++codes[answerCall(desk, call).code];
+  }
+  EXPECT_GT(codes[Code::invalid], 100'000);
+  EXPECT_GT(codes[Code::ok], 1'000);
+  EXPECT_EQ(0, codes[Code::internal]);
+  std::string after;
+  for (const auto& entry : fs::directory_iterator(files.outside())) after += entry.path().string() + "\n";
+  EXPECT_EQ(outside, after);
+  // And the world is still there.
+  v1::ResetRequest reset;
+  EXPECT_EQ(0, answered<v1::State>(desk, Method::reset, reset).period());
+}
+
+}  // namespace

@@ -4,7 +4,8 @@
 
 #include "app/btr_commands.h"
 #include "app/btr_live_lines.h"
-#include "app/btr_openr_process.h"
+
+#include "core/openr/robot_starter.h"
 #include "core/spec/error.h"
 
 namespace btr::cli {
@@ -67,7 +68,7 @@ void EyeProcesses::set(const std::string& robot, const Values& numbers) {
     eye->second.process->send(nlohmann::json{{"camera", numbers}}.dump());
 }
 
-OpenrRobots::OpenrRobots(Session& session) : eyes_(session), programs_(session, startOpenrProcess, &eyes_) {}
+OpenrRobots::OpenrRobots(Session& session) : eyes_(session), programs_(session, openr::startRobot, &eyes_) {}
 
 std::vector<openr::LivePrograms::Line> OpenrRobots::takeLines() {
   auto lines = programs_.takeLines();

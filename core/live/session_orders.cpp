@@ -1,4 +1,5 @@
 // What robots' own programs order. They run elsewhere; a session knows what they ordered, and when.
+#include "core/live/orders.h"
 #include "core/live/session.h"
 #include "core/spec/error.h"
 
@@ -17,26 +18,28 @@ std::map<std::string, Orders> Session::ordersOf(const Game& game, const std::map
   return all;
 }
 
-/// A joint that was never enabled is limp; one that a hand holds is not.
-void Session::obey(std::size_t robot) {
-  const auto found = orders_.find(scene_.robots[robot].name);
-  if (found == orders_.end()) return;
-  const Orders& orders = found->second;
+void applyOrders(const Orders& orders, const RobotModel& model, std::span<JointInput> inputs) {
   const bool power = orders.motorPower.value_or(false);
-  const auto held = held_.find(found->first);
-  for (std::size_t j = 0; j < inputs_[robot].size(); ++j) {
-    const std::string& joint = scene_.robots[robot].model.joints[j].name;
-    JointInput& input = inputs_[robot][j];
+  for (std::size_t j = 0; j < inputs.size(); ++j) {
+    const std::string& joint = model.joints[j].name;
     const auto on = orders.enabled.find(joint);
-    input.enabled =
-        (power && on != orders.enabled.end() && on->second) || (held != held_.end() && held->second.contains(joint));
+    inputs[j].enabled = power && on != orders.enabled.end() && on->second;
     const auto gain = orders.gains.find(joint);
     std::array<double, 3> times{1, 1, 1};
     if (gain != orders.gains.end()) times = gain->second;
-    input.pTimes = times[0];
-    input.iTimes = times[1];
-    input.dTimes = times[2];
+    inputs[j].pTimes = times[0];
+    inputs[j].iTimes = times[1];
+    inputs[j].dTimes = times[2];
   }
+}
+
+/// A joint that a hand holds is not limp.
+void Session::obey(std::size_t robot) {
+  const auto orders = orders_.find(scene_.robots[robot].name);
+  if (orders == orders_.end()) return;
+  applyOrders(orders->second, scene_.robots[robot].model, inputs_[robot]);
+  if (const auto held = held_.find(orders->first); held != held_.end())
+    for (const auto& joint : held->second) inputs_[robot][jointOf(robot, joint.first)].enabled = true;
 }
 
 void Session::change(const OrdersAct& act) {

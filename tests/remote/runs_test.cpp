@@ -109,6 +109,10 @@ class RemoteRun : public ServerTest {
     EXPECT_TRUE(caller.learning->Wanted(context.get(), request, &reply).ok());
     return reply;
   }
+  std::vector<v1::Task> tasksOf(const Caller& caller, std::int64_t run) {
+    const v1::MeasureReply reply = wanted(caller, run);
+    return {reply.tasks().begin(), reply.tasks().end()};
+  }
 };
 
 TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
@@ -144,7 +148,7 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
   EXPECT_TRUE(tell(caller, run, question, vectorsFor(question)).ok());
   question = ask(caller, run);
   ASSERT_EQ(v1::Question::FITNESS, question.what()) << question.message();
-  for (const v1::Task& task : wanted(caller, run).tasks())
+  for (const v1::Task& task : tasksOf(caller, run))
     EXPECT_TRUE(measured(caller, run, task.individual(), {0.1}, false, true).ok());
   goOn(caller, run);
   EXPECT_EQ(v1::Question::FINISHED, ask(caller, run).what());
@@ -249,7 +253,7 @@ TEST_F(RemoteRun, ALearnerOutsideAdaptsTheSimulatorToo) {
               text["adaptation"]["learner"] = {{"name", "remote"}, {"settings", {{"population", 3}}}};
             }));
   ASSERT_EQ(v1::Question::FITNESS, ask(caller, run).what());
-  for (const v1::Task& task : wanted(caller, run).tasks())
+  for (const v1::Task& task : tasksOf(caller, run))
     EXPECT_TRUE(measured(caller, run, task.individual(), {0.1}, false, true).ok());
   goOn(caller, run);
   const v1::Question question = ask(caller, run);

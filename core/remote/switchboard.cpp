@@ -12,6 +12,7 @@
 #include "core/remote/run_desk.h"
 #include "core/remote/world_desk.h"
 #include "core/spec/error.h"
+#include "uchilsim.pb.h"
 
 namespace btr::remote {
 namespace {
@@ -40,6 +41,9 @@ void limitMemory() {
 #endif
 }
 
+/// What strangers send is answered, not written to the operator's terminal.
+void beSilent() { google::protobuf::SetLogHandler(nullptr); }
+
 Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host) {
   return [&options, &host](char kind) {
     const auto answer = [](Desk&& desk) { serve(desk, Nursery::socketOfChild); };
@@ -54,7 +58,7 @@ Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host
 }  // namespace
 
 Switchboard::Switchboard(Options options, const PluginHost& host)
-    : options_(std::move(options)),
+    : options_((beSilent(), std::move(options))),
       host_(host),
       nursery_(lifeOf(options_, host)),
       runs_(std::make_unique<RunKeeper>(nursery_)),

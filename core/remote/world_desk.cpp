@@ -117,7 +117,6 @@ Game WorldDesk::gameOf(const v1::OpenRequest& request) const {
 }
 
 std::string WorldDesk::open(const v1::OpenRequest& request) {
-  if (game_) throw Refusal(Code::notNow, "this world is open already");
   Game game = gameOf(request);
   requireFewObjects(game);
   if (request.has_seed()) game.seed = request.seed();
@@ -311,6 +310,7 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       constexpr std::size_t nameLength = 16;
       if (message.size() < nameLength) throw Refusal(Code::invalid, "a world without a name");
       const auto request = messageOf<v1::OpenRequest>(message.substr(nameLength));
+      if (game_) throw Refusal(Code::notNow, "this world is open already");
       name_ = message.substr(0, nameLength);
       return open(request);
     }

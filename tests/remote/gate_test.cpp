@@ -14,11 +14,11 @@ namespace {
 
 using namespace btr;
 using namespace btr::remote;
+using btr::test::driver;
 using btr::test::refusal;
+using btr::test::watcher;
 using testing::HasSubstr;
 
-constexpr const char* watcher = "watch-0123456789abcdef0123";
-constexpr const char* driver = "drive-0123456789abcdef0123";
 constexpr const char* peer = "ipv4:127.0.0.1:4000";
 
 class Tokens : public testing::Test {

@@ -16,6 +16,11 @@
 
 namespace btr::test {
 
+// Tokens of each role.
+inline constexpr const char* watcher = "watch-0123456789abcdef0123";
+inline constexpr const char* driver = "drive-0123456789abcdef0123";
+inline constexpr const char* administrator = "admin-0123456789abcdef0123";
+
 /// DIR/server with a robot, a scene, an experiment and two games; DIR is what lies outside of it.
 class RemoteFolder {
  public:

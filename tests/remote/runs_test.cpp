@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/run/replay.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"
 #include "tests/remote/server_fixture.h"
@@ -81,9 +81,11 @@ class RemoteRun : public ServerTest {
     std::vector<std::vector<double>> all;
     for (int i = 0; i < 3; ++i) {
       std::vector<double> vector;
-      for (const v1::NumberParts& p : question.parameters())
-        vector.push_back(p.minimum() + (p.maximum() - p.minimum()) *
-                                           (0.4 + 0.05 * i + 0.01 * static_cast<double>(question.number())));
+      for (const v1::NumberParts& p : question.parameters()) {
+        const double share = 0.4 + 0.05 * i + 0.01 * static_cast<double>(question.number());
+        const double value = p.minimum() + (p.maximum() - p.minimum()) * share;
+        vector.push_back(p.integer() ? std::round(value) : value);
+      }
       all.push_back(vector);
     }
     return all;
@@ -108,6 +110,10 @@ class RemoteRun : public ServerTest {
     const auto context = caller.context();
     EXPECT_TRUE(caller.learning->Wanted(context.get(), request, &reply).ok());
     return reply;
+  }
+  std::vector<v1::Task> tasksOf(const Caller& caller, std::int64_t run) {
+    const v1::MeasureReply reply = wanted(caller, run);
+    return {reply.tasks().begin(), reply.tasks().end()};
   }
 };
 
@@ -144,7 +150,7 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
   EXPECT_TRUE(tell(caller, run, question, vectorsFor(question)).ok());
   question = ask(caller, run);
   ASSERT_EQ(v1::Question::FITNESS, question.what()) << question.message();
-  for (const v1::Task& task : wanted(caller, run).tasks())
+  for (const v1::Task& task : tasksOf(caller, run))
     EXPECT_TRUE(measured(caller, run, task.individual(), {0.1}, false, true).ok());
   goOn(caller, run);
   EXPECT_EQ(v1::Question::FINISHED, ask(caller, run).what());
@@ -163,13 +169,13 @@ TEST_F(RemoteRun, AnAnswerThatIsNotAllowedIsSaidAndTheQuestionStays) {
   const std::int64_t run = start(caller, experiment());
   const v1::Question question = ask(caller, run);
   std::vector<std::vector<double>> vectors = vectorsFor(question);
-  vectors[1][4] = std::numeric_limits<double>::quiet_NaN();
+  vectors[1][5] = std::numeric_limits<double>::quiet_NaN();
   grpc::Status status = tell(caller, run, question, vectors);
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, status.error_code());
-  EXPECT_THAT(status.error_message(), HasSubstr("vector 1 " + question.parameters(4).name() + ": no number"));
-  vectors[1][4] = 1e9;
+  EXPECT_THAT(status.error_message(), HasSubstr("vector 1 " + question.parameters(5).name() + ": no number"));
+  vectors[1][5] = 1e9;
   EXPECT_THAT(tell(caller, run, question, vectors).error_message(),
-              HasSubstr("vector 1 " + question.parameters(4).name()));
+              HasSubstr("vector 1 " + question.parameters(5).name()));
   vectors[1].pop_back();
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, tell(caller, run, question, vectors).error_code());
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, tell(caller, run, question, {}).error_code());
@@ -249,7 +255,7 @@ TEST_F(RemoteRun, ALearnerOutsideAdaptsTheSimulatorToo) {
               text["adaptation"]["learner"] = {{"name", "remote"}, {"settings", {{"population", 3}}}};
             }));
   ASSERT_EQ(v1::Question::FITNESS, ask(caller, run).what());
-  for (const v1::Task& task : wanted(caller, run).tasks())
+  for (const v1::Task& task : tasksOf(caller, run))
     EXPECT_TRUE(measured(caller, run, task.individual(), {0.1}, false, true).ok());
   goOn(caller, run);
   const v1::Question question = ask(caller, run);

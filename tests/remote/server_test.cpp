@@ -25,10 +25,6 @@ using btr::remote::Server;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr const char* watcher = "watch-0123456789abcdef0123";
-constexpr const char* driver = "drive-0123456789abcdef0123";
-constexpr const char* administrator = "admin-0123456789abcdef0123";
-
 std::string tokensIn(const RemoteFolder& files) {
   const std::string path = files.file("tokens");
   std::ofstream(path) << "watch " << watcher << "\ndrive " << driver << "\nadministrate " << administrator << "\n";

@@ -14,7 +14,7 @@ from . import uchilsim_pb2 as pb
 from . import uchilsim_pb2_grpc as services
 from .errors import Unreachable, sentences
 from .learning import Run
-from .numbers import Number
+from .numbers import Number, clipped, lower_of, upper_of
 from .world import World
 
 _LARGEST = 64 << 20  # of an answer
@@ -73,11 +73,15 @@ class Experiment:
     @property
     def lower(self) -> np.ndarray:
         """(parameters,) the smallest values, in the parameters' own units."""
-        return np.array([p.minimum for p in self.genotype])
+        return lower_of(self.genotype)
 
     @property
     def upper(self) -> np.ndarray:
-        return np.array([p.maximum for p in self.genotype])
+        return upper_of(self.genotype)
+
+    def clip(self, vectors) -> np.ndarray:
+        """Vectors (…, parameters) brought within the bounds, and whole where only whole numbers are allowed."""
+        return clipped(self.genotype, vectors)
 
     def evaluate(self, population, seed: int | None = None, run: int = 0, timeout: float | None = None) -> Evaluation:
         """Whole trials of a population, array (vectors, parameters), on all the server's cores: the bits that a run of

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import uchilsim_pb2 as pb
 from .errors import NotNow
-from .numbers import Number
+from .numbers import Number, clipped, lower_of, upper_of
 
 if TYPE_CHECKING:
     from .client import Client
@@ -42,11 +42,15 @@ class Question:
 
     @property
     def lower(self) -> np.ndarray:
-        return np.array([p.minimum for p in self.parameters])
+        return lower_of(self.parameters)
 
     @property
     def upper(self) -> np.ndarray:
-        return np.array([p.maximum for p in self.parameters])
+        return upper_of(self.parameters)
+
+    def clip(self, vectors: Any) -> np.ndarray:
+        """Vectors (…, parameters) brought within the bounds, and whole where only whole numbers are allowed."""
+        return clipped(self.parameters, vectors)
 
     def answer(self, vectors: Any, state: str = "") -> None:
         """The next population, (vectors, parameters), within the bounds. Raises Refused for what is not allowed: then

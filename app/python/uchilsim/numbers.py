@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -23,3 +26,17 @@ class Number:
     def of(parts, with_value: bool = False) -> "Number":
         return Number(parts.name, parts.unit, parts.meaning, parts.minimum, parts.maximum, parts.by_default,
                       parts.integer, tuple(parts.choices), parts.value if with_value else None)
+
+
+def lower_of(numbers: Sequence[Number]) -> np.ndarray:
+    return np.array([n.minimum for n in numbers])
+
+
+def upper_of(numbers: Sequence[Number]) -> np.ndarray:
+    return np.array([n.maximum for n in numbers])
+
+
+def clipped(numbers: Sequence[Number], vectors) -> np.ndarray:
+    """Vectors (…, parameters) brought within the bounds, and whole where only whole numbers are allowed."""
+    vectors = np.clip(np.asarray(vectors, dtype=float), lower_of(numbers), upper_of(numbers))
+    return np.where([n.integer or bool(n.choices) for n in numbers], np.round(vectors), vectors)

@@ -20,7 +20,7 @@ class OObserver {
   virtual ~OObserver();
 
   OStatus SetNotifyEntry(const OServiceEntry& entry);
-  void SetSkip(size_t d) { skip_ = d; }
+  void SetSkip(size_t d);
   /// Leaves out `skip` units between two, is sent to from `min` units on, and has at most `max` kept while not ready.
   void SetBufCtrlParam(size_t skip, size_t min, size_t max);
 

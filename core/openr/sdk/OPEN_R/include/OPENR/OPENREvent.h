@@ -7,8 +7,7 @@
 /// Why Init, Start, Stop or Destroy is called.
 class OSystemEvent {
  public:
-  OSystemEvent(OReason reason, void* param, size_t paramSize)
-      : reason_(reason), param_(param), paramSize_(paramSize) {}
+  OSystemEvent(OReason reason, void* param, size_t paramSize) : reason_(reason), param_(param), paramSize_(paramSize) {}
   ~OSystemEvent() {}
 
   OReason Reason() const { return reason_; }

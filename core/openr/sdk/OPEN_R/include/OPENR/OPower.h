@@ -146,8 +146,7 @@ struct OBootCondition {
 
   OBootCondition() : bitmap(0), bootTime(0), bootTimeType(obcbttRELATIVE), vibrationLevel(0) {}
   OBootCondition(word bm) : bitmap(bm), bootTime(0), bootTimeType(obcbttRELATIVE), vibrationLevel(0) {}
-  OBootCondition(word bm, time_t bt, longword btt)
-      : bitmap(bm), bootTime(bt), bootTimeType(btt), vibrationLevel(0) {}
+  OBootCondition(word bm, time_t bt, longword btt) : bitmap(bm), bootTime(bt), bootTimeType(btt), vibrationLevel(0) {}
   OBootCondition(word bm, time_t bt, longword btt, byte vl)
       : bitmap(bm), bootTime(bt), bootTimeType(btt), vibrationLevel(vl) {}
   OBootCondition(const OBootCondition& bc)

@@ -1,0 +1,30 @@
+#pragma once
+#include <setjmp.h>
+
+#include <string>
+
+namespace btr::openr {
+
+struct RunningObject;
+
+/// What a signal's handler has to know of the method that runs.
+struct FaultState {
+  volatile bool inMethod = false;
+  RunningObject* object = nullptr;
+  unsigned selector = 0;
+  unsigned serial = 0;  ///< counts methods, so that the watchdog sees another one
+  sigjmp_buf home;
+  std::string what;  ///< filled by the handler
+  bool endless = false;
+};
+FaultState& faultState();
+
+/// Crashes and endless loops of methods come back to `faultState().home`; a second crash writes a last message over
+/// `link`
+/// (-1: none) and ends the process. A method may use `limit_s` of the processor's time at a stretch.
+void watchFaults(int link, int limit_s);
+
+/// Inside methods: what is no number, or too large for an integer, is a fault as on the robot.
+void numbersTrap();
+
+}  // namespace btr::openr

@@ -1,0 +1,603 @@
+#include "core/openr/runtime/services.h"
+
+#include <OPENR/OPENRMessages.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/openr/runtime/gunzip.h"
+#include "core/openr/runtime/ip_stack.h"
+#include "core/openr/runtime/regions.h"
+#include "core/openr/runtime/system.h"
+#include "core/openr/runtime/vectors.h"
+
+namespace btr::openr {
+namespace {
+
+// Entries of the robot's objects.
+enum Entries : Selector {
+  effectorConnect = 100,
+  effectorNotify,
+  sensorControl,
+  sensorReady,
+  imageControl,
+  imageReady,
+  speakerConnect = 200,
+  speakerNotify,
+  microphoneControl,
+  microphoneReady
+};
+
+constexpr std::size_t framesInVector = 4;
+constexpr std::size_t vectorsAtOnce = 13;  ///< that Effector and Speaker take in one message [not documented]
+constexpr word fullScale = 1023;           ///< of 10 bits
+
+std::string soundFile(const std::string& stick) { return stick + "/SPEAKER.WAV"; }
+
+ODataType typeOf(const Primitive& primitive) {
+  if (primitive.kind == Primitive::Kind::joint || primitive.kind == Primitive::Kind::ear) return odataJOINT_VALUE;
+  const std::string& name = primitive.name;
+  if (name.find("acceleration") == 0) return odataACCELERATION;
+  if (name.find("distance") == 0) return odataLENGTH;
+  if (name == "temperature") return odataTEMPERATURE;
+  if (name.find("paw_") == 0 || name == "wireless_switch" || name.find("chin") != std::string::npos) return odataSWITCH;
+  if (name.find("touch_head_") == 0 || name.find("head_lever") == 0) return odataFORCE;
+  return odataNO_DIMENSION;
+}
+
+word signalOf(const Primitive& primitive, std::int32_t value) {
+  const auto scaled = [](double share) { return static_cast<word>(std::clamp(share, 0.0, 1.0) * fullScale); };
+  switch (typeOf(primitive)) {
+    case odataJOINT_VALUE:
+      return scaled((value - primitive.low) / std::max(1.0, static_cast<double>(primitive.high) - primitive.low));
+    case odataACCELERATION:
+      return scaled(0.5 + value / 39226600.0);  // ±19.6133 m/s²
+    case odataLENGTH:
+      return scaled(1.0 - value / 1500000.0);  // near is a strong echo
+    case odataFORCE:
+      return scaled(value / 980665.0);
+    case odataTEMPERATURE:
+      return static_cast<word>(value / 1000000);
+    default:
+      return static_cast<word>(value);
+  }
+}
+
+template <class T>
+bool takeParam(const void* param, std::size_t size, T& value) {
+  if (param == nullptr || size < sizeof(T)) return false;
+  std::memcpy(static_cast<void*>(&value), param, sizeof(T));
+  return true;
+}
+
+template <class T>
+OStatus give(const T& value, void* result, std::size_t size) {
+  if (result == nullptr || size < sizeof(T)) return oINVALID_ARG;
+  std::memcpy(result, static_cast<const void*>(&value), sizeof(T));
+  return oSUCCESS;
+}
+
+}  // namespace
+
+Services::Services(System& system) : primitives(system.design), system_(system), gains_(system.design.joints.size()) {
+  ip_ = std::make_unique<IpStack>(system);
+  for (std::size_t i = 0; i < gains_.size(); ++i)  // an ear has a plunger, no servo
+    gains_[i].changedEnabled = system.design.joints[i].kind == Primitive::Kind::joint;
+  for (auto& channel : colours_) channel.fill(ocdtINIT);
+  values_.resize(system.design.sensors.size());
+  fresh_.resize(system.design.sensors.size());
+  RunningObject& robot = system.addNative("OVirtualRobotComm", [this](Selector s, void* m) { handleRobot(s, m); });
+  RunningObject& audio = system.addNative("OVirtualRobotAudioComm", [this](Selector s, void* m) { handleAudio(s, m); });
+
+  effectorID_ = OServiceEntry(robot.oid, effectorNotify);
+  speakerID_ = OServiceEntry(audio.oid, speakerNotify);
+  effector_ = std::make_unique<Effector>(effectorID_, system.design, primitives);
+  speaker_ = std::make_unique<SoundOut>(speakerID_, soundFile(system.stick));
+  system.bufferControl[effectorID_] = system.bufferControl[speakerID_] = {0, 1, vectorsAtOnce};
+  robot.observers.push_back(
+      {"OVirtualRobotComm.Effector.OCommandVectorData.O", OServiceEntry(robot.oid, effectorConnect)});
+  robot.notifyEntries.push_back(effectorID_);
+  audio.observers.push_back(
+      {"OVirtualRobotAudioComm.Speaker.OSoundVectorData.O", OServiceEntry(audio.oid, speakerConnect)});
+  audio.notifyEntries.push_back(speakerID_);
+
+  const auto addSubject = [](RunningObject& object, const char* name, Selector control, Selector ready) {
+    auto subject = std::make_unique<OSubject>();
+    subject->SetReadyEntry(OServiceEntry(object.oid, ready));
+    object.subjects.push_back({name, OServiceEntry(object.oid, control)});
+    return subject;
+  };
+  sensors_ = addSubject(robot, "OVirtualRobotComm.Sensor.OSensorFrameVectorData.S", sensorControl, sensorReady);
+  images_ = addSubject(robot, "OVirtualRobotComm.FbkImageSensor.OFbkImageVectorData.S", imageControl, imageReady);
+  microphone_ = addSubject(audio, "OVirtualRobotAudioComm.Mic.OSoundVectorData.S", microphoneControl, microphoneReady);
+
+  for (const std::string& locator : system.design.sensorVector) {
+    const OPrimitiveID id = primitives.at(locator);
+    const Primitives::Place* place = primitives.find(id);
+    if (place != nullptr) inVector_.push_back({place->kind, place->place, id, typeOf(place->primitive)});
+  }
+}
+
+Services::~Services() = default;
+
+void Services::handleRobot(Selector selector, void* message) {
+  switch (selector) {
+    case effectorConnect:
+      effector_->connect(static_cast<OConnectMessage*>(message)->subject);
+      break;
+    case effectorNotify:
+      effector_->take(*static_cast<ONotifyMessage*>(message));
+      break;
+    case sensorControl:
+      sensors_->ControlHandler(static_cast<OControlMessage*>(message));
+      break;
+    case sensorReady:
+      sensors_->ReadyHandler(static_cast<OReadyMessage*>(message));
+      break;
+    case imageControl:
+      images_->ControlHandler(static_cast<OControlMessage*>(message));
+      break;
+    case imageReady:
+      images_->ReadyHandler(static_cast<OReadyMessage*>(message));
+      break;
+    default:
+      break;
+  }
+}
+
+void Services::handleAudio(Selector selector, void* message) {
+  switch (selector) {
+    case speakerConnect:
+      speaker_->connect(static_cast<OConnectMessage*>(message)->subject);
+      break;
+    case speakerNotify:
+      speaker_->take(*static_cast<ONotifyMessage*>(message));
+      break;
+    case microphoneControl:
+      microphone_->ControlHandler(static_cast<OControlMessage*>(message));
+      break;
+    case microphoneReady:
+      microphone_->ReadyHandler(static_cast<OReadyMessage*>(message));
+      break;
+    default:
+      break;
+  }
+}
+
+void Services::begin() {
+  effector_->begin();
+  speaker_->begin();
+}
+
+// ---- senses -----------------------------------------------------------------------------------------------------
+
+void Services::sense() {
+  readFrame();
+  ip_->poll();
+  watchPower();
+  publishMicrophone();
+  publishSensors();
+  publishImage();
+}
+
+/// The distance sensors of the ERS-7's head take turns, frame by frame.
+void Services::readFrame() {
+  const SensorFrame& frame = system_.sensed();
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const std::string& name = system_.design.sensors[i].name;
+    const bool odd = frame.number % 2 == 1;
+    fresh_[i] = name == "distance_near" ? odd : (name == "distance_far" ? !odd : true);
+    if (fresh_[i] || values_[i] == 0) values_[i] = frame.sensors[i];
+  }
+  if (volume_ < 0) volume_ = frame.power.volume;
+}
+
+OJointValue Services::jointReading(std::size_t joint) const {
+  const JointReading& reading = system_.sensed().joints[joint];
+  const Primitive& primitive = system_.design.joints[joint];
+  return OJointValue(reading.value_urad, signalOf(primitive, reading.value_urad), reading.duty, reading.reference_urad,
+                     signalOf(primitive, reading.reference_urad));
+}
+
+OSensorValue Services::readingOf(const InVector& item) const {
+  OSensorValue value{};
+  if (item.kind == Primitives::Of::joint) {
+    const OJointValue joint = jointReading(item.place);
+    static_assert(sizeof(joint) == sizeof(value));
+    std::memcpy(static_cast<void*>(&value), static_cast<const void*>(&joint), sizeof(value));
+    return value;
+  }
+  value.value = values_[item.place];
+  value.signal = fresh_[item.place] ? signalOf(system_.design.sensors[item.place], value.value) : word{0};
+  return value;
+}
+
+void Services::publishSensors() {
+  if (frames_.empty()) firstFrame_ = system_.sensed().number;
+  std::vector<OSensorValue> now;
+  now.reserve(inVector_.size());
+  for (const InVector& item : inVector_) now.push_back(readingOf(item));
+  frames_.push_back(std::move(now));
+  if (frames_.size() < framesInVector) return;
+  if (sensors_->NumberOfObservers() > 0) {
+    RCRegion* region = sensorPool_.take(sensorVectorBytes(inVector_.size()));
+    auto* vector = reinterpret_cast<OSensorFrameVectorData*>(region->Base());
+    initSensorVector(vector, region->MemID(), inVector_.size());
+    vector->SetNumData(inVector_.size());
+    const auto& optional = effector_->optional();
+    vector->vectorInfo.optSize = static_cast<longword>(optional.size());
+    std::copy(optional.begin(), optional.end(), vector->vectorInfo.optional);
+    for (std::size_t i = 0; i < inVector_.size(); ++i) {
+      OSensorFrameInfo* info = vector->GetInfo(static_cast<int>(i));
+      info->Set(inVector_[i].type, inVector_[i].id, framesInVector);
+      info->frameNumber = firstFrame_;
+      for (std::size_t f = 0; f < framesInVector; ++f) vector->GetData(static_cast<int>(i))->frame[f] = frames_[f][i];
+    }
+    sensors_->SetData(region);
+    sensors_->NotifyObservers();
+  }
+  frames_.clear();
+}
+
+void Services::publishImage() {
+  const auto& image = system_.sensed().image;
+  if (!image) return;
+  ++field_;
+  if (images_->NumberOfObservers() == 0) return;
+  const std::size_t width = system_.design.imageWidth, height = system_.design.imageHeight;
+  RCRegion* region = imagePool_.take(imageVectorBytes(width, height));
+  auto* vector = reinterpret_cast<OFbkImageVectorData*>(region->Base());
+  initImageVector(vector, region->MemID(), width, height);
+  vector->SetPrimitiveID(primitives.idOf(Primitive::Kind::camera));
+  for (int layer = 0; layer < 4; ++layer) vector->GetInfo(layer)->frameNumber = system_.sensed().number;
+  fillLayers(vector, *image, colours_, field_);
+  images_->SetData(region);
+  images_->NotifyObservers();
+}
+
+/// Silence, 16 kHz, 16 bits, stereo.
+void Services::publishMicrophone() {
+  const int frames = system_.design.name == "ERS-7" ? 2 : 4;
+  if (++microphoneFrames_ < frames) return;
+  microphoneFrames_ = 0;
+  if (microphone_->NumberOfObservers() == 0) return;
+  const std::size_t bytes = static_cast<std::size_t>(frames) * 8 * 16 * 4;
+  RCRegion* region = microphonePool_.take(soundVectorBytes(1, bytes));
+  auto* vector = reinterpret_cast<OSoundVectorData*>(region->Base());
+  initSoundVector(vector, region->MemID(), 1, bytes);
+  vector->SetNumData(1);
+  OSoundInfo* info = vector->GetInfo(0);
+  info->Set(odataSOUND, primitives.idOf(Primitive::Kind::microphone), bytes);
+  info->frameNumber = system_.sensed().number - static_cast<std::uint32_t>(frames) + 1;
+  info->frameSize = 4;
+  info->format = osoundformatPCM;
+  info->channel = osoundchannelSTEREO;
+  info->samplingRate = 16000;
+  info->bitsPerSample = 16;
+  info->actualDataSize = static_cast<longword>(bytes);
+  microphone_->SetData(region);
+  microphone_->NotifyObservers();
+}
+
+// ---- orders -----------------------------------------------------------------------------------------------------
+
+void Services::act(OrderFrame& orders) {
+  std::set<OVRSyncKey> waiting;
+  effector_->addWaiting(waiting, keys);
+  speaker_->addWaiting(waiting, keys);
+  const std::set<OVRSyncKey> starting = keys.takeComplete(waiting);
+  speaker_->setTime(system_.time_us());
+  effector_->step(starting, keys);
+  speaker_->step(starting, keys);
+  effector_->addTo(orders);
+  for (std::size_t i = 0; i < gains_.size(); ++i) {
+    Gain& gain = gains_[i];
+    if (!gain.changedGain && !gain.changedEnabled) continue;
+    orders.joints.resize(gains_.size());
+    if (gain.changedGain) orders.joints[i].gain = gain.gain;
+    if (gain.changedEnabled) orders.joints[i].gainEnabled = gain.enabled;
+    gain.changedGain = gain.changedEnabled = false;
+  }
+  if (motorPowerChanged_) orders.motorPower = motorPower_;
+  motorPowerChanged_ = false;
+  orders.camera = camera_;
+  camera_ = {};
+}
+
+void Services::finish() {
+  const std::string file = speaker_->close();
+  if (!file.empty()) system_.say("", "what the loudspeaker played stands in " + file);
+  ip_->closeAll();
+}
+
+std::vector<std::size_t> Services::jointsOf(OPrimitiveID id) const {
+  std::vector<std::size_t> joints;
+  const auto add = [&](OPrimitiveID one) {
+    const Primitives::Place* place = primitives.find(one);
+    if (place != nullptr && place->kind == Primitives::Of::joint) joints.push_back(place->place);
+  };
+  if (id == oprimitiveID_UNDEF)
+    for (const OPrimitiveID one : opened_) add(one);
+  else
+    add(id);
+  return joints;
+}
+
+OStatus Services::openPrimitive(const std::string& locator, OPrimitiveID* id) {
+  const OPrimitiveID found = primitives.at(locator);
+  if (id != nullptr) *id = found;
+  if (found == oprimitiveID_UNDEF) return oNOT_FOUND;
+  opened_.insert(found);
+  return oSUCCESS;
+}
+
+OStatus Services::closePrimitive(OPrimitiveID id) { return opened_.erase(id) > 0 ? oSUCCESS : oINVALID_PRIMITIVE_ID; }
+
+OStatus Services::enableGain(OPrimitiveID id, bool enabled) {
+  const auto joints = jointsOf(id);
+  if (joints.empty() && id != oprimitiveID_UNDEF) return oINVALID_PRIMITIVE_ID;
+  for (const std::size_t joint : joints) {
+    gains_[joint].enabled = enabled;
+    gains_[joint].changedEnabled = true;
+  }
+  return oSUCCESS;
+}
+
+OStatus Services::setGain(OPrimitiveID id, const JointGain& gain) {
+  const auto joints = jointsOf(id);
+  if (joints.empty() && id != oprimitiveID_UNDEF) return oINVALID_PRIMITIVE_ID;
+  OStatus status = oSUCCESS;
+  for (const std::size_t joint : joints) {
+    if (!gains_[joint].enabled) {
+      status = oGAIN_DISABLED;
+      continue;
+    }
+    gains_[joint].gain = gain;
+    gains_[joint].changedGain = true;
+  }
+  return status;
+}
+
+OStatus Services::registerDefaultGain(OPrimitiveID id, const JointGain& gain) {
+  const auto joints = jointsOf(id);
+  if (joints.empty() && id != oprimitiveID_UNDEF) return oINVALID_PRIMITIVE_ID;
+  for (const std::size_t joint : joints) gains_[joint].byDefault = gain;
+  return oSUCCESS;
+}
+
+OStatus Services::applyDefaultGain(OPrimitiveID id) {
+  const auto joints = jointsOf(id);
+  if (joints.empty() && id != oprimitiveID_UNDEF) return oINVALID_PRIMITIVE_ID;
+  OStatus status = oSUCCESS;
+  for (const std::size_t joint : joints) {
+    if (!gains_[joint].enabled) {
+      status = oGAIN_DISABLED;
+      continue;
+    }
+    gains_[joint].gain = gains_[joint].byDefault;
+    gains_[joint].changedGain = true;
+  }
+  return status;
+}
+
+OStatus Services::gain(OPrimitiveID id, bool byDefault, JointGain* gain) const {
+  const auto joints = jointsOf(id);
+  if (joints.empty() || id == oprimitiveID_UNDEF) return oINVALID_PRIMITIVE_ID;
+  *gain = byDefault ? gains_[joints[0]].byDefault : gains_[joints[0]].gain;
+  return oSUCCESS;
+}
+
+OStatus Services::jointValue(OPrimitiveID id, OJointValue* value) const {
+  const Primitives::Place* place = primitives.find(id);
+  if (place == nullptr || place->kind != Primitives::Of::joint) return oINVALID_PRIMITIVE_ID;
+  *value = jointReading(place->place);
+  return oSUCCESS;
+}
+
+OStatus Services::sensorValue(OPrimitiveID id, OSensorValue* value) const {
+  const Primitives::Place* place = primitives.find(id);
+  if (place == nullptr || (place->kind != Primitives::Of::sensor && place->kind != Primitives::Of::joint))
+    return oINVALID_PRIMITIVE_ID;
+  *value = readingOf({place->kind, place->place, id, odataUNDEF});
+  return oSUCCESS;
+}
+
+OStatus Services::control(OPrimitiveID id, OPrimitiveRequest request, void* param, std::size_t paramSize, void* result,
+                          std::size_t resultSize) {
+  const Primitives::Place* place = primitives.find(id);
+  if (place == nullptr) return oINVALID_PRIMITIVE_ID;
+  const auto kind = place->primitive.kind;
+  const bool speaker = kind == Primitive::Kind::speaker, camera = kind == Primitive::Kind::camera,
+             joint = place->kind == Primitives::Of::joint, lamp = place->kind == Primitives::Of::lamp;
+  OPrimitiveControl_CameraParam cameraParam;
+  switch (request) {
+    case oprmreqSPEAKER_MUTE_ON:
+    case oprmreqSPEAKER_MUTE_OFF:
+      if (!speaker) return oINVALID_REQUEST;
+      speaker_->setMuted(request == oprmreqSPEAKER_MUTE_ON);
+      return oSUCCESS;
+    case oprmreqSPEAKER_SET_VOLUME: {
+      OPrimitiveControl_SpeakerVolume volume;
+      if (!speaker) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, volume)) return oINVALID_ARG;
+      speaker_->setVolume(volume.volume);
+      return oSUCCESS;
+    }
+    case oprmreqSPEAKER_SET_SOUND_TYPE: {
+      OPrimitiveControl_SpeakerSoundType type;
+      if (!speaker) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, type)) return oINVALID_ARG;
+      return speaker_->setType(type.type);
+    }
+    case oprmreqSPEAKER_GET_SOUND_TYPE:
+      if (!speaker) return oINVALID_REQUEST;
+      return give(OPrimitiveControl_SpeakerSoundType(speaker_->type()), result, resultSize);
+    case oprmreqSPEAKER_SET_VOLUME_MIDI:
+    case oprmreqSPEAKER_MASTER_TUNING_MIDI:
+      return speaker ? oSUCCESS : oINVALID_REQUEST;
+    case oprmreqMIC_UNI:
+    case oprmreqMIC_OMNI:
+    case oprmreqMIC_ALC_ON:
+    case oprmreqMIC_ALC_OFF:
+      return kind == Primitive::Kind::microphone ? oSUCCESS : oINVALID_REQUEST;
+    case oprmreqCAM_SET_WHITE_BALANCE:
+    case oprmreqCAM_SET_GAIN:
+    case oprmreqCAM_SET_SHUTTER_SPEED:
+      if (!camera) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, cameraParam)) return oINVALID_ARG;
+      if (cameraParam.camparam < 1 || cameraParam.camparam > 3) return oINVALID_ARG;
+      if (request == oprmreqCAM_SET_WHITE_BALANCE) camera_.whiteBalance = cameraParam.camparam;
+      if (request == oprmreqCAM_SET_GAIN) camera_.gain = cameraParam.camparam;
+      if (request == oprmreqCAM_SET_SHUTTER_SPEED) camera_.shutter = cameraParam.camparam;
+      return oSUCCESS;
+    case oprmreqCAM_AE_ON:
+    case oprmreqCAM_AE_OFF:
+    case oprmreqCAM_AWB_ON:
+    case oprmreqCAM_AWB_OFF:
+      return camera ? oSUCCESS : oINVALID_REQUEST;
+    case oprmreqJOINT2_SET_COMMAND: {
+      OPrimitiveControl_JointCommandValue2 command;
+      if (!joint) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, command)) return oINVALID_ARG;
+      effector_->setJoint(place->place, command.command.value);
+      return oSUCCESS;
+    }
+    case oprmreqJOINT2_GET_VALUE: {
+      OPrimitiveControl_JointValue value;
+      if (!joint) return oINVALID_REQUEST;
+      value.jval = jointReading(place->place);
+      return give(value, result, resultSize);
+    }
+    case oprmreqJOINT4_SET_COMMAND: {
+      OPrimitiveControl_JointCommandValue4 command;
+      if (!joint) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, command)) return oINVALID_ARG;
+      effector_->setJoint(place->place, command.command.value == ojoint4_STATE1 ? place->primitive.high : 0);
+      return oSUCCESS;
+    }
+    case oprmreqLED2_SET_COMMAND: {
+      OPrimitiveControl_LEDCommandValue2 command;
+      if (!lamp) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, command)) return oINVALID_ARG;
+      effector_->setLamp(place->place, command.command.led == oledOFF ? 0 : 255, oled3_MODE_UNDEF);
+      return oSUCCESS;
+    }
+    case oprmreqLED3_SET_COMMAND: {
+      OPrimitiveControl_LEDCommandValue3 command;
+      if (!lamp) return oINVALID_REQUEST;
+      if (!takeParam(param, paramSize, command)) return oINVALID_ARG;
+      effector_->setLamp(place->place, command.command.intensity, command.command.mode);
+      return oSUCCESS;
+    }
+    default:
+      return oNOT_SUPPORTED;
+  }
+}
+
+OStatus Services::setColours(MemoryRegionID id) {
+  const RegionMemory memory = regionMemory(id);
+  if (memory.address == nullptr || memory.size < sizeof(OCdtVectorData)) return oINVALID_DATA_VECTOR_ID;
+  auto* vector = static_cast<OCdtVectorData*>(memory.address);
+  for (longword i = 0; i < std::min<longword>(vector->vectorInfo.numData, ocdtNUM_CHANNELS); ++i) {
+    const OCdtInfo& info = vector->info[i];
+    for (std::size_t channel = 0; channel < 8; ++channel)
+      if (info.channel == (1u << channel)) std::copy(info.table, info.table + 32, colours_[channel].begin());
+  }
+  return oSUCCESS;
+}
+
+// ---- power, time, design data -----------------------------------------------------------------------------------
+
+void Services::setMotorPower(bool on) {
+  motorPower_ = on;
+  motorPowerChanged_ = true;
+}
+
+OPowerStatus Services::powerStatus() const {
+  const PowerReading& power = system_.sensed().power;
+  OPowerStatus status;
+  status.robotStatus = orsbBATTERY_CONNECTED | orsbOPEN_R_POWER_GOOD;
+  if (power.pausePressed) status.robotStatus |= orsbPAUSE;
+  if (motorPower_) status.robotStatus |= orsbMOTOR_POWER;
+  if (power.remaining_percent >= 95) status.robotStatus |= orsbBATTERY_CAPACITY_FULL;
+  if (power.remaining_percent <= 10) status.robotStatus |= orsbBATTERY_CAPACITY_LOW;
+  status.batteryStatus = obsbINITIALIZED | obsbDISCHARGING;
+  if (power.remaining_percent == 0) status.batteryStatus |= obsbFULLY_DISCHARGED;
+  if (power.remaining_percent <= 10) status.batteryStatus |= obsbREMAINING_CAPACITY_ALARM;
+  status.remainingCapacity = power.remaining_percent;
+  status.temperature = power.temperature_dk;
+  status.fullyChargedCapacity = 2200;  // mAh, of the ERS-7's battery
+  status.voltage = power.voltage_mv;
+  status.current = power.current_ma;
+  status.timeDif = timeDifference_;
+  status.volume = static_cast<byte>(std::max(volume_, 0));
+  return status;
+}
+
+OStatus Services::observePower(const OPowerStatus& wanted, const OServiceEntry& entry) {
+  for (const PowerWatch& watch : watches_)
+    if (watch.entry == entry) return oALREADY_REGISTERED;
+  watches_.push_back({wanted, entry});
+  return oSUCCESS;
+}
+
+OStatus Services::unobservePower(const OServiceEntry& entry) {
+  const auto at = std::find_if(watches_.begin(), watches_.end(), [&](const PowerWatch& w) { return w.entry == entry; });
+  if (at == watches_.end()) return oNOT_REGISTERED;
+  watches_.erase(at);
+  return oSUCCESS;
+}
+
+/// Both edges are told.
+void Services::watchPower() {
+  const OPowerStatus now = powerStatus();
+  const OPowerStatus before = lastPower_;
+  lastPower_ = now;
+  if (system_.sensed().number == 1) return;
+  const auto number = [](int was, int is, int wanted, int everyChange, int never) {
+    if (wanted == never || was == is) return false;
+    return wanted == everyChange || (was < wanted) != (is < wanted);
+  };
+  for (const PowerWatch& watch : watches_) {
+    const OPowerStatus& w = watch.wanted;
+    const bool tell =
+        ((now.robotStatus ^ before.robotStatus) & w.robotStatus) != 0 ||
+        ((now.batteryStatus ^ before.batteryStatus) & w.batteryStatus) != 0 ||
+        number(before.remainingCapacity, now.remainingCapacity, w.remainingCapacity,
+               opsoREMAINING_CAPACITY_NOTIFY_EVERY_CHANGE, opsoREMAINING_CAPACITY_NOT_NOTIFY) ||
+        number(before.temperature, now.temperature, w.temperature, opsoTEMPERATURE_NOTIFY_EVERY_CHANGE,
+               opsoTEMPERATURE_NOT_NOTIFY) ||
+        number(before.timeDif, now.timeDif, w.timeDif, opsoTIME_DIF_NOTIFY_EVERY_CHANGE, opsoTIME_DIF_NOT_NOTIFY) ||
+        number(before.volume, now.volume, w.volume, opsoVOLUME_NOTIFY_EVERY_CHANGE, opsoVOLUME_NOT_NOTIFY);
+    if (!tell) continue;
+    auto message = std::make_shared<OPowerStatusMessage>();
+    message->msgType = 0;
+    message->powerStatus = now;
+    system_.send(watch.entry, message);
+  }
+}
+
+OTime Services::time() const { return OTime(epoch_s + clockOffset_s_ + system_.time_us() / 1000000, timeDifference_); }
+
+void Services::setTime(const OTime& time) {
+  clockOffset_s_ = time.GetClock() - epoch_s - system_.time_us() / 1000000;
+  timeDifference_ = time.GetTimeDif();
+}
+
+OStatus Services::findDesignData(const std::string& keyword, ODesignDataID* id, byte** data, std::size_t* size) {
+  const auto entry = system_.config.designData.find(keyword);
+  if (entry == system_.config.designData.end()) return oNOT_FOUND;
+  const std::string path = onStick(system_.stick, entry->second);
+  std::vector<char> content;
+  if (path.empty() || !unpackedFile(path, content)) return oOPEN_FAILURE;
+  if (content.empty()) return oDESIGNDATA_SIZE_ZERO;
+  *id = nextDesignData_++;
+  auto& kept = designData_[*id] = std::move(content);
+  *data = reinterpret_cast<byte*>(kept.data());
+  *size = kept.size();
+  return oSUCCESS;
+}
+
+OStatus Services::deleteDesignData(ODesignDataID id) { return designData_.erase(id) > 0 ? oSUCCESS : oNOT_FOUND; }
+
+}  // namespace btr::openr

@@ -1,0 +1,17 @@
+/* Instructions that only the robot's processor has stop the program here. Included before every source. */
+#ifndef BTR_OPENR_ROBOT_CPU_H
+#define BTR_OPENR_ROBOT_CPU_H
+
+#define BTR_OPENR_NO_INSTRUCTION(name) __asm__(".macro " #name " operands:vararg\n\tud2\n.endm")
+BTR_OPENR_NO_INSTRUCTION(mfc0);
+BTR_OPENR_NO_INSTRUCTION(mtc0);
+BTR_OPENR_NO_INSTRUCTION(mfc1);
+BTR_OPENR_NO_INSTRUCTION(mtc1);
+BTR_OPENR_NO_INSTRUCTION(eret);
+BTR_OPENR_NO_INSTRUCTION(tlbp);
+BTR_OPENR_NO_INSTRUCTION(tlbr);
+BTR_OPENR_NO_INSTRUCTION(tlbwi);
+BTR_OPENR_NO_INSTRUCTION(tlbwr);
+#undef BTR_OPENR_NO_INSTRUCTION
+
+#endif

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/live/orders.h"
+#include "core/openr/robot_process.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
@@ -13,7 +14,7 @@ constexpr std::int64_t frame_us = 8000;
 
 const SceneRobot& firstRobot(const Scene& scene) {
   if (scene.controlPeriod_s != frame_s)
-    throw InputError("controller openr", "a control period of " + toText(scene.controlPeriod_s) + " s",
+    throw InputError("controller openr", "a control period of " + btr::toText(scene.controlPeriod_s) + " s",
                      "a scene whose control_period_s is 0.008, a frame of OPEN-R");
   return scene.robots.at(0);
 }
@@ -54,12 +55,14 @@ SensorFrame TrialMotion::frameOf(const RobotReadings& readings) {
 }
 
 void TrialMotion::obey(const OrderFrame& orders) {
-  const RobotUnits::Ordered ordered = units_.ordered(orders);
+  RobotUnits::Ordered ordered = units_.ordered(orders);
+  // The process begins with everything off.
+  if (frames_ == 1 && task_.motorPower && !ordered.orders.motorPower.value_or(true)) ordered.orders.motorPower.reset();
   for (const auto& [joint, target] : ordered.targets)
     inputs_[static_cast<std::size_t>(model_.findJoint(joint))].command = target;
   orders_.add(ordered.orders);
   if (!orders.ended) return;
-  if (orders.ended->why != Ended::Why::shutdown) throw InputError(sentenceOf(*orders.ended));
+  if (orders.ended->why != Ended::Why::shutdown) throw InputError(toText(*orders.ended));
   over_ = true;
   orders_.motorPower = false;
 }

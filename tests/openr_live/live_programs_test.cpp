@@ -8,6 +8,7 @@
 
 #include "core/live/session_log.h"
 #include "core/openr/joint_gains.h"
+#include "core/openr/robot_process.h"
 #include "tests/openr_live/played_program.h"
 #include "tests/refusal.h"
 
@@ -129,6 +130,21 @@ TEST_F(OpenrLive, MotorsThatAreSwitchedOnAtTheStartNeedNoOrder) {
   EXPECT_NEAR(position(session, "HEAD_PAN"), -0.4, 0.01);
   // Nobody enabled the other's: it lies on the floor.
   EXPECT_LT(session.world().robot(1).base.translation().z(), session.world().robot(0).base.translation().z() - 0.02);
+}
+
+TEST_F(OpenrLive, AProcessThatBeginsWithMotorsOffLeavesThoseOfTheGameOn) {
+  const auto begins = [](const SensorFrame& frame) {
+    OrderFrame orders = frame.number == 1 ? enableAll() : OrderFrame{};
+    if (frame.number == 1) orders.motorPower = false;
+    if (frame.number == 60) orders.motorPower = false;
+    return orders;
+  };
+  Session session(game(true), host());
+  LivePrograms programs(session, playing({{"red", begins}, {"blue", nothing}}));
+  run(session, programs, 59);
+  EXPECT_TRUE(input(session, "LF_J1").enabled);
+  run(session, programs, 1);
+  EXPECT_FALSE(input(session, "LF_J1").enabled);
 }
 
 TEST_F(OpenrLive, GainsAreTimesTheStandardOnesByNumberAndShift) {
@@ -262,7 +278,7 @@ TEST_F(OpenrLive, AProgramThatDiesLeavesJointsHeldAndTheSessionWhole) {
   LivePrograms programs(session, playing({{"red", dies}, {"blue", dancing}}));
   run(session, programs, 250);
   ASSERT_TRUE(programs.ended().at("red1"));
-  EXPECT_EQ(sentenceOf(*programs.ended().at("red1")), "Bad crashed in Notify0: it read at address 0");
+  EXPECT_EQ(toText(*programs.ended().at("red1")), "Bad: in Notify0 it crashed: it read at address 0");
   EXPECT_FALSE(programs.ended().at("blue1"));
   EXPECT_NEAR(position(session, "HEAD_PAN"), 0.6, 0.01);
   EXPECT_THAT(refusal([&] { programs.type("red1", "hello\n"); }), HasSubstr("red1"));
@@ -294,7 +310,7 @@ TEST_F(OpenrLive, AStickThatIsNotThereIsSaidAndHurtsNobody) {
   Session session(game(), host());
   LivePrograms programs(session, playing({{"red", dancing}}));
   ASSERT_TRUE(programs.ended().at("blue1"));
-  EXPECT_THAT(sentenceOf(*programs.ended().at("blue1")), HasSubstr("blue"));
+  EXPECT_THAT(toText(*programs.ended().at("blue1")), HasSubstr("blue"));
   run(session, programs, 20);
 }
 

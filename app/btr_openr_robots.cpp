@@ -4,7 +4,6 @@
 
 #include "app/btr_commands.h"
 #include "app/btr_live_lines.h"
-
 #include "core/openr/robot_starter.h"
 #include "core/spec/error.h"
 

@@ -32,7 +32,8 @@ std::set<std::string> adaptedNames(const ExperimentSpec& spec) {
 
 void checkSettings(const PluginChoice& choice, const std::vector<PluginForm::Offer>& offers, const std::string& place) {
   for (const auto& offer : offers)
-    if (offer.name.toStdString() == choice.name) settingsOf(choice, offer.settings, place);
+    if (offer.name.toStdString() == choice.name)
+      settingsOf(PluginForm::withoutPaths(choice, offer), offer.settings, place);
 }
 
 /// In the list of L2's learners: the run has no L2.
@@ -58,8 +59,9 @@ QString changes(int count) { return count == 0 ? QString() : QObject::tr("%1 cha
 ExperimentOffers offersOf(const PluginHost& host) {
   ExperimentOffers offers;
   for (const auto& name : host.controllers()) {
-    offers.controllers.push_back({QString::fromStdString(name), host.controller(name)->settings(), {}});
-    offers.startsOf[QString::fromStdString(name)] = startOffers(host.controller(name)->genotype());
+    const auto controller = host.controller(name);
+    offers.controllers.push_back({QString::fromStdString(name), controller->settings(), {}, controller->paths()});
+    offers.startsOf[QString::fromStdString(name)] = startOffers(controller->genotype());
   }
   for (const auto& name : host.fitnesses()) {
     const auto fitness = host.fitness(name);

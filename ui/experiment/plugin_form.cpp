@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QUndoStack>
 #include <QVBoxLayout>
 
@@ -55,6 +56,7 @@ void PluginForm::add(const Offer& offer) {
     hint->setForegroundRole(QPalette::PlaceholderText);
     column->addWidget(hint);
   }
+  for (const std::string& path : offer.paths) column->addWidget(addPath(page, offer, path)->parentWidget());
   auto* form = new ParameterForm(offer.settings, undo_, page);
   column->addWidget(form);
   column->addStretch();
@@ -62,6 +64,46 @@ void PluginForm::add(const Offer& offer) {
   page->hide();
   pages_.push_back(page);
   layout()->addWidget(page);
+}
+
+QLineEdit* PluginForm::addPath(QWidget* page, const Offer& offer, const std::string& name) {
+  const QString label = QString::fromStdString(name);
+  auto* line = new QWidget(page);
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(8, 2, 8, 2);
+  auto* caption = new QLabel(label, line);
+  auto* edit = new QLineEdit(line);
+  caption->setBuddy(edit);
+  edit->setObjectName(offer.name + "." + label);
+  edit->setAccessibleName(label);
+  edit->setToolTip(tr("A file or folder, relative to the experiment's file"));
+  row->addWidget(caption);
+  row->addWidget(edit, 1);
+  // As for the experiment's name: the line edit tells only what it became.
+  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
+    if (!edit->isModified()) edit->setProperty("before", text);
+  });
+  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
+  connect(edit, &QLineEdit::textEdited, this, [this, edit, label](const QString& text) {
+    const QString before = edit->property("before").toString();
+    edit->setProperty("before", text);
+    undo_.push(new EditCommand(tr("change %1").arg(label), edit->objectName(), visit_, before, text,
+                               [this, edit](const QVariant& value) {
+                                 if (edit->text() != value.toString()) edit->setText(value.toString());
+                                 emit changed();
+                               }));
+  });
+  return edit;
+}
+
+QLineEdit* PluginForm::pathEdit(int offer, const std::string& name) const {
+  return pages_[std::size_t(offer)]->findChild<QLineEdit*>(offers_[std::size_t(offer)].name + "." +
+                                                           QString::fromStdString(name));
+}
+
+PluginChoice PluginForm::withoutPaths(PluginChoice choice, const Offer& offer) {
+  for (const std::string& path : offer.paths) choice.words.erase(path);
+  return choice;
 }
 
 void PluginForm::addOffers(const std::vector<Offer>& offers) {
@@ -76,8 +118,15 @@ void PluginForm::setChoice(const PluginChoice& choice) {
   int index = -1;
   for (int i = 0; i < offerCount(); ++i)
     if (offers_[std::size_t(i)].name.toStdString() == choice.name) index = i;
-  const Values values =
-      index < 0 ? Values{} : settingsOf(choice, offers_[std::size_t(index)].settings, choice.name + " settings");
+  Values values;
+  if (index >= 0) {
+    const Offer& offer = offers_[std::size_t(index)];
+    values = settingsOf(withoutPaths(choice, offer), offer.settings, choice.name + " settings");
+    for (const std::string& path : offer.paths) {
+      const auto given = choice.words.find(path);
+      pathEdit(index, path)->setText(given == choice.words.end() ? QString() : QString::fromStdString(given->second));
+    }
+  }
 
   while (names_->count() > offerCount()) names_->removeItem(names_->count() - 1);
   missing_ = {};
@@ -93,16 +142,26 @@ void PluginForm::setChoice(const PluginChoice& choice) {
 }
 
 PluginChoice PluginForm::choice() const {
-  if (const ParameterForm* form = page())
-    return choiceOf(offers_[std::size_t(chosen_)].name.toStdString(), form->values(),
-                    offers_[std::size_t(chosen_)].settings);
-  return missing_;
+  const ParameterForm* form = page();
+  if (!form) return missing_;
+  const Offer& offer = offers_[std::size_t(chosen_)];
+  PluginChoice choice = choiceOf(offer.name.toStdString(), form->values(), offer.settings);
+  for (const std::string& path : offer.paths)
+    choice.words[path] = pathEdit(chosen_, path)->text().trimmed().toStdString();
+  return choice;
 }
 
-bool PluginForm::isValid() const { return page() && page()->isValid(); }
+bool PluginForm::isValid() const { return page() && problems().isEmpty(); }
 
 QStringList PluginForm::problems() const {
-  if (const ParameterForm* form = page()) return form->problems();
+  if (const ParameterForm* form = page()) {
+    QStringList problems = form->problems();
+    for (const std::string& path : offers_[std::size_t(chosen_)].paths)
+      if (pathEdit(chosen_, path)->text().trimmed().isEmpty())
+        problems << tr("%1: %2 is missing, a path relative to the experiment's file")
+                        .arg(what_, QString::fromStdString(path));
+    return problems;
+  }
   return {missing_.name.empty() ? tr("%1: nothing is chosen").arg(what_)
                                 : tr("%1: %2 is not installed").arg(what_, QString::fromStdString(missing_.name))};
 }
@@ -110,6 +169,8 @@ QStringList PluginForm::problems() const {
 void PluginForm::setReadOnly(bool readOnly) {
   names_->setEnabled(!readOnly);
   for (auto* form : findChildren<ParameterForm*>()) form->setReadOnly(readOnly);
+  for (int i = 0; i < offerCount(); ++i)
+    for (const std::string& path : offers_[std::size_t(i)].paths) pathEdit(i, path)->setReadOnly(readOnly);
 }
 
 void PluginForm::resetAll() {

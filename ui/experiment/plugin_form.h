@@ -5,6 +5,7 @@
 #include "core/spec/experiment_spec.h"
 
 class QComboBox;
+class QLineEdit;
 class QUndoStack;
 
 namespace btr::ui {
@@ -18,8 +19,12 @@ class PluginForm : public QWidget {
   struct Offer {
     QString name;
     std::vector<Parameter> settings;
-    QString hint;  ///< one sentence for people, may be empty
+    QString hint;                      ///< one sentence for people, may be empty
+    std::vector<std::string> paths{};  ///< settings that are paths, see Controller::paths()
   };
+  /// A choice whose words are choices of numbers alone.
+  static PluginChoice withoutPaths(PluginChoice choice, const Offer& offer);
+
   PluginForm(const QString& what, const std::vector<Offer>& offers, QUndoStack& undo, QWidget* parent = nullptr);
 
   /// Plugins that were loaded since; those that are there stay as they are.
@@ -40,6 +45,8 @@ class PluginForm : public QWidget {
 
  private:
   void add(const Offer& offer);
+  QLineEdit* addPath(QWidget* page, const Offer& offer, const std::string& name);
+  QLineEdit* pathEdit(int offer, const std::string& name) const;
   ParameterForm* page() const;  ///< of the chosen plugin, or nullptr
   void select(int index);
   int offerCount() const { return int(offers_.size()); }
@@ -49,6 +56,7 @@ class PluginForm : public QWidget {
   PluginChoice missing_;  ///< the choice that is not installed, if that is selected
   int chosen_ = 0;
   QUndoStack& undo_;
+  int visit_ = 0;  ///< to a path's line
   QComboBox* names_;
   std::vector<QWidget*> pages_;
 };

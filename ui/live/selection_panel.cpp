@@ -111,7 +111,9 @@ QWidget* SelectionPanel::makePlayer() {
   controller_->setObjectName("liveController");
   controller_->setAccessibleName(tr("Controller"));
   controller_->addItem(tr("stands still"));
-  for (const std::string& name : world_.host().controllers()) controller_->addItem(QString::fromStdString(name));
+  // One that wants a path is none to be chosen by its name alone.
+  for (const std::string& name : world_.host().controllers())
+    if (world_.host().controller(name)->paths().empty()) controller_->addItem(QString::fromStdString(name));
   controller_->addItem(tr("OPEN-R stick…"), true);
   connect(controller_, &QComboBox::activated, this, [this] { changeController(); });
   column->addWidget(controller_);

@@ -48,7 +48,8 @@ void EvaluationDesk::prepare(const v1::Experiment& experiment, Id run) {
     made = "run " + std::to_string(run) + toJsonText(simulator);
   } else {
     spec = experimentOf(experiment, folder_, host_);
-    made = spec->directory + toJsonText(*spec);
+    text_ = toJsonText(*spec);
+    made = spec->directory + text_;
   }
   if (made == known_) return;
   known_.clear();
@@ -69,6 +70,7 @@ std::string EvaluationDesk::describe() const {
   reply.set_fitness(prepared_->spec.fitness.name);
   reply.set_unit(prepared_->fitness->unit());
   reply.set_seed(seed_);
+  reply.set_json(text_);
   reply.mutable_start()->Add(prepared_->start.begin(), prepared_->start.end());
   return reply.SerializeAsString();
 }

@@ -35,6 +35,7 @@ class EvaluationDesk final : public Desk {
   const GamesFolder& folder_;
   const std::string database_;
   const int jobs_;
+  std::string text_;   ///< the experiment as a file has it
   std::string known_;  ///< what `prepared_` was made of
   std::unique_ptr<PreparedExperiment> prepared_;
   SimulatorSpec simulator_;

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "core/remote/services.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -53,6 +55,8 @@ struct Server::Impl {
 
 Server::Server(const Options& options, Switchboard& switchboard) {
   requireAllowed(options);
+  // What strangers send is answered, not written to the operator's terminal.
+  setenv("GRPC_VERBOSITY", "NONE", 0);
   impl_ = std::make_unique<Impl>(options, switchboard);
   grpc::ServerBuilder builder;
   const auto credentials = credentialsOf(options);

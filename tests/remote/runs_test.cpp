@@ -140,8 +140,11 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
       measured(caller, run, tasks.tasks(0).individual(), {std::numeric_limits<double>::quiet_NaN()}).error_code());
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, measured(caller, run, 1000000, {0.4}).error_code());
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, measured(caller, run, tasks.tasks(0).individual(), {}).error_code());
-  EXPECT_THAT(measured(caller, run, tasks.tasks(0).individual(), {1e6}).error_message(), HasSubstr("send it as sure"));
-  EXPECT_TRUE(measured(caller, run, tasks.tasks(0).individual(), {0.1}, false, true).ok());
+  EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT,
+            measured(caller, run, tasks.tasks(0).individual(), {2e9}, false, true).error_code());
+  EXPECT_TRUE(measured(caller, run, tasks.tasks(0).individual(), {0.4}, false, true).ok());
+  // A slipped decimal point is asked about, as it is by btr fitness enter.
+  EXPECT_THAT(measured(caller, run, tasks.tasks(0).individual(), {41}).error_message(), HasSubstr("send it as sure"));
   EXPECT_TRUE(measured(caller, run, tasks.tasks(1).individual(), {}, true).ok());
   EXPECT_EQ(0, wanted(caller, run).tasks_size());
   goOn(caller, run);
@@ -158,7 +161,7 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
   // It stands in the database like any other, and its trials have the same bits again.
   const btr::Database db = btr::Database::open(files.file("a.db"), btr::Database::Mode::readOnly);
   EXPECT_EQ(3u, db.generations(run).size());
-  EXPECT_EQ(2u, db.simulators(run).size());
+  EXPECT_EQ(3u, db.simulators(run).size());
   EXPECT_EQ("remote", db.measurements(run).front().source);
   EXPECT_EQ("by a test", db.measurements(run).front().note);
 }

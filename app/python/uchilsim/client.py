@@ -63,6 +63,8 @@ class Experiment:
         self._message = _experiment_message(experiment, directory)
         reply = client._call(client._learning.Describe, pb.ExperimentRequest(experiment=self._message))
         self.name: str = reply.name
+        #: all of it, as a file has it; may be changed and given to Client.experiment() with the same directory
+        self.spec: dict = json.loads(reply.json)
         self.genotype: list[Number] = [Number.of(p) for p in reply.genotype]
         self.adapted: list[Number] = [Number.of(p) for p in reply.adapted]
         self.unit: str = reply.unit  #: of the fitness

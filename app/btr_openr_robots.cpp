@@ -4,7 +4,7 @@
 
 #include "app/btr_commands.h"
 #include "app/btr_live_lines.h"
-#include "core/openr/robot_process.h"
+#include "core/openr/ended_text.h"
 #include "core/openr/robot_starter.h"
 #include "core/spec/error.h"
 
@@ -77,7 +77,7 @@ std::vector<openr::LivePrograms::Line> OpenrRobots::takeLines() {
   std::map<std::string, bool> now;
   for (const auto& [robot, ended] : programs_.ended()) {
     now[robot] = ended.has_value();
-    if (ended && !ended_[robot]) lines.push_back({robot, "", "the program ended: " + openr::toText(*ended)});
+    if (ended && !ended_[robot]) lines.push_back({robot, "", "the program ended: " + openr::sentenceOf(*ended)});
   }
   ended_ = std::move(now);
   return lines;
@@ -87,7 +87,7 @@ nlohmann::json OpenrRobots::states() const {
   nlohmann::json all = nlohmann::json::object();
   for (const auto& [robot, ended] : programs_.ended()) {
     all[robot] = {{"running", !ended}};
-    if (ended) all[robot].update({{"why", wordOf(ended->why)}, {"what", openr::toText(*ended)}});
+    if (ended) all[robot].update({{"why", wordOf(ended->why)}, {"what", openr::sentenceOf(*ended)}});
   }
   return all;
 }
@@ -96,7 +96,7 @@ std::vector<std::string> OpenrRobots::failures() const {
   std::vector<std::string> all;
   for (const auto& [robot, ended] : programs_.ended())
     if (ended && ended->why != openr::Ended::Why::shutdown)
-      all.push_back(robot + "'s program ended: " + openr::toText(*ended));
+      all.push_back(robot + "'s program ended: " + openr::sentenceOf(*ended));
   return all;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/live/orders.h"
-#include "core/openr/robot_process.h"
+#include "core/openr/ended_text.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
@@ -14,7 +14,7 @@ constexpr std::int64_t frame_us = 8000;
 
 const SceneRobot& firstRobot(const Scene& scene) {
   if (scene.controlPeriod_s != frame_s)
-    throw InputError("controller openr", "a control period of " + btr::toText(scene.controlPeriod_s) + " s",
+    throw InputError("controller openr", "a control period of " + toText(scene.controlPeriod_s) + " s",
                      "a scene whose control_period_s is 0.008, a frame of OPEN-R");
   return scene.robots.at(0);
 }
@@ -62,7 +62,7 @@ void TrialMotion::obey(const OrderFrame& orders) {
     inputs_[static_cast<std::size_t>(model_.findJoint(joint))].command = target;
   orders_.add(ordered.orders);
   if (!orders.ended) return;
-  if (orders.ended->why != Ended::Why::shutdown) throw InputError(toText(*orders.ended));
+  if (orders.ended->why != Ended::Why::shutdown) throw InputError(sentenceOf(*orders.ended));
   over_ = true;
   orders_.motorPower = false;
 }

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/live/session_log.h"
+#include "core/openr/ended_text.h"
 #include "core/openr/joint_gains.h"
-#include "core/openr/robot_process.h"
 #include "tests/openr_live/played_program.h"
 #include "tests/refusal.h"
 
@@ -278,7 +278,7 @@ TEST_F(OpenrLive, AProgramThatDiesLeavesJointsHeldAndTheSessionWhole) {
   LivePrograms programs(session, playing({{"red", dies}, {"blue", dancing}}));
   run(session, programs, 250);
   ASSERT_TRUE(programs.ended().at("red1"));
-  EXPECT_EQ(toText(*programs.ended().at("red1")), "Bad: in Notify0 it crashed: it read at address 0");
+  EXPECT_EQ(sentenceOf(*programs.ended().at("red1")), "Bad crashed in Notify0: it read at address 0");
   EXPECT_FALSE(programs.ended().at("blue1"));
   EXPECT_NEAR(position(session, "HEAD_PAN"), 0.6, 0.01);
   EXPECT_THAT(refusal([&] { programs.type("red1", "hello\n"); }), HasSubstr("red1"));
@@ -310,7 +310,7 @@ TEST_F(OpenrLive, AStickThatIsNotThereIsSaidAndHurtsNobody) {
   Session session(game(), host());
   LivePrograms programs(session, playing({{"red", dancing}}));
   ASSERT_TRUE(programs.ended().at("blue1"));
-  EXPECT_THAT(toText(*programs.ended().at("blue1")), HasSubstr("blue"));
+  EXPECT_THAT(sentenceOf(*programs.ended().at("blue1")), HasSubstr("blue"));
   run(session, programs, 20);
 }
 

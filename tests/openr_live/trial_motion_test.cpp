@@ -145,7 +145,7 @@ TEST_F(OpenrTrial, ACrashIsAFailureOfTheTrialThatNamesObjectAndMethod) {
     if (frame.number == 20) orders.ended = openr::Ended{openr::Ended::Why::endlessLoop, "Loops", "Ready0", ""};
     return orders;
   });
-  EXPECT_THAT(refusal([&] { run(controller); }), HasSubstr("Loops: in Ready0 it hangs"));
+  EXPECT_THAT(refusal([&] { run(controller); }), HasSubstr("Loops did not come back in Ready0"));
   EXPECT_FALSE(fs::exists(controller.folder_));
 }
 

@@ -59,20 +59,21 @@ void addFitnessCommands(CLI::App& app, Shell& shell);  ///< fitness list|enter|i
 void addDataCommands(CLI::App& app, Shell& shell);     ///< replay, export, merge
 /// A database on a network file system is said to be there, on stderr, before any of these commands opens it.
 void warnOfNetworkFiles(CLI::App& app);
-void addKeepCommands(CLI::App& app, Shell& shell);       ///< backup, check
-void addModelCommands(CLI::App& app, Shell& shell);      ///< model check, list
-void addGapCommands(CLI::App& app, Shell& shell);        ///< gap residual
-void addGapAdoptCommands(CLI::App& gap, Shell& shell);   ///< gap adopt|revert|versions, below "gap"
-void addGapStoreCommands(CLI::App& gap, Shell& shell);   ///< gap recordings|clues
-void addGapProveCommands(CLI::App& gap, Shell& shell);   ///< gap prove|tally
-void addBenchCommand(CLI::App& app, Shell& shell);       ///< bench
-void addGaitCommands(CLI::App& app, Shell& shell);       ///< gait check
-void addGridCommands(CLI::App& app, Shell& shell);       ///< grid, grid table|map|kick
-void addLiveCommand(CLI::App& app, Shell& shell);        ///< live
-void addOpenrCommands(CLI::App& app, Shell& shell);      ///< openr
-void addOpenrRunCommand(CLI::App& openr, Shell& shell);  ///< openr run, below "openr"
-void addCameraCommand(CLI::App& app);                    ///< camera, for the list of commands only
-void addServeCommand(CLI::App& app);                     ///< serve, likewise
+void addKeepCommands(CLI::App& app, Shell& shell);          ///< backup, check
+void addModelCommands(CLI::App& app, Shell& shell);         ///< model check, list
+void addGapCommands(CLI::App& app, Shell& shell);           ///< gap residual
+void addGapAdoptCommands(CLI::App& gap, Shell& shell);      ///< gap adopt|revert|versions, below "gap"
+void addGapStoreCommands(CLI::App& gap, Shell& shell);      ///< gap recordings|clues
+void addGapProveCommands(CLI::App& gap, Shell& shell);      ///< gap prove|tally
+void addBenchCommand(CLI::App& app, Shell& shell);          ///< bench
+void addGaitCommands(CLI::App& app, Shell& shell);          ///< gait check
+void addGridCommands(CLI::App& app, Shell& shell);          ///< grid, grid table|map|kick
+void addLiveCommand(CLI::App& app, Shell& shell);           ///< live
+void addOpenrCommands(CLI::App& app, Shell& shell);         ///< openr
+void addOpenrRunCommand(CLI::App& openr, Shell& shell);     ///< openr run, below "openr"
+void addOpenrBuildCommands(CLI::App& openr, Shell& shell);  ///< openr build|try, below "openr"
+void addCameraCommand(CLI::App& app);                       ///< camera, for the list of commands only
+void addServeCommand(CLI::App& app);                        ///< serve, likewise
 /// If the command is camera or serve: becomes btr-camera or btr-serve; returns, with an exit code, only if that cannot
 /// be started.
 std::optional<int> passOn(int argc, char** argv);

@@ -4,8 +4,10 @@
 namespace btr::cli {
 
 void addOpenrCommands(CLI::App& app, Shell& shell) {
-  CLI::App* openr = app.add_subcommand("openr", "OPEN-R programs, unmodified: run them on simulated robots");
+  CLI::App* openr =
+      app.add_subcommand("openr", "OPEN-R programs, unmodified: build them, run them on simulated robots");
   openr->require_subcommand(1);
+  addOpenrBuildCommands(*openr, shell);
   addOpenrRunCommand(*openr, shell);
 }
 

@@ -135,17 +135,4 @@ OrderFrame RobotProcess::exchange(const SensorFrame& frame, double deadline_s) {
   }
 }
 
-std::string toText(const Ended& ended) {
-  if (ended.object.empty()) return ended.what;
-  const std::string who = ended.object + ": in " + ended.method;
-  switch (ended.why) {
-    case Ended::Why::crash:
-      return who + " it crashed: " + ended.what;
-    case Ended::Why::endlessLoop:
-      return who + " it hangs: " + ended.what;
-    default:
-      return who + ": " + ended.what;
-  }
-}
-
 }  // namespace btr::openr

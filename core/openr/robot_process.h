@@ -41,7 +41,4 @@ class RobotProcess {
   std::optional<Ended> ended_;
 };
 
-/// "MovingHead7: its method Ready crashed: it read at address 0": one line for people.
-std::string toText(const Ended& ended);
-
 }  // namespace btr::openr

@@ -1,0 +1,398 @@
+#include "core/openr/stick_builder.h"
+
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "core/openr/stick_config.h"
+#include "core/openr/stub_generator.h"
+#include "core/spec/error.h"
+
+namespace btr::openr {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string modulesFolder = "OPEN-R/MW/OBJS", configFolder = "OPEN-R/MW/CONF", dataFolder = "OPEN-R/MW/DATA/P";
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(path.string() + " cannot be written");
+}
+
+std::string shellWord(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// Runs a shell command in `folder`; its standard error, and its exit status.
+int run(const fs::path& folder, const std::string& command, std::string& said) {
+  const std::string all = "cd " + shellWord(folder.string()) + " && { " + command + " ; } 2>&1 >/dev/null";
+  FILE* out = popen(all.c_str(), "r");
+  if (out == nullptr) throw InputError("no shell can be started to call the compiler");
+  char piece[4096];
+  for (std::size_t count; (count = fread(piece, 1, sizeof(piece), out)) > 0;) said.append(piece, count);
+  const int status = pclose(out);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+/// A folder that is gone with this.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "btr-openr-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw InputError(name + " cannot be made");
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path, error);
+  }
+  fs::path path;
+};
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool isMakefile(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name == "Makefile" || name == "makefile" || name == "GNUmakefile";
+}
+
+/// Whether a Makefile, or what it includes, makes a module for the robot.
+bool makesModule(const fs::path& makefile) {
+  const std::string text = content(makefile);
+  if (text.find("/mkbin") != std::string::npos) return true;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string word, file;
+    if (words >> word >> file && word == "include" && file.find('$') == std::string::npos &&
+        content(makefile.parent_path() / file).find("/mkbin") != std::string::npos &&
+        text.find(".bin") != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+bool isSource(const fs::path& path) {
+  const std::string end = path.extension().string();
+  return end == ".cc" || end == ".cpp" || end == ".cxx" || end == ".C" || end == ".c";
+}
+
+struct Found {
+  std::vector<fs::path> withMakefile, byHand;  ///< folders of objects
+  std::vector<fs::path> sticks;                ///< MS folders
+};
+
+Found findObjects(const fs::path& root) {
+  Found found;
+  std::set<fs::path> sources;  // folders that look like an object's
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(root, error), end; !error && at != end; at.increment(error)) {
+    const fs::path path = at->path();
+    const std::string name = path.filename().string();
+    if (at->is_directory(error)) {
+      if (name[0] == '.') at.disable_recursion_pending();
+      if (name == "MS") {
+        at.disable_recursion_pending();
+        // RP/… are set-ups of Sony's remote processing on a PC.
+        bool remote = false;
+        for (const fs::path& part : path.lexically_relative(root)) remote = remote || part == "RP";
+        if (!remote && fs::exists(path / "OPEN-R")) found.sticks.push_back(path);
+      }
+      continue;
+    }
+    if (isMakefile(path) && makesModule(path)) found.withMakefile.push_back(path.parent_path());
+    if (name == "stub.cfg" || path.extension() == ".ocf" || endsWith(name, "Stub.cc"))
+      sources.insert(path.parent_path());
+  }
+  std::sort(found.withMakefile.begin(), found.withMakefile.end());
+  std::sort(found.sticks.begin(), found.sticks.end());
+  for (const fs::path& folder : sources) {
+    const bool made = std::any_of(found.withMakefile.begin(), found.withMakefile.end(), [&](const fs::path& other) {
+      const std::string relative = other.lexically_relative(folder).string();
+      return relative == "." || relative.rfind("..", 0) != 0;
+    });
+    if (!made) found.byHand.push_back(folder);
+  }
+  return found;
+}
+
+/// A copy of the folder in which nothing is left of former builds; what stands beside it, one and two folders up, can
+/// be reached as before.
+fs::path copyOf(const fs::path& folder, const fs::path& work) {
+  const fs::path source = fs::canonical(folder);
+  const fs::path parent = source.parent_path(), above = parent.parent_path();
+  const fs::path outer = work / "above", inner = outer / (parent.filename().empty() ? "parent" : parent.filename());
+  fs::create_directories(inner);
+  const auto linkAll = [](const fs::path& from, const fs::path& to, const fs::path& except) {
+    std::error_code error;
+    int count = 0;
+    for (fs::directory_iterator at(from, error), end; !error && at != end && count < 500; at.increment(error), ++count)
+      if (at->is_directory(error) && at->path() != except && at->path().filename().string()[0] != '.')
+        fs::create_directory_symlink(at->path(), to / at->path().filename(), error);
+  };
+  linkAll(parent, inner, source);
+  linkAll(above, outer, parent);
+  const fs::path copy = inner / source.filename();
+  fs::copy(source, copy, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+  std::vector<fs::path> stale;
+  for (const auto& entry : fs::recursive_directory_iterator(copy)) {
+    if (entry.is_directory()) {
+      fs::permissions(entry.path(), fs::perms::owner_all, fs::perm_options::add);
+      continue;
+    }
+    const std::string end = entry.path().extension().string(), name = entry.path().filename().string();
+    const fs::path at = entry.path().parent_path();
+    if (end == ".o" || end == ".bin" || end == ".elf" || endsWith(name, ".snap.cc")) stale.push_back(entry.path());
+    // Of another maker of stubs.
+    if ((name == "def.h" || name == "entry.h" || endsWith(name, "Stub.h") || endsWith(name, "Stub.cc")) &&
+        (fs::exists(at / "stub.cfg") || fs::exists(at.parent_path() / "stub.cfg")))
+      stale.push_back(entry.path());
+  }
+  for (const fs::path& path : stale) fs::remove(path);
+  return copy;
+}
+
+std::set<std::string> modulesOn(const fs::path& stick) {
+  std::set<std::string> modules;
+  std::error_code error;
+  for (fs::directory_iterator at(stick / modulesFolder, error), end; !error && at != end; at.increment(error))
+    if (at->is_regular_file(error) && at->file_size(error) > 0) modules.insert(at->path().filename().string());
+  return modules;
+}
+
+bool isSubsequence(const std::string& part, const std::string& whole) {
+  std::size_t at = 0;
+  for (const char c : whole)
+    if (at < part.size() && part[at] == c) ++at;
+  return at == part.size();
+}
+
+/// The name that OBJECT.CFG has for the object, else the first eight letters of its own.
+std::string moduleName(const std::string& object, const std::vector<std::string>& listed) {
+  std::string name;
+  int count = 0;
+  for (const std::string& path : listed) {
+    const std::string stem = upper(fs::path(path).stem().string());
+    if (!isSubsequence(stem, upper(object))) continue;
+    name = upper(fs::path(path).filename().string());
+    ++count;
+  }
+  return count == 1 ? name : upper(object).substr(0, 8) + ".BIN";
+}
+
+class StickBuilder {
+ public:
+  explicit StickBuilder(const StickBuildOptions& options) : options_(options), out_(options.out) {
+    sdk_ = options.sdk;
+    if (sdk_.empty()) {
+      std::error_code error;
+      const fs::path self = fs::read_symlink("/proc/self/exe", error);
+      sdk_ = self.parent_path().parent_path() / "share/uchilsim/openr-sdk";
+    }
+    if (!fs::exists(sdk_ / "OPEN_R/include/OPENR/OObject.h"))
+      throw InputError(sdk_.string() + " has no OPEN-R headers; reinstall the program");
+  }
+
+  StickBuild build() {
+    try {
+      for (const fs::path& each : {out_ / modulesFolder, out_ / configFolder, out_ / dataFolder})
+        fs::create_directories(each);
+      std::size_t objects = 0;
+      for (const std::string& folder : options_.folders) {
+        buildFolder(folder);
+        if (result_.objects.size() == objects)
+          throw InputError(folder +
+                           " has no OPEN-R object: a folder with a stub.cfg, an .ocf or a Makefile that calls mkbin "
+                           "is one");
+        objects = result_.objects.size();
+      }
+      listModules();
+    } catch (const fs::filesystem_error& error) {
+      throw InputError(error.path1().string() + ": " + error.code().message());
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void buildFolder(const std::string& folder) {
+    if (!fs::is_directory(folder)) throw InputError(folder + " is no folder; a folder with OPEN-R sources is needed");
+    if (fs::weakly_canonical(out_).string().rfind(fs::canonical(folder).string() + "/", 0) == 0 &&
+        fs::weakly_canonical(out_) != fs::canonical(folder) / "MS")
+      throw InputError(options_.out + " lies in " + folder + "; a folder outside of the sources is needed");
+    TemporaryFolder work;
+    const fs::path copy = copyOf(folder, work.path);
+    fs::create_directory_symlink(fs::canonical(sdk_), work.path / "sdk");
+    const fs::path stick = work.path / "MS";
+    for (const fs::path& each : {stick / modulesFolder, stick / configFolder, stick / dataFolder})
+      fs::create_directories(each);
+    Found found = findObjects(copy);
+    if (found.sticks.empty() && fs::exists(fs::path(folder) / ".." / "MS" / "OPEN-R"))
+      found.sticks.push_back(fs::canonical(fs::path(folder) / ".." / "MS"));
+    for (const fs::path& each : found.sticks) copySettings(each, stick);
+    const auto name = [&](const fs::path& path) {
+      return (fs::path(folder) / path.lexically_relative(copy)).lexically_normal().string();
+    };
+    for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), stick, work.path / "sdk");
+    for (const fs::path& each : found.byHand) byHand(each, name(each), stick, work.path / "sdk");
+    if (!fs::exists(stick / configFolder / "OBJECT.CFG")) {
+      std::string list;
+      for (const std::string& module : modulesOn(stick)) list += "/MS/" + modulesFolder + "/" + module + "\n";
+      if (!list.empty()) write(stick / configFolder / "OBJECT.CFG", list);
+    }
+    copySettings(stick, out_);
+    for (const std::string& module : modulesOn(stick))
+      fs::copy_file(stick / modulesFolder / module, out_ / modulesFolder / upper(module),
+                    fs::copy_options::overwrite_existing);
+  }
+
+  /// All but modules: configuration is added to, other files are replaced.
+  void copySettings(const fs::path& from, const fs::path& to) {
+    for (const auto& entry : fs::recursive_directory_iterator(from)) {
+      if (!entry.is_regular_file()) continue;
+      const fs::path relative = entry.path().lexically_relative(from);
+      const std::string name = upper(relative.filename().string());
+      const fs::path target = to / relative;
+      if (endsWith(name, ".BIN") && relative.parent_path() == modulesFolder) continue;
+      fs::create_directories(target.parent_path());
+      if (endsWith(name, ".CFG") && relative.parent_path() == configFolder && fs::exists(target) &&
+          (name == "OBJECT.CFG" || name == "CONNECT.CFG" || name == "DESIGNDB.CFG"))
+        write(target, mergedConfig(content(target), content(entry.path())));
+      else
+        fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing);
+    }
+  }
+
+  void byMakefile(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
+    if (options_.progress) options_.progress(name);
+    StickBuild::Object object{name, {}, {}};
+    const auto before = modulesOn(stick);
+    run(folder,
+        "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B OPENRSDK_ROOT=" +
+            shellWord(sdk.string()) + " INSTALLDIR=" + shellWord(stick.string()) + " install",
+        object.said);
+    for (const std::string& module : modulesOn(stick))
+      if (before.count(module) == 0) object.modules.push_back(module);
+    result_.objects.push_back(std::move(object));
+  }
+
+  void byHand(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
+    if (options_.progress) options_.progress(name);
+    StickBuild::Object object{name, {}, {}};
+    std::string title = folder.filename().string();
+    if (fs::exists(folder / "stub.cfg")) {
+      const StubConfig config = stubConfigFrom(content(folder / "stub.cfg"), name + "/stub.cfg");
+      title = config.object;
+      for (const auto& [file, text] : stubFiles(config)) write(folder / file, text);
+    }
+    std::string ocf;
+    std::vector<fs::path> sources;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (isSource(entry.path())) sources.push_back(entry.path().filename());
+      if (entry.path().extension() == ".ocf") ocf = entry.path().filename().string();
+    }
+    std::sort(sources.begin(), sources.end());
+    std::string includes = " -I.";
+    for (const char* other : {"include", "../include", "../common", "../common/include"})
+      if (fs::exists(folder / other)) includes += std::string(" -I") + other;
+    std::string objects;
+    bool jpeg = false, whole = !sources.empty();
+    for (const fs::path& source : sources) {
+      const std::string text = content(folder / source);
+      jpeg = jpeg || text.find("jpeglib.h") != std::string::npos;
+      const std::string made = source.stem().string() + ".o";
+      const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
+      whole = run(folder,
+                  shellWord((sdk / "bin" / compiler).string()) + " -O2 -g" + includes + " -c " +
+                      shellWord(source.string()) + " -o " + shellWord(made),
+                  object.said) == 0 &&
+              whole;
+      objects += " " + shellWord(made);
+    }
+    std::vector<std::string> listed;
+    for (const auto& line : configLines(content(stick / configFolder / "OBJECT.CFG"), "")) listed.push_back(line[0]);
+    const std::string module = moduleName(title, listed);
+    const bool linked =
+        whole && run(folder,
+                     shellWord((sdk / "OPEN_R/bin/mkbin").string()) + " -o object.bin" + objects +
+                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (jpeg ? " -ljpeg" : "") +
+                         " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
+                     object.said) == 0;
+    if (linked) object.modules.push_back(module);
+    result_.objects.push_back(std::move(object));
+  }
+
+  /// OBJECT.CFG names what the stick has not.
+  void listModules() {
+    const auto there = modulesOn(out_);
+    for (const auto& line : configLines(content(out_ / configFolder / "OBJECT.CFG"), "")) {
+      const std::string module = upper(fs::path(line[0]).filename().string());
+      if (there.count(module) == 0) result_.absent.push_back(module);
+    }
+  }
+
+  const StickBuildOptions& options_;
+  fs::path out_, sdk_;
+  StickBuild result_;
+};
+
+}  // namespace
+
+bool StickBuild::complete() const {
+  return std::all_of(objects.begin(), objects.end(), [](const Object& object) { return !object.modules.empty(); });
+}
+
+StickBuild buildStick(const StickBuildOptions& options) { return StickBuilder(options).build(); }
+
+std::string mergedConfig(const std::string& first, const std::string& second) {
+  std::vector<std::string> order = {""};
+  std::map<std::string, std::vector<std::string>> sections;
+  for (const std::string* text : {&first, &second}) {
+    std::string section;
+    std::istringstream in(*text);
+    for (std::string line; std::getline(in, line);) {
+      while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
+      if (line.empty()) continue;
+      if (line[0] == '[') {
+        section = upper(line);
+        if (std::find(order.begin(), order.end(), section) == order.end()) order.push_back(section);
+        continue;
+      }
+      auto& lines = sections[section];
+      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    }
+  }
+  std::string merged;
+  for (const std::string& section : order) {
+    if (!section.empty()) merged += section + "\n";
+    for (const std::string& line : sections[section]) merged += line + "\n";
+  }
+  return merged;
+}
+
+}  // namespace btr::openr

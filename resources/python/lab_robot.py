@@ -27,5 +27,5 @@ with uchilsim.Client(address) as client:
     spec.update(name="A kick for the lab's robot", reality="remote", stages={
         "first_generations": half, "next_generations": half, "total_generations": 2 * half, "measured_individuals": 3,
         "repeats": 2})
-    run = client.experiment(spec, directory="experiments").start_run(seed=3).serve(robot=measure)
+    run = client.experiment(spec, directory="experiments").start_run(seed=3).serve(robot=measure, sure=True)
     print(run)

@@ -495,7 +495,12 @@ void Session::change(const ControllerAct& act) {
   players_.erase(act.robot);
   orders_.erase(act.robot);
   orders_ = ordersOf(game_, orders_);
-  if (game_.robots[act.robot].hasStick()) world_->measureAcceleration(robot);
+  if (game_.robots[act.robot].hasStick()) {
+    // What joints are told stays until the program orders something else; they are limp.
+    world_->measureAcceleration(robot);
+    for (const auto& [joint, command] : told) inputs_[robot][joint].command = command;
+    return;
+  }
   const RobotReadings now = world_->robot(robot);
   for (std::size_t j = 0; j < inputs_[robot].size(); ++j)
     inputs_[robot][j] = JointInput{scene_.robots[robot].drives[j].kind == Drive::Kind::torque ? 0 : now.position[j]};

@@ -27,9 +27,9 @@ class Trot:
 
 
 with uchilsim.Client(address) as client:
-    with uchilsim.Env(client, "robots/ers7.wrl", joints=legs, max_steps=int(steps)) as env:
+    with uchilsim.Env(client, "games/dog.json", joints=legs, max_steps=int(steps)) as env:
         observation, info = env.reset(seed=1)
-        stance = np.array([env.state[f"robot.{joint}.position_rad"] for joint in legs])
+        stance = np.array([env.state[f"dog.{joint}.position_rad"] for joint in legs])
         trot, way = Trot(stance), 0.0
         truncated = terminated = False
         while not (terminated or truncated):
@@ -37,7 +37,7 @@ with uchilsim.Client(address) as client:
             way += reward
         print(f"one dog: {way:.3f} m in {info['time_s']:.2f} s")
 
-    dogs = uchilsim.VectorEnv(4, client, "robots/ers7.wrl", joints=legs, max_steps=int(steps))
+    dogs = uchilsim.VectorEnv(4, client, "games/dog.json", joints=legs, max_steps=int(steps))
     dogs.reset(seed=1)
     ways = np.zeros(4)
     for step in range(int(steps)):

@@ -358,14 +358,14 @@ class Examples(WithServer):
         self.assertEqual(4, lines[1].count(" m"))
 
     def test_cma_es_learns_a_kick(self):
-        lines = self.run_example("cma_es_kick.py", "10").splitlines()
+        lines = self.run_example("cma_es_kick.py", "6").splitlines()
         means = [float(line.split()[6]) for line in lines if line.startswith("generation")]
-        self.assertEqual(10, len(means))
-        self.assertGreater(np.mean(means[-3:]), 2 * np.mean(means[:3]))
+        self.assertEqual(6, len(means))
+        self.assertGreater(means[-1], 2 * means[0])
         self.assertIn("finished", lines[-1])
 
     def test_a_robot_in_the_lab_measures(self):
-        lines = self.run_example("lab_robot.py", "4").splitlines()
+        lines = self.run_example("lab_robot.py", "2").splitlines()
         self.assertIn("finished", lines[-1])
         self.assertGreaterEqual(sum(line.startswith("individual") for line in lines), 6)
         db = str(self.server.folder / "a.db")

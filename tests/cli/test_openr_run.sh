@@ -57,9 +57,10 @@ expect 0 "two" "$btr" openr run --game "$folder/two.json" --robot red1 --stick "
 says out "red1 PanPath: pan gains 8 2 4, 0 ms ahead"
 says out "blue1 PanPath: pan gains 20 2 6, 40 ms ahead"
 sha=$(sed -n 's/^trace //p' "$folder/out")
-expect 0 "sticks in the game" "$btr" live "$folder/sticks.json" --seconds 1 --save "$folder/later.json"
+expect 0 "sticks in the game" "$btr" live "$folder/sticks.json" --seconds 1
 says out "blue1 PanPath: pan gains 20 2 6, 40 ms ahead"
 says out "trace $sha"
+expect 0 "saved" "$btr" live "$folder/sticks.json" --seconds 1 --save "$folder/later.json"
 expect 0 "what was saved" "$btr" live "$folder/later.json" --seconds 0.1
 
 # What is wrong is said in one sentence.

@@ -304,6 +304,34 @@ class Learning(WithServer):
         self.assertEqual("waiting", run.refresh().state)  # all values are void
 
 
+class Kills(unittest.TestCase):
+    def test_a_server_that_is_killed_leaves_database_and_logs_whole(self):
+        server = Server()
+        try:
+            with uchilsim.Client(server.address) as client:
+                world = client.open(DOG)
+                for i in range(10):
+                    world.step(1, {"robot": np.full(18, 0.01 * i)})
+                spec = client.experiment("experiments/kick-short.json").spec
+                spec.update(name="killed", reality="remote")
+                run = client.experiment(spec, directory="experiments").start_run()
+                while run.refresh().generation == 0:
+                    pass
+            server.process.kill()
+            server.process.communicate()
+            log = server.folder / "games" / world.log_file
+            replay = subprocess.run([BTR, "--json", "live", str(log.with_suffix(".json")), "--replay", str(log)],
+                                    capture_output=True, text=True, check=True)
+            self.assertEqual(9, json.loads(replay.stdout)["periods"])  # up to its last act
+            db = str(server.folder / "a.db")
+            subprocess.run([BTR, "check", "--db", db], capture_output=True, check=True)
+            # Nobody works on it any more, so that it could go on at once.
+            runs = json.loads(subprocess.run([BTR, "--json", "status", "--db", db], capture_output=True, check=True).stdout)
+            self.assertFalse(runs[0]["active"])
+        finally:
+            shutil.rmtree(server.folder)
+
+
 class Access(unittest.TestCase):
     def test_a_token_and_tls_open_the_door_and_nothing_else_does(self):
         folder = pathlib.Path(tempfile.mkdtemp())

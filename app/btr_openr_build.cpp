@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
-#include "core/openr/live_programs.h"
+#include "core/openr/ended_text.h"
 #include "core/openr/robot_process.h"
 #include "core/openr/stick_builder.h"
 #include "core/openr/trivial_robot.h"

@@ -4,6 +4,7 @@
 
 #include "app/btr_commands.h"
 #include "app/btr_live_lines.h"
+#include "core/openr/ended_text.h"
 #include "core/openr/robot_starter.h"
 #include "core/spec/error.h"
 

@@ -89,6 +89,12 @@ void addGapProveCommands(CLI::App& gap, Shell& shell) {
       ->check(CLI::IsMember({"pendulum", "leg", "carpet", "flight", "walk"}));
   prove->add_option("--kind", request->kind, "only this kind of case")
       ->check(CLI::IsMember({"nothing", "parameters", "one", "two", "outside"}));
+  prove->add_option("--dirt", request->dirt, "what a logger did to the recordings")
+      ->check(CLI::IsMember({"quiet", "jitter", "stale", "multirate", "dropped", "mixed"}));
+  prove
+      ->add_option("--spoiled", request->spoiled,
+                   "trials of each case, at most a third, that are not what their files say")
+      ->transform(wholeNumber(0, 100));
   prove->callback([request, &shell] { proveCommand(*request, shell); });
   addTally(gap, shell);
 }

@@ -6,7 +6,8 @@ BUILD_PACKAGES="g++ cmake ninja-build ccache pkg-config
   libgrpc++-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc python3-grpcio python3-protobuf python3-numpy
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev"
 WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
-TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal opencv-doc"
+TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal opencv-doc
+  openssl iproute2"
 CLANG_PACKAGES="clang libclang-rt-14-dev"
 
 # Installs those of its arguments that are not there yet, in one apt call.

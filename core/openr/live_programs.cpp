@@ -63,23 +63,6 @@ bool changesColumns(const Act& act) {
 
 }  // namespace
 
-std::string sentenceOf(const Ended& ended) {
-  const std::string where = ended.object.empty() ? "the program" : ended.object;
-  const std::string in = ended.method.empty() ? "" : " in " + ended.method;
-  const std::string what = ended.what.empty() ? "" : ": " + ended.what;
-  switch (ended.why) {
-    case Ended::Why::shutdown:
-      return where + " shut the robot down" + in + what;
-    case Ended::Why::crash:
-      return where + " crashed" + in + what;
-    case Ended::Why::endlessLoop:
-      return where + " did not come back" + in + what;
-    case Ended::Why::refused:
-      break;
-  }
-  return where + " cannot go on" + in + what;
-}
-
 LivePrograms::LivePrograms(Session& session, Starter start, RobotCameras* cameras)
     : session_(session), start_(std::move(start)), cameras_(cameras) {
   for (const auto& [name, player] : session_.game().robots)
@@ -173,6 +156,10 @@ void LivePrograms::take(const std::string& name, Robot& robot, const OrderFrame&
   if (const Values numbers = cameraNumbers(robot.units->design(), orders.camera); cameras_ && !numbers.empty())
     cameras_->set(name, numbers);
   RobotUnits::Ordered ordered = robot.units->ordered(orders);
+  // The process begins with everything off; a game may have switched the motors on before.
+  if (robot.frames == 1 && session_.orders().at(name).motorPower.value_or(false) &&
+      !ordered.orders.motorPower.value_or(true))
+    ordered.orders.motorPower.reset();
   // Who shuts down lets go of everything; else joints stay where they were told to be.
   if (orders.ended && orders.ended->why == Ended::Why::shutdown) {
     ordered.orders.motorPower = false;

@@ -90,7 +90,4 @@ class LivePrograms {
   bool stale_ = false;  ///< the session's columns may be others now
 };
 
-/// One sentence: "MovingHead7 crashed in Notify0: it read at address 0".
-std::string sentenceOf(const Ended& ended);
-
 }  // namespace btr::openr

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/live/orders.h"
+#include "core/openr/ended_text.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
@@ -54,7 +55,9 @@ SensorFrame TrialMotion::frameOf(const RobotReadings& readings) {
 }
 
 void TrialMotion::obey(const OrderFrame& orders) {
-  const RobotUnits::Ordered ordered = units_.ordered(orders);
+  RobotUnits::Ordered ordered = units_.ordered(orders);
+  // The process begins with everything off.
+  if (frames_ == 1 && task_.motorPower && !ordered.orders.motorPower.value_or(true)) ordered.orders.motorPower.reset();
   for (const auto& [joint, target] : ordered.targets)
     inputs_[static_cast<std::size_t>(model_.findJoint(joint))].command = target;
   orders_.add(ordered.orders);

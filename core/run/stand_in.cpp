@@ -171,7 +171,7 @@ RealAnswer measureStandIn(const PreparedExperiment& prepared, const Concealed& c
     return world.trial ? world.trial(prepared, scene, parameters, recordTrace)
                        : prepared.trial(scene, parameters, concealed.seed, recordTrace);
   };
-  const TrialResult result = trial(prepared.scene(concealed.simulator), false);
+  const TrialResult result = trial(prepared.scene(concealed.simulator), true);  // a fitness may read the trace
   Random random =
       Random::forPurpose(concealed.seed ^ keyOf(parameters), "measurement", static_cast<std::uint64_t>(repeat));
   RealAnswer answer;

@@ -49,6 +49,11 @@ if wants report; then
     --recording $made/made_kp400_slow.csv --held-out $made/made_kp200_chirp.csv --out "$folder/report" > /dev/null
 fi
 
+if wants openr; then
+  "$bin/btr" openr build resources/openr/BallHead --out "$folder/MS" > /dev/null
+  sed "s#\.\./openr/BallHead/MS#$folder/MS#; s#\.\./robots#$root/resources/robots#" resources/games/ball-follower.json > "$folder/follower.json"
+fi
+
 # picture NAME "KEYS" ARGUMENT…: the window as it looks after these keys
 cat > "$folder/picture.sh" <<'S'
 name=$1 keys=$2 folder=$3
@@ -78,7 +83,11 @@ settled() {
 }
 settled
 for key in $keys; do
-  xdotool key --window "$window" "$key"
+  # @X,Y: a click there.
+  case $key in
+    @*) xdotool mousemove --window "$window" ${key:1:3} ${key:5} click 1 mousemove --window "$window" 700 300 ;;
+    *) xdotool key --window "$window" "$key" ;;
+  esac
   settled
 done
 mv "$folder/$name.png" "$folder/pictures/$name.png"
@@ -103,6 +112,7 @@ picture form "ctrl+n" 1440x900 "$folder/shipped.db"
 picture sheet "" 1440x900 "$folder/person.db" --select-run 1
 picture grid "" 1440x900 "$folder/grid.db" --grid 1
 picture scene "" 1440x900 "$folder/shipped.db" --scene resources/games/match-2004.json
+picture openr "@363,113" 1440x900 "$folder/shipped.db" --scene "$folder/follower.json"
 picture gap-setup "F8" 1440x900 "$folder/shipped.db" --select-run "$short_kick"
 picture report "" 1440x900 "$folder/shipped.db" --report "$folder/report"
 

@@ -21,11 +21,12 @@ with uchilsim.Client(address) as client:
         print(f"individual {task.individual}: {kick.outcomes[0]}, {kick.fitness[0]:.3f} m")
         if kick.outcomes[0] != "finished":
             return None
-        return float(kick.fitness[0] + random.normal(0, 0.005))
+        return max(0.0, float(kick.fitness[0] + random.normal(0, 0.005)))
 
+    spec["adaptation"]["settings"]["generations"] = 4
     half = max(1, int(generations) // 2)
     spec.update(name="A kick for the lab's robot", reality="remote", stages={
         "first_generations": half, "next_generations": half, "total_generations": 2 * half, "measured_individuals": 3,
         "repeats": 2})
-    run = client.experiment(spec, directory="experiments").start_run(seed=3).serve(robot=measure)
+    run = client.experiment(spec, directory="experiments").start_run(seed=3).serve(robot=measure, sure=True)
     print(run)

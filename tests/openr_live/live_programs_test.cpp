@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/live/session_log.h"
+#include "core/openr/ended_text.h"
 #include "core/openr/joint_gains.h"
 #include "tests/openr_live/played_program.h"
 #include "tests/refusal.h"
@@ -129,6 +130,21 @@ TEST_F(OpenrLive, MotorsThatAreSwitchedOnAtTheStartNeedNoOrder) {
   EXPECT_NEAR(position(session, "HEAD_PAN"), -0.4, 0.01);
   // Nobody enabled the other's: it lies on the floor.
   EXPECT_LT(session.world().robot(1).base.translation().z(), session.world().robot(0).base.translation().z() - 0.02);
+}
+
+TEST_F(OpenrLive, AProcessThatBeginsWithMotorsOffLeavesThoseOfTheGameOn) {
+  const auto begins = [](const SensorFrame& frame) {
+    OrderFrame orders = frame.number == 1 ? enableAll() : OrderFrame{};
+    if (frame.number == 1) orders.motorPower = false;
+    if (frame.number == 60) orders.motorPower = false;
+    return orders;
+  };
+  Session session(game(true), host());
+  LivePrograms programs(session, playing({{"red", begins}, {"blue", nothing}}));
+  run(session, programs, 59);
+  EXPECT_TRUE(input(session, "LF_J1").enabled);
+  run(session, programs, 1);
+  EXPECT_FALSE(input(session, "LF_J1").enabled);
 }
 
 TEST_F(OpenrLive, GainsAreTimesTheStandardOnesByNumberAndShift) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "core/spec/error.h"
 #include "tests/prove/hide.h"
@@ -83,6 +84,33 @@ double measure(double value, const MeasuredColumn& column, Random& random) {
   return column.quantum > 0 ? column.quantum * std::round(noisy / column.quantum) : noisy;
 }
 
+/// Columns of one sensor: a joint's angle and rate, a body's or ball's pose.
+std::vector<int> sensorsOf(const BlindWorld& world) {
+  std::vector<std::string> names;
+  std::vector<int> groups;
+  for (const MeasuredColumn& column : world.columns) {
+    const std::string sensor = column.name.substr(0, column.name.rfind('.'));
+    auto found = std::find(names.begin(), names.end(), sensor);
+    if (found == names.end()) found = names.insert(names.end(), sensor);
+    groups.push_back(static_cast<int>(found - names.begin()));
+  }
+  return groups;
+}
+
+/// Which trials are not what their files say: by trial, the factor of its commands, or 1 where the measuring is at
+/// fault.
+std::map<std::size_t, double> drawSpoiled(std::size_t wanted, const BlindWorld& world, Random random) {
+  std::map<std::size_t, double> spoiled;
+  const std::size_t most = world.trials.size() / 3;
+  while (spoiled.size() < std::min(wanted, most)) {
+    const std::size_t trial = random.below(world.trials.size());
+    const double factor = random.chance(0.5) ? random.uniform(0.6, 0.85) : random.uniform(1.2, 1.5);
+    const bool commands = !world.commanded.empty() && random.chance(0.5);
+    spoiled.emplace(trial, commands ? factor : 1);
+  }
+  return spoiled;
+}
+
 }  // namespace
 
 const std::vector<std::string>& caseKinds() {
@@ -121,56 +149,84 @@ BlindCase drawCase(const CaseRequest& request, const Hideable& library) {
     if (world == worlds) throw std::runtime_error("no effect acts in any of " + std::to_string(worlds) + " worlds");
   }
   for (const MeasuredColumn& column : blind.world.columns) answer.noise[column.name] = column.floor();
+  blind.dirt = drawDirt(request.dirt, sensorsOf(blind.world), !blind.world.commanded.empty(), purpose("logger"));
+  blind.spoiled = drawSpoiled(request.spoiled, blind.world, purpose("spoiled"));
+  answer.dirt = request.dirt;
+  for (const auto& [trial, factor] : blind.spoiled)
+    answer.spoiled.push_back("trial_" + std::to_string(trial + 1) + ".csv");
   answer.salt = drawSalt(purpose("salt"));
   return blind;
 }
 
 namespace {
 
-/// CSV text by trial. `purpose` separates the noise of trials that an analyst gets from that of fresh ones.
-std::vector<std::string> record(const BlindCase& blind, const Hideable& library, const std::vector<TrialPlan>& trials,
-                                const char* purpose) {
+/// By trial. `purpose` separates the noise of trials that an analyst gets from that of fresh ones. Trials in `wrong`
+/// were commanded otherwise than their files say.
+std::vector<LoggedTrial> record(const BlindCase& blind, const Hideable& library, const std::vector<TrialPlan>& trials,
+                                const char* purpose, const std::map<std::size_t, double>& wrong) {
   const BlindWorld& world = blind.world;
   Scene scene = makeScene(world.scene, world.models, blind.simulator, withOutside(library.make));
   scene.step_s = world.fineStep_s;
-  std::vector<std::string> texts;
+  std::vector<LoggedTrial> logged;
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
     const TrialPlan& plan = trials[trial];
-    const Truth truth = (blind.answer.engine == "mujoco" ? simulateMujoco : simulateOde)(scene, plan, world.columns);
+    TrialPlan done = plan;
+    if (const auto found = wrong.find(trial); found != wrong.end())
+      for (auto& row : done.commands)
+        for (double& command : row) command *= found->second;
+    const Truth truth = (blind.answer.engine == "mujoco" ? simulateMujoco : simulateOde)(scene, done, world.columns);
     if (!truth.fault.empty()) throw std::runtime_error("reality failed: " + truth.fault);
     Random noise = Random::forPurpose(blind.answer.seed, purpose, blind.answer.number * 100 + trial);
-    std::string text = "time_s";
+    LoggedTrial log;
+    log.columns.push_back("time_s");
     for (const std::size_t joint : world.commanded) {
       const std::string at = scene.robots[0].name + "." + scene.robots[0].model.joints[joint].name;
-      text += "," + at + ".command_rad";
-      if (world.showsEnabled) text += "," + at + ".enabled";
+      log.columns.push_back(at + ".command_rad");
+      if (world.showsEnabled) log.columns.push_back(at + ".enabled");
     }
-    for (const MeasuredColumn& column : world.columns) text += "," + column.name;
-    text += "\n";
+    log.firstMeasured = log.columns.size();
+    for (const MeasuredColumn& column : world.columns) log.columns.push_back(column.name);
     for (std::size_t row = 0; row < plan.rows; ++row) {
-      // A whole number of microseconds, as a logger would write it.
-      text += toText(std::round(1e6 * plan.sample_s * static_cast<double>(row)) / 1e6);
+      auto& cells = log.rows.emplace_back();
+      cells.push_back(plan.sample_s * static_cast<double>(row));
       for (const std::size_t joint : world.commanded) {
-        text += "," + toText(plan.commands[row][joint]);
-        if (world.showsEnabled) text += plan.enabled[row] ? ",1" : ",0";
+        cells.push_back(plan.commands[row][joint]);
+        if (world.showsEnabled) cells.push_back(plan.enabled[row] ? 1 : 0);
       }
       for (std::size_t i = 0; i < world.columns.size(); ++i)
-        text += "," + toText(measure(truth.values[i][row], world.columns[i], noise));
-      text += "\n";
+        cells.push_back(measure(truth.values[i][row], world.columns[i], noise));
     }
-    texts.push_back(std::move(text));
+    logged.push_back(std::move(log));
   }
+  return logged;
+}
+
+std::vector<std::string> textsOf(const std::vector<LoggedTrial>& trials) {
+  std::vector<std::string> texts;
+  for (const LoggedTrial& trial : trials) texts.push_back(csvOf(trial));
   return texts;
 }
 
 }  // namespace
 
 std::vector<std::string> recordTrials(const BlindCase& blind, const Hideable& library) {
-  return record(blind, library, blind.world.trials, "noise");
+  const BlindWorld& world = blind.world;
+  auto trials = record(blind, library, world.trials, "noise", blind.spoiled);
+  std::vector<double> noises;
+  for (const MeasuredColumn& column : world.columns) noises.push_back(column.floor());
+  for (std::size_t trial = 0; trial < trials.size(); ++trial) {
+    const auto purpose = [&](const char* name) {
+      return Random::forPurpose(blind.answer.seed, name, blind.answer.number * 100 + trial);
+    };
+    if (const auto found = blind.spoiled.find(trial); found != blind.spoiled.end() && found->second == 1)
+      spoil(trials[trial], noises, purpose("spoiling"));
+    soil(trials[trial], blind.dirt, world.trials[trial].sample_s, purpose("dirt"));
+  }
+  return textsOf(trials);
 }
 
 std::vector<std::string> recordFresh(const BlindCase& blind, const Hideable& library) {
-  return record(blind, library, blind.world.fresh, "fresh noise");
+  return textsOf(record(blind, library, blind.world.fresh, "fresh noise", {}));
 }
 
 }  // namespace btr::prove

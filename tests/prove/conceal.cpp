@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
     command->add_option("--engine", request.engine, "who is reality: ode or mujoco");
     command->add_option("--scene", request.scene, "kind of scene, drawn if it is not given");
     command->add_option("--kind", request.kind, "kind of case, drawn if it is not given");
+    command->add_option("--dirt", request.dirt, "quiet, jitter, stale, multirate, dropped or mixed");
+    command->add_option("--spoiled", request.spoiled, "trials, at most a third, that are not what their files say");
   };
   CLI::App* make = app.add_subcommand("make", "write scene and recordings; print the SHA-256 of the answer");
   addCommon(make);

@@ -3,8 +3,11 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPlainTextEdit>
+#include <QProcess>
 #include <QPushButton>
 #include <QTableWidget>
+
+#include <cmath>
 
 #include "tests/ui/open_live_page.h"
 #include "ui/live/console_panel.h"
@@ -92,6 +95,31 @@ class TestLivePrograms : public QObject {
     QCOMPARE(open.page.row().fault, QString());
     open.page.findChild<QPushButton*>("stickStop")->click();
     QVERIFY(!open.page.world().playerOf("dog").controller);
+  }
+
+  /// A real program: it is built, put in, runs while the world plays, moves a joint, speaks, and is taken out.
+  void aProgramOnAStickMovesTheRobot() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    const QString stick = open.folder.filePath("MS");
+    QProcess build;
+    build.start(BTR_PROGRAM, {"openr", "build", SOURCE_DIR "/resources/openr/PanPath", "--out", stick});
+    QVERIFY(build.waitForFinished(60000));
+    QVERIFY2(build.exitCode() == 0, build.readAllStandardError());
+    open.page.world().act(ControllerAct{"dog", stickAt(stick)});
+    open.page.process().play(true);
+    const auto pan = [&] {
+      const auto dog = open.page.world().indexOf("dog");
+      return open.page.world().scene().jointsOf(std::size_t(dog), open.page.row()).at("HEAD_PAN");
+    };
+    QVERIFY(QTest::qWaitFor([&] { return std::abs(pan()) > 0.3; }, 20000));
+    const auto* console = open.page.findChild<ConsolePanel*>();
+    QVERIFY(console);
+    QVERIFY2(console->text()->toPlainText().contains("dog PanPath: pan gains 8 2 4"),
+             qPrintable(console->text()->toPlainText()));
+    QVERIFY(open.page.row().orders.at("dog").motorPower.value_or(false));
+    open.page.world().act(ControllerAct{"dog", std::nullopt});
+    QVERIFY(QTest::qWaitFor([&] { return open.page.row().orders.empty(); }, 10000));
   }
 
   /// Every lamp of the table of places sits on a link that the model has, and shines in its mode's colour.

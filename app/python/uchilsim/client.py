@@ -12,7 +12,7 @@ import numpy as np
 
 from . import uchilsim_pb2 as pb
 from . import uchilsim_pb2_grpc as services
-from .errors import Unreachable, sentences
+from .errors import NotFound, Unreachable, sentences
 from .learning import Run
 from .numbers import Number, clipped, lower_of, upper_of
 from .world import World
@@ -180,7 +180,6 @@ class Client:
         for run in self.runs():
             if run.number == number:
                 return run
-        from .errors import NotFound
         raise NotFound(f"run {number}: the database has none of this number")
 
     # ---- the end

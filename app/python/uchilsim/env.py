@@ -111,7 +111,7 @@ class Env(EnvBase):
     render_mode = None
     spec = None
 
-    def __init__(self, client: Client | str = "127.0.0.1:50051", game: str | Mapping = "robots/ers7.wrl",
+    def __init__(self, client: Client | str = "127.0.0.1:50051", game: str | Mapping = "games/dog.json",
                  robot: str | None = None, joints: Sequence[str] | None = None,
                  observation: Sequence[str] | None = None, frame_skip: int = 1, max_steps: int = 1000,
                  reward: Reward | None = None, terminated: Terminated | None = None, logged: bool = False):
@@ -122,7 +122,8 @@ class Env(EnvBase):
         self.observation_space = self._task.observation_space
         self.action_space = self._task.action_space
         self.frame_skip, self.max_steps = int(frame_skip), int(max_steps)
-        self._random = np.random.default_rng()
+        self._np_random = np.random.default_rng()
+        self._np_random_seed: int | None = None
         self._state: State | None = None
         self._steps = 0
 
@@ -132,11 +133,16 @@ class Env(EnvBase):
 
     @property
     def np_random(self) -> np.random.Generator:
-        return self._random
+        return self._np_random
 
     @np_random.setter
     def np_random(self, value: np.random.Generator) -> None:
-        self._random = value
+        self._np_random, self._np_random_seed = value, -1
+
+    @property
+    def np_random_seed(self) -> int | None:
+        """The seed of reset(); None: none was given, -1: the numbers were set."""
+        return self._np_random_seed
 
     @property
     def state(self) -> State | None:
@@ -148,9 +154,9 @@ class Env(EnvBase):
         """Begins an episode. The same seed gives the same bits; None: the next one of the environment's own numbers.
         options: {"acts": […]}, what reaches into the world before it begins, see World.act()."""
         if seed is not None:
-            self._random = np.random.default_rng(seed)
+            self._np_random, self._np_random_seed = np.random.default_rng(seed), seed
         acts = (options or {}).get("acts", ())
-        self._state = self.world.reset(seed=_random_seed(self._random), acts=acts)
+        self._state = self.world.reset(seed=_random_seed(self._np_random), acts=acts)
         self._task.begin(self._state)
         self._steps = 0
         return self._task.observe(self._state), {"time_s": self._state.time_s}
@@ -207,7 +213,7 @@ class VectorEnv(VectorEnvBase):
     closed = False
 
     def __init__(self, num_envs: int, client: Client | str = "127.0.0.1:50051",
-                 game: str | Mapping = "robots/ers7.wrl", **arguments: Any):
+                 game: str | Mapping = "games/dog.json", **arguments: Any):
         self._own = isinstance(client, str)
         self.client = Client(client) if isinstance(client, str) else client
         self.num_envs = int(num_envs)

@@ -166,13 +166,15 @@ class Run:
                 return
 
     def serve(self, learner: Callable[[Question], Learner] | None = None,
-              robot: Callable[[Task], float | None] | None = None, patience_s: float = 0) -> "Run":
+              robot: Callable[[Task], float | None] | None = None, patience_s: float = 0, sure: bool = False) -> "Run":
         """Works for the run until it is finished: as its learner, as its robot, or as both.
 
         learner: makes a learner for the first question of each level; it has ask() → (vectors, parameters) and
           tell(vectors, fitness), and if it is to go on after a break state() → str, taken after each ask(), and
           restore(str), after which it is told of those vectors.
         robot: measures one trial of a task: its fitness, or None if the trial is void.
+        sure: values far from what is expected are right; else the first one raises Refused, and serve() may be called
+          again.
         """
         learners: dict[str, Any] = {}
         while True:
@@ -197,7 +199,7 @@ class Run:
             for task in tasks:
                 for _ in range(task.missing):
                     value = robot(task)
-                    task.send(void=True) if value is None else task.send(value)
+                    task.send(void=True) if value is None else task.send(value, sure=sure)
 
     def wait(self, timeout: float = 600.0) -> "Run":
         """Until no process works on it any more."""

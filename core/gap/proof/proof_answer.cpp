@@ -19,6 +19,8 @@ std::string toJsonText(const ConcealedAnswer& answer) {
                           {"hidden", nlohmann::json::array()},
                           {"truth", answer.truth},
                           {"noise", answer.noise},
+                          {"dirt", answer.dirt},
+                          {"spoiled", answer.spoiled},
                           {"salt", answer.salt}};
   for (const auto& hidden : answer.hidden)
     document["hidden"].push_back({{"effect", hidden.placed.effect},
@@ -57,6 +59,8 @@ ConcealedAnswer answerFromJson(const std::string& text, const std::string& place
   });
   answer.truth = reader.anyValues("truth");
   answer.noise = reader.anyValues("noise");
+  answer.dirt = reader.text("dirt");
+  answer.spoiled = reader.texts("spoiled");
   answer.salt = reader.text("salt");
   reader.finish();
   return answer;

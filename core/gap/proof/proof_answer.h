@@ -26,8 +26,10 @@ struct ConcealedAnswer {
   std::uint64_t seed = 0, number = 0;
   std::string engine, scene, kind;  ///< "ode"; "pendulum" …; "nothing", "parameters", "one", "two", "outside"
   std::vector<Hidden> hidden;
-  Values truth;  ///< true values of the scene's `calibrate` paths
-  Values noise;  ///< by channel: standard deviation of what was added, rounding included
+  Values truth;                      ///< true values of the scene's `calibrate` paths
+  Values noise;                      ///< by channel: standard deviation of what was added, rounding included
+  std::string dirt = "quiet";        ///< what loggers did to the recordings
+  std::vector<std::string> spoiled;  ///< files of the trials that are not what their files say
   std::string salt;
 };
 

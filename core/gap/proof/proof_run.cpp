@@ -73,6 +73,8 @@ std::vector<std::string> concealWords(const ProofRequest& request, const std::st
   add("--engine", request.engine);
   add("--scene", request.scene);
   add("--kind", request.kind);
+  add("--dirt", request.dirt);
+  if (request.spoiled > 0) add("--spoiled", std::to_string(request.spoiled));
   return words;
 }
 
@@ -145,15 +147,17 @@ void claimFolder(const ProofRequest& request) {
   std::error_code failure;
   fs::create_directories(request.out, failure);
   if (!fs::is_directory(request.out)) throw InputError(request.out + ": the folder cannot be made");
-  const nlohmann::json trial{{"format", "uchilsim-proof-trial-2"},
+  const nlohmann::json trial{{"format", "uchilsim-proof-trial-3"},
                              {"seed", request.seed},
                              {"engine", request.engine},
                              {"scene", request.scene},
                              {"kind", request.kind},
+                             {"dirt", request.dirt},
+                             {"spoiled", request.spoiled},
                              {"analysis_seed", request.options.seed}};
   const std::string text = trial.dump(2) + "\n", path = (fs::path(request.out) / "trial.json").string();
   if (fs::exists(path) && readFile(path) != text)
-    throw InputError(path, "another generator, seed, engine, scene or kind",
+    throw InputError(path, "another generator, seed, engine, scene, kind or dirt",
                      "the same as in the trial that the folder holds");
   writeFile(path, text);
 }

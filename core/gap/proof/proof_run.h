@@ -13,14 +13,16 @@
 
 namespace btr {
 
-/// A blind trial: cases 1 … `cases` of a seed. Empty `engine`, `scene`, `kind`: our own engine, drawn, drawn.
+/// A blind trial: cases 1 … `cases` of a seed. Empty `engine`, `scene`, `kind`, `dirt`: our own engine,
+/// drawn, drawn, none.
 struct ProofRequest {
   std::string generator;  ///< path of the program that conceals
   std::string out;        ///< folder; finished cases in it are kept, those of another trial refused
   std::uint64_t seed = 1;
   std::size_t cases = 20;
-  std::string engine, scene, kind;
-  int jobs = 1;  ///< worker processes, one case each
+  std::string engine, scene, kind, dirt;
+  std::size_t spoiled = 0;  ///< trials of each case that are not what their files say
+  int jobs = 1;             ///< worker processes, one case each
   AnalysisOptions options;
 };
 

@@ -1,0 +1,377 @@
+"""The Python package against a server that is started for it.
+   python3 test_python.py BTR RESOURCES"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import uchilsim
+
+BTR, RESOURCES = sys.argv[1], pathlib.Path(sys.argv[2])
+DOG = "robots/ers7.wrl"
+
+
+class Server:
+    """btr serve on a free port, with a folder and a database of its own."""
+
+    def __init__(self, *arguments):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        games = self.folder / "games"
+        games.mkdir()
+        for name in ("robots", "scenes", "experiments", "fields"):
+            shutil.copytree(RESOURCES / name, games / name)
+        shutil.copytree(RESOURCES / "games", games / "games")
+        self.socket = str(self.folder / "socket")
+        self.process = subprocess.Popen(
+            [BTR, "--json", "serve", "--port", "0", "--unix", self.socket, "--games", str(games), "--db",
+             str(self.folder / "a.db"), "--jobs", "2", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        text = ""
+        while not text.endswith("}\n"):  # one document, on one line or several
+            line = self.process.stdout.readline()
+            if not line:
+                raise RuntimeError(self.process.stderr.read())
+            text += line
+        self.said = json.loads(text)
+        self.address = f"127.0.0.1:{self.said['port']}"
+
+    def close(self):
+        """As Ctrl-C does: it ends cleanly."""
+        if self.process.poll() is None:
+            self.process.send_signal(2)
+        _, errors = self.process.communicate(timeout=30)
+        shutil.rmtree(self.folder)
+        return self.process.returncode, errors
+
+
+class WithServer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server()
+        cls.client = uchilsim.Client(cls.server.address)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.client.close()
+        code, errors = cls.server.close()
+        assert code == 0 and errors == "", (code, errors)
+
+
+class Worlds(WithServer):
+    def test_a_server_says_what_it_is(self):
+        info = self.client.wait()
+        self.assertEqual(("uchilsim.v1", "drive"), (info.schema, info.role))
+        self.assertIn("walk", info.controllers)
+        self.assertTrue(info.has_database and info.keeps_logs)
+
+    def test_a_walking_dog_moves_and_its_parameters_are_there(self):
+        with self.client.open("games/two-dogs-and-a-ball.json") as world:
+            before = world.state()["red1.base.x_m"]
+            self.assertGreater(abs(world.step(250)["red1.base.x_m"] - before), 0.02)
+            robot = world.robots["red1"]
+            self.assertEqual("walk", robot.controller)
+            number = robot.parameters[0]
+            world.set_parameter("red1", number.name, number.minimum)
+            world.refresh()
+            self.assertEqual(number.minimum, world.robots["red1"].parameters[0].value)
+
+    def test_hands_place_throw_pull_and_add(self):
+        with self.client.open(DOG) as world:
+            state = world.add(ball={"name": "ball", "position_m": [1, 0, 0.5]})
+            self.assertEqual(["ball"], world.balls)
+            self.assertAlmostEqual(0.5, state["ball.z_m"])
+            world.throw("ball", (0, 1, 0))
+            self.assertAlmostEqual(0.08, world.step(10)["ball.y_m"], 6)
+            self.assertEqual(2.0, world.place("ball", (2, 0, 0.3))["ball.x_m"])
+            world.set_number("friction", 0.3)
+            # A force of 0.11 N on 0.055 kg is 2 m/s²; free flight for 80 ms.
+            world.place("ball", (1, 0, 1))
+            world.push("ball", (0.11, 0, 0), (1, 0, 1))
+            self.assertAlmostEqual(2 * 0.08**2 / 2, world.step(10)["ball.x_m"] - 1, delta=0.002)
+            world.let_go("ball")
+            world.remove("ball")
+            self.assertEqual(len(world.channels), len(world.state().row))
+
+    def test_joints_go_where_they_are_told(self):
+        with self.client.open(DOG) as world:
+            robot = world.robots["robot"]
+            targets = np.zeros(len(robot.joints))
+            targets[robot.joints.index("HEAD_PAN")] = 0.6
+            state = world.step(100, {"robot": np.tile(targets, (100, 1))}, links=True, contacts=True)
+            self.assertAlmostEqual(0.6, state["robot.HEAD_PAN.position_rad"], delta=0.05)
+            self.assertEqual((len(robot.links), 7), state.links[0].shape)
+            self.assertEqual(6, state.contacts.shape[1])
+            only = world.state(["robot.HEAD_PAN.position_rad"])
+            self.assertEqual(state["robot.HEAD_PAN.position_rad"], only["robot.HEAD_PAN.position_rad"])
+
+    def test_a_log_plays_again_without_the_client(self):
+        world = self.client.open(DOG, seed=4)
+        random = np.random.default_rng(0)
+        for _ in range(20):
+            world.step(2, {"robot": random.uniform(-0.2, 0.2, 18)})
+        self.assertEqual(2, len(world.log()))
+        log = self.server.folder / "games" / world.log_file
+        sha = world.close()
+        replay = subprocess.run([BTR, "--json", "live", str(log.with_suffix(".json")), "--replay", str(log)],
+                                capture_output=True, text=True, check=True)
+        result = json.loads(replay.stdout)
+        self.assertTrue(result["identical"])
+        self.assertEqual(sha, result["trace_sha256"])
+
+    def test_a_ball_that_is_moved_from_outside_is_there(self):
+        with self.client.open(DOG) as world:
+            world.add(ball={"name": "ball", "position_m": [1, 0, 0.5]})
+            with world.poses("ball") as poses:
+                for i in range(10):
+                    poses.send((0.1 * i, 0, 0.3), velocity_m_s=(0.1, 0, 0))
+            self.assertAlmostEqual(0.9, world.state()["ball.x_m"])
+
+    def test_a_playing_world_is_watched(self):
+        with self.client.open(DOG) as world:
+            world.play(2)
+            times = []
+            for state in world.watch(rate_hz=100):
+                times.append(state.time_s)
+                if len(times) == 5:
+                    break
+            self.assertEqual(sorted(set(times)), times)
+            self.assertFalse(world.play(0).playing)
+
+    def test_what_is_wrong_is_said_in_a_sentence(self):
+        for call, kind, words in (
+                (lambda: self.client.open("../secret.json"), uchilsim.Refused, "below the server's folder"),
+                (lambda: self.client.open("/etc/passwd"), uchilsim.Refused, "below the server's folder"),
+                (lambda: self.client.world("nobody"), uchilsim.NotFound, "no such world"),
+                (lambda: self.client.run(77), uchilsim.NotFound, "run 77"),
+                (lambda: self.client.shut_down(), uchilsim.NoAccess, "administrate"),
+                (lambda: uchilsim.Client("127.0.0.1:1").wait(0.2), uchilsim.Unreachable, "no server")):
+            with self.assertRaisesRegex(kind, words):
+                call()
+        with self.client.open(DOG) as world:
+            with self.assertRaisesRegex(uchilsim.Refused, "18"):
+                world.step(1, {"robot": [0.0]})
+            with self.assertRaisesRegex(uchilsim.Refused, "a robot of this game"):
+                world.step(1, {"cat": [0.0]})
+
+
+class Environments(WithServer):
+    def test_an_environment_keeps_gymnasiums_interface(self):
+        with uchilsim.Env(self.client, DOG, max_steps=5) as env:
+            self.assertIs(env, env.unwrapped)
+            observation, info = env.reset(seed=3)
+            self.assertTrue(env.observation_space.contains(observation))
+            self.assertIsInstance(info, dict)
+            env.action_space.seed(1)
+            action = env.action_space.sample()
+            self.assertTrue(env.action_space.contains(action))
+            for i in range(5):
+                observation, reward, terminated, truncated, info = env.step(action)
+                self.assertTrue(env.observation_space.contains(observation))
+                self.assertIsInstance(reward, float)
+                self.assertIsInstance(terminated, bool)
+                self.assertEqual(i == 4, truncated)
+            self.assertTrue(np.isfinite(observation).all())
+
+    def test_the_same_seed_gives_the_same_bits_and_the_next_one_others(self):
+        with uchilsim.Env(self.client, "games/two-dogs-and-a-ball.json", robot="blue1") as env:
+            def play(seed):
+                rows = [env.reset(seed=seed)[0]]
+                actions = np.random.default_rng(1)
+                for _ in range(20):
+                    rows.append(env.step(actions.uniform(env.action_space.low, env.action_space.high))[0])
+                return np.array(rows)
+            self.assertTrue(np.array_equal(play(1), play(1)))
+            first = env.np_random.integers(1000)
+            self.assertNotEqual((env.reset(seed=1), env.np_random.integers(1000))[1],
+                                (env.reset(), env.np_random.integers(1000))[1])
+            self.assertGreaterEqual(first, 0)
+
+    def test_rewards_ends_joints_and_channels_are_the_callers(self):
+        with uchilsim.Env(self.client, DOG, joints=["HEAD_PAN"], observation=["robot.HEAD_PAN.position_rad"], frame_skip=5,
+                          reward=lambda before, now: now["robot.HEAD_PAN.position_rad"] - before["robot.HEAD_PAN.position_rad"],
+                          terminated=lambda now: now["robot.HEAD_PAN.position_rad"] > 0.3) as env:
+            self.assertEqual(((1,), (1,)), (env.observation_space.shape, env.action_space.shape))
+            begun, _ = env.reset(seed=1)
+            total, terminated, steps = 0.0, False, 0
+            while not terminated and steps < 100:
+                observation, reward, terminated, _, info = env.step([0.5])
+                total += reward
+                steps += 1
+            self.assertTrue(terminated)
+            self.assertAlmostEqual(observation[0] - begun[0], total)
+            self.assertAlmostEqual(0.04 * steps, info["time_s"])
+            with self.assertRaises(uchilsim.Refused):
+                env.step([float("nan")])
+            with self.assertRaises(uchilsim.Refused):
+                env.step([0, 0])
+
+    def test_a_vector_of_environments_is_each_of_them_alone(self):
+        actions = np.random.default_rng(1).uniform(-0.2, 0.2, (6, 3, 18)).astype(np.float32)
+        vector = uchilsim.VectorEnv(3, self.client, DOG, max_steps=4)
+        self.assertEqual((3, 18), vector.action_space.shape)
+        observations, infos = vector.reset(seed=5)
+        self.assertTrue(vector.observation_space.contains(observations))
+        together = []
+        for step in range(6):
+            observations, rewards, terminated, truncated, infos = vector.step(actions[step])
+            together.append(observations)
+            self.assertEqual((3,), rewards.shape)
+            self.assertEqual([step == 3] * 3, truncated.tolist())
+            if step == 4:  # a new episode, whose first step does nothing
+                self.assertEqual([0.0] * 3, rewards.tolist())
+                self.assertEqual([0.0] * 3, infos["time_s"].tolist())
+        vector.close()
+        with uchilsim.Env(self.client, DOG, max_steps=4) as env:
+            for i in range(3):
+                env.reset(seed=5 + i)
+                for step in range(4):
+                    self.assertTrue(np.array_equal(together[step][i], env.step(actions[step][i])[0]))
+
+    def test_a_box_is_a_box(self):
+        from uchilsim.spaces import _Box
+        box = _Box([-1, 0, -np.inf], [1, np.inf, np.inf], dtype=np.float32, seed=1)
+        for _ in range(100):
+            self.assertIn(box.sample(), box)
+        self.assertFalse(box.contains(np.array([2, 0, 0], np.float32)))
+        self.assertFalse(box.contains(np.zeros(2, np.float32)))
+        self.assertEqual(box, _Box([-1, 0, -np.inf], [1, np.inf, np.inf], dtype=np.float32))
+
+
+class Learning(WithServer):
+    def test_a_population_is_worth_what_it_is_in_any_order(self):
+        experiment = self.client.experiment("experiments/kick-short.json")
+        random = np.random.default_rng(1)
+        population = experiment.clip(random.uniform(experiment.lower, experiment.upper, (6, 25)))
+        whole = experiment.evaluate(population, seed=3)
+        self.assertEqual((6,), whole.fitness.shape)
+        backwards = uchilsim.evaluate(population[::-1], "experiments/kick-short.json", seed=3, address=self.server.address)
+        self.assertTrue(np.array_equal(whole.fitness, backwards[::-1]))
+        with self.assertRaisesRegex(uchilsim.Refused, "vector 1"):
+            experiment.evaluate([population[0], population[0] + 1e6])
+
+    def test_a_learner_that_forgets_goes_on_from_its_state(self):
+        class Counting:
+            """Vectors of the start's surroundings; its state is how often it was asked."""
+            asked, told = 0, []
+
+            def __init__(self, question):
+                self.question = question
+
+            def ask(self):
+                self.asked += 1
+                middle = (self.question.lower + self.question.upper) / 2
+                return self.question.clip(np.tile(middle, (2, 1)) * (1 + 0.01 * self.asked))
+
+            def tell(self, vectors, fitness):
+                Counting.told.append((vectors, fitness))
+
+            def state(self):
+                return str(self.asked)
+
+            def restore(self, state):
+                self.asked = int(state)
+
+        spec = self.client.experiment("experiments/kick-short.json").spec
+        spec.update(name="counting", learner={"name": "remote"}, reality="remote", stages={
+            "first_generations": 3, "next_generations": 1, "total_generations": 3, "measured_individuals": 1})
+        run = self.client.experiment(spec, directory="experiments").start_run()
+        questions = run.questions()
+        for _ in range(2):
+            question = next(questions)
+            learner = Counting(question)
+            if question.state:
+                learner.restore(question.state)
+            vectors = learner.ask()
+            with self.assertRaisesRegex(uchilsim.Refused, "no number"):
+                question.answer(vectors * np.nan)
+            question.answer(vectors, learner.state())
+        with self.assertRaisesRegex(uchilsim.NotNow, "wait for real fitness"):
+            run.serve(learner=Counting)
+        self.assertEqual(3, run.generation)
+        vectors, fitness = run.individuals(3)
+        self.assertEqual((2, 25), vectors.shape)
+        middle = (question.lower + question.upper) / 2
+        self.assertTrue(np.allclose(question.clip(middle * 1.03), vectors[0]))
+        task = run.tasks()[0]
+        self.assertEqual(25, len(task.values()))
+        task.send(void=True, note="the robot fell")
+        with self.assertRaisesRegex(uchilsim.Refused, "not"):
+            task.send(float("nan"))
+        self.assertEqual("waiting", run.refresh().state)  # all values are void
+
+
+class Access(unittest.TestCase):
+    def test_a_token_and_tls_open_the_door_and_nothing_else_does(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        try:
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                            "-days", "1", "-subj", "/CN=test", "-addext", "subjectAltName=IP:127.0.0.1", "-keyout",
+                            str(folder / "key.pem"), "-out", str(folder / "cert.pem")], check=True, capture_output=True)
+            tokens = folder / "tokens"
+            tokens.write_text("drive 0123456789abcdef0123456789 me\nadministrate abcdef0123456789abcdef me\n")
+            tokens.chmod(0o644)
+            arguments = ["--tls", str(folder / "cert.pem"), str(folder / "key.pem"), "--token-file", str(tokens)]
+            refused = subprocess.run([BTR, "serve", "--port", "0", *arguments], capture_output=True, text=True)
+            self.assertEqual((1, 1), (refused.returncode, len(refused.stderr.splitlines())))
+            self.assertIn("0600", refused.stderr)
+            tokens.chmod(0o600)
+            server = Server(*arguments)
+            certificate = folder / "cert.pem"
+            with uchilsim.Client(server.address, "0123456789abcdef0123456789", certificate) as client:
+                self.assertEqual("drive", client.wait().role)
+                with self.assertRaises(uchilsim.NoAccess):
+                    client.shut_down()
+            for token, given in (("0123456789abcdef012345678", certificate), (None, certificate)):
+                with uchilsim.Client(server.address, token, given) as client, self.assertRaises(uchilsim.NoAccess):
+                    client.info()
+            with uchilsim.Client(server.address, "0123456789abcdef0123456789") as client:
+                with self.assertRaises(uchilsim.Unreachable):
+                    client.info()
+            with uchilsim.Client(server.address, "abcdef0123456789abcdef", certificate) as client:
+                client.shut_down()
+            self.assertEqual(0, server.process.wait(30))
+            server.close()
+        finally:
+            shutil.rmtree(folder)
+
+    def test_an_address_beyond_this_machine_needs_both(self):
+        result = subprocess.run([BTR, "serve", "--address", "0.0.0.0", "--port", "0"], capture_output=True, text=True)
+        self.assertEqual(1, result.returncode)
+        self.assertIn("without TLS and tokens", result.stderr)
+        self.assertEqual(1, len(result.stderr.splitlines()))
+
+
+class Examples(WithServer):
+    def run_example(self, name, *arguments):
+        result = subprocess.run([sys.executable, str(RESOURCES / "python" / name), self.server.address, *arguments],
+                                capture_output=True, text=True, env=os.environ)
+        self.assertEqual("", result.stderr)
+        return result.stdout
+
+    def test_a_policy_walks(self):
+        lines = self.run_example("walk_env.py").splitlines()
+        self.assertGreater(float(lines[0].split()[2]), 0.1)
+        self.assertEqual(4, lines[1].count(" m"))
+
+    def test_cma_es_learns_a_kick(self):
+        lines = self.run_example("cma_es_kick.py", "6").splitlines()
+        means = [float(line.split()[6]) for line in lines if line.startswith("generation")]
+        self.assertEqual(6, len(means))
+        self.assertGreater(means[-1], 2 * means[0])
+        self.assertIn("finished", lines[-1])
+
+    def test_a_robot_in_the_lab_measures(self):
+        lines = self.run_example("lab_robot.py", "2").splitlines()
+        self.assertIn("finished", lines[-1])
+        self.assertGreaterEqual(sum(line.startswith("individual") for line in lines), 6)
+        db = str(self.server.folder / "a.db")
+        runs = json.loads(subprocess.run([BTR, "--json", "status", "--db", db], capture_output=True, check=True).stdout)
+        self.assertIn("remote", {run["reality"] for run in runs})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)

@@ -25,9 +25,11 @@ void printBuild(const openr::StickBuild& build, const std::string& out) {
     for (const std::string& module : object.modules)
       std::cout << printable(module) << "  from " << printable(object.folder) << "\n";
   }
-  for (const std::string& module : build.absent)
-    std::cout << "OBJECT.CFG also names " << printable(module)
-              << ", which is not on the stick: programs start without it. Build its folder onto the same stick, too.\n";
+  if (!build.absent.empty()) {
+    std::cout << "OBJECT.CFG also names";
+    for (const std::string& module : build.absent) std::cout << " " << printable(module);
+    std::cout << ": not on the stick, started without; build their folders onto the same stick to have them\n";
+  }
   std::cout << "stick: " << printable(out) << "\n";
 }
 

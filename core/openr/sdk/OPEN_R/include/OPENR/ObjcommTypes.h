@@ -10,8 +10,8 @@
 
 using std::list;
 
-enum OConnectCmd { CONNECT, DISCONNECT };
-enum ObjcommCommand { ADD_OBSERVER, REMOVE_OBSERVER, ASSERT_READY, DEASSERT_READY };
+enum OConnectCmd { objcommCONNECT, objcommDISCONNECT };
+enum ObjcommCommand { objcommADD_OBSERVER, objcommREMOVE_OBSERVER, objcommASSERT_READY, objcommDEASSERT_READY };
 
 const int objcommMAX_DATA = 13;  ///< in one notice
 

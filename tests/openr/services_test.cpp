@@ -186,6 +186,14 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
   }
 }
 
+TEST(Faults, DamagedMemoryNamesTheObject) {
+  for (const char* what : {"heap", "twice"}) {
+    const StickRun run = faulty(what);
+    EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
+    EXPECT_EQ(run.ended.object, "Faulty") << what << " " << run.ended.what;
+  }
+}
+
 TEST(Faults, AnEndlessLoopNamesObjectAndMethod) {
   const StickRun run = faulty("loop");
   EXPECT_EQ(run.ended.why, Ended::Why::endlessLoop);

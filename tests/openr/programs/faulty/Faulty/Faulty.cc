@@ -65,6 +65,17 @@ void Faulty::Notify(const ONotifyEvent& event) {
     char bytes[16];
     none = *(volatile int*)(bytes + 1 + none);
   }
+  if (strcmp(line, "heap") == 0) {
+    char* memory = (char*)malloc(24);
+    for (int i = 0; i < 4096; i++) ((volatile char*)memory)[i] = 0x55;
+    for (int size = 16; size < 3000; size += 16) free(malloc(size));
+    free(memory);
+  }
+  if (strcmp(line, "twice") == 0) {
+    void* memory = malloc(5000);
+    free(memory);
+    free(memory);
+  }
   if (strcmp(line, "deep") == 0) none = deep(0);
   if (strcmp(line, "loop") == 0)
     for (;;) none = none + 1;

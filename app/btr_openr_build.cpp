@@ -25,9 +25,11 @@ void printBuild(const openr::StickBuild& build, const std::string& out) {
     for (const std::string& module : object.modules)
       std::cout << printable(module) << "  from " << printable(object.folder) << "\n";
   }
-  for (const std::string& module : build.absent)
-    std::cout << "OBJECT.CFG also names " << printable(module)
-              << ", which is not on the stick: programs start without it. Build its folder onto the same stick, too.\n";
+  if (!build.absent.empty()) {
+    std::cout << "OBJECT.CFG also names";
+    for (const std::string& module : build.absent) std::cout << " " << printable(module);
+    std::cout << ": not on the stick, started without; build their folders onto the same stick to have them\n";
+  }
   std::cout << "stick: " << printable(out) << "\n";
 }
 
@@ -44,7 +46,7 @@ void build(const openr::StickBuildOptions& options, Shell& shell) {
 struct TryArguments {
   openr::RobotProcess::Options process;
   double seconds = 10;
-  bool motorPower = false;
+  bool motorPower = false, camera = false;
   std::string typed;
 };
 
@@ -68,6 +70,8 @@ void tryOut(const TryArguments& arguments, Shell& shell) {
   const auto last = static_cast<long>(arguments.seconds / frame_s);
   for (long frame = 0; frame <= last; ++frame) {
     robot.shutdown = frame == last || (shell.stop != nullptr && shell.stop->load());
+    if (arguments.camera && frame % robot.imageEvery == robot.imageEvery - 1)
+      robot.image = openr::TrivialRobot::roomWithBall(design, static_cast<double>(frame) * frame_s);
     const openr::OrderFrame orders = program.exchange(robot.sense());
     if (arguments.motorPower && frame == 0) {
       openr::OrderFrame on;
@@ -127,6 +131,7 @@ void addOpenrBuildCommands(CLI::App& openr, Shell& shell) {
   attempt->add_option("--type", arguments->typed, "typed on the console at the start; \\n ends a line");
   attempt->add_flag("--motor-power", arguments->motorPower,
                     "motors are on from the start, as if another object did it");
+  attempt->add_flag("--camera", arguments->camera, "the camera sees a grey room with a pink ball that goes round");
   attempt->callback([arguments, &shell] {
     std::string typed;
     for (std::size_t i = 0; i < arguments->typed.size(); ++i) {

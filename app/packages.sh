@@ -1,5 +1,5 @@
 # Debian 12 packages that UCHILSIM needs, in one place for app/start, tests/run and .ci/run.
-BUILD_PACKAGES="g++ cmake ninja-build ccache pkg-config
+BUILD_PACKAGES="g++ make cmake ninja-build ccache pkg-config
   qt6-base-dev libqt6opengl6-dev qt6-charts-dev qt6-svg-dev libqt6svg6 libgl-dev libegl-dev libopenscenegraph-dev
   libode-dev libeigen3-dev libceres-dev libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev
   libtinyxml2-dev libassimp-dev libboost-dev zlib1g-dev libssl-dev pandoc

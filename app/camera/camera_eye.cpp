@@ -38,7 +38,7 @@ std::vector<std::uint8_t> planesOf(const CameraFrame& frame) {
 
 class Eye {
  public:
-  explicit Eye(std::string robot) : robot_(std::move(robot)) {}
+  Eye(std::string robot, bool asRgb) : robot_(std::move(robot)), asRgb_(asRgb) {}
 
   void take(const nlohmann::json& line) {
     if (line.contains("game")) return begin(line);
@@ -47,7 +47,7 @@ class Eye {
     if (!eye_) throw InputError("standard input", "a row before a game", "a game first");
     eye_->add(ui::liveRowFrom(line));
     std::vector<std::uint8_t> planes;
-    while (const auto frame = eye_->next()) planes = planesOf(frame->picture);
+    while (const auto frame = eye_->next()) planes = asRgb_ ? frame->picture.rgb : planesOf(frame->picture);
     answer(planes);
   }
 
@@ -85,6 +85,7 @@ class Eye {
   }
 
   std::string robot_;
+  bool asRgb_;
   std::optional<CameraSpec> camera_;
   std::unique_ptr<ui::LiveEye> eye_;
 };
@@ -96,8 +97,10 @@ void addEyeCommand(CLI::App& app, Shell&) {
   CLI::App* eye = app.add_subcommand("eye", "frames for a robot's own program, as bytes on standard output");
   eye->group("");  // btr starts it
   eye->add_option("--robot", *robot, "whose camera")->required();
-  eye->callback([robot] {
-    Eye work(*robot);
+  auto asRgb = std::make_shared<bool>(false);
+  eye->add_flag("--rgb", *asRgb, "red, green and blue of each pixel instead of Sony's planes");
+  eye->callback([robot, asRgb] {
+    Eye work(*robot, *asRgb);
     std::string line;
     for (long number = 1; std::getline(std::cin, line); ++number) try {
         work.take(nlohmann::json::parse(line));

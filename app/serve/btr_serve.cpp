@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/btr_commands.h"
+#include "app/serve/serve_camera.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 
@@ -39,6 +40,7 @@ void serve(ServeArguments& a, Shell& shell) {
   remote::Switchboard::Options options{remote::GamesFolder(ownFolder ? a.games : ownResources(), ownFolder)};
   if (!a.database.empty()) options.database = fs::absolute(a.database).lexically_normal().string();
   options.jobs = a.jobs;
+  options.cameras = cameraMaker();
   options.mostWorlds = a.worlds;
   options.idle_s = a.idle_s;
   if (a.tls.size() == 2) {

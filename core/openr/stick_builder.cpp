@@ -186,6 +186,12 @@ std::set<std::string> modulesOn(const fs::path& stick) {
   return modules;
 }
 
+bool usesJpeg(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (isSource(entry.path()) && content(entry.path()).find("jpeglib.h") != std::string::npos) return true;
+  return false;
+}
+
 bool isSubsequence(const std::string& part, const std::string& whole) {
   std::size_t at = 0;
   for (const char c : whole)
@@ -298,6 +304,8 @@ class StickBuilder {
         object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
+    // A Makefile that builds the JPEG library from its sources first: this computer has one.
+    if (object.modules.empty() && usesJpeg(folder)) return byHand(folder, name, stick, sdk);
     result_.objects.push_back(std::move(object));
   }
 

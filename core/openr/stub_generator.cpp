@@ -68,7 +68,8 @@ class StubReader {
 
   void takeService(const std::string& value) {
     const auto open = value.find('"'), close = value.find('"', open + 1);
-    if (open != 0 || close == std::string::npos) refuse("Service", value, "\"Object.Sub.Type.S\", Method(), Method() is");
+    if (open != 0 || close == std::string::npos)
+      refuse("Service", value, "\"Object.Sub.Type.S\", Method(), Method() is");
     StubService service{value.substr(1, close - 1), "", ""};
     const auto parts = split(service.name, '.');
     const bool subject = parts.size() == 4 && parts[3] == "S";
@@ -90,25 +91,30 @@ class StubReader {
   std::string method(const std::string& key, const std::string& text) {
     if (text == "null") return "";
     const auto open = text.find('(');
-    if (open == std::string::npos || trimmed(text.substr(open + 1)) != ")" || !isIdentifier(trimmed(text.substr(0, open))))
+    if (open == std::string::npos || trimmed(text.substr(open + 1)) != ")" ||
+        !isIdentifier(trimmed(text.substr(0, open))))
       refuse(key, text, "null or a method as Name() is");
     return trimmed(text.substr(0, open));
   }
 
   std::size_t count(const std::string& key, const std::string& value) {
-    if (value.empty() || value.size() > 3 || !std::all_of(value.begin(), value.end(), ::isdigit) || std::stoi(value) < 1)
+    if (value.empty() || value.size() > 3 || !std::all_of(value.begin(), value.end(), ::isdigit) ||
+        std::stoi(value) < 1)
       refuse(key, value, "1 to 999 is");
     return static_cast<std::size_t>(std::stoi(value));
   }
 
   void check() {
-    if (config_.object.empty()) throw InputError(file_ + ": ObjectName is missing; a line \"ObjectName : NAME\" is needed");
+    if (config_.object.empty())
+      throw InputError(file_ + ": ObjectName is missing; a line \"ObjectName : NAME\" is needed");
     checkCount("NumOfOSubject", subjects_, config_.subjects.size(), "S");
     checkCount("NumOfOObserver", observers_, config_.observers.size(), "O");
   }
 
   void checkCount(const std::string& key, std::optional<std::size_t> said, std::size_t found, const std::string& kind) {
-    if (!said) throw InputError(file_ + ": " + key + " is missing; the number of services that end with ." + kind + " is needed");
+    if (!said)
+      throw InputError(file_ + ": " + key + " is missing; the number of services that end with ." + kind +
+                       " is needed");
     if (*said != found)
       throw InputError(file_ + ": " + key, std::to_string(*said),
                        std::to_string(found) + " is: so many services end with ." + kind);
@@ -139,12 +145,12 @@ std::string services(const std::string& array, const std::string& prefix, const 
 }
 
 std::string definitions(const StubConfig& config) {
-  return guarded("def_h_DEFINED",
-                 "static const char* const objectName = \"" + config.object + "\";\n" +
-                     "static const int numOfSubject = " + std::to_string(config.subjects.size()) + ";\n" +
-                     "static const int numOfObserver = " + std::to_string(config.observers.size()) + ";\n" +
-                     services("subjectService", "sbj", config.subjects) +
-                     services("observerService", "obs", config.observers));
+  return guarded("def_h_DEFINED", "static const char* const objectName = \"" + config.object + "\";\n" +
+                                      "static const int numOfSubject = " + std::to_string(config.subjects.size()) +
+                                      ";\n" +
+                                      "static const int numOfObserver = " + std::to_string(config.observers.size()) +
+                                      ";\n" + services("subjectService", "sbj", config.subjects) +
+                                      services("observerService", "obs", config.observers));
 }
 
 /// Numbers from `next` on.
@@ -227,8 +233,7 @@ std::string stub(const StubConfig& config) {
   for (const StubFunction& function : all)
     text += "extern \"C\" void _" + function.name + "(void* message) {\n" + function.body + "}\n\n";
   text += "ObjectEntry ObjectEntryTable[] = {\n";
-  for (std::size_t i = 0; i < all.size(); ++i)
-    text += "  {" + std::to_string(i) + ", (Entry)_" + all[i].name + "},\n";
+  for (std::size_t i = 0; i < all.size(); ++i) text += "  {" + std::to_string(i) + ", (Entry)_" + all[i].name + "},\n";
   text += "  {UNDEF, (Entry)ENTRY_UNDEF}\n};\n\n";
   text += "// Who and where, for lines on the console and when something goes wrong.\nextern \"C\" {\n";
   text += "extern const char btr_openr_object[] = \"" + config.object + "\";\n";

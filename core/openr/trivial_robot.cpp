@@ -1,6 +1,7 @@
 #include "core/openr/trivial_robot.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace btr::openr {
 namespace {
@@ -45,6 +46,26 @@ void TrivialRobot::obey(const OrderFrame& orders) {
   }
   for (const LampOrder& lamp : orders.lamps)
     if (lamp.lamp < lamps_.size()) lamps_[lamp.lamp] = lamp;
+}
+
+CameraImage TrivialRobot::roomWithBall(const RobotDesign& design, double time_s) {
+  const int width = 2 * design.imageWidth, height = 2 * design.imageHeight;
+  CameraImage image{static_cast<std::uint16_t>(width), static_cast<std::uint16_t>(height), {}};
+  image.rows.resize(std::size_t{3} * image.width * image.height);
+  const double angle = 2 * M_PI * time_s / 5, radius = 0.12 * width;
+  const double ballX = width * (0.5 + 0.3 * std::cos(angle)), ballY = height * (0.5 + 0.25 * std::sin(angle));
+  // Y, Cr, Cb; bytes of Cr and Cb are offset by 128.
+  const std::uint8_t wall = 150, floor = 90, grey = 128;
+  const std::uint8_t ball[] = {120, 210, 120};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool isBall = std::hypot(x - ballX, y - ballY) < radius;
+      const std::size_t at = (static_cast<std::size_t>(y) * 3) * image.width + static_cast<std::size_t>(x);
+      image.rows[at] = isBall ? ball[0] : (y < height / 2 ? wall : floor);
+      image.rows[at + image.width] = isBall ? ball[1] : grey;
+      image.rows[at + std::size_t{2} * image.width] = isBall ? ball[2] : grey;
+    }
+  return image;
 }
 
 }  // namespace btr::openr

@@ -29,6 +29,9 @@ class TrivialRobot {
   const std::vector<LampOrder>& lamps() const { return lamps_; }
   std::uint32_t frames() const { return frame_; }
 
+  /// A grey room with a pink ball that goes round before the camera, as it is after `time_s`.
+  static CameraImage roomWithBall(const RobotDesign& design, double time_s);
+
  private:
   std::vector<std::int32_t> joints_;
   std::vector<bool> enabled_;

@@ -19,6 +19,7 @@ enum class Method : char {
   save = 'v',
   close = 'c',
   logFiles = 'l',
+  picture = 'P',
   describeExperiment = 'D',
   evaluate = 'E',
   runs = 'R',

@@ -156,7 +156,7 @@ std::string RecordsDesk::measured(const v1::MeasuredRequest& request) {
   m.isVoid = request.is_void();
   m.note = request.note();
   m.source = run.reality;
-  m.who = "remote";
+  m.who = request.who();
   m.enteredAt = utcNow();
   std::vector<MeasurementRecord> all;
   for (const double value : request.values()) {

@@ -181,7 +181,11 @@ grpc::Status LearningService::Wanted(grpc::ServerContext* context, const v1::Mea
 
 grpc::Status LearningService::Measured(grpc::ServerContext* context, const v1::MeasuredRequest* request,
                                        v1::MeasuredReply* reply) {
-  return pass(context, Role::drive, Method::measured, *request, *reply);
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+    v1::MeasuredRequest from = *request;
+    from.set_who(caller.who);
+    take(desks_.switchboard.records(callOf(Method::measured, from.SerializeAsString())), *reply);
+  });
 }
 
 }  // namespace btr::remote

@@ -45,6 +45,12 @@ grpc::Status WorldsService::pass(grpc::ServerContext* context, Role needed, Meth
   });
 }
 
+void WorldsService::pause(const grpc::ServerContext& context, std::chrono::steady_clock::time_point until) const {
+  using Clock = std::chrono::steady_clock;
+  while (Clock::now() < until && !context.IsCancelled() && !desks_.ends)
+    std::this_thread::sleep_for(std::min<Clock::duration>(until - Clock::now(), std::chrono::milliseconds(50)));
+}
+
 grpc::Status WorldsService::Info(grpc::ServerContext* context, const v1::InfoRequest*, v1::InfoReply* reply) {
   return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
     const Switchboard::Options& options = desks_.switchboard.options();
@@ -104,8 +110,7 @@ grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchR
       if (now != told && !writer->Write(state)) return;
       told = now;
       due = std::max(due + each, Clock::now());
-      while (Clock::now() < due && !context->IsCancelled() && !desks_.ends)
-        std::this_thread::sleep_for(std::min<Clock::duration>(due - Clock::now(), std::chrono::milliseconds(50)));
+      pause(*context, due);
     }
   });
 }
@@ -123,9 +128,24 @@ grpc::Status WorldsService::Log(grpc::ServerContext* context, const v1::LogReque
   });
 }
 
-grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::PictureRequest*, v1::PictureReply*) {
-  return guarded(desks_, context, Role::watch, [](const Gate::Caller&) {
-    throw Refusal(Code::notThere, "this server gives no camera pictures; btr live --camera renders them");
+grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::PictureRequest* request,
+                                    v1::PictureReply* reply) {
+  return pass(context, Role::drive, Method::picture, *request, *reply);
+}
+
+grpc::Status WorldsService::Pictures(grpc::ServerContext* context, const v1::PictureRequest* request,
+                                     grpc::ServerWriter<v1::PictureReply>* writer) {
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+    const StreamPlace place(desks_);
+    constexpr auto often = std::chrono::milliseconds(2);
+    v1::PictureRequest next = *request;
+    v1::PictureReply reply;
+    while (!context->IsCancelled() && !desks_.ends) {
+      take(desks_.switchboard.world(next.world(), callOf(Method::picture, next.SerializeAsString())), reply);
+      if (reply.number() > 0 && !writer->Write(reply)) return;
+      if (reply.number() > 0) next.set_after(reply.number());
+      pause(*context, std::chrono::steady_clock::now() + often);
+    }
   });
 }
 

@@ -83,6 +83,8 @@ class WorldsService final : public v1::Worlds::Service {
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::State>*) override;
   grpc::Status Log(grpc::ServerContext*, const v1::LogRequest*, grpc::ServerWriter<v1::LogPart>*) override;
   grpc::Status Picture(grpc::ServerContext*, const v1::PictureRequest*, v1::PictureReply*) override;
+  grpc::Status Pictures(grpc::ServerContext*, const v1::PictureRequest*,
+                        grpc::ServerWriter<v1::PictureReply>*) override;
   grpc::Status Open(grpc::ServerContext*, const v1::OpenRequest*, v1::World*) override;
   grpc::Status Close(grpc::ServerContext*, const v1::CloseRequest*, v1::CloseReply*) override;
   grpc::Status Reset(grpc::ServerContext*, const v1::ResetRequest*, v1::State*) override;
@@ -96,6 +98,8 @@ class WorldsService final : public v1::Worlds::Service {
  private:
   template <class Request, class Reply>
   grpc::Status pass(grpc::ServerContext* context, Role needed, Method method, const Request& request, Reply& reply);
+  /// A little later, or when the call is cancelled.
+  void pause(const grpc::ServerContext& context, std::chrono::steady_clock::time_point until) const;
 
   Desks& desks_;
 };

@@ -48,7 +48,7 @@ Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host
   return [&options, &host](char kind) {
     const auto answer = [](Desk&& desk) { serve(desk, Nursery::socketOfChild); };
     if (kind == 'w') limitMemory();
-    if (kind == 'w') answer(WorldDesk(host, options.folder));
+    if (kind == 'w') answer(WorldDesk(host, options.folder, options.cameras));
     if (kind == 'e') answer(EvaluationDesk(host, options.folder, options.database, options.jobs));
     if (kind == 'd') answer(RecordsDesk(host, options.folder, options.database));
     if (kind == 'r') answer(RunDesk(host, options.database, options.jobs));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_host.h"
+#include "core/remote/camera_eye.h"
 #include "core/remote/games_folder.h"
 #include "core/remote/nursery.h"
 #include "core/remote/run_keeper.h"
@@ -27,6 +28,7 @@ class Switchboard {
     int jobs = 0;            ///< worker processes of an evaluator, a run; 0: as many as processors
     int mostWorlds = 16;
     double patience_s = 60;  ///< for one call to a world
+    CameraMaker cameras{};   ///< called in a world's process
     double idle_s = 600;     ///< a world that nobody has called for so long is closed
   };
   using Cancelled = std::function<bool()>;

@@ -222,8 +222,57 @@ void WorldDesk::step(const v1::StepRequest& request) {
   const int rows = std::max(1, request.periods());
   for (int i = 0; i < rows && world.fault().empty(); ++i) {
     for (const v1::Targets& targets : request.targets()) apply(targets, i, rows);
-    if (request.periods() > 0) world.step();
+    if (request.periods() > 0) onePeriod();
   }
+}
+
+void WorldDesk::onePeriod() {
+  session().step();
+  for (auto& each : cameras_) look(each.first);
+}
+
+// A camera that fails ends alone: the world goes on, and who asks for a picture is told why.
+void WorldDesk::look(const std::string& robot) {
+  Camera& camera = cameras_.at(robot);
+  if (!camera.eye) return;
+  try {
+    if (auto picture = camera.eye->look(session())) {
+      camera.picture = std::move(*picture);
+      camera.period = session().periods();
+      ++camera.number;
+    }
+  } catch (const InputError& error) {
+    camera.eye.reset();
+    camera.why = error.what();
+  }
+}
+
+std::string WorldDesk::picture(const v1::PictureRequest& request) {
+  if (!makeCamera_) throw Refusal(Code::notThere, "this server has no cameras; btr live --camera renders them");
+  const auto& robots = session().scene().robots;
+  if (std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == request.robot(); }))
+    throw InputError("robot", "\"" + request.robot() + "\"", "a robot of this game");
+  if (!cameras_.contains(request.robot())) {
+    if (cameras_.size() >= mostCameras)
+      throw Refusal(Code::tooMuch, "more than " + std::to_string(mostCameras) + " cameras of a world");
+    cameras_[request.robot()].eye = makeCamera_(request.robot());
+    look(request.robot());
+  }
+  const Camera& camera = cameras_.at(request.robot());
+  if (!camera.eye) {
+    const std::string why = camera.why;
+    cameras_.erase(request.robot());  // the next call tries again
+    throw Refusal(Code::notNow, why);
+  }
+  v1::PictureReply reply;
+  if (camera.number > request.after()) {
+    reply.set_number(camera.number);
+    reply.set_period(camera.period);
+    reply.set_width(camera.picture.width);
+    reply.set_height(camera.picture.height);
+    reply.set_rgb(camera.picture.rgb.data(), camera.picture.rgb.size());
+  }
+  return reply.SerializeAsString();
 }
 
 void WorldDesk::describe(v1::World& out) {
@@ -327,6 +376,7 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       session();
       if (request.has_seed()) game_->seed = request.seed();
       begin();
+      cameras_.clear();
       for (const v1::Act& act : request.acts()) apply(actOf(act));
       return state(request.wanted());
     }
@@ -371,6 +421,8 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       reply.set_trace_sha256(end());
       return reply.SerializeAsString();
     }
+    case Method::picture:
+      return picture(messageOf<v1::PictureRequest>(message));
     case Method::logFiles:
       if (!log_) throw Refusal(Code::notNow, "this world is not logged");
       return gameFile_ + '\n' + logFile_;
@@ -390,7 +442,7 @@ void WorldDesk::goOn() {
   if (speed_ <= 0 || !session_) return;
   const double begun = now_s(), period = session_->scene().controlPeriod_s;
   const auto due = [&] { return anchorPeriods_ + std::lround(std::floor((now_s() - anchor_s_) * speed_ / period)); };
-  while (session_->periods() < due() && session_->fault().empty() && now_s() - begun < workAtMost_s) session_->step();
+  while (session_->periods() < due() && session_->fault().empty() && now_s() - begun < workAtMost_s) onePeriod();
   if (!session_->fault().empty()) speed_ = 0;
   if (static_cast<double>(due() - session_->periods()) * period / std::max(speed_, 1e-9) > behindAtMost_s) {
     anchor_s_ = now_s();

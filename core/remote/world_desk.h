@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,11 +7,13 @@
 
 #include "core/live/session.h"
 #include "core/live/session_log.h"
+#include "core/remote/camera_eye.h"
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
 
 namespace uchilsim::v1 {
 class OpenRequest;
+class PictureRequest;
 class State;
 class StepRequest;
 class Targets;
@@ -28,8 +31,11 @@ class WorldDesk final : public Desk {
   static constexpr std::size_t mostObjects = 1000;  ///< of a game that a client sends
   static constexpr double fastestPlay = 100;
 
-  /// Both must outlive it.
-  WorldDesk(const PluginHost& host, const GamesFolder& folder) : host_(host), folder_(folder) {}
+  static constexpr std::size_t mostCameras = 8;
+
+  /// The first two must outlive it.
+  WorldDesk(const PluginHost& host, const GamesFolder& folder, CameraMaker cameras = {})
+      : host_(host), folder_(folder), makeCamera_(std::move(cameras)) {}
   ~WorldDesk() override;
 
   std::string answer(Method method, std::string_view message) override;
@@ -45,6 +51,9 @@ class WorldDesk final : public Desk {
   void apply(const Act& act);
   void apply(const uchilsim::v1::Targets& targets, int row, int rows);
   void step(const uchilsim::v1::StepRequest& request);
+  void onePeriod();
+  void look(const std::string& robot);
+  std::string picture(const uchilsim::v1::PictureRequest& request);
   void describe(uchilsim::v1::World& world);
   std::string state(const uchilsim::v1::Wanted& wanted);
   void fillRow(const uchilsim::v1::Wanted& wanted, uchilsim::v1::State& state);
@@ -63,6 +72,14 @@ class WorldDesk final : public Desk {
   std::vector<std::string> chosen_;    ///< the channels that were wanted last …
   std::vector<std::size_t> chosenAt_;  ///< … and where they are
   std::vector<double> row_;
+  struct Camera {
+    std::unique_ptr<CameraEye> eye;
+    CameraPicture picture{};  ///< the last one
+    long number = 0, period = 0;
+    std::string why{};  ///< it looks no longer
+  };
+  const CameraMaker makeCamera_;
+  std::map<std::string, Camera> cameras_;  ///< by robot
   long episode_ = 0;
   double speed_ = 0;  ///< 0: it waits for steps
   double anchor_s_ = 0;

@@ -37,7 +37,9 @@ address, generations = (sys.argv[1:] + ["127.0.0.1:50051", "20"][len(sys.argv) -
 with uchilsim.Client(address) as client:
     spec = client.experiment("experiments/kick-short.json").spec
     spec.update(name="A kick by CMA-ES from Python", learner={"name": "remote"}, stages={
-        "first_generations": int(generations), "next_generations": 1, "total_generations": int(generations)})
+        "first_generations": int(generations), "next_generations": 1, "total_generations": int(generations),
+        "measured_individuals": 2})
+    spec["adaptation"]["settings"]["generations"] = 2
     run = client.experiment(spec, directory="experiments").start_run(seed=1).serve(learner=CmaEs)
     for g in run.generations():
         print(f"generation {g['number']}: best {g['best']:.3f} m, mean {g['mean']:.3f} m")

@@ -23,7 +23,8 @@ with uchilsim.Client(address) as client:
             return None
         return max(0.0, float(kick.fitness[0] + random.normal(0, 0.005)))
 
-    spec["adaptation"]["settings"]["generations"] = 4
+    spec["adaptation"]["settings"]["generations"] = 3
+    spec["adaptation"]["learner"]["settings"]["population"] = 6
     half = max(1, int(generations) // 2)
     spec.update(name="A kick for the lab's robot", reality="remote", stages={
         "first_generations": half, "next_generations": half, "total_generations": 2 * half, "measured_individuals": 3,

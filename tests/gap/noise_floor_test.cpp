@@ -37,6 +37,35 @@ TEST(NoiseFloor, IgnoresAFewKnocksAndEmptyCells) {
   EXPECT_NEAR(noiseFloor(std::vector<double>{0, 0, 1, 0, 0}), 6 / std::sqrt(70.0), 1e-12);
 }
 
+/// The height of a ball that bounces up as fast as it came down, every `each` samples.
+std::vector<double> bouncing(std::size_t samples, std::size_t each, double noise, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double share = (static_cast<double>(i % each) + 0.3) / static_cast<double>(each);
+    values.push_back(1.6 * share * (1 - share) + noise * random.normal());
+  }
+  return values;
+}
+
+TEST(NoiseFloor, OfABallIsNotThatOfItsBounces) {
+  double sum = 0;
+  constexpr int seeds = 40;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const double ratio = noiseFloor(bouncing(60, 12, 1e-3, static_cast<std::uint64_t>(seed)), Impacts::some) / 1e-3;
+    EXPECT_GT(ratio, 0.5) << seed;
+    EXPECT_LT(ratio, 2.2) << seed;
+    sum += ratio;
+  }
+  // A third of the differences span a bounce; of the others some are counted to those.
+  EXPECT_NEAR(1, sum / seeds, 0.25);
+}
+
+TEST(NoiseFloor, WithoutImpactsIsTheSame) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    EXPECT_EQ(noiseFloor(swing(60, 1e-3, seed)), noiseFloor(swing(60, 1e-3, seed), Impacts::some));
+}
+
 TEST(QuantisationStep, IsWhatOneCountIsWorth) {
   const double count = 2 * M_PI / 4096;
   std::vector<double> values = swing(1500, 0, 1);

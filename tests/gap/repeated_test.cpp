@@ -60,6 +60,23 @@ TEST(Repeated, OnlyNewValuesAreLeft) {
     }
 }
 
+TEST(Repeated, AShortTrialShowsItToo) {
+  for (const int every : {2, 3, 4}) {
+    Recording trial = readEvery4ms(0.004 * every, 0, 0.001, 3);
+    for (auto& column : trial.columns) column = {column.begin() + 300, column.begin() + 360};  // 0.24 s of motion
+    emptyRepeated(trial);
+    EXPECT_EQ(kept(trial), 60u / static_cast<unsigned>(every)) << every;
+  }
+}
+
+TEST(Repeated, AFewEqualReadingsOfAShortTrialAreChance) {
+  Recording trial = readEvery4ms(0.004, 0, 0.001, 4);
+  for (auto& column : trial.columns) column = {column.begin() + 300, column.begin() + 360};
+  for (const std::size_t row : {10u, 25u, 26u, 40u}) trial.columns[2][row] = trial.columns[2][row - 1];
+  emptyRepeated(trial);
+  EXPECT_EQ(kept(trial), 60u);
+}
+
 TEST(Repeated, ARhythmThatIsNoWholeNumberOfRowsIsOne) {
   Recording trial = readEvery4ms(0.0063, 2 * M_PI / 4096, 0.001, 4);
   const Recording before = trial;

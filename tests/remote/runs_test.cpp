@@ -163,6 +163,7 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
   EXPECT_EQ(3u, db.generations(run).size());
   EXPECT_EQ(3u, db.simulators(run).size());
   EXPECT_EQ("remote", db.measurements(run).front().source);
+  EXPECT_EQ("remote", db.measurements(run).front().who);
   EXPECT_EQ("by a test", db.measurements(run).front().note);
 }
 

@@ -454,14 +454,61 @@ TEST_F(ServerTest, RawBytesAndConnectionsThatSayNothingHoldUpNobody) {
   EXPECT_TRUE(caller.step(caller.open("ball.json").world(), 3).ok());
 }
 
-TEST_F(ServerTest, PicturesAreSaidNotToBeThere) {
+TEST_F(ServerTest, PicturesOfAServerWithoutCamerasAreSaidNotToBeThere) {
   begin();
   const Caller caller(address);
+  v1::PictureRequest request;
+  request.set_world(caller.open("dog.json").world());
+  request.set_robot("red1");
   v1::PictureReply reply;
   const auto context = caller.context();
-  const grpc::Status status = caller.worlds->Picture(context.get(), v1::PictureRequest(), &reply);
+  const grpc::Status status = caller.worlds->Picture(context.get(), request, &reply);
   EXPECT_EQ(grpc::StatusCode::UNIMPLEMENTED, status.error_code());
   EXPECT_THAT(status.error_message(), HasSubstr("btr live --camera"));
+}
+
+/// A picture of the period's number, every fourth period.
+class NumberEye final : public btr::remote::CameraEye {
+ public:
+  std::optional<btr::remote::CameraPicture> look(const btr::Session& session) override {
+    if (session.periods() % 4 != 0 || session.periods() == 0) return std::nullopt;
+    const auto shade = static_cast<std::uint8_t>(session.periods());
+    return btr::remote::CameraPicture{2, 1, {shade, shade, shade, 0, 0, 0}};
+  }
+};
+
+TEST_F(ServerTest, PicturesComeAsTheWorldGoesOnEachOnce) {
+  begin(
+      [](auto&, auto& passing) { passing.cameras = [](const std::string&) { return std::make_unique<NumberEye>(); }; });
+  const Caller caller(address);
+  v1::PictureRequest request;
+  request.set_world(caller.open("dog.json").world());
+  request.set_robot("red1");
+  v1::PictureReply reply;
+  const auto ask = [&] {
+    const auto context = caller.context();
+    return caller.worlds->Picture(context.get(), request, &reply);
+  };
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ(0, reply.number());  // it begins to look
+  ASSERT_TRUE(caller.step(request.world(), 9).ok());
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ(2, reply.number());
+  EXPECT_EQ(8, reply.period());
+  EXPECT_EQ(std::string("\10\10\10\0\0\0", 6), reply.rgb());
+  request.set_after(2);
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ(0, reply.number());
+  EXPECT_TRUE(reply.rgb().empty());
+  const auto context = caller.context();
+  const auto pictures = caller.worlds->Pictures(context.get(), request);
+  ASSERT_TRUE(caller.step(request.world(), 3).ok());
+  ASSERT_TRUE(pictures->Read(&reply));
+  EXPECT_EQ(3, reply.number());
+  context->TryCancel();
+  pictures->Finish();
+  request.set_robot("red2");
+  EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, ask().error_code());
 }
 
 }  // namespace

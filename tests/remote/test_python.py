@@ -158,6 +158,38 @@ class Worlds(WithServer):
                 world.step(1, {"cat": [0.0]})
 
 
+class Cameras(WithServer):
+    def setUp(self):
+        if not os.path.exists(os.path.join(os.path.dirname(BTR), "btr-camera")):
+            self.skipTest("btr-camera was not built")
+
+    def test_a_robots_camera_sees_what_is_before_it(self):
+        with self.client.open(DOG) as world:
+            before = world.picture("robot")
+            self.assertEqual((160, 208, 3), before.shape)
+            world.add(ball={"name": "ball", "position_m": [0.5, 0, 0.0425]})
+            world.step(10)
+            self.assertGreater(np.abs(world.picture("robot").astype(int) - before).max(), 30)
+            with self.assertRaisesRegex(uchilsim.Refused, "a robot of this game"):
+                world.picture("cat")
+
+    def test_frames_of_a_playing_world_come_as_a_stream(self):
+        with self.client.open(DOG) as world:
+            world.play(1)
+            periods = []
+            for period, frame in world.pictures("robot"):
+                periods.append(period)
+                if len(periods) == 3:
+                    break
+            self.assertEqual(sorted(set(periods)), periods)
+
+    def test_the_example_saves_a_picture(self):
+        out = self.server.folder / "picture.png"
+        subprocess.run([sys.executable, str(RESOURCES / "python" / "camera_picture.py"), self.server.address, str(out)],
+                       check=True, capture_output=True)
+        self.assertEqual(b"\x89PNG\r\n\x1a\n", out.read_bytes()[:8])
+
+
 class Environments(WithServer):
     def test_an_environment_keeps_gymnasiums_interface(self):
         with uchilsim.Env(self.client, DOG, max_steps=5) as env:
@@ -302,6 +334,34 @@ class Learning(WithServer):
         with self.assertRaisesRegex(uchilsim.Refused, "not"):
             task.send(float("nan"))
         self.assertEqual("waiting", run.refresh().state)  # all values are void
+
+
+class Kills(unittest.TestCase):
+    def test_a_server_that_is_killed_leaves_database_and_logs_whole(self):
+        server = Server()
+        try:
+            with uchilsim.Client(server.address) as client:
+                world = client.open(DOG)
+                for i in range(10):
+                    world.step(1, {"robot": np.full(18, 0.01 * i)})
+                spec = client.experiment("experiments/kick-short.json").spec
+                spec.update(name="killed", reality="remote")
+                run = client.experiment(spec, directory="experiments").start_run()
+                while run.refresh().generation == 0:
+                    pass
+            server.process.kill()
+            server.process.communicate()
+            log = server.folder / "games" / world.log_file
+            replay = subprocess.run([BTR, "--json", "live", str(log.with_suffix(".json")), "--replay", str(log)],
+                                    capture_output=True, text=True, check=True)
+            self.assertEqual(9, json.loads(replay.stdout)["periods"])  # up to its last act
+            db = str(server.folder / "a.db")
+            subprocess.run([BTR, "check", "--db", db], capture_output=True, check=True)
+            # Nobody works on it any more, so that it could go on at once.
+            runs = json.loads(subprocess.run([BTR, "--json", "status", "--db", db], capture_output=True, check=True).stdout)
+            self.assertFalse(runs[0]["active"])
+        finally:
+            shutil.rmtree(server.folder)
 
 
 class Access(unittest.TestCase):

@@ -207,6 +207,34 @@ class World:
         return json.loads(self._client._call(self._client._worlds.Describe,
                                              pb.DescribeRequest(world=self.name)).game_json)
 
+    def picture(self, robot: str) -> np.ndarray:
+        """The last frame of a robot's camera: array (height, width, 3) of uint8, red, green and blue, the upper left
+        pixel first. The camera begins to look with the first call; while it has no frame yet the world goes on by a
+        control period at a time."""
+        while True:
+            reply = self._client._call(self._client._worlds.Picture, pb.PictureRequest(world=self.name, robot=robot))
+            if reply.number:
+                return self._picture(reply)
+            state = self.step(1)
+            if state.fault:
+                raise Error(f"the world has stopped: {state.fault}")
+
+    @staticmethod
+    def _picture(reply) -> np.ndarray:
+        return np.frombuffer(reply.rgb, np.uint8).reshape(reply.height, reply.width, 3)
+
+    def pictures(self, robot: str) -> Iterator[tuple[int, np.ndarray]]:
+        """Each new frame as the world goes on, by another client's steps or the server's clock: the control period at
+        its end, and the frame as of picture()."""
+        stream = self._client._worlds.Pictures(pb.PictureRequest(world=self.name, robot=robot),
+                                               metadata=self._client._metadata)
+        try:
+            with sentences():
+                for reply in stream:
+                    yield reply.period, self._picture(reply)
+        finally:
+            stream.cancel()
+
     def log(self) -> dict[str, str]:
         """The log so far and the game that it is bound to: texts by file. `btr live GAME --replay LOG` plays it again."""
         files: dict[str, str] = {}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/even_grid.h"
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/noise_floor.h"
@@ -43,8 +44,10 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   ChannelFloor floor;
   if (values.empty()) return floor;
   const double rounding = quantisationStep(values) / std::sqrt(12.0);
-  floor.byRows = noiseFloor(recording.columns[column]);
-  floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column]);
+  const auto name = parseChannel(recording.channels[column]);
+  const Impacts impacts = name && name->part.empty() ? Impacts::some : Impacts::none;  // a ball bounces
+  floor.byRows = noiseFloor(recording.columns[column], impacts);
+  floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column], impacts);
   const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
   floor.level = std::max({floor.byStamps, rounding, filtered});
   // A constant's differences show the rounding of the arithmetic.

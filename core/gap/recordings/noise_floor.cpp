@@ -53,6 +53,32 @@ double medianOfBlocks(const std::vector<double>& noise, std::size_t block) {
   return median(std::move(levels)) * std::sqrt(medianOfSquare(fullBlock) / medianOfSquare(block));
 }
 
+/// Standard deviation of those numbers that are normal, of the smaller ones among others that are much larger.
+double levelOfTheMany(std::vector<double> noise) {
+  constexpr double quantile = 0.4, ofNormal = 0.5244, within = 3, ofCut = 0.98658;  // √ of the variance within 3 σ
+  constexpr int turns = 20;
+  for (double& value : noise) value = std::abs(value);
+  std::ranges::sort(noise);
+  double level = noise[static_cast<std::size_t>(quantile * static_cast<double>(noise.size()))] / ofNormal;
+  for (int turn = 0; turn < turns; ++turn) {
+    double sum = 0, count = 0;
+    for (const double value : noise)
+      if (value <= within * level) sum += value * value, ++count;
+    if (count == 0) break;
+    level = std::sqrt(sum / count) / ofCut;
+  }
+  return level;
+}
+
+double levelOf(const std::vector<double>& noise, std::size_t block, Impacts impacts) {
+  constexpr std::size_t enough = 12;
+  constexpr double torn = 2;
+  const double level = medianOfBlocks(noise, block);
+  if (impacts == Impacts::none || noise.size() < enough) return level;
+  const double ofTheMany = levelOfTheMany(noise);
+  return ofTheMany > 0 && level > torn * ofTheMany ? ofTheMany : level;
+}
+
 double rootMeanSquare(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
@@ -93,16 +119,16 @@ double commonMeasure(const std::vector<double>& differences, double negligible, 
 
 }  // namespace
 
-double noiseFloor(std::span<const double> all) {
+double noiseFloor(std::span<const double> all, Impacts impacts) {
   const double gain = std::sqrt(70.0);  // 1² + 4² + 6² + 4² + 1²
   const std::vector<double> values = finite(all);
   std::vector<double> noise;
   for (std::size_t i = 4; i < values.size(); ++i)
     noise.push_back((values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4]) / gain);
-  return medianOfBlocks(noise, blockOf(values.size(), all.size()));
+  return levelOf(noise, blockOf(values.size(), all.size()), impacts);
 }
 
-double noiseFloor(std::span<const double> allTimes, std::span<const double> allValues) {
+double noiseFloor(std::span<const double> allTimes, std::span<const double> allValues, Impacts impacts) {
   constexpr std::size_t points = 5;
   constexpr double longestSpan = 1.6;  // of the usual one: no pause in it
   std::vector<double> time, value, spans;
@@ -113,7 +139,7 @@ double noiseFloor(std::span<const double> allTimes, std::span<const double> allV
     }
   for (std::size_t i = points; i <= time.size(); ++i) spans.push_back(time[i - 1] - time[i - points]);
   const double usual = median(spans);
-  if (!(usual > 0)) return noiseFloor(value);
+  if (!(usual > 0)) return noiseFloor(value, impacts);
   std::vector<double> noise;
   for (std::size_t first = 0; first < spans.size(); ++first) {
     if (spans[first] > longestSpan * usual) continue;
@@ -128,7 +154,7 @@ double noiseFloor(std::span<const double> allTimes, std::span<const double> allV
     }
     noise.push_back(sum / std::sqrt(gain));
   }
-  return medianOfBlocks(noise, blockOf(value.size(), allValues.size()));
+  return levelOf(noise, blockOf(value.size(), allValues.size()), impacts);
 }
 
 double quantisationStep(std::span<const double> all) {

@@ -52,8 +52,9 @@ Runs runsOf(const Recording& trial, const Columns& columns) {
 
 /// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
 std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Runs& runs) {
-  constexpr double severalCounts = 5, leastShare = 0.35;
-  constexpr std::size_t enough = 20;
+  // A few runs are enough where all of them are held: noise alone never repeats in all columns at once.
+  constexpr double severalCounts = 5, leastShare = 0.35, nearlyAll = 0.9;
+  constexpr std::size_t enough = 20, few = 6;
   std::vector<double> counts;
   for (const std::size_t column : columns) {
     const double digit = column < trial.places.lastDigit.size() ? trial.places.lastDigit[column] : 0;
@@ -74,7 +75,8 @@ std::size_t readingsPerMeasurement(const Recording& trial, const Columns& column
     lengths.push_back(static_cast<double>(runs.length[run]));
     held += runs.length[run] > 1;
   }
-  if (lengths.size() < enough || static_cast<double>(held) < leastShare * static_cast<double>(lengths.size())) return 1;
+  const double needed = lengths.size() >= enough ? leastShare : nearlyAll;
+  if (lengths.size() < few || static_cast<double>(held) < needed * static_cast<double>(lengths.size())) return 1;
   // A rhythm of 1.5 rows gives runs of one and of two: the longer ones; a few reads that failed do not count.
   std::ranges::sort(lengths);
   return static_cast<std::size_t>(lengths[9 * lengths.size() / 10]);

@@ -13,6 +13,7 @@
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/replay/trial_scenes.h"
+#include "core/gap/search/slip.h"
 #include "core/sim/scene_build.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
@@ -92,24 +93,31 @@ struct Explanation {
   double error = INFINITY;
 };
 
-/// How far a column goes, and how fast [its unit, and that per second].
+/// How far a column goes, and how fast, but for a tenth of the time: a marker that slips jumps [its unit, and that per
+/// second].
 struct Reach {
   double range = 0, rate = 0;
 };
 
 Reach reachOf(const Recording& recording, std::size_t column) {
   constexpr std::size_t apart = 4;  // samples of a slope: noise counts less
+  constexpr double usually = 0.9;
   const std::vector<double>&values = recording.columns[column], &time = recording.columns[0];
   double low = INFINITY, high = -INFINITY;
-  Reach reach;
+  std::vector<double> rates;
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (!std::isfinite(values[row])) continue;
     low = std::min(low, values[row]);
     high = std::max(high, values[row]);
     if (row >= apart && std::isfinite(values[row - apart]))
-      reach.rate = std::max(reach.rate, std::abs(values[row] - values[row - apart]) / (time[row] - time[row - apart]));
+      rates.push_back(std::abs(values[row] - values[row - apart]) / (time[row] - time[row - apart]));
   }
-  reach.range = high > low ? high - low : 0;
+  Reach reach{high > low ? high - low : 0, 0};
+  if (!rates.empty()) {
+    const auto nth = rates.begin() + static_cast<std::ptrdiff_t>(usually * static_cast<double>(rates.size() - 1));
+    std::nth_element(rates.begin(), nth, rates.end());
+    reach.rate = *nth;
+  }
   return reach;
 }
 
@@ -294,6 +302,21 @@ Explanation OddTrial::byAllNumbers() const {
           errorsByTrial(alone_, own, limits_.iterations)[trial_]};
 }
 
+/// The calibrated simulator with that effect of all that were fitted in vain that fits most trials best, and the errors
+/// of all trials.
+std::optional<std::pair<FitModel, std::vector<double>>> withAnotherEffect(
+    const FitProblem& problem, const SearchResult& found,
+    const std::function<double(const std::vector<double>&)>& trimmed) {
+  std::optional<std::pair<FitModel, std::vector<double>>> best;
+  for (const Attempt& attempt : found.attempts) {
+    if (!attempt.fitted || attempt.accepted || attempt.values.empty()) continue;
+    FitModel model = found.calibrated.fit.model.with(problem, attempt.candidate.placed(attempt.values));
+    std::vector<double> errors = errorsByTrial(problem, model, 2);
+    if (!best || trimmed(errors) < trimmed(best->second)) best.emplace(std::move(model), std::move(errors));
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<double> errorsByTrial(const FitProblem& problem, const FitModel& model, int iterations) {
@@ -333,7 +356,8 @@ std::vector<std::size_t> outlyingTrials(const FitProblem& problem, const SearchR
   const auto kept =
       std::max(count / 2 + 1, static_cast<std::size_t>(std::ceil(limits.keptShare * static_cast<double>(count))));
 
-  // Starts: as all are fitted, and as the trial alone whose numbers fit most of the others best.
+  // Starts: as all are fitted; as the trial alone whose numbers fit most of the others best; and with the one effect of
+  // all that were tried that fits most trials best, as one trial that is wrong may have kept it out.
   const FitModel& model = found.final.fit.model;
   const auto alone = parallel(jobs, count, [&](std::size_t t) {
     FitProblem own = problem;
@@ -356,16 +380,22 @@ std::vector<std::size_t> outlyingTrials(const FitProblem& problem, const SearchR
     least = sum;
     leader = t;
   }
-  // Trimmed fits cost time: only where one of both already shows a trial outside.
-  if (outlying(now, limits).empty() && (!leader || outlying(errorsOf(*leader), limits).empty())) return {};
-  std::vector<double> best = concentrated(problem, model, now, kept, limits);
+  const auto trimmed = [&](const std::vector<double>& errors) { return sumOf(errors, smallest(errors, kept)); };
+  std::vector<std::pair<FitModel, std::vector<double>>> starts{{model, now}};
   if (leader) {
     const std::vector<double>& numbers = alone[*leader].numbers;
     FitModel from = model;
     // The calibrated numbers come first.
     std::copy(numbers.begin() + static_cast<std::ptrdiff_t>(count), numbers.end(), from.values.begin());
-    const std::vector<double> other = concentrated(problem, from, errorsOf(*leader), kept, limits);
-    if (sumOf(other, smallest(other, kept)) < sumOf(best, smallest(best, kept))) best = other;
+    starts.emplace_back(std::move(from), errorsOf(*leader));
+  }
+  if (auto other = withAnotherEffect(problem, found, trimmed)) starts.push_back(std::move(*other));
+  // Trimmed fits cost time: only where a start already shows a trial outside.
+  std::vector<double> best;
+  for (const auto& [from, errors] : starts) {
+    const std::vector<double> then =
+        outlying(errors, limits).empty() ? errors : concentrated(problem, from, errors, kept, limits);
+    if (best.empty() || trimmed(then) < trimmed(best)) best = then;
   }
   std::vector<std::size_t> list = outlying(best, limits);
   if (list.size() > count - kept) list.clear();  // no majority that agrees
@@ -389,6 +419,9 @@ GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size
 
   auto best = odd.byNumber();
   if (const auto offset = odd.byOffset(ready); offset && (!best || offset->error < best->error)) best = offset;
+  if (!best || best->error > enough)
+    if (const auto slip = findSlip(recording, problem.trials[trial], others, limits.iterations, ready))
+      if (!best || slip->error < best->error) best = Explanation{inWords(*slip), slip->error};
   const Explanation own = odd.byAllNumbers();
   told.errorAlone = std::sqrt(own.error);
   if (best && best->error <= enough) {

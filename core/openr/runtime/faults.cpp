@@ -80,6 +80,8 @@ std::string described(int signal, const siginfo_t* info, const ucontext_t* conte
     case SIGFPE:
       if (info->si_code == FPE_INTDIV) return "it divided an integer by zero";
       return "it computed what is no number, or made an integer of a number that is too large or none";
+    case SIGABRT:
+      return "the C library found its memory damaged: something was written beyond its end, or freed twice";
     default:
       return "signal " + std::to_string(signal);
   }
@@ -129,7 +131,7 @@ void watchFaults(int link, int limit_s) {
   action.sa_sigaction = onFault;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGTRAP, SIGFPE}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGTRAP, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
   struct sigaction tick {};
   tick.sa_handler = onTick;
   tick.sa_flags = SA_ONSTACK | SA_RESTART;

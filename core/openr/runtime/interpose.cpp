@@ -19,13 +19,14 @@
 #include "core/openr/runtime/services.h"
 #include "core/openr/runtime/system.h"
 
+using btr::openr::OwnAccess;
 using btr::openr::Services;
 using btr::openr::System;
 using btr::openr::theSystemIsThere;
 
 namespace {
 
-bool inMethod() { return theSystemIsThere() && System::instance().current() != nullptr; }
+bool inMethod() { return theSystemIsThere() && System::instance().current() != nullptr && !OwnAccess::any(); }
 
 template <class F>
 F own(const char* name) {
@@ -36,6 +37,7 @@ F own(const char* name) {
 class StickPath {
  public:
   explicit StickPath(const char* path) {
+    const OwnAccess own;
     if (path != nullptr) text_ = btr::openr::onStick(System::instance().stick, path);
     if (text_.empty()) errno = ENOENT;
   }

@@ -318,7 +318,7 @@ OStatus OSubject::ClearBuffer() {
 }
 
 OStatus OSubject::ControlHandler(const OControlMessage& msg, OStatus status) {
-  if (msg.command == REMOVE_OBSERVER) {
+  if (msg.command == objcommREMOVE_OBSERVER) {
     OObserverInfo* info = find(msg.observer);
     if (info == nullptr) return oNOT_FOUND;
     info->buffer->dropAll();
@@ -346,7 +346,7 @@ OStatus OSubject::ReadyHandler(const OReadyMessage& msg) {
   const int count = message.numRegions;
   message.numRegions = 0;
   for (int i = 0; i < count; ++i) message.regions[i]->RemoveReference();
-  if (msg.command == DEASSERT_READY) {
+  if (msg.command == objcommDEASSERT_READY) {
     info->ready = -1;
     info->buffer->dropUnits();
     return oSUCCESS;
@@ -423,7 +423,7 @@ void OObserver::SetBufCtrlParam(std::size_t skip, std::size_t min, std::size_t m
 }
 
 OStatus OObserver::ConnectHandler(const OConnectMessage& msg, OStatus s) {
-  if (msg.command == DISCONNECT) {
+  if (msg.command == objcommDISCONNECT) {
     subjects_.remove_if([&](const OSubjectInfo& subject) { return subject.id == msg.subject; });
     return oSUCCESS;
   }
@@ -465,24 +465,24 @@ OStatus OObserver::tell(OSubjectInfo& subject, ObjcommCommand command) {
 }
 
 OStatus OObserver::AssertReady() {
-  for (OSubjectInfo& subject : subjects_) tell(subject, ASSERT_READY);
+  for (OSubjectInfo& subject : subjects_) tell(subject, objcommASSERT_READY);
   return oSUCCESS;
 }
 
 OStatus OObserver::DeassertReady() {
-  for (OSubjectInfo& subject : subjects_) tell(subject, DEASSERT_READY);
+  for (OSubjectInfo& subject : subjects_) tell(subject, objcommDEASSERT_READY);
   return oSUCCESS;
 }
 
 OStatus OObserver::AssertReady(const SubjectID& id) {
   for (OSubjectInfo& subject : subjects_)
-    if (subject.id == id) return tell(subject, ASSERT_READY);
+    if (subject.id == id) return tell(subject, objcommASSERT_READY);
   return oNOT_FOUND;
 }
 
 OStatus OObserver::DeassertReady(const SubjectID& id) {
   for (OSubjectInfo& subject : subjects_)
-    if (subject.id == id) return tell(subject, DEASSERT_READY);
+    if (subject.id == id) return tell(subject, objcommDEASSERT_READY);
   return oNOT_FOUND;
 }
 

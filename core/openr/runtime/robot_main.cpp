@@ -56,7 +56,7 @@ void fixAddresses(char** argv) {
 void quietPlace() {
   setenv("TZ", "UTC", 1);
   const int nothing = open("/dev/null", O_RDWR);
-  for (const int standard : {0, 1}) dup2(nothing, standard);
+  for (const int standard : {0, 1, 2}) dup2(nothing, standard);
   const rlimit noCore{0, 0}, memory{rlim_t{4} << 30, rlim_t{4} << 30};
   setrlimit(RLIMIT_CORE, &noCore);
   setrlimit(RLIMIT_AS, &memory);

@@ -587,6 +587,7 @@ void Services::setTime(const OTime& time) {
 OStatus Services::findDesignData(const std::string& keyword, ODesignDataID* id, byte** data, std::size_t* size) {
   const auto entry = system_.config.designData.find(keyword);
   if (entry == system_.config.designData.end()) return oNOT_FOUND;
+  const OwnAccess own;
   const std::string path = onStick(system_.stick, entry->second);
   std::vector<char> content;
   if (path.empty() || !unpackedFile(path, content)) return oOPEN_FAILURE;

@@ -141,7 +141,10 @@ void System::loadObject(const std::string& path) {
     object.name.clear();
     return;
   }
+  const std::string fileName = object.name;
   object.name = nameOf(handle, path);
+  for (ConsoleLine& line : orders_.lines)  // of its constructors
+    if (line.object == fileName) line.object = object.name;
   object.priorityClass = priorityClassOf(handle);
   for (; table->selector != UNDEF; ++table)
     object.entries[table->selector] = reinterpret_cast<void (*)(void*)>(table->entry);
@@ -269,6 +272,7 @@ bool System::waitUntil(std::function<bool()> condition) {
 }
 
 void System::endMethod() {
+  if (!current_->line.empty()) flushLine(*current_);
   if (current_->busy) longjmp(current_->methodEnd, 1);
   faultState().what = "they called exit() or abort()";  // global constructors
   siglongjmp(faultState().home, 1);
@@ -387,12 +391,12 @@ void System::connect() {
       continue;
     }
     auto forSubject = std::make_shared<OControlMessage>();
-    forSubject->command = ADD_OBSERVER;
+    forSubject->command = objcommADD_OBSERVER;
     forSubject->observer = notify;
     std::snprintf(forSubject->name, sizeof(forSubject->name), "%s", observer.c_str());
     send(control, forSubject);
     auto forObserver = std::make_shared<OConnectMessage>();
-    forObserver->command = CONNECT;
+    forObserver->command = objcommCONNECT;
     forObserver->subject = ready;
     std::snprintf(forObserver->name, sizeof(forObserver->name), "%s", subject.c_str());
     send(connectTo, forObserver);

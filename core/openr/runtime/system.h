@@ -149,4 +149,18 @@ class System {
 /// Whether there is a System::instance().
 bool theSystemIsThere();
 
+/// While one is there, the C library's functions are the computer's own, though a method runs: for calls that the
+/// run-time answers.
+class OwnAccess {
+ public:
+  OwnAccess() { ++depth_; }
+  ~OwnAccess() { --depth_; }
+  OwnAccess(const OwnAccess&) = delete;
+  OwnAccess& operator=(const OwnAccess&) = delete;
+  static bool any() { return depth_ > 0; }
+
+ private:
+  static inline int depth_ = 0;
+};
+
 }  // namespace btr::openr

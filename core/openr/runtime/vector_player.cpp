@@ -60,7 +60,7 @@ void VectorPlayer::take(ONotifyMessage& message) {
       continue;
     }
     if (vector.region->Size() < sizeof(ODataVectorInfo) || !read(vector)) {
-      sendReady(queue->from, id_, ASSERT_READY, {vector.region});
+      sendReady(queue->from, id_, objcommASSERT_READY, {vector.region});
       continue;
     }
     queue->vectors.push_back(std::move(vector));
@@ -68,7 +68,7 @@ void VectorPlayer::take(ONotifyMessage& message) {
 }
 
 void VectorPlayer::begin() {
-  for (const Queue& queue : queues_) sendReady(queue.from, id_, ASSERT_READY, {});
+  for (const Queue& queue : queues_) sendReady(queue.from, id_, objcommASSERT_READY, {});
 }
 
 void VectorPlayer::addWaiting(std::set<OVRSyncKey>& keys, const SyncKeys& known) const {
@@ -95,7 +95,7 @@ void VectorPlayer::step(const std::set<OVRSyncKey>& starting, const SyncKeys& kn
     if (++vector.frame < vector.length) continue;
     RCRegion* done = vector.region;
     queue.vectors.pop_front();
-    sendReady(queue.from, id_, ASSERT_READY, {done});
+    sendReady(queue.from, id_, objcommASSERT_READY, {done});
   }
 }
 

@@ -34,13 +34,6 @@ typedef void (*Entry)(...);
 
 #define UNDEF 0xffffffff
 
-#ifndef TRUE
-#define TRUE 1
-#endif
-#ifndef FALSE
-#define FALSE 0
-#endif
-
 // The C library has it no longer, old programs ask for it.
 extern "C" char* gets(char* line);
 

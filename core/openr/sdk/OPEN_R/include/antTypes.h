@@ -7,6 +7,13 @@
 
 #include <iostream>
 
+#ifndef TRUE
+#define TRUE 1
+#endif
+#ifndef FALSE
+#define FALSE 0
+#endif
+
 #define OSTREAM std::ostream
 /// What an Extra entry is given when an operation of the IP stack has ended.
 #define ANTENVMSG void*

@@ -2,6 +2,7 @@
 #define BTR_OPENR_OOBJECT_H
 
 #include <OPENR/OPENR.h>
+#include <OPENR/OPENRAPI.h>
 #include <OPENR/OPENREvent.h>
 #include <OPENR/OPENRMessages.h>
 

@@ -10,8 +10,8 @@ class OConnectEvent {
   ~OConnectEvent() {}
   int ObsIndex() const { return index_; }
   const char* SubName() const { return name_; }
-  bool IsConnect() const { return command_ == CONNECT; }
-  bool IsDisconnect() const { return command_ == DISCONNECT; }
+  bool IsConnect() const { return command_ == objcommCONNECT; }
+  bool IsDisconnect() const { return command_ == objcommDISCONNECT; }
 
  private:
   int index_;
@@ -27,8 +27,8 @@ class OControlEvent {
   ~OControlEvent() {}
   int SbjIndex() const { return index_; }
   const char* SubName() const { return name_; }
-  bool IsAddObserver() const { return command_ == ADD_OBSERVER; }
-  bool IsRemoveObserver() const { return command_ == REMOVE_OBSERVER; }
+  bool IsAddObserver() const { return command_ == objcommADD_OBSERVER; }
+  bool IsRemoveObserver() const { return command_ == objcommREMOVE_OBSERVER; }
   const ObserverID& SenderID() const { return id_; }
 
  private:
@@ -44,8 +44,8 @@ class OReadyEvent {
   ~OReadyEvent() {}
   int SbjIndex() const { return index_; }
   const ObserverID& SenderID() const { return id_; }
-  bool IsAssert() const { return command_ == ASSERT_READY; }
-  bool IsDeassert() const { return command_ == DEASSERT_READY; }
+  bool IsAssert() const { return command_ == objcommASSERT_READY; }
+  bool IsDeassert() const { return command_ == objcommDEASSERT_READY; }
 
  private:
   int index_;

@@ -10,8 +10,8 @@
 
 using std::list;
 
-enum OConnectCmd { CONNECT, DISCONNECT };
-enum ObjcommCommand { ADD_OBSERVER, REMOVE_OBSERVER, ASSERT_READY, DEASSERT_READY };
+enum OConnectCmd { objcommCONNECT, objcommDISCONNECT };
+enum ObjcommCommand { objcommADD_OBSERVER, objcommREMOVE_OBSERVER, objcommASSERT_READY, objcommDEASSERT_READY };
 
 const int objcommMAX_DATA = 13;  ///< in one notice
 
@@ -24,30 +24,28 @@ struct OMemoryLocator {
 };
 
 /// A subject as its observer sees it, and what the observer still holds of it.
-struct OSubjectInfo {
-  SubjectID id;
+struct OSubjectInfo : public OServiceEntry {
+  SubjectID id;  ///< the same as the base
   std::vector<RCRegion*> held;
 
   OSubjectInfo() {}
-  explicit OSubjectInfo(const SubjectID& subject) : id(subject) {}
+  explicit OSubjectInfo(const SubjectID& subject) : OServiceEntry(subject), id(subject) {}
   const SubjectID& GetID() const { return id; }
   const SubjectID& ID() const { return id; }
-  operator const SubjectID&() const { return id; }
 };
 
 struct OPairBuffer;
 
 /// An observer as its subject sees it.
-struct OObserverInfo {
-  ObserverID id;
-  int ready;  ///< 1 asserted, 0 not known or just sent to, -1 deasserted
+struct OObserverInfo : public OServiceEntry {
+  ObserverID id;  ///< the same as the base
+  int ready;      ///< 1 asserted, 0 not known or just sent to, -1 deasserted
   OPairBuffer* buffer;
 
   OObserverInfo() : ready(0), buffer(0) {}
-  explicit OObserverInfo(const ObserverID& observer) : id(observer), ready(0), buffer(0) {}
+  explicit OObserverInfo(const ObserverID& observer) : OServiceEntry(observer), id(observer), ready(0), buffer(0) {}
   const ObserverID& GetID() const { return id; }
   const ObserverID& ID() const { return id; }
-  operator const ObserverID&() const { return id; }
 };
 
 typedef std::list<OObserverInfo>::const_iterator ObserverConstIterator;

@@ -1,0 +1,63 @@
+#include "app/serve/serve_camera.h"
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/btr_camera_process.h"
+#include "app/btr_live_lines.h"
+#include "core/spec/error.h"
+
+namespace btr::cli {
+namespace {
+
+/// `btr-camera eye`: told each row, it answers with a frame or with none.
+class ProcessEye final : public remote::CameraEye {
+ public:
+  explicit ProcessEye(const std::string& robot) : process_({"eye", "--rgb", "--robot", robot}, true) {}
+
+  std::optional<remote::CameraPicture> look(const Session& session) override {
+    if (std::vector<std::string> channels = session.channels(); channels != channels_) {
+      channels_ = std::move(channels);
+      tell(gameLine(session));
+    }
+    tell(rowLine(session, true, 0));
+    // Width and height, each 4 bytes, the lowest first; then the pixels.
+    std::array<std::uint8_t, 8> head{};
+    hear(head.data(), head.size());
+    const auto number = [&](std::size_t at) {
+      return head[at] | head[at + 1] << 8 | head[at + 2] << 16 | head[at + 3] << 24;
+    };
+    remote::CameraPicture picture{number(0), number(4), {}};
+    if (picture.width == 0) return std::nullopt;
+    picture.rgb.resize(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    hear(picture.rgb.data(), picture.rgb.size());
+    return picture;
+  }
+
+ private:
+  void tell(const nlohmann::json& line) {
+    if (!process_.send(line.dump())) gone();
+  }
+  void hear(std::uint8_t* bytes, std::size_t count) {
+    if (!process_.read(bytes, count)) gone();
+  }
+  [[noreturn]] static void gone() {
+    throw InputError(
+        "the camera's process has ended; the server's standard error says why (no OpenGL, or a robot whose "
+        "model has no camera)");
+  }
+
+  CameraProcess process_;
+  std::vector<std::string> channels_;
+};
+
+}  // namespace
+
+remote::CameraMaker cameraMaker() {
+  namespace fs = std::filesystem;
+  if (!fs::exists(fs::read_symlink("/proc/self/exe").parent_path() / "btr-camera")) return {};
+  return [](const std::string& robot) { return std::make_unique<ProcessEye>(robot); };
+}
+
+}  // namespace btr::cli

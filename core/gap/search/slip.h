@@ -1,0 +1,30 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+
+namespace btr {
+
+/// A place that from some moment on is measured wrongly, as when a marker slips or comes loose.
+struct Slip {
+  std::string channel;
+  bool drifts = false;  ///< grows from then on until the end; else it jumps
+  double from_s = 0;    ///< the recording's time
+  double by = 0;        ///< at the end [the channel's unit]
+  double error = 0;     ///< mean squared error of the trial without it [noise floors²]
+};
+
+/// The slip of one position channel that makes the simulator fit a trial best: its size by least squares (the error is
+/// a parabola in it), its moment by search, the trial's initial states fitted to each. Nothing where none makes it
+/// better. `ready` makes a fit problem of recordings.
+std::optional<Slip> findSlip(const Recording& recording, const FitTrial& trial, const FitModel& model, int iterations,
+                             const std::function<FitProblem(const std::vector<Recording>&)>& ready);
+
+/// "its ball.z_m jumps by 0.021 m at 0.35 s, as a marker that slips does".
+std::string inWords(const Slip& slip);
+
+}  // namespace btr

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/live/session.h"
+
+namespace btr::remote {
+
+struct CameraPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< height × width × 3
+};
+
+/// What a robot's camera sees of a running world. Whoever renders stands behind it: nothing here knows how.
+class CameraEye {
+ public:
+  virtual ~CameraEye() = default;
+  /// Once a control period, and as the camera begins to look. The frame that came to its end in it, if one did. Throws
+  /// InputError where there is no such camera, or no more.
+  virtual std::optional<CameraPicture> look(const Session& session) = 0;
+};
+
+/// Empty where there are no cameras.
+using CameraMaker = std::function<std::unique_ptr<CameraEye>(const std::string& robot)>;
+
+}  // namespace btr::remote

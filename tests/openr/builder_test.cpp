@@ -1,0 +1,180 @@
+// From sources to a stick: stubs, lists, paths, and what a compiler of 2003 let pass.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/openr/robot_design.h"
+#include "core/openr/source_cure.h"
+#include "core/openr/stick_builder.h"
+#include "core/openr/stick_config.h"
+#include "core/openr/stub_generator.h"
+#include "core/spec/error.h"
+#include "tests/openr/run_program.h"
+
+namespace btr::openr {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const char* const good = R"(// a comment
+ObjectName : Thing
+NumOfOSubject : 1
+NumOfObserver : 2
+Service : "Other.Out.Type.S", null, Ready()
+Service : "Thing.In.Type.O", Connect(), Notify()
+Service : "Thing.Out.Type.O", null, null
+Extra : Timer()
+something else
+)";
+
+std::string refusal(const std::string& text) {
+  try {
+    stubConfigFrom(text, "stub.cfg");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = good;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(StubGenerator, ReadsNamesAndMethods) {
+  const StubConfig config = stubConfigFrom(good, "stub.cfg");
+  EXPECT_EQ(config.object, "Thing");
+  ASSERT_EQ(config.subjects.size(), 1u);
+  EXPECT_EQ(config.subjects[0].name, "Other.Out.Type.S");  // connections go by this name
+  EXPECT_EQ(config.subjects[0].first, "");
+  EXPECT_EQ(config.subjects[0].second, "Ready");
+  ASSERT_EQ(config.observers.size(), 2u);
+  EXPECT_EQ(config.observers[0].first, "Connect");
+  EXPECT_THAT(config.extras, ElementsAre("Timer"));
+}
+
+TEST(StubGenerator, NumbersEntriesInOrder) {
+  const auto files = stubFiles(stubConfigFrom(good, "stub.cfg"));
+  const std::string entry = files.at("entry.h"), def = files.at("def.h"), stub = files.at("ThingStub.cc");
+  EXPECT_THAT(entry, HasSubstr("Entry_Control[] = {4}"));
+  EXPECT_THAT(entry, HasSubstr("Entry_Ready[] = {5}"));
+  EXPECT_THAT(entry, HasSubstr("Entry_Connect[] = {6, 7}"));
+  EXPECT_THAT(entry, HasSubstr("Entry_Notify[] = {8, 9}"));
+  EXPECT_THAT(entry, HasSubstr("numOfBasicEntries = 10"));
+  EXPECT_THAT(entry, HasSubstr("Extra_Entry[] = {10}"));
+  EXPECT_THAT(entry, HasSubstr("entryTimer = 0"));
+  EXPECT_THAT(def, HasSubstr("sbjOut = 0"));
+  EXPECT_THAT(def, HasSubstr("obsOut = 1"));
+  EXPECT_THAT(stub, HasSubstr("Self.Notify(event)"));
+}
+
+TEST(StubGenerator, RefusesWithLineValueAndWhatIsAllowed) {
+  EXPECT_THAT(refusal(changed("Ready()", "Ready")),
+              HasSubstr("stub.cfg:5: Service: \"Ready\" is not allowed; null or"));
+  EXPECT_THAT(refusal(changed("NumOfOSubject : 1", "NumOfOSubject : 0")),
+              HasSubstr("stub.cfg:3: NumOfOSubject: \"0\""));
+  EXPECT_THAT(refusal(changed("NumOfOSubject : 1", "NumOfOSubject : 2")),
+              HasSubstr("NumOfOSubject: 2 is not allowed; 1"));
+  EXPECT_THAT(refusal(changed("Thing.In.Type.O", "Thing.In.O")), HasSubstr("stub.cfg:6: Service: \"Thing.In.O\""));
+  EXPECT_THAT(refusal(changed("ObjectName : Thing", "")), HasSubstr("ObjectName is missing"));
+  EXPECT_THAT(refusal(changed("Thing.Out.Type.O", "Thing.In.Type.O")), HasSubstr("that no other one has"));
+  EXPECT_THAT(refusal(changed("Extra : Timer()", "Extra : null")), HasSubstr("stub.cfg:8: Extra"));
+  EXPECT_EQ(refusal(good), "");
+}
+
+TEST(RobotDesigns, EveryPlaceOfTheSensorVectorIsAJointOrSensor) {
+  for (const char* name : {"ERS-7", "ERS-210", "ERS-220"}) {
+    const RobotDesign& design = robotDesign(name);
+    for (const std::string& locator : design.sensorVector) {
+      int found = 0;
+      for (const auto* list : {&design.joints, &design.sensors})
+        for (const Primitive& primitive : *list) found += primitive.locator == locator ? 1 : 0;
+      EXPECT_EQ(found, 1) << name << " " << locator;
+    }
+  }
+  EXPECT_EQ(robotDesign("ERS-7").sensorVector.size(), 34u);
+  EXPECT_EQ(robotDesign("ERS-210").sensorVector.size(), 31u);
+  EXPECT_EQ(robotDesign("ERS-220").sensorVector.size(), 31u);
+  const RobotDesign& seven = robotDesign("ERS-7");
+  EXPECT_EQ(seven.joints.size() + seven.sensors.size() + seven.lamps.size() + seven.others.size(), 65u);
+  EXPECT_THROW(robotDesign("ERS-8"), InputError);
+}
+
+TEST(SourceCure, DropsTheSecondNameOnly) {
+  const std::string source =
+      "# 1 \"a.cc\"\nint f(int one, int one);\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int two);\n";
+  const std::string errors =
+      "a.cc:1:18: error: redefinition of 'int one'\nb.h:9:5: error: redefinition of 'int two'\nb.h:2:1: error: other\n";
+  EXPECT_EQ(withoutRepeatedNames(source, errors),
+            "# 1 \"a.cc\"\nint f(int one, int );\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int );\n");
+}
+
+TEST(StickConfig, SectionsHoldForOneRobot) {
+  const std::string text = "# list\n/MS/A.BIN # first\n[ERS-7]\n/MS/SEVEN.BIN\n[ERS-210]\n/MS/OTHER.BIN\n";
+  EXPECT_THAT(configLines(text, "ERS-7"), ElementsAre(ElementsAre("/MS/A.BIN"), ElementsAre("/MS/SEVEN.BIN")));
+  EXPECT_THAT(configLines(text, "ERS-220"), ElementsAre(ElementsAre("/MS/A.BIN")));
+}
+
+TEST(StickConfig, ListsAreJoinedWithoutRepetition) {
+  EXPECT_EQ(mergedConfig("a\nb\n[ERS-7]\nc\n", "b\r\nd\n[ERS-210]\ne\n[ERS-7]\nc\nf\n"),
+            "a\nb\nd\n[ERS-7]\nc\nf\n[ERS-210]\ne\n");
+}
+
+TEST(StickPaths, StayOnTheStick) {
+  const std::string folder = emptyFolder("paths"), stick = folder + "/MS";
+  std::filesystem::create_directories(stick + "/OPEN-R/Data");
+  writeText(stick + "/OPEN-R/Data/a.Txt", "x");
+  writeText(folder + "/secret.txt", "x");
+  std::filesystem::create_directory_symlink(folder, stick + "/OUT");
+  std::filesystem::create_symlink("OPEN-R/Data/a.Txt", stick + "/IN");
+  EXPECT_EQ(onStick(stick, "/MS/OPEN-R/Data/a.Txt"), stick + "/OPEN-R/Data/a.Txt");
+  EXPECT_EQ(onStick(stick, "/ms/open-r/DATA/A.TXT"), stick + "/OPEN-R/Data/a.Txt");
+  EXPECT_EQ(onStick(stick, "/MS//OPEN-R/./DATA/new.txt"), stick + "/OPEN-R/Data/NEW.TXT");
+  EXPECT_EQ(onStick(stick, "/MS/IN"), stick + "/IN");
+  for (const char* outside : {"/MS/../secret.txt", "/MS/OPEN-R/../../secret.txt", "/MS/OUT/secret.txt", "/MS/OUT",
+                              "/MSX", "/etc/passwd", "secret.txt", "", "MS/a", "/MS/.."})
+    EXPECT_EQ(onStick(stick, outside), "") << outside;
+}
+
+TEST(StickBuilder, TwoFoldersOntoOneStick) {
+  const std::string out = emptyFolder("two") + "/MS";
+  StickBuildOptions options;
+  options.folders = {SOURCE_DIR "/tests/openr/programs/talk", SOURCE_DIR "/tests/openr/programs/names"};
+  options.out = out;
+  const StickBuild build = buildStick(options);
+  EXPECT_TRUE(build.complete());
+  EXPECT_TRUE(build.absent.empty());
+  EXPECT_EQ(stickConfig(out, "ERS-7").objects.size(), 3u);
+  EXPECT_EQ(stickConfig(out, "ERS-7").connections.size(), 2u);
+  EXPECT_FALSE(
+      std::filesystem::exists(SOURCE_DIR "/tests/openr/programs/talk/Sink/def.h"));  // sources stay as they are
+}
+
+TEST(StickBuilder, SaysWhatTheCompilerSays) {
+  const std::string folder = emptyFolder("wrong");
+  std::filesystem::create_directories(folder + "/Thing");
+  writeText(folder + "/Thing/stub.cfg",
+            "ObjectName : Thing\nNumOfOSubject : 1\nNumOfOObserver : 1\nService : \"Thing.A.B.S\", null, null\n"
+            "Service : \"Thing.A.B.O\", null, null\n");
+  writeText(folder + "/Thing/Thing.h", "#include <OPENR/OObject.h>\nclass Thing : public OObject { this is wrong };\n");
+  StickBuildOptions options;
+  options.folders = {folder};
+  options.out = emptyFolder("wrong_out");
+  const StickBuild build = buildStick(options);
+  ASSERT_EQ(build.objects.size(), 1u);
+  EXPECT_FALSE(build.complete());
+  EXPECT_THAT(build.objects[0].said, HasSubstr("Thing.h:2:"));
+}
+
+TEST(StickBuilder, RefusesFoldersWithoutObjects) {
+  StickBuildOptions options;
+  options.folders = {emptyFolder("nothing")};
+  options.out = emptyFolder("nothing_out");
+  EXPECT_THROW(buildStick(options), InputError);
+}
+
+}  // namespace
+}  // namespace btr::openr

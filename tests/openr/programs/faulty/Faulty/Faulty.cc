@@ -1,0 +1,100 @@
+// Goes wrong in the way that is typed.
+#include "Faulty.h"
+
+#include <OPENR/OSyslog.h>
+#include <OPENR/core_macro.h>
+#include <apsys.h>
+#include <assert.h>
+#include <math.h>
+
+#include <stdexcept>
+
+Faulty::Faulty() {}
+
+OStatus Faulty::DoInit(const OSystemEvent& event) {
+  NEW_ALL_SUBJECT_AND_OBSERVER;
+  REGISTER_ALL_ENTRY;
+  SET_ALL_READY_AND_NOTIFY_ENTRY;
+
+  return oSUCCESS;
+}
+
+OStatus Faulty::DoStart(const OSystemEvent& event) {
+  ENABLE_ALL_SUBJECT;
+  ASSERT_READY_TO_ALL_OBSERVER;
+
+  return oSUCCESS;
+}
+
+OStatus Faulty::DoStop(const OSystemEvent& event) {
+  DISABLE_ALL_SUBJECT;
+  DEASSERT_READY_TO_ALL_OBSERVER;
+  return oSUCCESS;
+}
+
+OStatus Faulty::DoDestroy(const OSystemEvent& event) {
+  DELETE_ALL_SUBJECT_AND_OBSERVER;
+  return oSUCCESS;
+}
+
+int Faulty::deep(int n) {
+  volatile char room[1000];
+  room[n % 1000] = (char)n;
+  return deep(n + 1) + room[(n + 1) % 1000];
+}
+
+int Faulty::same(int one, int) { return one; }
+
+int Faulty::forgets(int n) {
+  if (n < 0) return 1;
+  OSYSPRINT(("forgets to return\n"));
+}
+
+void Faulty::Notify(const ONotifyEvent& event) {
+  char line[80];
+  if (gets(line) == 0) return;
+  OSYSPRINT(("does %s\n", line));
+  volatile double zero = 0, huge = 1e300;
+  volatile int none = 0;
+  if (strcmp(line, "null") == 0) *(volatile int*)0 = 1;
+  if (strcmp(line, "read") == 0) none = *(volatile int*)0x10;
+  if (strcmp(line, "divide") == 0) none = 7 / none;
+  if (strcmp(line, "nan") == 0) huge = zero / zero;
+  if (strcmp(line, "overflow") == 0) none = (int)huge;
+  if (strcmp(line, "misaligned") == 0) {
+    char bytes[16];
+    none = *(volatile int*)(bytes + 1 + none);
+  }
+  if (strcmp(line, "heap") == 0) {
+    char* memory = (char*)malloc(24);
+    for (int i = 0; i < 4096; i++) ((volatile char*)memory)[i] = 0x55;
+    for (int size = 16; size < 3000; size += 16) free(malloc(size));
+    free(memory);
+  }
+  if (strcmp(line, "twice") == 0) {
+    void* memory = malloc(5000);
+    free(memory);
+    free(memory);
+  }
+  if (strcmp(line, "deep") == 0) none = deep(0);
+  if (strcmp(line, "loop") == 0)
+    for (;;) none = none + 1;
+  if (strcmp(line, "throw") == 0) throw std::runtime_error("thrown");
+  if (strcmp(line, "abort") == 0) abort();
+  if (strcmp(line, "assert") == 0) assert(none == 1);
+  if (strcmp(line, "forget") == 0) forgets(none);
+  if (strcmp(line, "mips") == 0) {
+    int status;
+    __asm__ volatile("mfc0 %0, $12" : "=r"(status));
+    none = status;
+  }
+  if (strcmp(line, "delete") == 0) {
+    void* memory = malloc(10);
+    OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
+    NewSharedMemoryRegion(100, &memory);
+    memset(memory, 1, 100);
+    OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
+  }
+  OSYSPRINT(("lives on\n"));
+  observer[event.ObsIndex()]->AssertReady();
+}

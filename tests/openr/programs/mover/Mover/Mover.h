@@ -1,0 +1,36 @@
+// A program of our own for the tests.
+#ifndef Mover_h
+#define Mover_h
+
+#include <OPENR/OObject.h>
+#include <OPENR/OObserver.h>
+#include <OPENR/OSubject.h>
+
+#include "def.h"
+
+class Mover : public OObject {
+ public:
+  Mover();
+  virtual ~Mover() {}
+
+  OSubject* subject[numOfSubject];
+  OObserver* observer[numOfObserver];
+
+  virtual OStatus DoInit(const OSystemEvent& event);
+  virtual OStatus DoStart(const OSystemEvent& event);
+  virtual OStatus DoStop(const OSystemEvent& event);
+  virtual OStatus DoDestroy(const OSystemEvent& event);
+
+  void Ready(const OReadyEvent& event);
+  void ReadyShine(const OReadyEvent& event);
+
+ private:
+  RCRegion* make(int joints, OPrimitiveID id, ODataType type, int frames);
+  OPrimitiveID pan, mouth, ear, face, mode;
+  RCRegion* moves[2];
+  RCRegion* shine;
+  OVRSyncKey first, second;
+  int readies, made;
+};
+
+#endif

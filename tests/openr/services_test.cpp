@@ -1,0 +1,244 @@
+// The robot's services, each by a program of our own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/openr/run_program.h"
+
+namespace btr::openr {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int framesOfVector = 16;
+
+TEST(Names, EveryNameOfTheInterfaceIsThere) {
+  const StickRun run = runStick(stickOf("names"), 3);
+  EXPECT_THAT(run.all(), HasSubstr("named 1"));
+  EXPECT_THAT(run.all(), HasSubstr("1570796 1500000 10"));
+  EXPECT_THAT(run.all(), HasSubstr("size 1 3 10.0.1.100"));
+  EXPECT_THAT(run.all(), Not(HasSubstr("not seen")));
+}
+
+class Mover : public testing::Test {
+ protected:
+  const StickRun run = runStick(stickOf("mover"), 100);
+  const RobotDesign& design = robotDesign("ERS-7");
+};
+
+TEST_F(Mover, VectorsFollowEachOtherWithoutAGap) {
+  const auto pan = run.targets(design, "HEAD_PAN");
+  ASSERT_EQ(pan.size(), 5u * framesOfVector);
+  for (std::size_t i = 0; i < pan.size(); ++i) EXPECT_EQ(pan[i], static_cast<std::int32_t>(i) * 1000) << i;
+}
+
+TEST_F(Mover, ReadyComesOnceForEachVectorPlayedItsReferenceGone) {
+  EXPECT_THAT(run.all(), HasSubstr("ready 1 refs 1 1\n"));
+  EXPECT_THAT(run.all(), HasSubstr("ready 2 refs 1 2\n"));
+  EXPECT_THAT(run.all(), HasSubstr("ready 3 refs 2 1\n"));
+}
+
+TEST_F(Mover, JointsStayWithinTheirRange) {
+  for (const std::int32_t mouth : run.targets(design, "MOUTH")) EXPECT_EQ(mouth, -959931);  // −55°, told −90°
+  for (const std::int32_t ear : run.targets(design, "L_EAR_BASE")) EXPECT_EQ(ear, 261799);
+}
+
+TEST_F(Mover, GainsNeedToBeEnabledFirst) {
+  EXPECT_THAT(run.all(), HasSubstr("gain 4108\nMover: gain 0\nMover: gains 8 2 4 14 2 15\n"));
+  EXPECT_THAT(run.all(), HasSubstr("unknown 6 ffffffff\n"));
+  ASSERT_FALSE(run.orders.empty());
+  const OrderFrame& first = run.orders[0];
+  EXPECT_EQ(first.motorPower, true);
+  EXPECT_EQ(first.joints.at(1).gainEnabled, true);
+  EXPECT_EQ(first.joints.at(1).gain->p, 8);
+  EXPECT_EQ(first.joints.at(2).gainEnabled, false);  // not opened
+}
+
+TEST_F(Mover, KeysStartVectorsTogetherAndPeriodsLast) {
+  std::size_t face = 0;
+  while (design.lamps[face].name != "face_1") ++face;
+  std::vector<std::pair<int, int>> shone;  // frame, intensity
+  for (std::size_t i = 0; i < run.orders.size(); ++i)
+    for (const LampOrder& lamp : run.orders[i].lamps)
+      if (lamp.lamp == face) shone.emplace_back(static_cast<int>(i), lamp.intensity);
+  EXPECT_THAT(shone, testing::ElementsAre(std::pair(16, 55), std::pair(20, 155), std::pair(24, 255)));
+}
+
+TEST(Senser, VectorsOfFourFramesAndCalls) {
+  const StickRun run = runStick(stickOf("senser"), 20);
+  EXPECT_THAT(run.all(), HasSubstr("ERS-7 seven common 6\n"));
+  EXPECT_THAT(run.all(), HasSubstr("vector of 34, frames 4 from 1\n"));
+  EXPECT_THAT(run.all(), HasSubstr("vector of 34, frames 4 from 5\n"));
+  EXPECT_THAT(run.all(), HasSubstr("near 1 0 1 0\n"));  // near and far take turns
+  EXPECT_THAT(run.all(), HasSubstr("up -9806650\n"));
+  EXPECT_THAT(run.all(), HasSubstr("time 0 24000\n"));
+  EXPECT_THAT(run.all(), HasSubstr("references 3\n"));  // the pool's, the notice's, its own
+}
+
+TEST(Senser, DesignDataAreThoseOfTheRobot) {
+  EXPECT_THAT(runStick(stickOf("senser"), 3, {}, "ERS-210").all(), HasSubstr("ERS-210 twoten common"));
+}
+
+TEST(Senser, ThePauseSwitchIsToldAndShutdownEndsAll) {
+  const StickRun run =
+      runStick(stickOf("senser"), 100, [](int frame, TrivialRobot& robot) { robot.power.pausePressed = frame == 30; });
+  EXPECT_THAT(run.all(), HasSubstr("pause 1\nSenser: capacity 100\n"));
+  EXPECT_EQ(run.orders.size(), 30u);
+  EXPECT_EQ(run.ended.why, Ended::Why::shutdown);
+}
+
+TEST(Looker, LayersBandsAndColours) {
+  // Grey, lighter to the right by 2 a pixel of layer H; a red patch (Cr 210, Cb 130) of 40 × 32 pixels of layer H.
+  CameraImage image{416, 320, std::vector<std::uint8_t>(std::size_t{3} * 416 * 320)};
+  for (std::size_t y = 0; y < 320; ++y)
+    for (std::size_t x = 0; x < 416; ++x) {
+      const bool red = x >= 40 && x < 120 && y >= 20 && y < 84;
+      image.rows[y * 3 * 416 + x] = static_cast<std::uint8_t>(20 + x / 2 + y % 2 * 8);
+      image.rows[y * 3 * 416 + 416 + x] = red ? 210 : 128;
+      image.rows[y * 3 * 416 + 832 + x] = red ? 130 : 128;
+    }
+  const StickRun run = runStick(stickOf("looker"), 12, [&](int, TrivialRobot& robot) { robot.image = image; });
+  // Layer H at (4, 5): x = 8, 9; rows 10, 11: (24 + 24 + 32 + 32) / 4 = 28, LH (32 + 32 − 24 − 24) / 4 + 128 = 132.
+  EXPECT_THAT(run.all(), HasSubstr("layer 0: 208 x 160 skip 1040 valid 1 0, y 28 cr 128 cb 128 lh 132\n"));
+  EXPECT_THAT(run.all(), HasSubstr("layer 1: 104 x 80 skip 520 valid 1 0, y 33"));
+  EXPECT_THAT(run.all(), HasSubstr("layer 2: 52 x 40 "));
+  EXPECT_THAT(run.all(), HasSubstr("cdt 1 0, frequency 80 0, field 1\n"));  // 40 · 32 / 16
+  EXPECT_THAT(run.all(), HasSubstr("shutter 0 4\n"));
+  EXPECT_EQ(run.orders[0].camera.shutter, 3u);
+}
+
+TEST(Sounder, WhatIsPlayedStandsInAWavFile) {
+  const std::string stick = stickOf("sounder");
+  const StickRun run = runStick(stick, 100);
+  EXPECT_THAT(run.all(), HasSubstr("ready at start 1\n"));
+  EXPECT_THAT(run.all(), HasSubstr("mic 16000 Hz 16 bits channels 2 bytes 1024\n"));
+  EXPECT_THAT(run.all(), HasSubstr(stick + "/SPEAKER.WAV"));
+  std::ifstream in(stick + "/SPEAKER.WAV", std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  ASSERT_EQ(bytes.size(), 44 + 10u * 512 * 2);  // 10 blocks of 32 ms at 16 kHz, 16 bits
+  // 100 · 256 at −10 dB.
+  const auto first =
+      static_cast<std::int16_t>(static_cast<std::uint8_t>(bytes[44]) | static_cast<std::uint8_t>(bytes[45]) << 8);
+  EXPECT_NEAR(first, 25600 * 0.31623, 2);
+}
+
+TEST(Filer, FilesConsoleAndTime) {
+  const std::string stick = stickOf("filer"), outside = emptyFolder("outside");
+  writeText(outside + "/secret.txt", "s");
+  std::filesystem::create_directory_symlink(outside, stick + "/LINK");
+  const StickRun run = runStick(stick, 400, [](int frame, TrivialRobot& robot) {
+    if (frame == 11) robot.typed = "Rex\n42 dog\n";
+  });
+  const std::string all = run.all();
+  EXPECT_THAT(all, HasSubstr("Filer: constructed\n"));
+  EXPECT_THAT(all, HasSubstr("C++ reads first line\n"));
+  EXPECT_THAT(all, HasSubstr("mkdir 0 rename 0\n"));
+  EXPECT_THAT(all, HasSubstr("stat 0 11\n"));
+  EXPECT_THAT(all, HasSubstr("entry NEW.TXT\n"));
+  for (const char* path : {"/etc/passwd", "/MS/../secret.txt", "/MS/SUB/../../secret.txt", "secret.txt",
+                           "/MS/LINK/secret.txt", "/MSX/a", "/MS/LINK"})
+    EXPECT_THAT(all, HasSubstr(std::string(path) + " not there, written 0, opened 0, removed 0, folder 0\n"));
+  EXPECT_THAT(all, HasSubstr("programs -1 1\n"));
+  EXPECT_TRUE(std::filesystem::exists(outside + "/secret.txt"));
+  // It waits for the console; the other object does not.
+  EXPECT_LT(all.find("tick 2"), all.find("hello Rex"));
+  EXPECT_THAT(all, HasSubstr("42 dog\n"));
+  EXPECT_THAT(all, HasSubstr("slept 2\n"));
+  EXPECT_THAT(all, HasSubstr("partly\n"));
+  EXPECT_THAT(all, Not(HasSubstr("never")));
+}
+
+TEST(Net, TcpAndUdpBetweenTwoObjects) {
+  const std::string all = runStick(stickOf("net"), 50).all();
+  EXPECT_THAT(all, HasSubstr("TCP port 54321 of the robot is 127.0.0.1:"));
+  EXPECT_THAT(all, HasSubstr("connected 1 to 10.0.1.100\n"));
+  EXPECT_THAT(all, HasSubstr("own memory 1\n"));
+  EXPECT_THAT(all, HasSubstr("server: 9 bytes\n"));
+  EXPECT_THAT(all, HasSubstr("client: over TCP, 9 bytes\n"));
+  EXPECT_THAT(all, HasSubstr("server: closed 1\n"));
+  EXPECT_THAT(all, HasSubstr("client: over UDP from port 54322\n"));
+}
+
+StickRun faulty(const std::string& what) {
+  return runStick(
+      stickOf("faulty"), 60,
+      [&](int frame, TrivialRobot& robot) {
+        if (frame == 5) robot.typed = what + "\n";
+      },
+      "ERS-7", 1);
+}
+
+TEST(Faults, ACrashNamesObjectAndMethod) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"null", "wrote at address 0"}, {"read", "read at address 0x10"}, {"divide", "divided"},
+      {"nan", "no number"},           {"overflow", "too large"},        {"misaligned", "multiple of"},
+      {"deep", "stack is full"},      {"throw", "exception"},           {"mips", "this processor does not have"}};
+  for (const auto& [what, expected] : faults) {
+    const StickRun run = faulty(what);
+    EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
+    EXPECT_EQ(run.ended.object, "Faulty") << what;
+    EXPECT_EQ(run.ended.method, "Notify") << what;
+    EXPECT_THAT(run.ended.what, HasSubstr(expected)) << what;
+    EXPECT_THAT(run.all(), HasSubstr(std::string("does ") + what)) << what;  // what it said before is not lost
+  }
+}
+
+TEST(Faults, DamagedMemoryNamesTheObject) {
+  for (const char* what : {"heap", "twice"}) {
+    const StickRun run = faulty(what);
+    EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
+    EXPECT_EQ(run.ended.object, "Faulty") << what << " " << run.ended.what;
+  }
+}
+
+TEST(Faults, AnEndlessLoopNamesObjectAndMethod) {
+  const StickRun run = faulty("loop");
+  EXPECT_EQ(run.ended.why, Ended::Why::endlessLoop);
+  EXPECT_EQ(run.ended.object, "Faulty");
+  EXPECT_EQ(run.ended.method, "Notify");
+}
+
+TEST(Faults, AbortAndAFailedAssertionEndTheMethodOnly) {
+  for (const char* what : {"abort", "assert"}) {
+    const StickRun run = faulty(what);
+    EXPECT_EQ(run.ended.why, Ended::Why::shutdown) << what;
+    EXPECT_THAT(run.all(), Not(HasSubstr("lives on"))) << what;
+  }
+}
+
+TEST(Faults, WhatTheOldCompilerLetPassRuns) {
+  EXPECT_THAT(faulty("forget").all(), HasSubstr("lives on"));
+  EXPECT_THAT(faulty("delete").all(), HasSubstr("delete 1\nFaulty: delete 0\nFaulty: lives on"));
+}
+
+TEST(Process, AStickWithoutAListIsRefused) {
+  RobotProcess::Options options;
+  options.stick = emptyFolder("no_list");
+  EXPECT_ANY_THROW(RobotProcess{options});
+}
+
+TEST(Process, WhatIsNoModuleIsLeftOut) {
+  const std::string stick = stickOf("names");
+  std::ofstream(stick + "/OPEN-R/MW/CONF/OBJECT.CFG", std::ios::app) << "/MS/OPEN-R/MW/OBJS/MIPS.BIN\n/MS/ABSENT.BIN\n";
+  writeText(stick + "/OPEN-R/MW/OBJS/MIPS.BIN", "this is no module");
+  const StickRun run = runStick(stick, 3);
+  EXPECT_THAT(run.all(), HasSubstr("MIPS.BIN is no module"));
+  EXPECT_THAT(run.all(), HasSubstr("/MS/ABSENT.BIN is not on the stick"));
+  EXPECT_THAT(run.all(), HasSubstr("named 1"));
+}
+
+TEST(Process, KilledFromOutsideItSaysSo) {
+  RobotProcess::Options options;
+  options.stick = stickOf("names");
+  RobotProcess program(options);
+  TrivialRobot robot(robotDesign("ERS-7"));
+  EXPECT_FALSE(program.exchange(robot.sense()).ended);
+  program.kill();
+  EXPECT_TRUE(program.exchange(robot.sense()).ended);
+}
+
+}  // namespace
+}  // namespace btr::openr

@@ -25,23 +25,25 @@ std::string notAnswered(const std::string& who, double seconds) {
   return who + " has not answered for " + toText(std::round(10 * seconds) / 10) + " s";
 }
 
-/// Tells of a controller that hangs, and ends the program when it hangs on: a thread of it cannot be taken from it. The
-/// log is complete up to the last act.
-std::unique_ptr<Watchdog> watchdogOf(const LiveArguments& arguments, bool json) {
-  const bool steered = arguments.steered;
-  const double patience_s = arguments.patience_s;
-  const auto hangs = [steered, patience_s](const std::string& who, double) {
+Watchdog::Teller tellsOfHanging(const LiveArguments& arguments) {
+  return [steered = arguments.steered, patience_s = arguments.patience_s](const std::string& who, double) {
     const std::string text = notAnswered(who, patience_s);
     std::fprintf(stderr, "%s\n", text.c_str());
     if (steered) tellLine({{"hangs", text}});
   };
+}
+
+/// Tells of a controller that hangs, and ends the program when it hangs on: a thread of it cannot be taken from it. The
+/// log is complete up to the last act.
+std::unique_ptr<Watchdog> watchdogOf(const LiveArguments& arguments, bool json) {
+  const bool steered = arguments.steered;
   const auto gaveUp = [steered, json](const std::string& who, double seconds) {
     const std::string text = notAnswered(who, seconds);
     std::fprintf(stderr, "the world stopped: %s\n", text.c_str());
     if (steered || json) tellLine({{"fault", text}});
     std::_Exit(badInput);
   };
-  return std::make_unique<Watchdog>(patience_s, hangs, gaveUp);
+  return std::make_unique<Watchdog>(arguments.patience_s, tellsOfHanging(arguments), gaveUp);
 }
 
 /// The periods of a session, its acts from a log, its rows for a file.
@@ -52,6 +54,10 @@ class LiveRun {
         json_(json),
         begun_(game),
         dog_(watchdogOf(arguments, json)),
+        programDog_(std::make_unique<Watchdog>(arguments.patience_s, tellsOfHanging(arguments),
+                                               [](const auto&, double) {
+                                                 // Its process is ended by whoever started it: the world goes on.
+                                               })),
         session_(std::move(game), host, dog_.get()) {
     if (!arguments.replay.empty()) {
       replayed_ = loadSessionLog(arguments.replay);
@@ -66,7 +72,7 @@ class LiveRun {
     for (const OpenrChoice& choice : arguments.sticks)
       session_.apply(ControllerAct{choice.robot, controllerOf(choice)});
     // What programs did stands in the log that is played again.
-    if (!replayed_) openr_ = std::make_unique<OpenrRobots>(session_);
+    if (!replayed_) openr_ = std::make_unique<OpenrRobots>(session_, programDog_.get());
     if (openr_ && arguments.strict)
       if (const std::vector<std::string> failures = openr_->failures(); !failures.empty())
         throw InputError(failures.front());
@@ -169,7 +175,7 @@ class LiveRun {
   const LiveArguments& arguments_;
   bool json_;
   Game begun_;
-  std::unique_ptr<Watchdog> dog_;
+  std::unique_ptr<Watchdog> dog_, programDog_;
   Session session_;
   std::optional<SessionLog> replayed_;
   std::unique_ptr<SessionLogWriter> written_;

@@ -33,7 +33,8 @@ class EyeProcesses final : public openr::RobotCameras {
 /// The OPEN-R programs of a running world's robots, each in a process of its own, with their cameras.
 class OpenrRobots {
  public:
-  explicit OpenrRobots(Session& session);
+  /// `dog`, which outlives it, sees whether programs answer.
+  explicit OpenrRobots(Session& session, Watchdog* dog = nullptr);
 
   /// Before each period.
   void step() { programs_.step(); }

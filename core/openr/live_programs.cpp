@@ -63,8 +63,8 @@ bool changesColumns(const Act& act) {
 
 }  // namespace
 
-LivePrograms::LivePrograms(Session& session, Starter start, RobotCameras* cameras)
-    : session_(session), start_(std::move(start)), cameras_(cameras) {
+LivePrograms::LivePrograms(Session& session, Starter start, RobotCameras* cameras, Watchdog* dog)
+    : session_(session), start_(std::move(start)), cameras_(cameras), dog_(dog) {
   for (const auto& [name, player] : session_.game().robots)
     if (player.hasStick()) this->start(name);
 }
@@ -178,7 +178,15 @@ void LivePrograms::step() {
   stale_ = false;
   std::vector<double> row;
   session_.sample(row);
-  for (auto& [name, robot] : robots_) take(name, robot, robot.program->exchange(frameOf(name, robot, row)));
+  for (auto& [name, robot] : robots_) {
+    const SensorFrame frame = frameOf(name, robot, row);
+    std::optional<OrderFrame> orders;
+    {
+      const Asked asked(dog_, name + "'s OPEN-R program");
+      orders = robot.program->exchange(frame);
+    }
+    take(name, robot, *orders);
+  }
   std::erase_if(robots_, [&](const auto& each) { return ended_[each.first].has_value(); });
 }
 

@@ -39,8 +39,8 @@ class LivePrograms {
   using Starter = std::function<std::unique_ptr<RunningProgram>(const std::string& folder, const RobotDesign& design)>;
 
   /// Starts the programs of the robots that have a stick. A program that cannot be started has ended with the reason.
-  /// Without cameras there are no images.
-  LivePrograms(Session& session, Starter start, RobotCameras* cameras = nullptr);
+  /// Without cameras there are no images. `dog` sees whether programs answer.
+  LivePrograms(Session& session, Starter start, RobotCameras* cameras = nullptr, Watchdog* dog = nullptr);
   ~LivePrograms();
 
   /// To be called before each period, after all other acts.
@@ -83,6 +83,7 @@ class LivePrograms {
   Session& session_;
   Starter start_;
   RobotCameras* cameras_;
+  Watchdog* dog_;
   std::map<std::string, Robot> robots_;  ///< whose program runs
   std::map<std::string, std::optional<Ended>> ended_;
   std::vector<Line> lines_;

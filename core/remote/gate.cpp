@@ -125,7 +125,7 @@ Gate::Caller Gate::admit(const std::string& peer, const std::string& authorizati
         throw Refusal(Code::tooMuch, "too many calls without a token that is known; wait a second");
       throw Refusal(Code::nobody, said ? "this token is not known" : "this server wants a token");
     }
-    caller = {entry->role, "token " + entry->name};
+    caller = {entry->role, "token " + entry->name, entry->name};
   }
   count(caller);
   if (caller.role < needed)

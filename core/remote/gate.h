@@ -60,7 +60,8 @@ class Gate {
 
   struct Caller {
     Role role;
-    std::string name;  ///< of its token; without tokens its address
+    std::string name;            ///< whose calls are counted together: a token's, or an address
+    std::string who = "remote";  ///< as it is stored: the token's name, if it has one
   };
   /// `peer` as gRPC names it, `authorization` the metadata of that name. Throws Refusal.
   Caller admit(const std::string& peer, const std::string& authorization, Role needed);

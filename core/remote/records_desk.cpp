@@ -33,6 +33,8 @@ void fill(const Database& db, const RunRecord& run, v1::Run& out) {
   out.set_reality(run.reality);
   out.set_message(messageNow(db, run));
   out.set_active(isRunActive(db.path(), run.id));
+  const bool measures = !db.measurementTasks(run.id, run.stage + 1).empty();
+  out.set_level(run.state == RunState::adapting ? "L3" : measures ? "L2" : "L1");
 }
 
 /// Those of the run's present measurement that are not settled, in the order to measure.
@@ -156,7 +158,7 @@ std::string RecordsDesk::measured(const v1::MeasuredRequest& request) {
   m.isVoid = request.is_void();
   m.note = request.note();
   m.source = run.reality;
-  m.who = "remote";
+  m.who = request.who();
   m.enteredAt = utcNow();
   std::vector<MeasurementRecord> all;
   for (const double value : request.values()) {

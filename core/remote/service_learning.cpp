@@ -17,7 +17,7 @@ void addVectors(const json& vectors, google::protobuf::RepeatedField<double>& ou
 }
 
 /// What a learner asks (plugins/learners/remote.cpp), for a client.
-void fill(const RunNews& news, const std::string& stateOfRun, v1::Question& out) {
+void fill(const RunNews& news, const std::string& levelOfRun, v1::Question& out) {
   const json asked = json::parse(news.question);
   out.set_what(v1::Question::VECTORS);
   out.set_number(news.number);
@@ -32,10 +32,10 @@ void fill(const RunNews& news, const std::string& stateOfRun, v1::Question& out)
     parts.set_integer(p.at("integer").get<bool>());
     for (const json& choice : p.at("choices")) parts.add_choices(choice.get<std::string>());
   }
-  // L3 looks for numbers of the simulator, L1 and L2 for those of a controller.
+  // L3, which may breed while L2 waits, looks for numbers of the simulator; L1 and L2 for those of a controller.
   const bool ofSimulator =
       out.parameters_size() > 0 && find(simulatorParameters(), out.parameters(0).name()) != nullptr;
-  out.set_level(ofSimulator ? "L3" : stateOfRun == "learning" ? "L1" : "L2");
+  out.set_level(ofSimulator ? "L3" : levelOfRun);
   out.set_population(asked.at("population").get<int>());
   const json& told = asked.at("told");
   out.set_vectors(static_cast<int>(told.at("vectors").size()));
@@ -149,15 +149,15 @@ grpc::Status LearningService::Stop(grpc::ServerContext* context, const v1::StopR
 }
 
 grpc::Status LearningService::Ask(grpc::ServerContext* context, const v1::AskRequest* request, v1::Question* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
-    const StreamPlace place(desks_);  // it waits as long as one
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+    const StreamPlace place(desks_, caller);  // it waits as long as one
     constexpr double longest_s = 30;
     const double wait_s = std::isfinite(request->wait_s()) ? std::clamp(request->wait_s(), 0.0, longest_s) : 0;
     const RunNews news =
         desks_.switchboard.runs().news(request->run(), wait_s, [&] { return context->IsCancelled() || desks_.ends; });
     if (news.what == RunNews::What::working) return;
     const v1::Run run = runOf(request->run());
-    if (news.what == RunNews::What::asks) return fill(news, run.state(), *reply);
+    if (news.what == RunNews::What::asks) return fill(news, run.level(), *reply);
     reply->set_message(news.message.empty() ? run.message() : news.message);
     if (run.state() == "finished")
       reply->set_what(v1::Question::FINISHED);
@@ -181,7 +181,11 @@ grpc::Status LearningService::Wanted(grpc::ServerContext* context, const v1::Mea
 
 grpc::Status LearningService::Measured(grpc::ServerContext* context, const v1::MeasuredRequest* request,
                                        v1::MeasuredReply* reply) {
-  return pass(context, Role::drive, Method::measured, *request, *reply);
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+    v1::MeasuredRequest from = *request;
+    from.set_who(caller.who);
+    take(desks_.switchboard.records(callOf(Method::measured, from.SerializeAsString())), *reply);
+  });
 }
 
 }  // namespace btr::remote

@@ -88,7 +88,7 @@ grpc::Status WorldsService::Get(grpc::ServerContext* context, const v1::GetReque
 grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchRequest* request,
                                   grpc::ServerWriter<v1::State>* writer) {
   return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_);
+    const StreamPlace place(desks_, caller);
     constexpr double slowest_hz = 0.1, fastest_hz = 1000;
     if (!(request->rate_hz() >= slowest_hz && request->rate_hz() <= fastest_hz))
       throw Refusal(Code::invalid, "rate_hz: " + std::to_string(request->rate_hz()) + " is not allowed; 0.1 to 1000");
@@ -117,8 +117,8 @@ grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchR
 
 grpc::Status WorldsService::Log(grpc::ServerContext* context, const v1::LogRequest* request,
                                 grpc::ServerWriter<v1::LogPart>* writer) {
-  return guarded(desks_, context, Role::watch, [&](const Gate::Caller&) {
-    const StreamPlace place(desks_);
+  return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
+    const StreamPlace place(desks_, caller);
     const Answer files = desks_.switchboard.world(request->world(), callOf(Method::logFiles, ""));
     if (files.code != Code::ok) throw Refusal(files.code, files.bytes);
     const GamesFolder& folder = desks_.switchboard.options().folder;
@@ -135,8 +135,8 @@ grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::Pict
 
 grpc::Status WorldsService::Pictures(grpc::ServerContext* context, const v1::PictureRequest* request,
                                      grpc::ServerWriter<v1::PictureReply>* writer) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
-    const StreamPlace place(desks_);
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+    const StreamPlace place(desks_, caller);
     constexpr auto often = std::chrono::milliseconds(2);
     v1::PictureRequest next = *request;
     v1::PictureReply reply;
@@ -172,7 +172,7 @@ grpc::Status WorldsService::Step(grpc::ServerContext* context, const v1::StepReq
 grpc::Status WorldsService::Steps(grpc::ServerContext* context,
                                   grpc::ServerReaderWriter<v1::State, v1::StepRequest>* stream) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_);
+    const StreamPlace place(desks_, caller);
     std::string world;
     v1::StepRequest request;
     v1::State state;
@@ -188,7 +188,7 @@ grpc::Status WorldsService::Steps(grpc::ServerContext* context,
 grpc::Status WorldsService::Poses(grpc::ServerContext* context, grpc::ServerReader<v1::PoseRequest>* reader,
                                   v1::PosesReply* reply) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_);
+    const StreamPlace place(desks_, caller);
     std::string world;
     v1::PoseRequest request;
     v1::PosesReply each;

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <map>
+#include <mutex>
 
 #include "core/remote/desk.h"
 #include "core/remote/server.h"
@@ -19,7 +21,8 @@ struct Desks {
   Switchboard& switchboard;
   Gate& gate;
   std::atomic<bool> isToEnd{false}, ends{false};
-  std::atomic<int> streams{0};
+  std::mutex streaming{};
+  std::map<std::string, int> streams{};  ///< open ones by caller
 };
 
 inline std::string metadataOf(const grpc::ServerContext& context, const char* key) {
@@ -55,21 +58,30 @@ void take(const Answer& answer, Message& message) {
   if (!message.ParseFromString(answer.bytes)) throw Refusal(Code::internal, "an answer that cannot be read");
 }
 
-/// A stream holds a thread: there may be only so many.
+/// A stream holds a thread: there may be only so many, and of one client half of them.
 class StreamPlace {
  public:
-  explicit StreamPlace(Desks& desks) : desks_(desks) {
-    if (++desks_.streams > desks_.options.mostStreams) {
-      --desks_.streams;
-      throw Refusal(Code::tooMuch, "too many streams at once");
-    }
+  StreamPlace(Desks& desks, const Gate::Caller& caller) : desks_(desks), name_(caller.name) {
+    const std::lock_guard lock(desks_.streaming);
+    int all = 0;
+    for (const auto& [name, count] : desks_.streams) all += count;
+    const int most = desks_.options.mostStreams;
+    const auto own = desks_.streams.find(name_);
+    if (all >= most || (own != desks_.streams.end() && own->second >= (most + 1) / 2))
+      throw Refusal(Code::tooMuch, "too many streams at once; " + std::to_string((most + 1) / 2) + " of one client, " +
+                                       std::to_string(most) + " of all");
+    ++desks_.streams[name_];
   }
-  ~StreamPlace() { --desks_.streams; }
+  ~StreamPlace() {
+    const std::lock_guard lock(desks_.streaming);
+    if (--desks_.streams[name_] == 0) desks_.streams.erase(name_);
+  }
   StreamPlace(const StreamPlace&) = delete;
   StreamPlace& operator=(const StreamPlace&) = delete;
 
  private:
   Desks& desks_;
+  const std::string name_;
 };
 
 class WorldsService final : public v1::Worlds::Service {

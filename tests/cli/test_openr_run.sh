@@ -63,6 +63,32 @@ says out "trace $sha"
 expect 0 "saved" "$btr" live "$folder/sticks.json" --seconds 1 --save "$folder/later.json"
 expect 0 "what was saved" "$btr" live "$folder/later.json" --seconds 0.1
 
+# A head that follows the ball that its camera sees: the same images every time; without OpenGL none, and that is said.
+if [ -x "$(dirname "$btr")/btr-camera" ]; then
+  mkdir "$folder/openr" "$folder/games"
+  cp -r "$root/resources/openr/BallHead" "$folder/openr"
+  ln -s "$root/resources/robots" "$folder/robots"
+  cp "$root/resources/games/ball-follower.json" "$folder/games"
+  expect 0 "build" "$btr" openr build "$folder/openr/BallHead" --out "$folder/openr/BallHead/MS"
+  expect 0 "a ball" "$btr" live "$folder/games/ball-follower.json" --seconds 1.2 --csv "$folder/ball.csv"
+  says out "red1 BallHead: there is the ball"
+  sha=$(sed -n 's/^trace //p' "$folder/out")
+  python3 - "$folder/ball.csv" <<'P' || failures=1
+import csv, math, sys
+last = list(csv.DictReader(open(sys.argv[1])))[-1]
+number = lambda name: float(last[name])
+neck = 0.0675  # ahead of the body's origin
+bearing = math.atan2(number("ball.y_m") - number("red1.base.y_m"), number("ball.x_m") - number("red1.base.x_m") - neck)
+assert abs(number("red1.HEAD_PAN.position_rad") - bearing) < 0.03, (number("red1.HEAD_PAN.position_rad"), bearing)
+P
+  expect 0 "the same ball" "$btr" live "$folder/games/ball-follower.json" --seconds 1.2
+  says out "$sha"
+  __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere expect 0 "blind" "$btr" live "$folder/games/ball-follower.json" --seconds 0.2
+  says out "red1: its camera gives no images"
+  says out "on 0 of 0 images"
+  says err "OpenGL"
+fi
+
 # What is wrong is said in one sentence.
 expect 1 "another period" "$btr" live "$folder/slow.json" --seconds 1
 says err "0.008"

@@ -82,6 +82,22 @@ TEST(DisagreeingTrials, ASlippedMarkerIsFoundAndHidesNothing) {
   EXPECT_EQ(marked, 1u);
 }
 
+TEST(DisagreeingTrials, AMarkerThatSlipsInTheMiddleIsTold) {
+  GapProblem problem = tenTrials();
+  Recording& slipped = problem.recordings[3];
+  const std::size_t from = slipped.rows() / 3;
+  for (std::size_t row = from; row < slipped.rows(); ++row) slipped.columns[2][row] += 0.05;
+  Recording& loose = problem.recordings[6];
+  const double begins = loose.columns[0][loose.rows() / 2], ends = loose.columns[0].back();
+  for (std::size_t row = loose.rows() / 2; row < loose.rows(); ++row)
+    loose.columns[2][row] -= 0.08 * (loose.columns[0][row] - begins) / (ends - begins);
+  const GapReport report = analysed(problem);
+  expectDryFriction(report);
+  ASSERT_THAT(setAside(report), ElementsAre("pendulum_3.csv", "pendulum_6.csv")) << toPlainText(report);
+  EXPECT_THAT(report.disagreements[0].what, HasSubstr("its rig.hinge.position_rad jumps up by 0.0"));
+  EXPECT_THAT(report.disagreements[1].what, HasSubstr("its rig.hinge.position_rad drifts down by 0.0"));
+}
+
 TEST(DisagreeingTrials, ThreeOfTenAreFound) {
   GapProblem problem = tenTrials();
   problem.recordings[1] = shortTrial(1, {.offset_rad = -0.15});

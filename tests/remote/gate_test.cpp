@@ -50,7 +50,7 @@ TEST_F(Tokens, GiveARoleThatMayDoWhatSmallerOnesMay) {
   EXPECT_EQ("admitted", said(gate, drive, Role::watch));
   EXPECT_EQ("admitted", said(gate, drive, Role::drive));
   EXPECT_THAT(said(gate, drive, Role::administrate), HasSubstr("needs the role administrate"));
-  EXPECT_EQ("token eye", gate.admit(peer, watch, Role::watch).name);
+  EXPECT_EQ("eye", gate.admit(peer, watch, Role::watch).who);
 }
 
 TEST_F(Tokens, ThatNobodyHasAreRefusedWhateverTheirLength) {

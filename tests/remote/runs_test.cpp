@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -163,6 +164,7 @@ TEST_F(RemoteRun, ALearnerAndARobotOutsideTakeARunToItsEnd) {
   EXPECT_EQ(3u, db.generations(run).size());
   EXPECT_EQ(3u, db.simulators(run).size());
   EXPECT_EQ("remote", db.measurements(run).front().source);
+  EXPECT_EQ("remote", db.measurements(run).front().who);
   EXPECT_EQ("by a test", db.measurements(run).front().note);
 }
 
@@ -268,6 +270,38 @@ TEST_F(RemoteRun, ALearnerOutsideAdaptsTheSimulatorToo) {
   EXPECT_THAT(tell(caller, run, question, {vectorsFor(question)[0]}).error_message(), HasSubstr("1 vectors"));
   EXPECT_TRUE(tell(caller, run, question, vectorsFor(question)).ok());
   EXPECT_EQ(v1::Question::FITNESS, ask(caller, run).what());
+}
+
+TEST_F(RemoteRun, ALearnerOutsideLearnsInRealityToo) {
+  begin();
+  const Caller caller(address);
+  const std::int64_t run = start(caller, experiment([](nlohmann::json& text) {
+                                   text["learner"] = {{"name", "ga"}, {"settings", {{"population", 4}}}};
+                                   text["reality_learning"] = {{"learner", {{"name", "remote"}}},
+                                                               {"settings", {{"iterations", 1}, {"repeats", 1}}}};
+                                 }));
+  const auto measureAll = [&] {
+    for (const v1::Task& task : tasksOf(caller, run))
+      EXPECT_TRUE(measured(caller, run, task.individual(), {0.1}, false, true).ok());
+    goOn(caller, run);
+  };
+  ASSERT_EQ(v1::Question::FITNESS, ask(caller, run).what());
+  measureAll();
+  const v1::Question question = ask(caller, run);
+  ASSERT_EQ(v1::Question::VECTORS, question.what()) << question.message();
+  EXPECT_EQ("L2", question.level());
+  EXPECT_EQ(25, question.start_size());
+  EXPECT_TRUE(tell(caller, run, question, vectorsFor(question)).ok());
+  ASSERT_EQ(v1::Question::FITNESS, ask(caller, run).what());
+  const std::vector<v1::Task> policies = tasksOf(caller, run);
+  ASSERT_EQ(3u, policies.size());
+  EXPECT_EQ(1, policies.front().iteration());
+  // They are measured in a drawn order; their numbers are in the learner's.
+  const v1::Task first = std::ranges::min(policies, {}, &v1::Task::individual);
+  EXPECT_TRUE(std::ranges::equal(first.parameters(), vectorsFor(question)[0]));
+  measureAll();
+  EXPECT_EQ(v1::Question::FITNESS, ask(caller, run).what());  // of the next stage
+  EXPECT_EQ(2, tasksOf(caller, run).front().stage());
 }
 
 TEST_F(RemoteRun, WithoutADatabaseRunsAreSaidNotToBeThere) {

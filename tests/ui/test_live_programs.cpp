@@ -1,11 +1,13 @@
 // Robots' own programs on the page of a running world: their lines, lamps and ends; a stick as a controller.
 #include <QComboBox>
+#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QProcess>
 #include <QPushButton>
 #include <QTableWidget>
+#include <QTemporaryDir>
 
 #include <cmath>
 
@@ -120,6 +122,25 @@ class TestLivePrograms : public QObject {
     QVERIFY(open.page.row().orders.at("dog").motorPower.value_or(false));
     open.page.world().act(ControllerAct{"dog", std::nullopt});
     QVERIFY(QTest::qWaitFor([&] { return open.page.row().orders.empty(); }, 10000));
+  }
+
+  /// A program or controller that hangs is named; that is no end of the session.
+  void whoHangsIsNamed() {
+    QTemporaryDir folder;
+    QFile program(folder.filePath("world"));
+    QVERIFY(program.open(QIODevice::WriteOnly));
+    program.write("#!/bin/sh\necho '{\"hangs\": \"red1 does not answer\"}'\nread line\n");
+    program.close();
+    program.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    LiveProcess process(program.fileName());
+    QStringList named, failed;
+    connect(&process, &LiveProcess::hangs, this, [&](const QString& who) { named << who; });
+    connect(&process, &LiveProcess::failed, this, [&](const QString& why) { failed << why; });
+    process.start("game.json", {});
+    QVERIFY(QTest::qWaitFor([&] { return !named.isEmpty(); }, 10000));
+    QCOMPARE(named, QStringList{"red1 does not answer"});
+    QVERIFY(process.isRunning());
+    QVERIFY2(failed.isEmpty(), qPrintable(failed.join('\n')));
   }
 
   /// Every lamp of the table of places sits on a link that the model has, and shines in its mode's colour.

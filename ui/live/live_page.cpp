@@ -122,6 +122,8 @@ void LivePage::connectWorld() {
     process_->askGame();  // what was refused did not change anything there
     showSelected();
   });
+  connect(process_, &LiveProcess::hangs, banner_,
+          [this](const QString& who) { banner_->showMessage(MessageBanner::Kind::warning, who); });
   connect(process_, &LiveProcess::saved, this, [this](const QString& path) {
     banner_->showMessage(MessageBanner::Kind::information, tr("Saved: %1").arg(path));
   });

@@ -134,6 +134,8 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("samples")) tellSamples(line);
     if (line.contains("row")) return emit rowTold(liveRowFrom(line));
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
+    if (line.contains("hangs")) return emit hangs(wordsOf(line.at("hangs")));
+    if (line.contains("fault")) return;  // why it ends; its last words on standard error say it, too
     if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
     if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));

@@ -66,6 +66,8 @@ class LiveProcess : public QObject {
   /// The names of what would be undone and redone; empty: nothing.
   void undoTold(const QString& undo, const QString& redo);
   void refused(const QString& why);
+  /// Somebody does not answer; the world waits for him.
+  void hangs(const QString& who);
   void saved(const QString& path);
   /// It ended by itself: why.
   void failed(const QString& why);

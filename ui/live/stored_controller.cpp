@@ -11,7 +11,8 @@ GameController storedController(const RunRecord& run, const IndividualRecord& in
   const PluginChoice choice = experimentFromJson(run.specJson, place, "").controller;
   const auto plugin = host.controller(choice.name);
   if (!plugin->paths().empty())
-    throw InputError(place, "the controller " + choice.name, "one that needs no file; give the robot its stick instead");
+    throw InputError(place, "the controller " + choice.name,
+                     "one that needs no file; give the robot its stick instead");
   const std::vector<Parameter> genotype = plugin->genotype();
   if (genotype.size() != individual.parameters.size())
     throw InputError(place + " individual " + std::to_string(individual.id),

@@ -98,7 +98,8 @@ class QtContext final : public GlContext {
 
 std::unique_ptr<GlContext> createGlContext(QString& problem) {
   if (auto egl = createEgl(problem)) return egl;
-  if (qGuiApp) {
+  // (qGuiApp is not null either where there is no window system.)
+  if (qobject_cast<QGuiApplication*>(QCoreApplication::instance())) {
     auto context = std::make_unique<QtContext>();
     if (context->create()) return context;
     problem += "; Qt's platform \"" + QGuiApplication::platformName() + "\" makes no OpenGL context either";

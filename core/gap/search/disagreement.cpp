@@ -420,7 +420,7 @@ GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size
   auto best = odd.byNumber();
   if (const auto offset = odd.byOffset(ready); offset && (!best || offset->error < best->error)) best = offset;
   if (!best || best->error > enough)
-    if (const auto slip = findSlip(recording, problem.trials[trial], others, limits.iterations, ready))
+    if (const auto slip = findSlip(recording, others, limits.iterations, ready))
       if (!best || slip->error < best->error) best = Explanation{inWords(*slip), slip->error};
   const Explanation own = odd.byAllNumbers();
   told.errorAlone = std::sqrt(own.error);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/gap/fit/segments.h"
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/linearise.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/search/disagreement.h"
 #include "core/spec/figures.h"
@@ -11,80 +12,99 @@
 namespace btr {
 namespace {
 
-/// One channel of one trial, with a slip taken out of it.
-class SlippedChannel {
- public:
-  SlippedChannel(const Recording& recording, std::size_t column, double size, const FitModel& model, int iterations,
-                 const std::function<FitProblem(const std::vector<Recording>&)>& ready)
-      : recording_(recording), column_(column), size_(size), model_(model), iterations_(iterations), ready_(ready) {}
-
-  struct Try {
-    double by = 0, error = INFINITY;
-  };
-  double error(bool drifts, std::size_t row, double by) const {
-    Recording moved = recording_;
-    const std::vector<double>& time = recording_.columns[0];
-    for (std::size_t i = row; i < moved.rows(); ++i)
-      moved.columns[column_][i] -= by * (drifts ? (time[i] - time[row]) / (time.back() - time[row]) : 1);
-    return errorsByTrial(ready_({std::move(moved)}), model_, iterations_)[0];
-  }
-  /// The lowest point of the parabola through three sizes.
-  Try best(bool drifts, std::size_t row, double without) const {
-    const double up = error(drifts, row, size_), down = error(drifts, row, -size_);
-    const double bend = up + down - 2 * without;
-    if (!(bend > 0)) return {};
-    return {size_ * (down - up) / (2 * bend), without - (down - up) * (down - up) / (8 * bend)};
-  }
-
- private:
-  const Recording& recording_;
-  std::size_t column_;
-  double size_;
-  const FitModel& model_;
-  int iterations_;
-  const std::function<FitProblem(const std::vector<Recording>&)>& ready_;
+/// When, in which channel and how a trial's measuring may have gone wrong.
+struct Kind {
+  std::size_t channel = 0, row = 0;
+  bool drifts = false;
+  bool operator==(const Kind&) const = default;
 };
+
+/// How far along the wrong measuring is in a row: 0 before, at the end 1.
+double shareAt(const Kind& kind, const std::vector<double>& time, std::size_t row) {
+  if (row < kind.row) return 0;
+  return kind.drifts ? (time[row] - time[kind.row]) / (time.back() - time[kind.row]) : 1;
+}
+
+bool isPlace(Binding::Measured::What what) {
+  using What = Binding::Measured::What;
+  return what == What::position || what == What::ballPosition || what == What::basePosition;
+}
+
+/// A trial as it would have been recorded without a slip of this kind and size.
+Recording without(const Recording& recording, std::size_t column, const Kind& kind, double by) {
+  Recording moved = recording;
+  for (std::size_t row = kind.row; row < moved.rows(); ++row)
+    moved.columns[column][row] -= by * shareAt(kind, recording.columns[0], row);
+  return moved;
+}
+
+/// What one more unit of a slip taken away changes in the residuals, what the initial states follow taken out.
+Eigen::VectorXd columnOf(const FitProblem& problem, const Linearised& linear, const Kind& kind) {
+  const FitTrial& trial = problem.trials[0];
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(linear.residuals.size());
+  Eigen::Index at = 0;
+  for (const Segment& segment : problem.segments)
+    for (std::size_t k = 0; k < segment.row.size(); ++k, ++at)
+      if (segment.channel[k] == kind.channel)
+        column[at] = shareAt(kind, trial.recording.columns[0], segment.row[k]) / trial.noiseFloor[kind.channel];
+  return linear.profile(problem, column);
+}
+
+struct Best {
+  Kind kind;
+  double by = 0, gain = 0;
+};
+
+/// The kind and size of slip that lowers the squares of `residuals` most, to first order.
+Best bestSlip(const FitProblem& problem, const Linearised& linear, const Eigen::VectorXd& residuals) {
+  constexpr double tells = 1e-6;  // a column that the initial states follow altogether
+  Best best;
+  const FitTrial& trial = problem.trials[0];
+  for (std::size_t c = 0; c < trial.binding.measured.size(); ++c) {
+    if (trial.noiseFloor[c] <= 0 || !isPlace(trial.binding.measured[c].what)) continue;
+    for (std::size_t row = 1; row + 1 < trial.recording.rows(); ++row)
+      for (const bool drifts : {false, true}) {
+        const Kind kind{c, row, drifts};
+        const Eigen::VectorXd column = columnOf(problem, linear, kind);
+        const double square = column.squaredNorm(), along = column.dot(residuals);
+        if (square < tells || along * along / square <= best.gain) continue;
+        best = {kind, -along / square, along * along / square};
+      }
+  }
+  return best;
+}
 
 }  // namespace
 
-std::optional<Slip> findSlip(const Recording& recording, const FitTrial& trial, const FitModel& model, int iterations,
+std::optional<Slip> findSlip(const Recording& recording, const FitModel& model, int iterations,
                              const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
-  constexpr std::size_t moments = 7;
-  constexpr double triedFloors = 20;
-  const std::size_t rows = recording.rows();
-  if (rows < 2 * moments) return std::nullopt;
-  const double without = errorsByTrial(ready({recording}), model, iterations)[0];
-  std::optional<Slip> found;
-  for (std::size_t c = 0; c < trial.binding.measured.size(); ++c) {
-    using What = Binding::Measured::What;
-    const Binding::Measured& measured = trial.binding.measured[c];
-    if (trial.noiseFloor[c] <= 0) continue;
-    if (measured.what != What::position && measured.what != What::ballPosition && measured.what != What::basePosition)
-      continue;
-    const SlippedChannel channel(recording, measured.column, triedFloors * trial.noiseFloor[c], model, iterations,
-                                 ready);
-    for (const bool drifts : {false, true}) {
-      std::size_t row = 0;
-      SlippedChannel::Try best;
-      const auto attempt = [&](std::size_t at) {
-        const SlippedChannel::Try tried = channel.best(drifts, at, without);
-        if (tried.error >= best.error) return;
-        best = tried;
-        row = at;
-      };
-      for (std::size_t k = 1; k < moments; ++k) attempt(k * rows / moments);
-      if (!(best.error < without)) continue;
-      for (std::size_t step = rows / moments / 2; step > 0; step /= 2) {
-        const std::size_t middle = row;
-        if (middle > step) attempt(middle - step);
-        if (middle + step + 1 < rows) attempt(middle + step);
-      }
-      const double error = channel.error(drifts, row, best.by);
-      if (error < without && (!found || error < found->error))
-        found = Slip{recording.channels[measured.column], drifts, recording.columns[0][row], best.by, error};
-    }
+  constexpr int rounds = 6;
+  constexpr double settled = 0.01;
+  Best slip;
+  Recording moved = recording;
+  double error = INFINITY, before = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const FitProblem problem = ready({moved});
+    const Fit fit = fitModel(problem, model, {}, {.iterations = iterations, .startsOnly = true});
+    const Linearised linear = linearise(problem, fit);
+    error = linear.residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, linear.residuals.size()));
+    if (round == 0) before = error;
+    // The residuals that the slip so far would leave if it were still there.
+    Eigen::VectorXd residuals = linear.profiled;
+    if (round > 0) residuals -= slip.by * columnOf(problem, linear, slip.kind);
+    const Best next = bestSlip(problem, linear, residuals);
+    if (next.gain == 0) break;
+    const bool same = next.kind == slip.kind && std::abs(next.by - slip.by) <= settled * std::abs(next.by);
+    if (round > 0 && same) break;
+    slip = next;
+    const auto column = problem.trials[0].binding.measured[slip.kind.channel].column;
+    moved = without(recording, column, slip.kind, slip.by);
+    if (round + 1 == rounds) error = errorsByTrial(ready({moved}), model, iterations)[0];
   }
-  return found;
+  if (slip.gain == 0 || !(error < before)) return std::nullopt;
+  const FitProblem problem = ready({recording});
+  const std::string& channel = recording.channels[problem.trials[0].binding.measured[slip.kind.channel].column];
+  return Slip{channel, slip.kind.drifts, recording.columns[0][slip.kind.row], slip.by, error};
 }
 
 std::string inWords(const Slip& slip) {

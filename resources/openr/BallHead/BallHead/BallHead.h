@@ -2,11 +2,11 @@
 #ifndef BALLHEAD_H
 #define BALLHEAD_H
 
+#include <OPENR/ODataFormats.h>
 #include <OPENR/OObject.h>
+#include <OPENR/OObserver.h>
 #include <OPENR/OPENRAPI.h>
 #include <OPENR/OSubject.h>
-#include <OPENR/OObserver.h>
-#include <OPENR/ODataFormats.h>
 
 #include "def.h"
 

@@ -29,8 +29,8 @@ OStatus PanPath::DoStart(const OSystemEvent&) {
   OPENR::SetMotorPower(opowerON);
   OPENR::EnableJointGain(pan);
   OPENR::SetJointGain(pan, (word)(p + 0.5), (word)(i + 0.5), (word)(d + 0.5), 0x0e, 0x02, 0x0f);
-  OSYSPRINT(("pan gains %d %d %d, %d ms ahead\n", (int)(p + 0.5), (int)(i + 0.5), (int)(d + 0.5),
-             (int)(1000 * ahead_s)));
+  OSYSPRINT(
+      ("pan gains %d %d %d, %d ms ahead\n", (int)(p + 0.5), (int)(i + 0.5), (int)(d + 0.5), (int)(1000 * ahead_s)));
   ENABLE_ALL_SUBJECT;
   ASSERT_READY_TO_ALL_OBSERVER;
   return oSUCCESS;

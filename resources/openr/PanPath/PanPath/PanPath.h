@@ -2,11 +2,11 @@
 #ifndef PANPATH_H
 #define PANPATH_H
 
+#include <OPENR/ODataFormats.h>
 #include <OPENR/OObject.h>
+#include <OPENR/OObserver.h>
 #include <OPENR/OPENRAPI.h>
 #include <OPENR/OSubject.h>
-#include <OPENR/OObserver.h>
-#include <OPENR/ODataFormats.h>
 
 #include "def.h"
 
@@ -35,9 +35,9 @@ class PanPath : public OObject {
 
   OPrimitiveID pan;
   RCRegion* region[regions];
-  double p, i, d;        // as OPEN-R counts them
-  double ahead_s;        // the joint is told where the path will be so much later
-  long frame;            // the next one
+  double p, i, d;  // as OPEN-R counts them
+  double ahead_s;  // the joint is told where the path will be so much later
+  long frame;      // the next one
 };
 
 #endif

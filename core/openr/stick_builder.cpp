@@ -103,7 +103,14 @@ bool isSource(const fs::path& path) {
   return end == ".cc" || end == ".cpp" || end == ".cxx" || end == ".C" || end == ".c";
 }
 
+/// Whether a Makefile makes a library that objects are linked with.
+bool makesLibrary(const fs::path& makefile) {
+  const std::string text = content(makefile);
+  return text.find("mipsel-linux-ar") != std::string::npos && text.find(".a") != std::string::npos;
+}
+
 struct Found {
+  std::vector<fs::path> libraries;             ///< folders whose Makefile makes one
   std::vector<fs::path> withMakefile, byHand;  ///< folders of objects
   std::vector<fs::path> sticks;                ///< MS folders
 };
@@ -126,10 +133,14 @@ Found findObjects(const fs::path& root) {
       }
       continue;
     }
-    if (isMakefile(path) && makesModule(path)) found.withMakefile.push_back(path.parent_path());
+    if (isMakefile(path) && makesModule(path))
+      found.withMakefile.push_back(path.parent_path());
+    else if (isMakefile(path) && makesLibrary(path))
+      found.libraries.push_back(path.parent_path());
     if (name == "stub.cfg" || path.extension() == ".ocf" || endsWith(name, "Stub.cc"))
       sources.insert(path.parent_path());
   }
+  std::sort(found.libraries.begin(), found.libraries.end());
   std::sort(found.withMakefile.begin(), found.withMakefile.end());
   std::sort(found.sticks.begin(), found.sticks.end());
   for (const fs::path& folder : sources) {
@@ -264,8 +275,12 @@ class StickBuilder {
     const auto name = [&](const fs::path& path) {
       return (fs::path(folder) / path.lexically_relative(copy)).lexically_normal().string();
     };
+    std::string said;  // of libraries: what is missing in the end is said where it is missing
+    for (const fs::path& each : found.libraries) make(each, stick, work.path / "sdk", "", said);
+    const std::size_t firstObject = result_.objects.size();
     for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), stick, work.path / "sdk");
     for (const fs::path& each : found.byHand) byHand(each, name(each), stick, work.path / "sdk");
+    byWholeMakefile(copy, stick, work.path / "sdk", firstObject);
     if (!fs::exists(stick / configFolder / "OBJECT.CFG")) {
       std::string list;
       for (const std::string& module : modulesOn(stick)) list += "/MS/" + modulesFolder + "/" + module + "\n";
@@ -294,14 +309,37 @@ class StickBuilder {
     }
   }
 
+  void make(const fs::path& folder, const fs::path& stick, const fs::path& sdk, const std::string& target,
+            std::string& said) {
+    run(folder,
+        "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B OPENRSDK_ROOT=" +
+            shellWord(sdk.string()) + " INSTALLDIR=" + shellWord(stick.string()) + " " + target,
+        said);
+  }
+
+  /// What single folders did not give, as the sample's own Makefile makes it all.
+  void byWholeMakefile(const fs::path& copy, const fs::path& stick, const fs::path& sdk, std::size_t firstObject) {
+    std::vector<StickBuild::Object*> missing;
+    for (std::size_t i = firstObject; i < result_.objects.size(); ++i)
+      if (result_.objects[i].modules.empty()) missing.push_back(&result_.objects[i]);
+    if (missing.empty() || !fs::exists(copy / "Makefile")) return;
+    // It would go on to neighbours: those are the originals.
+    for (const fs::path& neighbours : {copy.parent_path(), copy.parent_path().parent_path()})
+      for (const auto& entry : fs::directory_iterator(neighbours))
+        if (entry.is_symlink()) fs::remove(entry.path());
+    const auto before = modulesOn(stick);
+    std::string said;
+    make(copy, stick, sdk, "install", said);
+    std::size_t next = 0;
+    for (const std::string& module : modulesOn(stick))
+      if (before.count(module) == 0 && next < missing.size()) missing[next++]->modules.push_back(module);
+  }
+
   void byMakefile(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
     if (options_.progress) options_.progress(name);
     StickBuild::Object object{name, {}, {}};
     const auto before = modulesOn(stick);
-    run(folder,
-        "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B OPENRSDK_ROOT=" +
-            shellWord(sdk.string()) + " INSTALLDIR=" + shellWord(stick.string()) + " install",
-        object.said);
+    make(folder, stick, sdk, "install", object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
     // A Makefile that builds the JPEG library from its sources first: this computer has one.

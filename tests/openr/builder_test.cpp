@@ -153,6 +153,10 @@ TEST(StickBuilder, TwoFoldersOntoOneStick) {
       std::filesystem::exists(SOURCE_DIR "/tests/openr/programs/talk/Sink/def.h"));  // sources stay as they are
 }
 
+TEST(StickBuilder, FollowsMakefilesAndTheirLibraries) {
+  EXPECT_THAT(runStick(stickOf("ruled"), 3).all(), HasSubstr("Ruled: the answer is 42, by rule 3\n"));
+}
+
 TEST(StickBuilder, SaysWhatTheCompilerSays) {
   const std::string folder = emptyFolder("wrong");
   std::filesystem::create_directories(folder + "/Thing");

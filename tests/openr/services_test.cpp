@@ -1,6 +1,8 @@
 // The robot's services, each by a program of our own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -212,6 +214,18 @@ TEST(Faults, AbortAndAFailedAssertionEndTheMethodOnly) {
 TEST(Faults, WhatTheOldCompilerLetPassRuns) {
   EXPECT_THAT(faulty("forget").all(), HasSubstr("lives on"));
   EXPECT_THAT(faulty("delete").all(), HasSubstr("delete 1\nFaulty: delete 0\nFaulty: lives on"));
+}
+
+TEST(Process, EvenWithoutTheCLibraryNothingOutsideTheStickIsWritten) {
+  constexpr long versionOnly = 1;
+  if (syscall(SYS_landlock_create_ruleset, nullptr, 0, versionOnly) < 1) GTEST_SKIP() << "this kernel has no Landlock";
+  const std::string stick = stickOf("faulty"), outside = emptyFolder("escape") + "/file";
+  writeText(stick + "/ESCAPE.TXT", outside);
+  const StickRun run = runStick(stick, 30, [](int frame, TrivialRobot& robot) {
+    if (frame == 5) robot.typed = "escape\n";
+  });
+  EXPECT_THAT(run.all(), HasSubstr("outside 0 program 0\n"));
+  EXPECT_FALSE(std::filesystem::exists(outside));
 }
 
 TEST(Process, AStickWithoutAListIsRefused) {

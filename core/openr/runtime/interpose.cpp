@@ -178,21 +178,21 @@ int execve(const char* path, char* const arguments[], char* const environment[])
 
 // ---- ends -------------------------------------------------------------------------------------------------------
 
-[[noreturn]] void exit(int status) {
+void exit(int status) {
   static const auto real = own<void (*)(int)>("exit");
   if (inMethod()) System::instance().endMethod();
   real(status);
   __builtin_unreachable();
 }
 
-[[noreturn]] void _exit(int status) {
+void _exit(int status) {
   static const auto real = own<void (*)(int)>("_exit");
   if (inMethod()) System::instance().endMethod();
   real(status);
   __builtin_unreachable();
 }
 
-[[noreturn]] void abort() {
+void abort() {
   static const auto real = own<void (*)()>("abort");
   if (inMethod()) System::instance().endMethod();
   real();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/openr/link_stream.h"
+#include "core/openr/runtime/confine.h"
 #include "core/openr/runtime/console.h"
 #include "core/openr/runtime/faults.h"
 #include "core/openr/runtime/system.h"
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
   fixAddresses(argv);
   quietPlace();
   fcntl(arguments.link, F_SETFD, FD_CLOEXEC);
+  confine(arguments.stick);
   System* system = nullptr;
   try {
     system = new System(robotDesign(arguments.design), arguments.stick);  // never deleted: modules live as long as we

@@ -25,7 +25,7 @@ typedef long long int64;
 typedef unsigned long long uint64;
 
 typedef bool Boolean;
-typedef bool boolean;
+typedef int boolean;  // as the JPEG library has it
 
 typedef longword Selector;
 typedef unsigned int MemoryRegionID;

@@ -1,4 +1,4 @@
-/* The JPEG library of this computer for programs that bring a jpeg_mem_dest() of their own and have a type "boolean".
+/* The JPEG library of this computer for programs that bring a jpeg_mem_dest() of their own.
  */
 #ifndef BTR_OPENR_JPEGLIB_H
 #define BTR_OPENR_JPEGLIB_H
@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#define boolean btr_openr_jpeg_boolean
 #define jpeg_mem_dest btr_openr_jpeg_mem_dest
 #ifdef __cplusplus
 extern "C" {
@@ -16,6 +15,5 @@ extern "C" {
 }
 #endif
 #undef jpeg_mem_dest
-#undef boolean
 
 #endif

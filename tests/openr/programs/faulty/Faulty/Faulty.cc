@@ -5,7 +5,10 @@
 #include <OPENR/core_macro.h>
 #include <apsys.h>
 #include <assert.h>
+#include <fcntl.h>
 #include <math.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <stdexcept>
 
@@ -94,6 +97,15 @@ void Faulty::Notify(const ONotifyEvent& event) {
     NewSharedMemoryRegion(100, &memory);
     memset(memory, 1, 100);
     OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
+  }
+  if (strcmp(line, "escape") == 0) {
+    char path[200];
+    FILE* in = fopen("/MS/ESCAPE.TXT", "r");
+    fgets(path, sizeof(path), in);
+    const int out = syscall(SYS_open, path, O_CREAT | O_WRONLY, 0666);
+    char* const arguments[] = {(char*)"sh", 0};
+    const int ran = syscall(SYS_execve, "/bin/sh", arguments, arguments);
+    OSYSPRINT(("outside %d program %d\n", out >= 0, ran >= 0));
   }
   OSYSPRINT(("lives on\n"));
   observer[event.ObsIndex()]->AssertReady();

@@ -1,0 +1,2 @@
+/* C of old. */
+int answer() { return 42; }

@@ -23,6 +23,8 @@
 #include "ui/controllers/draft_controller.h"
 #include "ui/controllers/replay_controller.h"
 #include "ui/controllers/run_controller.h"
+#include "ui/remote/interface_dialog.h"
+#include "ui/remote/interface_server.h"
 #include "ui/window/dock_layout.h"
 #include "ui/window/shortcuts_dialog.h"
 #include "ui/window/window_pages.h"
@@ -72,6 +74,7 @@ class Menus final : public QObject {
   void openDatabase();
   void newDatabase();
   void makeRun();
+  void openInterface();
   void makeView();
   void makeLooks();
   void addPage(const char* name, const QString& page, const QString& icon, const QString& text,
@@ -83,6 +86,7 @@ class Menus final : public QObject {
   MenuTargets to_;
   MenuPlaces places_;
   Workbench& bench_;
+  InterfaceServer* interface_ = nullptr;
   QMenu *recent_ = nullptr, *view_ = nullptr;
   QList<QAction*> files_, pages_;  ///< of the tool bar
 };
@@ -181,6 +185,8 @@ void Menus::makeRun() {
   byItself->setChecked(bench_.settings().flag("continueWhenMeasured", true));
   connect(byItself, &QAction::toggled, this,
           [this](bool on) { bench_.settings().setFlag("continueWhenMeasured", on); });
+  menu->addSeparator();
+  add(menu, "openInterface", "network-server", tr("&Open interface…"), {}, [this] { openInterface(); });
   connect(menu, &QMenu::aboutToShow, this, [this, go, copy] {
     const Id run = bench_.run().id;
     go->setEnabled(run != 0 && bench_.watcher().activeRuns().count(run) == 0);
@@ -189,6 +195,15 @@ void Menus::makeRun() {
   connect(menu, &QMenu::aboutToHide, this, [go, copy] {
     for (QAction* action : {go, copy}) action->setEnabled(true);
   });
+}
+
+// Off until it is asked for; then it stays on while the window is open, whether its dialog is or not.
+void Menus::openInterface() {
+  if (!interface_) interface_ = new InterfaceServer({}, this);
+  auto* dialog = new InterfaceDialog(
+      *interface_, [this] { return bench_.path(); }, &to_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
 }
 
 void Menus::makeView() {

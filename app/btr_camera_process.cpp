@@ -41,6 +41,7 @@ struct Pipe {
 CameraProcess::CameraProcess(std::vector<std::string> words, bool answers) {
   words.insert(words.begin(), cameraProgram());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Parameter parameterFrom(JsonReader reader) {
+Parameter parameterFrom(JsonReader& reader) {
   constexpr double most = 1e12;
   Parameter parameter;
   parameter.name = reader.text("name");

@@ -69,6 +69,23 @@ TEST(Repeated, AShortTrialShowsItToo) {
   }
 }
 
+TEST(Repeated, SlowMotionInCoarseCountsShowsItToo) {
+  for (const int every : {2, 3, 4}) {
+    // Counts so coarse that one lasts for many rows.
+    Recording trial = readEvery4ms(0.004 * every, 0.02, 0.001, 5);
+    emptyRepeated(trial);
+    EXPECT_EQ(kept(trial), 1500u / static_cast<unsigned>(every)) << every;
+  }
+}
+
+TEST(Repeated, CoarseCountsOfASensorThatMeasuresInEveryRowAreKept) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Recording trial = readEvery4ms(0.004, 0.02, 0.001, seed);
+    emptyRepeated(trial);
+    EXPECT_EQ(kept(trial), 1500u) << seed;
+  }
+}
+
 TEST(Repeated, AFewEqualReadingsOfAShortTrialAreChance) {
   Recording trial = readEvery4ms(0.004, 0, 0.001, 4);
   for (auto& column : trial.columns) column = {column.begin() + 300, column.begin() + 360};

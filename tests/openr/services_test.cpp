@@ -160,6 +160,7 @@ TEST(Net, TcpAndUdpBetweenTwoObjects) {
   EXPECT_THAT(all, HasSubstr("own memory 1\n"));
   EXPECT_THAT(all, HasSubstr("server: 9 bytes\n"));
   EXPECT_THAT(all, HasSubstr("client: over TCP, 9 bytes\n"));
+  EXPECT_THAT(all, HasSubstr("nobody 1\n"));
   EXPECT_THAT(all, HasSubstr("server: closed 1\n"));
   EXPECT_THAT(all, HasSubstr("client: over UDP from port 54322\n"));
 }

@@ -14,13 +14,14 @@ namespace {
 
 constexpr double withoutAnything = 1e-6;  // [the channel's unit]
 
-/// Root mean square of the speed over ten samples, by their numbers: stamps may be off.
-double usualSpeed(const std::vector<double>& values, double period_s) {
-  constexpr std::size_t over = 10;
+/// Root mean square of the speed over a few samples, by their numbers: stamps may be off. What `noise` makes of it is
+/// taken out.
+double usualSpeed(const std::vector<double>& values, double noise, double period_s) {
+  constexpr std::size_t over = 3;
   double squares = 0, count = 0;
-  for (std::size_t i = over; i < values.size(); ++i, ++count)
-    squares += std::pow((values[i] - values[i - over]) / (static_cast<double>(over) * period_s), 2);
-  return count > 0 ? std::sqrt(squares / count) : 0;
+  for (std::size_t i = over; i < values.size(); ++i, ++count) squares += std::pow(values[i] - values[i - over], 2);
+  if (count == 0) return 0;
+  return std::sqrt(std::max(0.0, squares / count - 2 * noise * noise)) / (static_cast<double>(over) * period_s);
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   if (followsRowsNotStamps(floor)) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-    floor.ofTime = usualSpeed(values, median(std::move(steps))) * noiseFloor(time);
+    floor.ofTime = usualSpeed(values, std::max(floor.byRows, rounding), median(std::move(steps))) * noiseFloor(time);
     floor.level = std::max(floor.level, std::hypot(std::max(floor.byRows, rounding), floor.ofTime));
   }
   const double digit = column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;

@@ -50,6 +50,21 @@ Runs runsOf(const Recording& trial, const Columns& columns) {
   return runs;
 }
 
+/// A sensor whose readings change in every n-th row only, and never between, measures in those; 1: none such. Shows
+/// itself in slow motion as well, where a count lasts for many rows.
+std::size_t rhythmOfChanges(const Runs& runs) {
+  constexpr std::size_t longest = 10, enough = 15;
+  constexpr double nearlyAll = 0.98;
+  if (runs.first.size() < enough + 1) return 1;
+  for (std::size_t rhythm = longest; rhythm > 1; --rhythm) {
+    std::vector<std::size_t> inPhase(rhythm, 0);
+    for (std::size_t run = 1; run < runs.first.size(); ++run) ++inPhase[runs.first[run] % rhythm];
+    const double changes = static_cast<double>(runs.first.size() - 1);
+    if (static_cast<double>(*std::ranges::max_element(inPhase)) >= nearlyAll * changes) return rhythm;
+  }
+  return 1;
+}
+
 /// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
 std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Runs& runs) {
   // A few runs are enough where all of them are held: noise alone never repeats in all columns at once.
@@ -88,7 +103,7 @@ void emptyRepeated(Recording& trial) {
   const std::size_t rows = trial.rows();
   for (const auto& [sensor, columns] : sensorsOf(trial)) {
     const Runs runs = runsOf(trial, columns);
-    const std::size_t each = readingsPerMeasurement(trial, columns, runs);
+    const std::size_t each = std::max(readingsPerMeasurement(trial, columns, runs), rhythmOfChanges(runs));
     if (each < 2) continue;
     std::size_t emptied = 0;
     for (std::size_t run = 0; run < runs.first.size(); ++run)

@@ -226,6 +226,20 @@ char* gets(char* line) {
   return line;
 }
 
+ssize_t read(int file, void* to, size_t size) {
+  static const auto real = own<ssize_t (*)(int, void*, size_t)>("read");
+  if (file != STDIN_FILENO || !inMethod()) return real(file, to, size);
+  return static_cast<ssize_t>(System::instance().readTyped(static_cast<char*>(to), size));
+}
+
+ssize_t write(int file, const void* from, size_t size) {
+  static const auto real = own<ssize_t (*)(int, const void*, size_t)>("write");
+  if ((file != STDOUT_FILENO && file != STDERR_FILENO) || !inMethod()) return real(file, from, size);
+  System& system = System::instance();
+  system.write(system.current(), static_cast<const char*>(from), size);
+  return static_cast<ssize_t>(size);
+}
+
 // ---- time -------------------------------------------------------------------------------------------------------
 
 time_t time(time_t* to) noexcept {

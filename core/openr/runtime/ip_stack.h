@@ -52,6 +52,7 @@ class IpStack {
   void dns(antEnvMsg* message);
   bool isShared(const void* address, int size) const;
   Listener* listener(Port port);
+  static void beginConnect(Endpoint& endpoint, Port actual);
   int bindDatagram(Endpoint& endpoint, Port port);
   Port actualOf(Port port, bool tcp) const;
   void tell(const char* kind, Port port, Port actual);

@@ -54,7 +54,10 @@ void fixAddresses(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
-void quietPlace() {
+/// Nothing of the simulator's reaches the program: no other file, no variable of its environment.
+void quietPlace(int link) {
+  close_range(static_cast<unsigned>(link) + 1, ~0u, 0);
+  clearenv();
   setenv("TZ", "UTC", 1);
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) dup2(nothing, standard);
@@ -82,7 +85,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   fixAddresses(argv);
-  quietPlace();
+  quietPlace(arguments.link);
   fcntl(arguments.link, F_SETFD, FD_CLOEXEC);
   confine(arguments.stick);
   System* system = nullptr;

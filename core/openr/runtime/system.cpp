@@ -1,23 +1,12 @@
 #include "core/openr/runtime/system.h"
 
 #include <OPENR/OPENRMessages.h>
-#include <ObjectEntryTable.h>
-#include <dlfcn.h>
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
-#include <iostream>
-#include <sstream>
 
-#include "core/openr/runtime/console.h"
 #include "core/openr/runtime/faults.h"
-#include "core/openr/runtime/gunzip.h"
 #include "core/openr/runtime/services.h"
-#include "core/spec/error.h"
 
 namespace btr::openr {
 namespace {
@@ -29,44 +18,6 @@ System* theSystem = nullptr;
 constexpr int messagesPerFrame = 2000;
 /// More than this is not printed in one frame.
 constexpr std::size_t printedPerFrame = 1u << 20;
-
-void* oidAddress(int index) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(0x1000) * (index + 1)); }
-
-/// A handle on a copy of the module that no other robot or object shares; nullptr with `error` set.
-void* openCopy(const std::vector<char>& bytes, std::string& error) {
-  const int file = memfd_create("openr-module", MFD_CLOEXEC);
-  if (file < 0 || ::write(file, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
-    error = "there is no memory for it";
-    if (file >= 0) close(file);
-    return nullptr;
-  }
-  void* handle = dlopen(("/proc/self/fd/" + std::to_string(file)).c_str(), RTLD_NOW | RTLD_LOCAL);
-  // It stays open: the loader would take another file of this number for the same module.
-  if (handle == nullptr) error = dlerror();
-  return handle;
-}
-
-std::string nameOf(void* handle, const std::string& path) {
-  if (const auto* name = static_cast<const char*>(dlsym(handle, "btr_openr_object"))) return name;
-  if (const auto* ocf = static_cast<const char*>(dlsym(handle, "btr_openr_ocf"))) {
-    std::istringstream words(ocf);
-    std::string first, name;
-    if (words >> first >> name) return name;
-  }
-  const auto slash = path.rfind('/');
-  return path.substr(slash == std::string::npos ? 0 : slash + 1);
-}
-
-/// The high 4 bits of the priority in an .ocf; objects of a lower class wait for those of a higher.
-unsigned priorityClassOf(void* handle) {
-  const auto* ocf = static_cast<const char*>(dlsym(handle, "btr_openr_ocf"));
-  if (ocf == nullptr) return 8;
-  std::istringstream words(ocf);
-  std::string first, name;
-  unsigned stack = 0, heap = 0, priority = 128;
-  words >> first >> name >> stack >> heap >> priority;
-  return words ? (priority >> 4) & 15 : 8;
-}
 
 }  // namespace
 
@@ -87,85 +38,18 @@ System::System(const RobotDesign& robot, std::string folder) : design(robot), st
 
 System::~System() { theSystem = nullptr; }
 
+OID System::oidOf(int index) {
+  return OID(reinterpret_cast<void*>(static_cast<std::uintptr_t>(0x1000) * static_cast<std::uintptr_t>(index + 1)));
+}
+
 System& System::instance() { return *theSystem; }
 
 bool theSystemIsThere() { return theSystem != nullptr; }
 
-void System::load() {
-  config = stickConfig(stick, design.name);
-  for (const std::string& path : config.objects) {
-    if (ended_) return;
-    loadObject(path);
-  }
-}
-
-void System::loadObject(const std::string& path) {
-  const std::string file = onStick(stick, path);
-  std::vector<char> bytes;
-  if (file.empty() || !unpackedFile(file, bytes)) {
-    say("", path + " is not on the stick: started without it");
-    return;
-  }
-  auto added = std::make_unique<RunningObject>();
-  RunningObject& object = *added;
-  object.index = static_cast<int>(objects_.size());
-  object.oid = OID(oidAddress(object.index));
-  object.name = path.substr(path.rfind('/') + 1);
-  objects_.push_back(std::move(added));
-  addStack(object);
-
-  FaultState& fault = faultState();
-  fault.object = &object;
-  fault.selector = UNDEF;
-  void* handle = nullptr;
-  std::string error;
-  if (sigsetjmp(fault.home, 1) == 0) {
-    current_ = &object;
-    enter(object);
-    ++fault.serial;
-    fault.inMethod = true;
-    handle = openCopy(bytes, error);
-    fault.inMethod = false;
-    leave();
-  } else {
-    fault.inMethod = false;
-    leave();
-    end(Ended::Why::crash, object.name, object.methodName(UNDEF), fault.what);
-    return;
-  }
-  const auto* table = handle == nullptr ? nullptr : static_cast<const ObjectEntry*>(dlsym(handle, "ObjectEntryTable"));
-  if (table == nullptr) {
-    say("", path + " is no module that `btr openr build` has made for this computer (" +
-                (error.empty() ? "it has no ObjectEntryTable" : error) + "): started without it");
-    object.entries.clear();
-    object.name.clear();
-    return;
-  }
-  const std::string fileName = object.name;
-  object.name = nameOf(handle, path);
-  for (ConsoleLine& line : orders_.lines)  // of its constructors
-    if (line.object == fileName) line.object = object.name;
-  object.priorityClass = priorityClassOf(handle);
-  for (; table->selector != UNDEF; ++table)
-    object.entries[table->selector] = reinterpret_cast<void (*)(void*)>(table->entry);
-  if (const auto* methods = static_cast<const char* const*>(dlsym(handle, "btr_openr_methods")))
-    for (; *methods != nullptr; ++methods) object.methods.emplace_back(*methods);
-}
-
-void System::addStack(RunningObject& object) {
-  const std::size_t guard = 65536;
-  auto* memory = static_cast<char*>(
-      mmap(nullptr, stackBytes + guard, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0));
-  if (memory == MAP_FAILED) throw InputError("there is no memory for the stack of another object");
-  object.stack = memory + guard;
-  mprotect(object.stack, stackBytes, PROT_READ | PROT_WRITE);
-  openConsole(object);
-}
-
 RunningObject& System::addNative(const std::string& name, std::function<void(Selector, void*)> handler) {
   auto added = std::make_unique<RunningObject>();
   added->index = static_cast<int>(objects_.size());
-  added->oid = OID(oidAddress(added->index));
+  added->oid = oidOf(added->index);
   added->name = name;
   added->native = std::move(handler);
   added->priorityClass = 16;
@@ -354,53 +238,6 @@ bool System::advance() {
       return false;
   }
   return false;
-}
-
-// ---- connections ------------------------------------------------------------------------------------------------
-
-void System::connect() {
-  const auto find = [this](const std::string& name, bool subject, OServiceEntry& begin, OServiceEntry& data) {
-    for (const auto& object : objects_) {
-      const auto& services = subject ? object->subjects : object->observers;
-      const auto& entries = subject ? object->readyEntries : object->notifyEntries;
-      for (std::size_t i = 0; i < services.size(); ++i) {
-        if (services[i].name != name) continue;
-        begin = services[i].begin;
-        if (i < entries.size()) data = entries[i];
-        return true;
-      }
-    }
-    return false;
-  };
-  const auto part = [](const std::string& name, int wanted) {
-    std::istringstream in(name);
-    std::string found;
-    for (int i = 0; i <= wanted; ++i)
-      if (!std::getline(in, found, '.')) return std::string();
-    return found;
-  };
-  for (const auto& [subject, observer] : config.connections) {
-    OServiceEntry control, ready, connectTo, notify;
-    const bool hasSubject = find(subject, true, control, ready), hasObserver = find(observer, false, connectTo, notify);
-    if (!hasSubject || !hasObserver) {
-      say("", "CONNECT.CFG: nobody here has " + (hasSubject ? observer : subject) + ": not connected");
-      continue;
-    }
-    if (part(subject, 2) != part(observer, 2)) {
-      say("", "CONNECT.CFG: " + subject + " and " + observer + " have different types: not connected");
-      continue;
-    }
-    auto forSubject = std::make_shared<OControlMessage>();
-    forSubject->command = objcommADD_OBSERVER;
-    forSubject->observer = notify;
-    std::snprintf(forSubject->name, sizeof(forSubject->name), "%s", observer.c_str());
-    send(control, forSubject);
-    auto forObserver = std::make_shared<OConnectMessage>();
-    forObserver->command = objcommCONNECT;
-    forObserver->subject = ready;
-    std::snprintf(forObserver->name, sizeof(forObserver->name), "%s", subject.c_str());
-    send(connectTo, forObserver);
-  }
 }
 
 // ---- console ----------------------------------------------------------------------------------------------------

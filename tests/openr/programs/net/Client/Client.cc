@@ -55,6 +55,10 @@ void Client::Connected(ANTENVMSG msg) {
   TCPEndpointCloseMsg close(endpoint);
   close.Call(stack, sizeof(close));
 
+  TCPEndpointConnectMsg nobody(endpoint, IP_ADDR_ANY, IP_PORT_ANY, SERVER, 9);
+  nobody.Call(stack, sizeof(nobody));
+  OSYSPRINT(("nobody %d\n", nobody.error == TCP_PORT_UNREACHABLE));
+
   antEnvCreateEndpointMsg create(EndpointType_UDP, 512);
   create.Call(stack, sizeof(create));
   strcpy((char*)data, "over UDP");

@@ -1,13 +1,10 @@
-// Subjects, observers and what they count: ready states and buffers of each pair.
-#include <OPENR/OObject.h>
-#include <OPENR/OObserver.h>
+// A subject: for each of its observers a ready state and a buffer.
 #include <OPENR/OSubject.h>
 
 #include <algorithm>
 #include <cstring>
 #include <deque>
 
-#include "core/openr/runtime/objcomm.h"
 #include "core/openr/runtime/regions.h"
 #include "core/openr/runtime/system.h"
 
@@ -48,13 +45,6 @@ struct NoticeMessage : ONotifyMessage {
   NoticeMessage() { numData = numNotify = 0; }
   ~NoticeMessage() {
     for (int i = 0; i < numData; ++i) data[i]->RemoveReference();
-  }
-};
-
-struct AssertMessage : OReadyMessage {
-  std::vector<RCRegion*> back;
-  ~AssertMessage() {
-    for (int i = 0; i < numRegions; ++i) regions[i]->RemoveReference();
   }
 };
 
@@ -112,60 +102,6 @@ RCRegion* copyOf(const void* bytes, std::size_t size) {
 }
 
 }  // namespace
-
-namespace btr::openr {
-
-void sendReady(const SubjectID& to, const ObserverID& from, ObjcommCommand command, std::vector<RCRegion*> back) {
-  auto message = std::make_shared<AssertMessage>();
-  message->command = command;
-  message->observer = from;
-  message->back = std::move(back);
-  message->numRegions = static_cast<int>(message->back.size());
-  message->regions = message->back.data();
-  System::instance().send(to, message);
-}
-
-}  // namespace btr::openr
-
-// ---- RCRegion ---------------------------------------------------------------------------------------------------
-
-RCRegion::RCRegion() : references_(1), base_(nullptr), size_(0), memID_(0), offset_(0), type_(UNDEF_REGION) {}
-
-RCRegion::RCRegion(std::size_t size)
-    : references_(1),
-      base_(static_cast<char*>(std::calloc(1, std::max<std::size_t>(size, 1)))),
-      size_(size),
-      memID_(0),
-      offset_(0),
-      type_(RCREGION) {}
-
-RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::size_t size)
-    : references_(1),
-      base_(static_cast<char*>(baseAddr)),
-      size_(size),
-      memID_(memID),
-      offset_(offset),
-      type_(SYSTEM_REGION) {
-  const auto memory = btr::openr::regionMemory(memID);
-  if (memory.address == nullptr) {
-    type_ = UNDEF_REGION;  // somebody else's memory
-    return;
-  }
-  if (base_ == nullptr) base_ = static_cast<char*>(memory.address) + offset;
-  if (size_ == 0) size_ = memory.size - std::min<std::size_t>(offset, memory.size);
-  btr::openr::holdRegion(memID);
-}
-
-RCRegion::~RCRegion() {
-  if (type_ == RCREGION) std::free(base_);
-  if (type_ == SYSTEM_REGION) btr::openr::releaseRegion(memID_);
-}
-
-void RCRegion::RemoveReference() {
-  if (--references_ <= 0) delete this;
-}
-
-// ---- OSubject ---------------------------------------------------------------------------------------------------
 
 OSubject::OSubject() : bufferSize_(14), unitSize_(1) {}
 
@@ -393,142 +329,4 @@ int OSubject::Unlock(RCRegion* r) {
   const int left = r->NumberOfReference() - 1;
   r->RemoveReference();
   return left;
-}
-
-// ---- OObserver --------------------------------------------------------------------------------------------------
-
-OObserver::OObserver() : skip_(0), min_(1), max_(1) {}
-
-OObserver::~OObserver() {
-  for (OSubjectInfo& subject : subjects_)
-    for (RCRegion* region : subject.held) region->RemoveReference();
-}
-
-OStatus OObserver::SetNotifyEntry(const OServiceEntry& entry) {
-  id_ = entry;
-  auto* object = System::instance().objectOf(entry.oid);
-  if (object == nullptr) return oINVALID_OID;
-  object->notifyEntries.push_back(entry);
-  System::instance().bufferControl[id_] = {skip_, min_, max_};
-  return oSUCCESS;
-}
-
-void OObserver::SetSkip(std::size_t d) { SetBufCtrlParam(d, min_, max_); }
-
-void OObserver::SetBufCtrlParam(std::size_t skip, std::size_t min, std::size_t max) {
-  skip_ = skip;
-  min_ = min;
-  max_ = max;
-  System::instance().bufferControl[id_] = {skip, min, max};
-}
-
-OStatus OObserver::ConnectHandler(const OConnectMessage& msg, OStatus s) {
-  if (msg.command == objcommDISCONNECT) {
-    subjects_.remove_if([&](const OSubjectInfo& subject) { return subject.id == msg.subject; });
-    return oSUCCESS;
-  }
-  if (s != oSUCCESS) {
-    System::instance().say("", std::string("CONNECT.CFG: an observer refuses ") + msg.name + " (status " +
-                                   std::to_string(s) + "): not connected");
-    return oREFUSED;
-  }
-  subjects_.push_back(OSubjectInfo(msg.subject));
-  return oSUCCESS;
-}
-
-OStatus OObserver::NotifyHandler(const ONotifyMessage& msg, ONotifyEvent* pEvent) {
-  auto& message = const_cast<ONotifyMessage&>(msg);
-  const int count = message.numData;
-  message.numData = 0;  // they are the observer's now
-  pEvent->SetSubjectInfo(OSubjectInfo(msg.subject));
-  pEvent->SetNumOfData(count);
-  pEvent->SetNumOfNotify(msg.numNotify);
-  OSubjectInfo* sender = nullptr;
-  for (OSubjectInfo& subject : subjects_)
-    if (subject.id == msg.subject) sender = &subject;
-  for (int i = 0; i < count; ++i) {
-    pEvent->SetData(i, msg.data[i]);
-    if (sender != nullptr)
-      sender->held.push_back(msg.data[i]);
-    else
-      msg.data[i]->RemoveReference();
-  }
-  if (sender == nullptr) pEvent->SetNumOfData(0);
-  return sender == nullptr ? oNOT_FOUND : oSUCCESS;
-}
-
-OStatus OObserver::tell(OSubjectInfo& subject, ObjcommCommand command) {
-  std::vector<RCRegion*> back;
-  back.swap(subject.held);
-  btr::openr::sendReady(subject.id, id_, command, std::move(back));
-  return oSUCCESS;
-}
-
-OStatus OObserver::AssertReady() {
-  for (OSubjectInfo& subject : subjects_) tell(subject, objcommASSERT_READY);
-  return oSUCCESS;
-}
-
-OStatus OObserver::DeassertReady() {
-  for (OSubjectInfo& subject : subjects_) tell(subject, objcommDEASSERT_READY);
-  return oSUCCESS;
-}
-
-OStatus OObserver::AssertReady(const SubjectID& id) {
-  for (OSubjectInfo& subject : subjects_)
-    if (subject.id == id) return tell(subject, objcommASSERT_READY);
-  return oNOT_FOUND;
-}
-
-OStatus OObserver::DeassertReady(const SubjectID& id) {
-  for (OSubjectInfo& subject : subjects_)
-    if (subject.id == id) return tell(subject, objcommDEASSERT_READY);
-  return oNOT_FOUND;
-}
-
-SubjectID OObserver::FindSender(RCRegion* region) const {
-  for (const OSubjectInfo& subject : subjects_)
-    if (std::find(subject.held.begin(), subject.held.end(), region) != subject.held.end()) return subject.id;
-  return SubjectID();
-}
-
-void OObserver::Dump(unsigned int* address, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) std::printf("%08x%c", address[i], i % 8 == 7 ? '\n' : ' ');
-  std::printf("\n");
-}
-
-// ---- OObject ----------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// [undocumented] What follows when a hook answers something else than oSUCCESS: it is said, the object goes on.
-void report(const char* hook, OStatus status) {
-  if (status == oSUCCESS) return;
-  System& system = System::instance();
-  if (auto* object = system.current())
-    system.say(object->name, std::string(hook) + " answered status " + std::to_string(status) + ", not oSUCCESS");
-}
-
-}  // namespace
-
-OObject::OObject() {
-  if (auto* object = System::instance().current()) myOID_ = object->oid;
-}
-OObject::~OObject() = default;
-void OObject::Init(const OSystemEvent& event) { report("DoInit", DoInit(event)); }
-void OObject::Start(const OSystemEvent& event) { report("DoStart", DoStart(event)); }
-void OObject::Stop(const OSystemEvent& event) { report("DoStop", DoStop(event)); }
-void OObject::Destroy(const OSystemEvent& event) { report("DoDestroy", DoDestroy(event)); }
-OStatus OObject::DoInit(const OSystemEvent&) { return oSUCCESS; }
-OStatus OObject::DoStart(const OSystemEvent&) { return oSUCCESS; }
-OStatus OObject::DoStop(const OSystemEvent&) { return oSUCCESS; }
-OStatus OObject::DoDestroy(const OSystemEvent&) { return oSUCCESS; }
-
-OStatus OObject::RegisterServiceEntry(const OServiceEntry& entry, const char* name) {
-  auto* object = System::instance().objectOf(entry.oid);
-  if (object == nullptr) return oINVALID_OID;
-  const std::string service = name;
-  if (service.size() < 2) return oINVALID_ARG;
-  (service.back() == 'S' ? object->subjects : object->observers).push_back({service, entry});
-  return oSUCCESS;
 }

@@ -83,6 +83,23 @@ assert abs(number("red1.HEAD_PAN.position_rad") - bearing) < 0.03, (number("red1
 P
   expect 0 "the same ball" "$btr" live "$folder/games/ball-follower.json" --seconds 1.2
   says out "$sha"
+  # A dog that walks to the ball, stops before it and does not touch it; its log plays again without program and camera.
+  cp -r "$root/resources/openr/BallWalker" "$folder/openr"
+  cp "$root/resources/games/ball-walker.json" "$folder/games"
+  expect 0 "build" "$btr" openr build "$folder/openr/BallWalker" --out "$folder/openr/BallWalker/MS"
+  expect 0 "walk" "$btr" live "$folder/games/ball-walker.json" --seconds 13 --csv "$folder/walk.csv" --log "$folder/walk.log"
+  says out "red1 BallWalker: here I am"
+  python3 - "$folder/walk.csv" <<'P' || failures=1
+import csv, math, sys
+rows = list(csv.DictReader(open(sys.argv[1])))
+place = lambda row, thing: [float(row[thing + axis]) for axis in (".x_m", ".y_m")]
+assert math.dist(place(rows[0], "red1.base"), place(rows[0], "ball")) > 1
+assert math.dist(place(rows[-1], "red1.base"), place(rows[-1], "ball")) < 0.3
+assert math.dist(place(rows[0], "ball"), place(rows[-1], "ball")) < 0.001
+P
+  rm -r "$folder/openr/BallWalker"
+  expect 0 "without program and camera" "$btr" live "$folder/games/ball-walker.json" --replay "$folder/walk.log"
+  says out "identical to the log's"
   __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere expect 0 "blind" "$btr" live "$folder/games/ball-follower.json" --seconds 0.2
   says out "red1: its camera gives no images"
   says out "on 0 of 0 images"

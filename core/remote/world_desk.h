@@ -23,6 +23,9 @@ class World;
 
 namespace btr::remote {
 
+/// Joints of the model that move, in the order of a client's targets.
+std::vector<std::size_t> movingJoints(const SceneRobot& robot);
+
 /// One running world and everything that clients do to it. One a process. Every change is an act of its session, which
 /// is logged where the folder can be written.
 class WorldDesk final : public Desk {

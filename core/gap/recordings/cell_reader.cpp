@@ -63,6 +63,10 @@ void CellReader::refuse(std::size_t source, const ColumnUse& use, const std::str
 /// The number in a cell; what it is multiplied with and added to is the caller's.
 double CellReader::number(const std::string& cell, std::size_t source, ColumnUse& use) {
   if (cell.find_first_not_of(" \t") == std::string::npos) return nothing;
+  if (saysMissing(cell) && use.channel != "time_s") {
+    ++use.missing;
+    return nothing;
+  }
   if (!use.strict) {
     NumberReader any;
     if (const auto read = any.read(cell, table_.line())) return read->value;

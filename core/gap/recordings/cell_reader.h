@@ -16,13 +16,15 @@ struct ColumnUse {
   std::string channel;
   std::size_t source = 0;
   double scale = 1, offset = 0;
-  bool strict = true;  ///< a known channel: a cell that is not a number is an error
-  std::size_t skipped = 0;
+  bool strict = true;                                 ///< a known channel: a cell that is not a number is an error
+  std::size_t skipped = 0;                            ///< cells that are no numbers, of a channel that is not known
   std::vector<std::pair<std::size_t, double>> added;  ///< further columns of the file, and their scales
   double lastDigit = 0;                               ///< of the finest number read from `source`, 0: whole numbers
+  std::size_t missing = 0;                            ///< cells that say so in a word
 };
 
-/// Reads the cells of one table: numbers as NumberReader has them, NaN for an empty cell, time also as time stamps,
+/// Reads the cells of one table: numbers as NumberReader has them, NaN for an empty cell and for a word
+/// that says that there is none, time also as time stamps,
 /// then in seconds after the first one. Throws InputError with line and column for what is neither, and for numbers
 /// that no robot has. The table is borrowed.
 class CellReader {

@@ -181,6 +181,8 @@ Recording readRecording(const std::string& path, const Mapping* mapping, std::si
   for (const ColumnUse& use : uses) {
     recording.places.lastDigit.push_back(std::abs(use.scale) * use.lastDigit);
     const std::string of = " of " + std::to_string(recording.rows()) + " cells of \"" + use.channel + "\"";
+    if (use.missing > 0)
+      recording.notes.push_back(std::to_string(use.missing) + of + " say that there is no number; read as empty");
     if (use.skipped > 0) recording.notes.push_back(std::to_string(use.skipped) + of + " are not numbers; left out");
   }
   if (mapping) {

@@ -43,26 +43,31 @@ bool hasDigitsOnly(const std::string& cell) {
 
 /// Also a time stamp, or nothing.
 bool beginsLikeNumber(const std::string& cell) {
-  return cell.empty() || std::string_view("0123456789+-.").find(cell[0]) != std::string_view::npos;
+  return cell.empty() || saysMissing(cell) || std::string_view("0123456789+-.").find(cell[0]) != std::string_view::npos;
 }
 
 bool hasNames(const std::vector<std::string>& cells) {
   return std::ranges::none_of(cells, [](const std::string& cell) { return cell.empty() || hasDigitsOnly(cell); });
 }
 
+/// Are there as many numbers in the next line, or behind up to two lines of units?
+bool numbersFollow(const std::vector<std::string_view>& lines, std::size_t heading, std::size_t count, char separator) {
+  constexpr std::size_t unitsAtMost = 2;
+  for (std::size_t below = heading + 1; below < lines.size() && below <= heading + 1 + unitsAtMost; ++below) {
+    const auto numbers = splitCells(lines[below], separator);
+    if (numbers.size() == count && std::ranges::all_of(numbers, beginsLikeNumber)) return true;
+  }
+  return false;
+}
+
 /// For a file without any of the wanted names: the first line of names above a line of as many numbers, so that a
 /// message can say what the file has.
 TableLayout likeliest(const std::vector<std::string_view>& lines) {
-  constexpr std::size_t unitsAtMost = 2;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const char separator : separators) {
+  for (const char separator : {',', ';', '\t', '|', blanks})
+    for (std::size_t i = 0; i < lines.size(); ++i) {
       const auto names = splitCells(lines[i], separator);
       if (names.size() < 2 || commentBytesOf(lines[i]) > 0 || !hasNames(names)) continue;
-      for (std::size_t below = i + 1; below < lines.size() && below <= i + 1 + unitsAtMost; ++below) {
-        const auto numbers = splitCells(lines[below], separator);
-        if (numbers.size() == names.size() && std::ranges::all_of(numbers, beginsLikeNumber))
-          return {static_cast<long>(i) + 1, 0, separator};
-      }
+      if (numbersFollow(lines, i, names.size(), separator)) return {static_cast<long>(i) + 1, 0, separator};
     }
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!trimmed(lines[i]).empty() && commentBytesOf(lines[i]) == 0) {
@@ -86,6 +91,12 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
+bool saysMissing(std::string_view cell) {
+  std::string word = trimmed(cell);
+  for (char& c : word) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  return word == "nan" || word == "na" || word == "n/a" || word == "null" || word == "none" || word == "-";
+}
+
 std::string shownCell(std::string_view text) {
   std::string safe;
   for (const char byte : text.substr(0, 40)) {
@@ -93,6 +104,15 @@ std::string shownCell(std::string_view text) {
     safe += code < 0x20 || code >= 0x7f ? '?' : byte;
   }
   return "\"" + safe + (text.size() > 40 ? "...\"" : "\"");
+}
+
+void joinBlanks(std::vector<std::string>& cells) {
+  std::vector<std::string> words;
+  for (const std::string& cell : cells) {
+    std::istringstream text(cell);
+    for (std::string word; text >> word;) words.push_back(word);
+  }
+  cells = std::move(words);
 }
 
 std::vector<std::string> splitCells(std::string_view line, char separator) {
@@ -106,12 +126,13 @@ std::vector<std::string> splitCells(std::string_view line, char separator) {
     else
       cells.back() += byte;
   }
+  if (separator == blanks) joinBlanks(cells);
   for (std::string& cell : cells) cell = trimmed(cell);
   return cells;
 }
 
 TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
-                     const std::vector<std::string>& otherColumns, const std::string& place) {
+                     const std::vector<std::string>& otherColumns) {
   const auto lines = linesOf(beginning);
   TableLayout best;
   std::size_t most = 0;
@@ -128,14 +149,13 @@ TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
       }
   if (most > 0) return best;
 
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    std::istringstream words{std::string(lines[i].substr(commentBytesOf(lines[i])))};
-    std::vector<std::string> names;
-    for (std::string word; words >> word;) names.push_back(word);
-    if (names.size() > 1 && names[0] == timeColumn)
-      throw InputError(place + " line " + std::to_string(i + 1) +
-                       ": columns are separated by blanks; commas, semicolons or tabulators are expected");
-  }
+  // Sentences of a preamble have blanks, too: numbers follow a heading.
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (const std::size_t comment : {std::size_t{0}, commentBytesOf(lines[i])}) {
+      const auto cells = splitCells(lines[i].substr(comment), blanks);
+      if (std::ranges::find(cells, timeColumn) != cells.end() && numbersFollow(lines, i, cells.size(), blanks))
+        return {static_cast<long>(i) + 1, comment, blanks};
+    }
   return likeliest(lines);
 }
 

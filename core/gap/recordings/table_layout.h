@@ -6,6 +6,9 @@
 
 namespace btr {
 
+/// As a separator: any number of blanks and tabulators; cells are never empty then.
+inline constexpr char blanks = ' ';
+
 /// Where a table's heading stands and what is between its columns.
 struct TableLayout {
   long headingLine = 1;          ///< from 1; what stands above is a preamble
@@ -15,15 +18,21 @@ struct TableLayout {
 
 /// Finds the line that holds the name of the time column (and the most of the other wanted names), with commas,
 /// semicolons, tabulators or bars between them, in the first 64 KiB of a file. Without one: the first line that is no
-/// comment. Throws InputError "PLACE line N: …" for columns that blanks separate.
+/// comment. Blanks separate where nothing else does and numbers follow.
 TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
-                     const std::vector<std::string>& otherColumns, const std::string& place);
+                     const std::vector<std::string>& otherColumns);
 
 /// A line's cells without the blanks around them; quotes around a cell hold separators and are taken off.
 std::vector<std::string> splitCells(std::string_view line, char separator);
 
+/// Cells that single blanks separated, as those that any number of them does.
+void joinBlanks(std::vector<std::string>& cells);
+
 /// Without blanks at either end.
 std::string trimmed(std::string_view text);
+
+/// A word that programs write where there is no number: "nan", "NA", "null", "None" in any case, or "-".
+bool saysMissing(std::string_view cell);
 
 /// A cell in a message: in quotes, short and printable whatever the file holds.
 std::string shownCell(std::string_view text);

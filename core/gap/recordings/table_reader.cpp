@@ -32,7 +32,7 @@ TableLayout layoutOfFile(const std::string& path, const std::string& timeColumn,
   std::string beginning(1 << 16, '\0');
   source.stream().read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(source.stream().gcount()));
-  return layoutOf(beginning, timeColumn, otherColumns, path);
+  return layoutOf(beginning, timeColumn, otherColumns);
 }
 
 /// Control bytes and stray continuation bytes betray a binary or differently encoded file.
@@ -76,6 +76,7 @@ void TableReader::readHeader() {
   reader_.skipBytes(layout_.commentBytes);
   if (!reader_.next(header_))
     throw InputError(path_ + ": the file is empty; a header line and rows of numbers are expected");
+  if (layout_.separator == blanks) joinBlanks(header_);
   reader_.passOver("#%");
   line_ = headingLine_ = reader_.line();
   for (std::size_t i = 0; i < header_.size(); ++i) {
@@ -103,10 +104,7 @@ void TableReader::readHeader() {
 
 /// Only text that is neither a number, nor a time, nor a number that is missing.
 bool TableReader::isUnits(const std::vector<std::string>& cells) const {
-  const auto isMissing = [](std::string word) {
-    for (char& c : word) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-    return word == "nan" || word == "inf" || word == "-inf" || word == "na" || word == "null" || word == "none";
-  };
+  const auto isMissing = [](const std::string& word) { return saysMissing(word) || word == "inf" || word == "-inf"; };
   bool some = false;
   for (const std::string& cell : cells) {
     if (isBlank(cell)) continue;
@@ -128,6 +126,7 @@ bool TableReader::next(std::vector<std::string>& cells) {
 bool TableReader::readRow(std::vector<std::string>& cells) {
   while (reader_.next(cells)) {
     line_ = reader_.line();
+    if (layout_.separator == blanks) joinBlanks(cells);
     if (!fitsHeader(cells)) continue;
     if (cells.size() > 1 && std::ranges::all_of(cells, isBlank)) {
       if (emptyRows_++ == 0) firstEmpty_ = line_;

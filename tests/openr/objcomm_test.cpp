@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/openr/run_program.h"
 
 namespace btr::openr {
@@ -72,6 +74,13 @@ TEST(Objects, DoTheSameEachTime) {
   const std::string stick = stickOf("talk");
   writeText(stick + "/SCRIPT.TXT", "sn\nssn\nq\nsn\n");
   EXPECT_EQ(runStick(stick, 60).all(), runStick(stick, 60).all());
+}
+
+TEST(Objects, ThatAnswerEachOtherWithoutEndLetTimePass) {
+  const StickRun run = runStick(stickOf("pair"), 200);
+  EXPECT_EQ(run.ended.why, Ended::Why::shutdown);
+  EXPECT_EQ(std::count(run.lines.begin(), run.lines.end(), "Left: tick"), 200 / 4);
+  EXPECT_THAT(run.all(), testing::HasSubstr("ten thousand throws"));
 }
 
 TEST(Objects, ControlAndConnectBeforeAnyReady) {

@@ -245,6 +245,12 @@ TEST(Process, WhatIsNoModuleIsLeftOut) {
   EXPECT_THAT(run.all(), HasSubstr("named 1"));
 }
 
+TEST(Process, ThatVanishesIsNamed) {
+  const StickRun run = faulty("vanish");
+  EXPECT_EQ(run.ended.why, Ended::Why::crash);
+  EXPECT_THAT(run.ended.what, HasSubstr("ended by a signal: Killed"));
+}
+
 TEST(Process, KilledFromOutsideItSaysSo) {
   RobotProcess::Options options;
   options.stick = stickOf("names");

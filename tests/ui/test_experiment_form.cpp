@@ -329,6 +329,28 @@ class TestExperimentForm : public QObject {
     QCOMPARE(form.problems(), QStringList{"Held out: less than the 5 measured individuals"});
   }
 
+  /// A controller that wants a file has a line for it beside its numbers.
+  void aControllersPathGoesInAndOut() {
+    ExperimentOffers offers = someOffers();
+    offers.controllers.push_back({"openr", {{"duration_s", "s", "how long", 0.1, 600, 10}}, {}, {"stick"}});
+    ExperimentForm form(offers);
+    ExperimentSpec spec = aSpec();
+    spec.controller = {"openr", {{"duration_s", 4}}, {{"stick", "../openr/PanPath/MS"}}};
+    form.setSpec(spec);
+    QVERIFY2(form.isValid(), qPrintable(form.problems().join('\n')));
+    QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(spec)));
+    auto* stick = form.findChild<QLineEdit*>("openr.stick");
+    QCOMPARE(stick->text(), QString("../openr/PanPath/MS"));
+    type(stick, "other");
+    QCOMPARE(form.spec().controller.words.at("stick"), std::string("other"));
+    form.undoStack().undo();
+    QCOMPARE(form.spec().controller.words.at("stick"), std::string("../openr/PanPath/MS"));
+    spec.controller.words.clear();
+    form.setSpec(spec);
+    QVERIFY(!form.isValid());
+    QVERIFY2(form.problems().join('\n').contains("stick"), qPrintable(form.problems().join('\n')));
+  }
+
   void aReadOnlyFormOffersACopyInsteadOfAStart() {
     ExperimentForm form(someOffers());
     form.setSpec(aSpec());

@@ -98,7 +98,8 @@ std::string effectCard(const GapReport& report, const ReportLead::Finding& findi
   for (const GapReport::Number& n : e.parameters) html += numberRow(n, numberCell(n.value));
   html += "</table></div>\n<p>";
   if (std::isfinite(finding.share))
-    html += "It took " + escaped(wholePercent(finding.share)) + " of the squared error that was taken. ";
+    html += "Of all squared error that calibration and effects took away, " + escaped(wholePercent(finding.share)) +
+            " fell to it. ";
   html += "The cross-validated error without it is larger: it takes " + escaped(percent(e.heldoutErrorReduction)) +
           " away (p = " + escaped(brief(e.pValue)) + ").";
   for (std::size_t i = 0; i < e.rivals.size(); ++i)

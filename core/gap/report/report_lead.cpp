@@ -243,7 +243,8 @@ std::string leadHtml(const GapReport& report, const ReportLead& lead) {
       const EffectLaw& law = report.tried[finding.effect].law;
       html += "<li>" + escaped(finding.text);
       if (std::isfinite(finding.share))
-        html += " It took " + escaped(wholePercent(finding.share)) + " of the squared error that was taken.";
+        html += " Of all squared error that calibration and effects took away, " +
+                escaped(wholePercent(finding.share)) + " fell to it.";
       if (!law.equation.empty()) html += "<br>" + equationHtml(law.equation);
       html += "</li>\n";
     }

@@ -59,7 +59,7 @@ void Faulty::Notify(const ONotifyEvent& event) {
   OSYSPRINT(("does %s\n", line));
   volatile double zero = 0, huge = 1e300;
   volatile int none = 0;
-  if (strcmp(line, "null") == 0) *(volatile int*)0 = 1;
+  if (strcmp(line, "null") == 0) *(int*)0 = 1;
   if (strcmp(line, "read") == 0) none = *(volatile int*)0x10;
   if (strcmp(line, "divide") == 0) none = 7 / none;
   if (strcmp(line, "nan") == 0) huge = zero / zero;
@@ -98,6 +98,7 @@ void Faulty::Notify(const ONotifyEvent& event) {
     memset(memory, 1, 100);
     OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
   }
+  if (strcmp(line, "vanish") == 0) syscall(SYS_kill, syscall(SYS_getpid), 9);
   if (strcmp(line, "escape") == 0) {
     char path[200];
     FILE* in = fopen("/MS/ESCAPE.TXT", "r");

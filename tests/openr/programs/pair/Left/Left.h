@@ -1,0 +1,28 @@
+// A program of our own for the tests.
+#ifndef Left_h
+#define Left_h
+
+#include <OPENR/OObject.h>
+#include <OPENR/OObserver.h>
+#include <OPENR/OSubject.h>
+
+#include "def.h"
+
+class Left : public OObject {
+ public:
+  Left();
+  virtual ~Left() {}
+
+  OSubject* subject[numOfSubject];
+  OObserver* observer[numOfObserver];
+
+  virtual OStatus DoInit(const OSystemEvent& event);
+  virtual OStatus DoStart(const OSystemEvent& event);
+  virtual OStatus DoStop(const OSystemEvent& event);
+  virtual OStatus DoDestroy(const OSystemEvent& event);
+
+  void Notify(const ONotifyEvent& event);
+  void Tick(const ONotifyEvent& event);
+};
+
+#endif

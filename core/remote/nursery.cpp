@@ -8,8 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include "core/remote/frame.h"
@@ -142,7 +144,10 @@ void Child::kill(const std::string& why) {
 }
 
 Answer Child::ask(const std::string& call, double patience_s, const std::function<bool()>& cancelled) {
-  const std::lock_guard turn(turn_);
+  std::unique_lock turn(turn_, std::defer_lock);
+  constexpr auto look = std::chrono::milliseconds(100);
+  while (!turn.try_lock_for(look))
+    if (cancelled && cancelled()) return {Code::cancelled, "the call was cancelled before its turn came"};
   const auto ended = [&](Code code) {
     const std::lock_guard lock(state_);
     return Answer{code, why_};

@@ -16,9 +16,10 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Sends a call and waits for its answer; one at a time, from any thread. Where it does not come within `patience_s`,
-  /// or `cancelled` says that nobody wants it any more, or the process has died, the process is ended: alive() is false
-  /// from then on, and every call is refused with why.
+  /// Sends a call and waits for its answer; one at a time, from any thread. Whose `cancelled` comes while he still
+  /// waits for his turn goes away. Where the answer does not come within `patience_s`, or `cancelled` says that nobody
+  /// wants it any more, or the process has died, the process is ended: alive() is false from then on, and every call is
+  /// refused with why.
   Answer ask(const std::string& call, double patience_s, const std::function<bool()>& cancelled = {});
   bool alive() const;
   /// Ends it at once. From any thread; a call that waits is refused.
@@ -29,7 +30,8 @@ class Child {
 
  private:
   int socket_, line_, process_;  ///< process: a pidfd
-  mutable std::mutex state_, turn_;
+  mutable std::mutex state_;
+  std::timed_mutex turn_;
   std::string why_;
 };
 

@@ -87,10 +87,10 @@ v1::Run LearningService::runOf(std::int64_t run) {
 grpc::Status LearningService::Describe(grpc::ServerContext* context, const v1::ExperimentRequest* request,
                                        v1::ExperimentReply* reply) {
   return guarded(desks_, context, Role::watch, [&](const Gate::Caller&) {
+    // By a process of its own: who only asks does not wait for others' trials.
     constexpr double patience_s = 60;
-    take(desks_.switchboard.evaluate(request->experiment().SerializeAsString(),
-                                     callOf(Method::describeExperiment, request->SerializeAsString()), patience_s,
-                                     [context] { return context->IsCancelled(); }),
+    take(desks_.switchboard.evaluate("describe", callOf(Method::describeExperiment, request->SerializeAsString()),
+                                     patience_s, [context] { return context->IsCancelled(); }),
          *reply);
   });
 }

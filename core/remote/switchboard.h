@@ -63,7 +63,7 @@ class Switchboard {
     double used_s = 0;
     int callers = 0;
   };
-  static constexpr std::size_t mostEvaluators = 3;
+  static constexpr std::size_t mostEvaluators = 4;
 
   void closeIdle();
 

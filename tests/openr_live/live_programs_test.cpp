@@ -288,6 +288,46 @@ TEST_F(OpenrLive, AProgramThatDiesLeavesJointsHeldAndTheSessionWhole) {
   run(session, programs, 20);
 }
 
+TEST_F(OpenrLive, ARobotThatGoesTakesItsProgramAlongAndOneThatComesBringsOne) {
+  long starts = 0;
+  const auto turns = [&](int target) {
+    return [&starts, target](const SensorFrame& frame) {
+      if (frame.number == 1) ++starts;
+      OrderFrame orders = frame.number == 1 ? enableAll() : OrderFrame{};
+      orders.joints.resize(openr::robotDesign("ERS-7").joints.size());
+      orders.joints[placeOf("HEAD_PAN")].target_urad = target;
+      return orders;
+    };
+  };
+  Session session(game(), host());
+  LivePrograms programs(session, playing({{"red", turns(500000)}, {"blue", turns(-500000)}}));
+  run(session, programs, 10);
+  EXPECT_EQ(starts, 2);
+  const AddAct back{session.game().scene.robots[0], session.game().robots.at("red1"), std::nullopt};
+  session.apply(RemoveAct{"red1"});
+  EXPECT_FALSE(programs.ended().contains("red1"));
+  // What was the second robot is the first one now, and obeys its own program.
+  run(session, programs, 100);
+  EXPECT_NEAR(position(session, "HEAD_PAN", 0), -0.5, 0.01);
+  session.apply(back);
+  run(session, programs, 100);
+  EXPECT_EQ(starts, 3);
+  EXPECT_NEAR(position(session, "HEAD_PAN", 0), -0.5, 0.01);
+  EXPECT_NEAR(position(session, "HEAD_PAN", 1), 0.5, 0.01);
+}
+
+TEST_F(OpenrLive, AHandThatHoldsAJointIsStrongerThanTheProgram) {
+  Session session(game(false), host());
+  LivePrograms programs(session, playing({{"red", nothing}, {"blue", nothing}}));
+  run(session, programs, 10);
+  session.apply(HoldAct{"red1", "HEAD_PAN", 0.4, std::nullopt});
+  run(session, programs, 100);
+  EXPECT_NEAR(position(session, "HEAD_PAN"), 0.4, 0.01);
+  session.apply(HoldAct{"red1", "HEAD_PAN", std::nullopt, std::nullopt});
+  run(session, programs, 1);
+  EXPECT_FALSE(input(session, "HEAD_PAN").enabled);
+}
+
 TEST_F(OpenrLive, WhoShutsDownLetsGoOfEverything) {
   const auto shuts = [](const SensorFrame& frame) {
     OrderFrame orders = frame.number == 1 ? enableAll() : OrderFrame{};

@@ -38,6 +38,7 @@ antError antEnvMsg::Call(antStackRef _dest, int _msgSize) {
   invocationType = ANTENVMSG_CALL;
   auto over = std::make_shared<bool>(false);
   System& system = System::instance();
+  if (system.current() == nullptr || !system.current()->busy) return ANT_FAIL;  // a global constructor cannot wait
   system.services().ip().submit(this, [over] { *over = true; });
   return system.waitUntil([over] { return *over; }) ? ANT_SUCCESS : ANT_FAIL;
 }

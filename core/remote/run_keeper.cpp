@@ -116,22 +116,27 @@ void RunKeeper::follow(Work& work) {
   }
 }
 
-RunKeeper::~RunKeeper() {
+void RunKeeper::stopAll(const std::function<void(Id)>& request, double patience_s) {
   std::map<Id, std::shared_ptr<Work>> works;
   {
     const std::lock_guard lock(mutex_);
-    works.swap(works_);
+    works = works_;
   }
-  for (auto& [run, work] : works) {
-    const std::lock_guard lock(work->mutex);
-    if (!work->question.empty()) work->tellEnd("the server ends; continue the run at any time");
-  }
-  // One that waits for its learner says so in the database and ends; one that simulates is ended, which loses at most
-  // the trials of one generation.
-  for (auto& [run, work] : works) {
+  for (const auto& [run, work] : works) {
     std::unique_lock lock(work->mutex);
-    constexpr auto patience = std::chrono::seconds(2);
-    if (work->endTold) work->changed.wait_for(lock, patience, [&] { return work->over; });
+    if (work->over) continue;
+    if (!work->question.empty()) {
+      work->tellEnd("the server ends; continue the run at any time");
+    } else {
+      lock.unlock();
+      request(run);
+    }
+  }
+  const auto until =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
+  for (const auto& [run, work] : works) {
+    std::unique_lock lock(work->mutex);
+    work->changed.wait_until(lock, until, [&] { return work->over; });
   }
 }
 

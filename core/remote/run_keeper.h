@@ -27,8 +27,8 @@ class RunKeeper {
   static constexpr std::size_t most = 4;  ///< at a time
 
   explicit RunKeeper(Nursery& nursery) : nursery_(nursery) {}
-  /// Each run stops where it is; its process is ended.
-  ~RunKeeper();
+  /// Ends the processes that are still there.
+  ~RunKeeper() = default;
   RunKeeper(const RunKeeper&) = delete;
   RunKeeper& operator=(const RunKeeper&) = delete;
 
@@ -40,6 +40,9 @@ class RunKeeper {
   /// An answer to question `number`, JSON as the plugin wants it. Throws Refusal where it is not taken; an answer that
   /// was taken already is no error.
   void tell(Id run, long number, const std::string& answer);
+  /// All runs stop: those that wait for their learner at once, of the others it is asked by `request`, and waited for
+  /// until `patience_s` is over.
+  void stopAll(const std::function<void(Id)>& request, double patience_s);
   /// The learner is asked no longer: its run stops, with why.
   void end(Id run, const std::string& why);
 

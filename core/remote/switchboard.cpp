@@ -72,6 +72,16 @@ Switchboard::~Switchboard() {
   ends_.notify_all();
   janitor_.join();
   for (const std::string& name : worlds()) close(name);
+  // A run looks once a second whether it is to stop. One that does not in time is ended, which loses at most the trials
+  // of one generation.
+  constexpr double patience_s = 3;
+  runs_->stopAll(
+      [this](Id run) {
+        uchilsim::v1::StopRequest request;
+        request.set_run(run);
+        records(callOf(Method::stop, request.SerializeAsString()));
+      },
+      patience_s);
 }
 
 void Switchboard::closeIdle() {

@@ -251,6 +251,22 @@ TEST_F(RemoteRun, ALearnerThatIsLateIsSaidAndTheRunStops) {
   EXPECT_EQ(v1::Question::VECTORS, question.what());
 }
 
+TEST_F(RemoteRun, AServerThatEndsStopsItsRunsWhereTheyAre) {
+  begin();
+  std::int64_t run = 0;
+  {
+    const Caller caller(address);
+    run = start(caller, experiment([](nlohmann::json& text) {
+                  text["learner"] = {{"name", "ga"}, {"settings", {{"population", 4}}}};
+                  text["stages"]["first_generations"] = text["stages"]["total_generations"] = 1000;
+                }));
+  }
+  server.reset();
+  switchboard.reset();
+  const btr::Database db = btr::Database::open(files.file("a.db"), btr::Database::Mode::readOnly);
+  EXPECT_EQ(btr::RunState::stopped, db.run(run).state);
+}
+
 TEST_F(RemoteRun, ALearnerOutsideAdaptsTheSimulatorToo) {
   begin();
   const Caller caller(address);

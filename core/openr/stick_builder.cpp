@@ -145,8 +145,10 @@ Found findObjects(const fs::path& root) {
   std::sort(found.sticks.begin(), found.sticks.end());
   for (const fs::path& folder : sources) {
     const bool made = std::any_of(found.withMakefile.begin(), found.withMakefile.end(), [&](const fs::path& other) {
-      const std::string relative = other.lexically_relative(folder).string();
-      return relative == "." || relative.rfind("..", 0) != 0;
+      const auto within = [](const fs::path& inner, const fs::path& outer) {
+        return inner.lexically_relative(outer).string().rfind("..", 0) != 0;
+      };
+      return within(other, folder) || within(folder, other);
     });
     if (!made) found.byHand.push_back(folder);
   }

@@ -122,21 +122,22 @@ void RunKeeper::stopAll(const std::function<void(Id)>& request, double patience_
     const std::lock_guard lock(mutex_);
     works = works_;
   }
-  for (const auto& [run, work] : works) {
-    std::unique_lock lock(work->mutex);
-    if (work->over) continue;
-    if (!work->question.empty()) {
-      work->tellEnd("the server ends; continue the run at any time");
-    } else {
-      lock.unlock();
-      request(run);
-    }
-  }
   const auto until =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
+  constexpr auto again = std::chrono::milliseconds(300);
+  // A run that has just begun may not heed what came before it: it is asked again.
   for (const auto& [run, work] : works) {
     std::unique_lock lock(work->mutex);
-    work->changed.wait_until(lock, until, [&] { return work->over; });
+    while (!work->over && Clock::now() < until) {
+      if (!work->question.empty()) {
+        work->tellEnd("the server ends; continue the run at any time");
+      } else {
+        lock.unlock();
+        request(run);
+        lock.lock();
+      }
+      work->changed.wait_for(lock, again, [&] { return work->over; });
+    }
   }
 }
 

@@ -101,7 +101,7 @@ TEST(IndependentBall, LiftBySpinIsNamedInFlightsThatBounce) {
   plant.liftNumber = 0.8;
   const GapReport report = analyse(thrown(plant, {.spin_rad_s = 250, .told = true}, 0.5), library(), quickly());
   EXPECT_THAT(namesIn(report), testing::ElementsAre("magnus_lift")) << report.sentence;
-  EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, plant.liftNumber, 0.1 * plant.liftNumber);
+  EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, plant.liftNumber, 0.1 * plant.liftNumber) << report.sentence;
   expectAtTheNoise(report);
 }
 

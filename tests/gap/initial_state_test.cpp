@@ -63,6 +63,24 @@ TEST(InitialState, KnowsGravity) {
   EXPECT_LT(startMisfit(flight.time, flight.values, 0.05, -9.81), startMisfit(flight.time, flight.values, 0.05, 0));
 }
 
+TEST(InitialState, OfABallIsNotLostInItsBounces) {
+  // A sample every 40 ms, a bounce every six of them, loses half its speed.
+  std::vector<double> time, height;
+  Random random(3);
+  double z = 0.6, rate = 1.1;
+  for (int i = 0; i < 24; ++i) {
+    time.push_back(0.04 * i);
+    height.push_back(z + 4e-4 * random.normal());
+    z += 0.04 * rate - 9.81 * 0.04 * 0.04 / 2;
+    rate -= 9.81 * 0.04;
+    if (z < 0) z = -z / 4, rate = -rate / 2;
+  }
+  EXPECT_FALSE(estimateStart(time, height, 0.05, -9.81).moving) << "else this tests nothing";
+  const Start start = estimateStart(time, height, 0.05, -9.81, Impacts::some);
+  EXPECT_TRUE(start.moving);
+  EXPECT_NEAR(start.rate, 1.1, 0.03);
+}
+
 TEST(InitialState, PassesOverEmptyCells) {
   Samples rest = line(0.3, 0, 0, 0, 0, 1);
   rest.values[0] = rest.values[2] = std::nan("");

@@ -173,8 +173,8 @@ double quantisationStep(std::span<const double> all) {
   return 2 * std::min(up, down) > std::max(up, down) ? commonMeasure(second, negligible, rounding) : 0;
 }
 
-double resolution(std::span<const double> values) {
-  return std::max(noiseFloor(values), quantisationStep(values) / std::sqrt(12.0));
+double resolution(std::span<const double> values, Impacts impacts) {
+  return std::max(noiseFloor(values, impacts), quantisationStep(values) / std::sqrt(12.0));
 }
 
 }  // namespace btr

@@ -24,6 +24,6 @@ double noiseFloor(std::span<const double> time_s, std::span<const double> values
 double quantisationStep(std::span<const double> values);
 
 /// What a channel cannot be known better than: the larger of its noise floor and of its rounding error, step/√12.
-double resolution(std::span<const double> values);
+double resolution(std::span<const double> values, Impacts impacts = Impacts::none);
 
 }  // namespace btr

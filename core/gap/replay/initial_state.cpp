@@ -26,7 +26,8 @@ std::vector<std::size_t> firstSamples(std::span<const double> time, std::span<co
 }
 
 /// Least squares x = value + slope·t + acceleration·t²/2 with the acceleration given.
-Line lineThrough(std::span<const double> time, std::span<const double> values, double window, double acceleration) {
+Line lineThrough(std::span<const double> time, std::span<const double> values, double window, double acceleration,
+                 Impacts impacts) {
   const auto rows = firstSamples(time, values, window);
   require(!rows.empty(), "an initial state from at least one row");
   const auto count = static_cast<double>(rows.size());
@@ -50,7 +51,7 @@ Line lineThrough(std::span<const double> time, std::span<const double> values, d
   for (std::size_t i = 0; i < t.size(); ++i) line.misfit += std::pow(x[i] - line.value - line.slope * t[i], 2);
   // The noise of the whole beginning knows more than the few deviations from this line.
   const auto beginning = values.first(std::min<std::size_t>(values.size(), 200));
-  const double noise = std::max(resolution(beginning), std::sqrt(line.misfit / std::max(1.0, count - 2)));
+  const double noise = std::max(resolution(beginning, impacts), std::sqrt(line.misfit / std::max(1.0, count - 2)));
   line.slopeUncertainty = spread > 0 ? noise / std::sqrt(spread) : 0;
   line.travel = std::abs(line.slope) * (t.back() - t.front());
   return line;
@@ -58,8 +59,9 @@ Line lineThrough(std::span<const double> time, std::span<const double> values, d
 
 }  // namespace
 
-Start estimateStart(std::span<const double> time, std::span<const double> values, double window, double acceleration) {
-  const Line line = lineThrough(time, values, window, acceleration);
+Start estimateStart(std::span<const double> time, std::span<const double> values, double window, double acceleration,
+                    Impacts impacts) {
+  const Line line = lineThrough(time, values, window, acceleration, impacts);
   const double quantum = quantisationStep(values.first(std::min<std::size_t>(values.size(), 200)));
   const bool moving = std::abs(line.slope) > 8 * line.slopeUncertainty && line.travel > 3 * quantum;
   if (!moving) return {line.mean, 0, false};
@@ -67,7 +69,7 @@ Start estimateStart(std::span<const double> time, std::span<const double> values
 }
 
 double startMisfit(std::span<const double> time, std::span<const double> values, double window, double acceleration) {
-  return lineThrough(time, values, window, acceleration).misfit;
+  return lineThrough(time, values, window, acceleration, Impacts::none).misfit;
 }
 
 StartAttitude estimateAttitude(std::span<const double> time, const std::array<std::span<const double>, 4>& wxyz,

@@ -31,9 +31,7 @@ bool anyFinite(std::span<const double> values) {
 Start startOfBody(std::span<const double> time, std::span<const double> values, double gravity) {
   const bool falls =
       gravity != 0 && startMisfit(time, values, flightWindow_s, gravity) < startMisfit(time, values, flightWindow_s, 0);
-  const Start still = estimateStart(time, values, flightWindow_s);
-  if (!still.moving) return still;
-  return estimateStart(time, values, flightWindow_s, falls ? gravity : 0);
+  return estimateStart(time, values, flightWindow_s, falls ? gravity : 0, Impacts::some);
 }
 
 /// Of what is known to rest: its first value, as a mean over the next ones would already follow it away.

@@ -96,8 +96,11 @@ Eigen::VectorXd residualsOf(const FitProblem& problem, const FitModel& model,
   return all;
 }
 
-Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
-             const FitOptions& options) {
+namespace {
+
+/// Downhill from where it is, once.
+Fit descended(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
+              const FitOptions& options) {
   Fit fit{model, shifts.empty() ? zeroShifts(problem) : shifts, 0};
   SceneCache scenes(problem, model);
   JacobianPolicy policy;
@@ -189,6 +192,55 @@ Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector
     fit.model.values[i] =
         std::clamp(scaled[i] * model.parameters[i].scale, model.parameters[i].minimum, model.parameters[i].maximum);
   return fit;
+}
+
+/// By segment: squared residuals and what holds its initial state.
+std::vector<double> costsOf(const FitProblem& problem, const Fit& fit) {
+  const Eigen::VectorXd residuals = residualsOf(problem, fit.model, fit.shifts);
+  std::vector<double> costs;
+  Eigen::Index at = 0;
+  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
+    const Segment& segment = problem.segments[s];
+    const auto count = static_cast<Eigen::Index>(segment.row.size());
+    double cost = residuals.segment(at, count).squaredNorm();
+    at += count;
+    for (std::size_t i = 0; i < segment.nuisances.size(); ++i)
+      cost += std::pow(segment.nuisances[i].hold * fit.shifts[s][i], 2);
+    costs.push_back(cost);
+  }
+  return costs;
+}
+
+/// What bounces has many valleys: a trial that came down a bounce too late under earlier numbers may stay there under
+/// better ones. Initial states that fit clearly better when they begin anew take the place of those; true if any do.
+bool beginAnew(const FitProblem& problem, Fit& fit, const FitOptions& options) {
+  constexpr double clearly = 0.95;
+  constexpr int iterations = 10;
+  FitOptions starts;
+  starts.iterations = iterations;
+  starts.startsOnly = true;
+  starts.tolerance = options.tolerance;
+  const Fit anew = descended(problem, fit.model, {}, starts);
+  const std::vector<double> now = costsOf(problem, fit), then = costsOf(problem, anew);
+  bool any = false;
+  for (std::size_t s = 0; s < problem.segments.size(); ++s) {
+    if (!problem.segments[s].bounces || !(then[s] < clearly * now[s])) continue;
+    fit.shifts[s] = anew.shifts[s];
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+Fit fitModel(const FitProblem& problem, const FitModel& model, const std::vector<std::vector<double>>& shifts,
+             const FitOptions& options) {
+  Fit fit = descended(problem, model, shifts, options);
+  const bool bounces = std::ranges::any_of(problem.segments, &Segment::bounces);
+  if (!bounces || shifts.empty() || !beginAnew(problem, fit, options)) return fit;
+  FitOptions again = options;
+  again.inherited = nullptr;
+  return descended(problem, fit.model, fit.shifts, again);
 }
 
 }  // namespace btr

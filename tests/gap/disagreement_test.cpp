@@ -98,6 +98,15 @@ TEST(DisagreeingTrials, AMarkerThatSlipsInTheMiddleIsTold) {
   EXPECT_THAT(report.disagreements[1].what, HasSubstr("its rig.hinge.position_rad drifts down by 0.0"));
 }
 
+TEST(DisagreeingTrials, OneThatWasDrivenByOtherCommandsIsTold) {
+  GapProblem problem = tenTrials();
+  for (double& command : problem.recordings[5].columns[1]) command *= 1.25;  // the file says more than was sent
+  const GapReport report = analysed(problem);
+  expectDryFriction(report);
+  ASSERT_THAT(setAside(report), ElementsAre("pendulum_5.csv")) << toPlainText(report);
+  EXPECT_THAT(report.disagreements[0].what, HasSubstr("its commands would have to be 0."));
+}
+
 TEST(DisagreeingTrials, ThreeOfTenAreFound) {
   GapProblem problem = tenTrials();
   problem.recordings[1] = shortTrial(1, {.offset_rad = -0.15});

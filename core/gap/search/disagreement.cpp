@@ -155,6 +155,7 @@ class OddTrial {
 
   std::optional<Explanation> byNumber() const;
   std::optional<Explanation> byOffset(const std::function<FitProblem(const std::vector<Recording>&)>& ready) const;
+  std::optional<Explanation> byCommands(const std::function<FitProblem(const std::vector<Recording>&)>& ready) const;
   Explanation byAllNumbers() const;
   double error() const { return errorsByTrial(alone_, others_, limits_.iterations)[trial_]; }
   /// Root mean square of its motion about the mean [noise floors], over all channels.
@@ -288,6 +289,38 @@ std::optional<Explanation> OddTrial::byOffset(
   return best;
 }
 
+/// All commands of a trial by one factor: it was driven by another setting than its file says.
+std::optional<Explanation> OddTrial::byCommands(
+    const std::function<FitProblem(const std::vector<Recording>&)>& ready) const {
+  std::vector<std::size_t> columns;
+  for (const Binding::Input& input : alone_.trials[trial_].binding.inputs)
+    if (input.what == Binding::Input::What::command) columns.push_back(input.column);
+  if (columns.empty()) return std::nullopt;
+  const auto errorBy = [&](double factor) {
+    Recording driven = recording();
+    for (const std::size_t column : columns)
+      for (double& value : driven.columns[column]) value *= factor;
+    return errorsByTrial(ready({std::move(driven)}), others_, limits_.iterations)[0];
+  };
+  // Wide steps of the factor's logarithm, then ever closer ones.
+  constexpr int farthest = 5;
+  constexpr double widest = 0.2, closest = 0.002;
+  double best = 0, least = errorBy(1);
+  for (int k = -farthest; k <= farthest; ++k)
+    if (const double error = errorBy(std::exp(widest * k)); error < least) {
+      least = error;
+      best = widest * k;
+    }
+  for (double step = widest / 2; step > closest; step /= 2)
+    for (const double way : {-step, step})
+      if (const double error = errorBy(std::exp(best + way)); error < least) {
+        least = error;
+        best += way;
+        break;
+      }
+  return Explanation{"its commands would have to be " + digits(std::exp(best)) + " times what was recorded", least};
+}
+
 Explanation OddTrial::byAllNumbers() const {
   const FitModel own = fitted(alone_, others_, 2 * limits_.iterations);
   std::string list;
@@ -419,6 +452,8 @@ GapReport::Disagreement explainDisagreement(const FitProblem& problem, std::size
 
   auto best = odd.byNumber();
   if (const auto offset = odd.byOffset(ready); offset && (!best || offset->error < best->error)) best = offset;
+  if (!best || best->error > enough)
+    if (const auto driven = odd.byCommands(ready); driven && (!best || driven->error < best->error)) best = driven;
   if (!best || best->error > enough)
     if (const auto slip = findSlip(recording, others, limits.iterations, ready))
       if (!best || slip->error < best->error) best = Explanation{inWords(*slip), slip->error};

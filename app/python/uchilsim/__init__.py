@@ -9,6 +9,16 @@
 All quantities are SI: m, kg, s, rad, N, N·m; quaternions are w, x, y, z. Needs grpcio, protobuf and numpy.
 """
 
+try:
+    import google.protobuf  # noqa: F401
+    import grpc  # noqa: F401
+    import numpy  # noqa: F401
+except ImportError as error:
+    raise ImportError(
+        f"uchilsim needs {error.name}, which this Python does not have: install python3-grpcio, python3-protobuf and "
+        "python3-numpy and use the system's Python, /usr/bin/python3, or install them for yours"
+    ) from error
+
 from .client import Client, Evaluation, Experiment, Info
 from .env import Env, VectorEnv
 from .errors import Error, NoAccess, NotFound, NotNow, Refused, TooLate, TooMuch, Unreachable

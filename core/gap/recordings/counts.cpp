@@ -274,7 +274,8 @@ void mendCounts(Recording& trial, const Mapping* mapping) {
   // A command is judged by its position.
   std::vector<std::size_t> order(trial.channels.size() - 1);
   std::iota(order.begin(), order.end(), std::size_t{1});
-  std::ranges::stable_partition(order, [&](std::size_t column) { return !isInputChannel(trial.channels[column]); });
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t column) { return !isInputChannel(trial.channels[column]); });
   for (const std::size_t column : order) {
     const std::string& channel = trial.channels[column];
     if (!parseChannel(channel)) continue;

@@ -229,8 +229,8 @@ Diagnosis doctor(const Scene& scene, const Recording& recording, const Binding& 
   found.following = std::move(joints.following);
   std::move(joints.findings.begin(), joints.findings.end(), std::back_inserter(found.findings));
   // A position that is turned about is another sign than its velocity's, too: the position's fault is told first.
-  std::ranges::stable_partition(
-      found.findings, [](const Finding& finding) { return finding.channel.find(".velocity_") == std::string::npos; });
+  std::stable_partition(found.findings.begin(), found.findings.end(),
+                        [](const Finding& finding) { return finding.channel.find(".velocity_") == std::string::npos; });
   return found;
 }
 

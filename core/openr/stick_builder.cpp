@@ -49,7 +49,7 @@ std::string shellWord(const std::string& text) {
 
 /// Runs a shell command in `folder`; its standard error, and its exit status.
 int run(const fs::path& folder, const std::string& command, std::string& said) {
-  const std::string all = "cd " + shellWord(folder.string()) + " && { " + command + " ; } 2>&1 >/dev/null";
+  const std::string all = "cd " + shellWord(folder.string()) + " && { " + command + " ; } 2>&1 >/dev/null </dev/null";
   FILE* out = popen(all.c_str(), "r");
   if (out == nullptr) throw InputError("no shell can be started to call the compiler");
   char piece[4096];

@@ -60,7 +60,8 @@ PrivateStick::PrivateStick(const std::string& stick, const std::string& paramete
   if (!mkdtemp(pattern.data())) throw InputError(pattern, std::strerror(errno), "a folder for temporary files");
   folder_ = pattern;
   std::error_code problem;
-  fs::copy(stick, folder_, fs::copy_options::recursive, problem);
+  // Links stay links, which the program cannot follow out of its stick.
+  fs::copy(stick, folder_, fs::copy_options::recursive | fs::copy_options::copy_symlinks, problem);
   if (problem) {
     std::error_code ignored;  // what is said is why it could not be copied
     fs::remove_all(folder_, ignored);

@@ -199,8 +199,10 @@ void RunKeeper::tell(Id run, long number, const std::string& answer) {
   constexpr auto patience = std::chrono::seconds(30);
   work->changed.wait_for(lock, patience, [&] { return !work->answering; });
   if (work->over) throw Refusal(Code::notNow, name + " is over: " + work->message);
-  if (number == work->taken && number > 0) return;
-  if (work->question.empty() || number != work->number)
+  // Learners of two levels count each for itself: what is asked now comes before what was taken already.
+  const bool asked = !work->question.empty() && number == work->number;
+  if (!asked && number == work->taken && number > 0) return;
+  if (!asked)
     throw Refusal(Code::notNow,
                   name + " has not asked question " + std::to_string(number) +
                       (work->question.empty() ? "; it asks none now" : "; it asks " + std::to_string(work->number)));

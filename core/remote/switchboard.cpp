@@ -190,6 +190,7 @@ Answer Switchboard::evaluate(const std::string& key, const std::string& call, do
     evaluator = found->second;
     ++evaluator->callers;
   }
+  oldest.reset();  // its processes end before the call begins
   const Answer answer = evaluator->child->ask(call, patience_s, cancelled);
   const std::lock_guard lock(mutex_);
   --evaluator->callers;

@@ -164,7 +164,14 @@ void RunKeeper::begin(Id run, double patience_s) {
   constexpr double usual_s = 600, most_s = 86400;
   work->patience_s = patience_s > 0 ? std::min(patience_s, most_s) : usual_s;
   work->child = nursery_.start('r');
-  work->follower = std::thread([&w = *work] { follow(w); });
+  work->follower = std::thread([&w = *work] {
+    try {
+      follow(w);
+    } catch (const std::exception& error) {
+      w.finish({Code::internal, std::string("what the run's process says cannot be read: ") + error.what()});
+    }
+    w.child->kill("the run is over");  // what it did is stored
+  });
   before = std::exchange(works_[run], std::move(work));
 }
 

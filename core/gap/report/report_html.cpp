@@ -97,9 +97,7 @@ std::string effectCard(const GapReport& report, const ReportLead::Finding& findi
           headerRow({"parameter", "unit", "remark", "value", "95 % interval", "among rivals"}, 3);
   for (const GapReport::Number& n : e.parameters) html += numberRow(n, numberCell(n.value));
   html += "</table></div>\n<p>";
-  if (std::isfinite(finding.share))
-    html += "Of all squared error that calibration and effects took away, " + escaped(wholePercent(finding.share)) +
-            " fell to it. ";
+  if (const std::string share = shareInWords(finding); !share.empty()) html += escaped(share) + " ";
   html += "The cross-validated error without it is larger: it takes " + escaped(percent(e.heldoutErrorReduction)) +
           " away (p = " + escaped(brief(e.pValue)) + ").";
   for (std::size_t i = 0; i < e.rivals.size(); ++i)

@@ -234,6 +234,11 @@ ReportLead leadOf(const GapReport& report) {
   return lead;
 }
 
+std::string shareInWords(const ReportLead::Finding& finding) {
+  if (!std::isfinite(finding.share)) return "";
+  return "Of all squared error that calibration and effects took away, " + wholePercent(finding.share) + " fell to it.";
+}
+
 std::string leadHtml(const GapReport& report, const ReportLead& lead) {
   std::string html;
   if (lead.isWarning) html += "<p>" + escaped(findingHeadline(report)) + ".</p>\n";
@@ -242,9 +247,7 @@ std::string leadHtml(const GapReport& report, const ReportLead& lead) {
     for (const ReportLead::Finding& finding : lead.findings) {
       const EffectLaw& law = report.tried[finding.effect].law;
       html += "<li>" + escaped(finding.text);
-      if (std::isfinite(finding.share))
-        html += " Of all squared error that calibration and effects took away, " +
-                escaped(wholePercent(finding.share)) + " fell to it.";
+      if (const std::string share = shareInWords(finding); !share.empty()) html += " " + escaped(share);
       if (!law.equation.empty()) html += "<br>" + equationHtml(law.equation);
       html += "</li>\n";
     }

@@ -45,5 +45,7 @@ ReportLead leadOf(const GapReport& report);
 
 /// Findings, errors and what to do as HTML without a style of its own, for a page and for Qt's rich text.
 std::string leadHtml(const GapReport& report, const ReportLead& lead);
+/// Its part of what all steps together took, as a sentence; "" where that is not known.
+std::string shareInWords(const ReportLead::Finding& finding);
 
 }  // namespace btr

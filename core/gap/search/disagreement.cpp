@@ -253,11 +253,8 @@ std::optional<Explanation> OddTrial::byOffset(
   std::optional<Explanation> best;
   const FitTrial& trial = alone_.trials[trial_];
   for (std::size_t c = 0; c < trial.binding.measured.size(); ++c) {
-    using What = Binding::Measured::What;
     const Binding::Measured& measured = trial.binding.measured[c];
-    if (trial.noiseFloor[c] <= 0) continue;
-    if (measured.what != What::position && measured.what != What::ballPosition && measured.what != What::basePosition)
-      continue;
+    if (trial.noiseFloor[c] <= 0 || !isPlace(measured.what)) continue;
     Recording moved = recording();
     double offset = 0;
     constexpr int settled = 3;  // the start moves with the offset
@@ -400,6 +397,7 @@ std::vector<std::size_t> outlyingTrials(const FitProblem& problem, const SearchR
     errors.insert(errors.end(), fit.values.begin(), fit.values.end());
     return errors;
   });
+  const auto trimmed = [&](const std::vector<double>& errors) { return sumOf(errors, smallest(errors, kept)); };
   std::optional<std::size_t> leader;
   double least = INFINITY;
   const auto errorsOf = [&](std::size_t t) {
@@ -408,12 +406,11 @@ std::vector<std::size_t> outlyingTrials(const FitProblem& problem, const SearchR
   };
   for (std::size_t t = 0; t < count; ++t) {
     if (!alone[t].ok()) continue;
-    const double sum = sumOf(errorsOf(t), smallest(errorsOf(t), kept));
+    const double sum = trimmed(errorsOf(t));
     if (sum >= least) continue;
     least = sum;
     leader = t;
   }
-  const auto trimmed = [&](const std::vector<double>& errors) { return sumOf(errors, smallest(errors, kept)); };
   std::vector<std::pair<FitModel, std::vector<double>>> starts{{model, now}};
   if (leader) {
     const std::vector<double>& numbers = alone[*leader].numbers;

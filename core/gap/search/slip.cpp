@@ -25,11 +25,6 @@ double shareAt(const Kind& kind, const std::vector<double>& time, std::size_t ro
   return kind.drifts ? (time[row] - time[kind.row]) / (time.back() - time[kind.row]) : 1;
 }
 
-bool isPlace(Binding::Measured::What what) {
-  using What = Binding::Measured::What;
-  return what == What::position || what == What::ballPosition || what == What::basePosition;
-}
-
 /// A trial as it would have been recorded without a slip of this kind and size.
 Recording without(const Recording& recording, std::size_t column, const Kind& kind, double by) {
   Recording moved = recording;
@@ -76,11 +71,17 @@ Best bestSlip(const FitProblem& problem, const Linearised& linear, const Eigen::
 
 }  // namespace
 
+bool isPlace(Binding::Measured::What what) {
+  using What = Binding::Measured::What;
+  return what == What::position || what == What::ballPosition || what == What::basePosition;
+}
+
 std::optional<Slip> findSlip(const Recording& recording, const FitModel& model, int iterations,
                              const std::function<FitProblem(const std::vector<Recording>&)>& ready) {
   constexpr int rounds = 6;
   constexpr double settled = 0.01;
   Best slip;
+  std::size_t column = 0;  // of the recording, in which it slipped
   Recording moved = recording;
   double error = INFINITY, before = 0;
   for (int round = 0; round < rounds; ++round) {
@@ -97,14 +98,12 @@ std::optional<Slip> findSlip(const Recording& recording, const FitModel& model, 
     const bool same = next.kind == slip.kind && std::abs(next.by - slip.by) <= settled * std::abs(next.by);
     if (round > 0 && same) break;
     slip = next;
-    const auto column = problem.trials[0].binding.measured[slip.kind.channel].column;
+    column = problem.trials[0].binding.measured[slip.kind.channel].column;
     moved = without(recording, column, slip.kind, slip.by);
     if (round + 1 == rounds) error = errorsByTrial(ready({moved}), model, iterations)[0];
   }
   if (slip.gain == 0 || !(error < before)) return std::nullopt;
-  const FitProblem problem = ready({recording});
-  const std::string& channel = recording.channels[problem.trials[0].binding.measured[slip.kind.channel].column];
-  return Slip{channel, slip.kind.drifts, recording.columns[0][slip.kind.row], slip.by, error};
+  return Slip{recording.channels[column], slip.kind.drifts, recording.columns[0][slip.kind.row], slip.by, error};
 }
 
 std::string inWords(const Slip& slip) {

@@ -18,13 +18,16 @@ struct Slip {
   double error = 0;     ///< mean squared error of the trial without it [noise floors²]
 };
 
+/// Measured places of joints, bodies and balls.
+bool isPlace(Binding::Measured::What what);
+
 /// The slip of one position channel that makes the simulator fit a trial best, the trial's initial states fitted beside
 /// it: linear least squares over all rows at which it may begin, a few times over, each where the last one led. Nothing
 /// where none makes it better. `ready` makes a fit problem of recordings.
 std::optional<Slip> findSlip(const Recording& recording, const FitModel& model, int iterations,
                              const std::function<FitProblem(const std::vector<Recording>&)>& ready);
 
-/// "its ball.z_m jumps by 0.021 m at 0.35 s, as a marker that slips does".
+/// "its ball.z_m jumps up by 0.021 m at 0.35 s, as a marker that slips does".
 std::string inWords(const Slip& slip);
 
 }  // namespace btr

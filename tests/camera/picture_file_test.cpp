@@ -18,6 +18,7 @@
 #include "core/spec/random.h"
 #include "tests/camera/pictures.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -27,16 +28,10 @@ using ::testing::HasSubstr;
 
 class CameraFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("camera_files_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   std::string file(const char* name) const { return (folder_ / name).string(); }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 RgbPicture colourful(int width, int height, int shift = 0) {

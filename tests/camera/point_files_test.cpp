@@ -9,6 +9,7 @@
 #include "core/spec/json_reader.h"
 #include "tests/camera/board_pictures.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -17,13 +18,12 @@ using ::testing::HasSubstr;
 
 class PointFiles : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   const std::string& with(const std::string& text) {
     writeFile(path_, text);
     return path_;
   }
-  const std::string path_ =
-      ::testing::TempDir() + "/point_files_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+  const TemporaryFolder temporary_;
+  const std::string path_ = temporary_.file("points.csv");
 };
 
 TEST_F(PointFiles, PointsBelongToTheirViews) {

@@ -17,7 +17,7 @@
 #include "core/gap/replay/residual.h"
 #include "core/gap/replay/start_state.h"
 #include "core/spec/random.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

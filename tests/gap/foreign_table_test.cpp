@@ -10,8 +10,8 @@
 #include "core/gap/recordings/time_stamp.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/foreign_table.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

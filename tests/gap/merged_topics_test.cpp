@@ -9,8 +9,8 @@
 #include "core/gap/recordings/recording_health.h"
 #include "core/spec/parameter.h"
 #include "core/spec/random.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/gap/recordings/mapping.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

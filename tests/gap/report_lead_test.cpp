@@ -14,7 +14,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

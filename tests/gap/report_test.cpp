@@ -18,8 +18,8 @@
 #include "core/spec/figures.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"
 #include "core/spec/random.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

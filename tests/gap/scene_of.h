@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/sim/scene.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 

@@ -7,8 +7,8 @@
 #include "core/gap/search/analysis.h"
 #include "core/gap/search/gap_report.h"
 #include "tests/gap/strange_servo.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/plugin/built_plugins.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

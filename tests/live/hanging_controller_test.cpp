@@ -8,6 +8,7 @@
 #include "core/live/session_log.h"
 #include "core/spec/json_reader.h"
 #include "tests/live/game_files.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -20,8 +21,9 @@ struct Ended {
 };
 
 /// btr live with these words, the lines on standard input; a plugin "spin" drives red1.
-Ended live(const std::string& settings, const std::string& words, const std::string& lines = "") {
-  const std::string at = testing::TempDir() + "stuck.";
+Ended live(const TemporaryFolder& folder, const std::string& settings, const std::string& words,
+           const std::string& lines = "") {
+  const std::string at = folder.file("stuck.");
   std::string text = dogsText();
   const std::string walk = R"("plugin": "walk")";
   text.replace(text.find(walk), walk.size(), R"("plugin": "spin", "settings": {)" + settings + "}");
@@ -35,7 +37,8 @@ Ended live(const std::string& settings, const std::string& words, const std::str
 }
 
 TEST(HangingController, IsNamedAndEndsTheSessionWithItsLogWhole) {
-  const Ended end = live("", "",
+  const TemporaryFolder folder;
+  const Ended end = live(folder, "", "",
                          R"({"do": "step", "periods": 3})"
                          "\n"
                          R"({"act": "throw", "object": "ball", "velocity_m_s": [1, 0, 0]})"
@@ -47,20 +50,22 @@ TEST(HangingController, IsNamedAndEndsTheSessionWithItsLogWhole) {
   EXPECT_THAT(end.err, HasSubstr("the world stopped: red1's controller \"spin\" has not answered for 1"));
   EXPECT_THAT(end.out, HasSubstr(R"({"hangs":"red1's controller \"spin\" has not answered for 0.1 s"})"));
   EXPECT_THAT(end.out, HasSubstr(R"({"fault":"red1's controller \"spin\" has not answered for 1)"));
-  const SessionLog log = loadSessionLog(testing::TempDir() + "stuck.log");
+  const SessionLog log = loadSessionLog(folder.file("stuck.log"));
   ASSERT_EQ(log.acts.size(), 1u);
   EXPECT_EQ(log.acts[0].period, 3);
 }
 
 TEST(HangingController, ThatAnswersInTheEndOnlyGetsItsName) {
-  const Ended end = live(R"("pause_s": 0.3, "after_s": 9.98)", "--json");
+  const TemporaryFolder folder;
+  const Ended end = live(folder, R"("pause_s": 0.3, "after_s": 9.98)", "--json");
   EXPECT_EQ(end.code, 0);
   EXPECT_THAT(end.err, HasSubstr("red1's controller \"spin\" has not answered for 0.1 s"));
   EXPECT_THAT(end.out, HasSubstr("trace_sha256"));
 }
 
 TEST(HangingController, ThatCrashesIsNamed) {
-  const Ended end = live(R"("how": 1)", "");
+  const TemporaryFolder folder;
+  const Ended end = live(folder, R"("how": 1)", "");
   EXPECT_THAT(end.err, HasSubstr("the controller plugin \"spin\" crashed (signal 6)"));
 }
 

@@ -11,6 +11,7 @@
 #include "core/spec/json_reader.h"
 #include "tests/live/game_files.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -53,7 +54,8 @@ TEST(Session, TheSameGameAndActsGiveTheSameBits) {
 }
 
 TEST(Session, ItsLogPlaysItAgainBitForBit) {
-  const std::string path = testing::TempDir() + "lively.log";
+  const TemporaryFolder temporary;
+  const std::string path = temporary.file("lively.log");
   std::string sha;
   {
     Session session(dogs(), host());
@@ -212,7 +214,8 @@ TEST(Acts, AreRefusedWithWhatIsAllowed) {
 }
 
 TEST(SessionLogs, OfAKilledSessionAreReadUpToTheirLastWholeLine) {
-  const std::string path = testing::TempDir() + "killed.log";
+  const TemporaryFolder temporary;
+  const std::string path = temporary.file("killed.log");
   {
     SessionLogWriter log(path, dogs());
     log.act(5, RemoveAct{"ball"});
@@ -251,8 +254,8 @@ TEST(Games, AreRefusedWithFileAndPlace) {
 // Its models are found from where the scene is, also where the game's own folder is named from the working one.
 TEST(Games, MayNameASceneInAnotherFolder) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(testing::TempDir()) / "games";
-  fs::create_directories(folder);
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   const std::string scene = fs::relative(SOURCE_DIR "/resources/scenes/kick.json", folder).string();
   std::ofstream(folder / "kick.json") << R"({"format": "uchilsim-game-1", "scene": ")" << scene << "\"}";
   Session session(loadGame((fs::relative(folder) / "kick.json").string()), host());

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/model/model_texts.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -16,14 +17,10 @@ using testing::HasSubstr;
 /// A folder of its own for each test, with a file beside it that must not be read.
 class Inline : public testing::Test {
  protected:
-  Inline()
-      : outside_(fs::path(testing::TempDir()) /
-                 (std::string("inline_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(outside_);
+  Inline() {
     fs::create_directories(outside_ / "robot" / "parts");
     write("../secret.wrl", vrmlHeader + sphere);
   }
-  ~Inline() override { fs::remove_all(outside_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(outside_ / "robot" / name) << text;
@@ -41,7 +38,8 @@ class Inline : public testing::Test {
   }
 
   const std::string sphere = "Shape { geometry Sphere { radius 0.5 } }\n";
-  fs::path outside_;
+  const TemporaryFolder temporary_;
+  const fs::path outside_ = temporary_.path();
 };
 
 TEST_F(Inline, ReadsPartsBelowTheFolderWithOrWithoutHeader) {

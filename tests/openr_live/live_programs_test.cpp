@@ -11,6 +11,7 @@
 #include "core/openr/joint_gains.h"
 #include "tests/openr_live/played_program.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -43,7 +44,8 @@ class OpenrLive : public testing::Test {
     return session.inputs()[robot][static_cast<std::size_t>(session.scene().robots[robot].model.findJoint(joint))];
   }
 
-  const std::string folder_ = testing::TempDir() + "sticks/";
+  const TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.file("sticks/");
 };
 
 OrderFrame nothing(const SensorFrame&) { return {}; }
@@ -197,7 +199,7 @@ TEST_F(OpenrLive, TargetsBeyondTheRangeAreItsEnd) {
 }
 
 TEST_F(OpenrLive, TheLogPlaysAgainBitForBitWithoutThePrograms) {
-  const std::string path = testing::TempDir() + "openr.log";
+  const std::string path = temporary_.file("openr.log");
   std::string sha;
   {
     Session session(game(), host());

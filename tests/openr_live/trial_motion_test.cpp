@@ -10,6 +10,7 @@
 #include "core/spec/json_reader.h"
 #include "tests/openr_live/played_program.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {
@@ -46,7 +47,6 @@ class Played final : public Controller {
 class OpenrTrial : public testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(stick_);
     fs::create_directories(stick_ + "/OPEN-R/MW");
     writeFile(stick_ + "/OPEN-R/MW/DATA.TXT", "data");
     writeParameters(R"({"name": "pan_p", "min": 1, "max": 64, "default": 8, "integer": true},
@@ -73,7 +73,8 @@ class OpenrTrial : public testing::Test {
     return runTrial(scene(), controller, {}, parameters, 1, options);
   }
 
-  const std::string stick_ = testing::TempDir() + "trial-stick";
+  const TemporaryFolder temporary_;
+  const std::string stick_ = temporary_.file("trial-stick");
 };
 
 TEST_F(OpenrTrial, ParametersAreNamedInTheSticksFile) {

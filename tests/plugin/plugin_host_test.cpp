@@ -12,6 +12,7 @@
 #include "core/spec/json_reader.h"
 
 #include "core/plugin/plugin.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {
@@ -118,13 +119,12 @@ TEST(PluginHost, AFurtherFolderIsLoadedOnDemandOrRefusedByName) {
 
 TEST(PluginHost, LeavesOutAFileThatIsNoModule) {
   namespace fs = std::filesystem;
-  std::string pattern = (fs::temp_directory_path() / "uchilsim-XXXXXX").string();
-  const fs::path folder = ::mkdtemp(pattern.data());
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   fs::create_directory(folder / "learners");
   writeFile((folder / "learners" / "text.so").string(), "this is no library");
   writeFile((folder / "learners" / "readme.txt").string(), "nor is this meant as one");
   const PluginHost host(folder.string());
-  fs::remove_all(folder);
   EXPECT_EQ(1u, host.problems().size());
   EXPECT_TRUE(host.learners().empty());
   EXPECT_NE("(none)", problemOf(host, "text"));
@@ -134,15 +134,14 @@ TEST(PluginHost, RefusesAFolderThatIsNotThere) { EXPECT_THROW(PluginHost("/nowhe
 
 TEST(PluginHost, LooksBesideTheProgramThenWhereTheEnvironmentSaysThenInTheUsersData) {
   namespace fs = std::filesystem;
-  std::string pattern = (fs::temp_directory_path() / "uchilsim-XXXXXX").string();
-  const fs::path data = ::mkdtemp(pattern.data());
+  const TemporaryFolder temporary;
+  const fs::path& data = temporary.path();
   fs::create_directories(data / "uchilsim" / "plugins");
   ::setenv("UCHILSIM_PLUGINS", "/some/where::/else", 1);
   ::setenv("XDG_DATA_HOME", data.c_str(), 1);
   const std::vector<std::string> path = PluginHost::searchPath();
   ::unsetenv("UCHILSIM_PLUGINS");
   ::unsetenv("XDG_DATA_HOME");
-  fs::remove_all(data);
   ASSERT_EQ(4u, path.size());
   // The test program lies in bin, beside lib/plugins.
   EXPECT_TRUE(fs::equivalent(PLUGIN_DIR, path[0]));

@@ -9,8 +9,8 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/plugin/built_plugins.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/gap/proof/proof_fresh.h"
 #include "core/gap/search/gap_report.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/prove/prove_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::prove {
 namespace {

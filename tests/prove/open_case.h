@@ -7,8 +7,8 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/search/analysis.h"
 #include "core/gap/search/gap_report.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/prove/prove_fixture.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::prove {
 

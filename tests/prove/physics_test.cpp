@@ -10,10 +10,10 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/start_state.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/prove/outside_effects.h"
 #include "tests/prove/prove_fixture.h"
 #include "tests/prove/reality.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::prove {
 namespace {

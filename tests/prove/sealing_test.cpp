@@ -9,10 +9,10 @@
 #include "core/gap/recordings/recording.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/prove/outside_effects.h"
 #include "tests/prove/prove_fixture.h"
 #include "tests/prove/reality.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::prove {
 namespace {

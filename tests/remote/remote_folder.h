@@ -2,7 +2,6 @@
 // A folder for a server's files, and what tests play in it.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 
@@ -26,9 +26,6 @@ class RemoteFolder {
  public:
   RemoteFolder() {
     namespace fs = std::filesystem;
-    std::string made = (fs::temp_directory_path() / "btr-remote-XXXXXX").string();
-    if (!mkdtemp(made.data())) throw std::runtime_error("no temporary folder");
-    outside_ = made;
     const fs::path resources = SOURCE_DIR "/resources";
     for (const char* file : {"robots/ers7.wrl", "scenes/kick.json", "experiments/kick-short.json"}) {
       fs::create_directories((server() / file).parent_path());
@@ -37,13 +34,10 @@ class RemoteFolder {
     write("ball.json", ballGame());
     write("dog.json", dogGame());
   }
-  ~RemoteFolder() { std::filesystem::remove_all(outside_); }
-  RemoteFolder(const RemoteFolder&) = delete;
-  RemoteFolder& operator=(const RemoteFolder&) = delete;
 
-  const std::filesystem::path& outside() const { return outside_; }
-  std::filesystem::path server() const { return outside_ / "server"; }
-  std::string file(const std::string& name) const { return (outside_ / name).string(); }
+  const std::filesystem::path& outside() const { return temporary_.path(); }
+  std::filesystem::path server() const { return outside() / "server"; }
+  std::string file(const std::string& name) const { return temporary_.file(name); }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(server() / name, std::ios::binary) << text;
   }
@@ -51,7 +45,7 @@ class RemoteFolder {
   std::string listing() const {
     std::string names;
     std::vector<std::string> all;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(outside_))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(outside()))
       all.push_back(entry.path().string());
     std::ranges::sort(all);
     for (const std::string& name : all) names += name + "\n";
@@ -69,7 +63,7 @@ class RemoteFolder {
   }
 
  private:
-  std::filesystem::path outside_;
+  TemporaryFolder temporary_;
 };
 
 inline const PluginHost& plugins() {

@@ -15,9 +15,9 @@
 #include "core/sim/bench.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/genotypes.h"
 #include "tests/rival/rival_trial.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::rival {
 namespace {

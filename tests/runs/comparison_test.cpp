@@ -8,7 +8,7 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

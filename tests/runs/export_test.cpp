@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <sstream>
 
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {
@@ -20,10 +20,7 @@ using Row = std::vector<std::string>;
 class Export : public testing::Test {
  protected:
   Export() {
-    std::string name = (std::filesystem::temp_directory_path() / "uchilsim_export_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    database_.emplace(Database::open(name + "/kick.db", Database::Mode::create));
+    database_.emplace(Database::open(folder_.file("kick.db"), Database::Mode::create));
     Database& db = *database_;
     RunRecord run;
     run.experiment = db.addExperiment({0, "kick", "{}", "", ""});
@@ -69,10 +66,6 @@ class Export : public testing::Test {
     db.finishStage(simulator, {run_, 1, 1, 0, 1.375, 0.25, std::nullopt, 0.5, 1.375, 0.125, 0.1, 1},
                    RunState::learning);
   }
-  ~Export() override {
-    database_.reset();
-    std::filesystem::remove_all(folder_);
-  }
   // The table, read by the program's own reader.
   std::vector<Row> table(const std::string& what, const std::vector<std::string>& names = {}) const {
     std::vector<Parameter> genotype;
@@ -85,7 +78,7 @@ class Export : public testing::Test {
     return rows;
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
   std::optional<Database> database_;
   Id run_ = 0;
 };

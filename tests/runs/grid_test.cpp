@@ -16,8 +16,8 @@
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/runs/child_program.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

@@ -20,8 +20,8 @@
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/genotypes.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

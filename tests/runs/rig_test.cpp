@@ -9,9 +9,9 @@
 #include "core/run/adoption.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/rig_report.h"
-#include "tests/gap/temporary_folder.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {

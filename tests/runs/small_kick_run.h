@@ -7,7 +7,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace btr::test {
 

@@ -6,20 +6,19 @@
 
 #include "core/spec/error.h"
 #include "core/spec/file_kind.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {
 
 class FileKinds : public testing::Test {
  protected:
-  FileKinds() { std::filesystem::create_directories(folder_); }
-  ~FileKinds() override { std::filesystem::remove_all(folder_); }
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return (folder_ / name).string();
   }
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(FileKinds, AreToldByContentWhateverTheName) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "core/spec/error.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 namespace {
@@ -96,12 +96,8 @@ TEST(JsonReader, ChoicesAreWords) {
 
 class Files : public testing::Test {
  protected:
-  Files() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "uchilsim-XXXXXX").string();
-    folder = ::mkdtemp(pattern.data());
-  }
-  ~Files() override { std::filesystem::remove_all(folder); }
-  std::string folder;
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path();
 };
 
 TEST_F(Files, WritingReplacesTheWholeContentAndLeavesNothingBeside) {

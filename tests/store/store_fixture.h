@@ -1,7 +1,6 @@
 #pragma once
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <string>
@@ -9,27 +8,19 @@
 
 #include "core/store/database.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace btr {
 
 /// A folder of its own for each test, removed behind it.
 class StoreTest : public testing::Test {
  protected:
-  StoreTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "uchilsim_store_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~StoreTest() override {
-    std::error_code error;
-    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all, error);
-    std::filesystem::remove_all(folder_, error);
-  }
   std::string pathOf(const std::string& name) const { return (folder_ / name).string(); }
   std::string file() const { return pathOf("kick.db"); }
   Database create() const { return Database::open(file(), Database::Mode::create); }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 using test::refusal;

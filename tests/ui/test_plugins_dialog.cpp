@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/plugin/plugin_host.h"
+#include "tests/temporary_folder.h"
 #include "ui/common/plugins_dialog.h"
 
 namespace btr::ui {
@@ -36,12 +37,11 @@ void TestPluginsDialog::namesEachPluginWithVersionAuthorLicenceAndPath() {
 
 void TestPluginsDialog::namesWhatWasNotLoadedAndWhy() {
   namespace fs = std::filesystem;
-  std::string pattern = (fs::temp_directory_path() / "uchilsim-XXXXXX").string();
-  const fs::path folder = ::mkdtemp(pattern.data());
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   fs::create_directories(folder / "effects");
   std::ofstream(folder / "effects" / "text.so") << "this is no library";
   const PluginHost host(std::vector<std::string>{PLUGIN_DIR, folder.string()});
-  fs::remove_all(folder);
   const PluginsDialog dialog(host);
   const auto* table = dialog.findChild<QTableWidget*>("failures");
   QVERIFY(table);

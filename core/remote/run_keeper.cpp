@@ -182,6 +182,13 @@ bool RunKeeper::isHere(Id run) const {
   return !work->over;
 }
 
+void RunKeeper::awaitEnd(Id run, double patience_s) const {
+  const auto work = find(run);
+  if (!work) return;
+  std::unique_lock lock(work->mutex);
+  work->changed.wait_for(lock, std::chrono::duration<double>(patience_s), [&] { return work->over; });
+}
+
 RunNews RunKeeper::news(Id run, double wait_s, const std::function<bool()>& cancelled) {
   const auto work = find(run);
   if (!work) return {RunNews::What::notHere, 0, "", ""};

@@ -35,6 +35,8 @@ class RunKeeper {
   /// Nothing happens if it is worked on already. Throws Refusal.
   void begin(Id run, double patience_s);
   bool isHere(Id run) const;
+  /// Waits for the end of a run whose process has stored that it rests and is about to leave, at most `patience_s`.
+  void awaitEnd(Id run, double patience_s) const;
   /// Waits until there is something to say, at most `wait_s`, or until `cancelled`.
   RunNews news(Id run, double wait_s, const std::function<bool()>& cancelled);
   /// An answer to question `number`, JSON as the plugin wants it. Throws Refusal where it is not taken; an answer that

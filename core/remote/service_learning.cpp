@@ -134,7 +134,11 @@ grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::Star
 grpc::Status LearningService::Continue(grpc::ServerContext* context, const v1::ContinueRequest* request,
                                        v1::Run* reply) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
-    runOf(request->run());
+    // That a run rests is stored before its process has left.
+    constexpr double leaving_s = 10;
+    const std::string state = runOf(request->run()).state();
+    if (state == "waiting" || state == "stopped" || state == "failed")
+      desks_.switchboard.runs().awaitEnd(request->run(), leaving_s);
     desks_.switchboard.runs().begin(request->run(), request->patience_s());
     *reply = runOf(request->run());
   });

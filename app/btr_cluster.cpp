@@ -19,8 +19,8 @@ constexpr double longestJob_s = 120;
 /// With more ranks than this, rank 0 has enough to do without evaluating trials itself.
 constexpr int mostRanksWithAWorkingFirst = 8;
 
-/// This rank's share of its machine's processors. Launchers bind their ranks to processors, or say how many ranks are on
-/// the machine.
+/// This rank's share of its machine's processors. Launchers bind their ranks to processors, or say how many ranks are
+/// on the machine.
 int shareOfProcessors(const Launch& launch) {
   int here = launch.size;
   for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"})

@@ -163,7 +163,9 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   command->add_option("--db", arguments->database, "experiment database")->required();
   command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")
       ->transform(wholeNumber(1));
-  command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors); of each rank under mpirun or srun")
+  command
+      ->add_option("--jobs", arguments->jobs,
+                   "worker processes (0: as many as processors); of each rank under mpirun or srun")
       ->transform(wholeNumber(0, 1024));
   CLI::Option* seed =
       command->add_option("--seed", arguments->seed, "instead of the seed in the file")->transform(seedNumber());

@@ -52,8 +52,7 @@ Parts buildIdentity(const PluginHost& host) {
   // Once: what is loaded later (MPI, say) is no part of it.
   static const std::map<std::string, std::string> program = programAndLibraries(host);
   std::map<std::string, std::string> found = program;
-  for (const PluginInfo& plugin : host.plugins())
-    found["plugin " + shortName(plugin.path)] = hashOfFile(plugin.path);
+  for (const PluginInfo& plugin : host.plugins()) found["plugin " + shortName(plugin.path)] = hashOfFile(plugin.path);
 #if defined(__x86_64__)
   found["processor's fused arithmetic"] = __builtin_cpu_supports("fma") ? "yes" : "no";
 #endif

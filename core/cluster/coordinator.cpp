@@ -32,9 +32,9 @@ struct Piece {
 struct Place {
   PlaceReport report;
   bool begun = false, gone = false;
-  std::string why;                ///< it was lost
-  long experiment = 0;            ///< the last one that it was told
-  std::deque<Piece> pieces;       ///< in the order in which it works on them
+  std::string why;               ///< it was lost
+  long experiment = 0;           ///< the last one that it was told
+  std::deque<Piece> pieces;      ///< in the order in which it works on them
   Clock::time_point since = {};  ///< when it began with the first of them
 };
 
@@ -115,9 +115,8 @@ struct Coordinator::Impl {
         continue;
       }
       const int foreman = std::stoi(parts.front());
-      const auto place = std::ranges::find_if(places, [&](const Place& p) {
-        return p.report.rank == from && p.report.foreman == foreman;
-      });
+      const auto place = std::ranges::find_if(
+          places, [&](const Place& p) { return p.report.rank == from && p.report.foreman == foreman; });
       parts.erase(parts.begin());
       if (place != places.end()) hear(*place, parts);
     }
@@ -188,8 +187,10 @@ struct Coordinator::Impl {
         if (first)
           for (const std::size_t job : piece.jobs)
             if (++tries[job] >= mostTries)
-              throw InputError(nameOf(place) + ": the process that worked on a trial was lost, the third time for this "
-                               "trial (" + place.why + "); nothing of this generation is stored: go on with btr run");
+              throw InputError(nameOf(place) +
+                               ": the process that worked on a trial was lost, the third time for this "
+                               "trial (" +
+                               place.why + "); nothing of this generation is stored: go on with btr run");
         schedule->giveBack(piece.jobs);
       }
       first = false;
@@ -288,9 +289,8 @@ std::vector<WorkerPool::Reply> Coordinator::run(const PreparedExperiment& experi
   if (!impl.begin(stop)) return {};
   impl.setExperiment(experiment);
   std::vector<WorkerPool::Reply> replies(jobs.size());
-  Schedule schedule(jobs.size(), static_cast<std::size_t>(std::ranges::count_if(impl.places, [](const Place& p) {
-                      return !p.gone;
-                    })));
+  Schedule schedule(jobs.size(), static_cast<std::size_t>(
+                                     std::ranges::count_if(impl.places, [](const Place& p) { return !p.gone; })));
   impl.replies = &replies;
   impl.schedule = &schedule;
   impl.tries.assign(jobs.size(), 0);

@@ -49,7 +49,7 @@ std::vector<char*> environmentOfAForeman() {
   return all;
 }
 
-void start(Foreman& foreman, const ForemanCommand& command) {
+void startForeman(Foreman& foreman, const ForemanCommand& command) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw InputError(std::string("cannot make a worker process: ") + std::strerror(errno));
@@ -63,8 +63,8 @@ void start(Foreman& foreman, const ForemanCommand& command) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  const int problem = posix_spawnp(&foreman.pid, words.front().c_str(), &actions, nullptr, arguments.data(),
-                                   environment.data());
+  const int problem =
+      posix_spawnp(&foreman.pid, words.front().c_str(), &actions, nullptr, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   if (problem != 0) {
@@ -78,7 +78,7 @@ void start(Foreman& foreman, const ForemanCommand& command) {
   foreman.leaving.clear();
 }
 
-int end(Foreman& foreman) {
+int endAtOnce(Foreman& foreman) {
   int status = 0;
   if (foreman.pid <= 0) return status;
   kill(foreman.pid, SIGKILL);
@@ -101,10 +101,10 @@ int endOf(Foreman& foreman) {
     }
     usleep(1000);
   }
-  return end(foreman);
+  return endAtOnce(foreman);
 }
 
-void write(Foreman& foreman) {
+void writeWhatLeaves(Foreman& foreman) {
   while (!foreman.leaving.empty()) {
     const ssize_t n = ::send(foreman.socket, foreman.leaving.data(), foreman.leaving.size(), MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
@@ -114,7 +114,7 @@ void write(Foreman& foreman) {
 }
 
 /// Reads what is there. False at its end.
-bool read(Foreman& foreman) {
+bool readWhatIsThere(Foreman& foreman) {
   char buffer[1 << 16];
   while (true) {
     const ssize_t n = ::read(foreman.socket, buffer, sizeof buffer);
@@ -155,7 +155,7 @@ struct Crew::Impl {
     }
     waiting.push_back({number, {"lost", why}});
     try {
-      start(foreman, command);
+      startForeman(foreman, command);
     } catch (const InputError& error) {
       foreman.gone = true;
       waiting.push_back({number, {"gone", error.what()}});
@@ -165,11 +165,11 @@ struct Crew::Impl {
 
 Crew::Crew(int foremen, ForemanCommand command) : impl_(new Impl{std::move(command), {}, {}}) {
   impl_->foremen.resize(static_cast<std::size_t>(foremen));
-  for (Foreman& foreman : impl_->foremen) start(foreman, impl_->command);
+  for (Foreman& foreman : impl_->foremen) startForeman(foreman, impl_->command);
 }
 
 Crew::~Crew() {
-  for (Foreman& foreman : impl_->foremen) end(foreman);
+  for (Foreman& foreman : impl_->foremen) endAtOnce(foreman);
 }
 
 int Crew::size() const { return static_cast<int>(impl_->foremen.size()); }
@@ -181,13 +181,13 @@ void Crew::send(int number, const Parts& parts) {
   const std::uint64_t size = bytes.size();
   foreman.leaving.append(reinterpret_cast<const char*>(&size), sizeof size);
   foreman.leaving += bytes;
-  write(foreman);
+  writeWhatLeaves(foreman);
 }
 
 void Crew::restart(int number) {
   const auto k = static_cast<std::size_t>(number);
   if (impl_->foremen[k].pid <= 0) return;
-  end(impl_->foremen[k]);
+  endAtOnce(impl_->foremen[k]);
   impl_->lost(k, "it did not answer in time");
 }
 
@@ -206,9 +206,9 @@ std::vector<Crew::Event> Crew::wait(int milliseconds) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].revents == 0) continue;
     Foreman& foreman = impl_->foremen[whose[i]];
-    if (files[i].revents & POLLOUT) write(foreman);
+    if (files[i].revents & POLLOUT) writeWhatLeaves(foreman);
     if (!(files[i].revents & ~POLLOUT)) continue;
-    const bool goesOn = read(foreman);
+    const bool goesOn = readWhatIsThere(foreman);
     for (Parts parts; takeMessage(foreman, parts);) {
       if (!parts.empty() && parts.front() == "done") foreman.losses = 0;
       events.push_back({static_cast<int>(whose[i]), std::move(parts)});

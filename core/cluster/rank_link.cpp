@@ -37,9 +37,9 @@ Launch launchOfThisProcess() {
     const char *rank, *size, *by;
   };
   // Open MPI's mpirun, Slurm's srun, and other mpiruns.
-  for (const Names& names : {Names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "mpirun"},
-                             Names{"SLURM_PROCID", "SLURM_STEP_NUM_TASKS", "srun"},
-                             Names{"PMI_RANK", "PMI_SIZE", "mpirun"}}) {
+  for (const Names& names :
+       {Names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "mpirun"},
+        Names{"SLURM_PROCID", "SLURM_STEP_NUM_TASKS", "srun"}, Names{"PMI_RANK", "PMI_SIZE", "mpirun"}}) {
     const int rank = numberFrom(names.rank), size = numberFrom(names.size);
     if (rank >= 0 && size > 1) return {rank, size, names.by};
   }

@@ -54,6 +54,8 @@ std::vector<std::size_t> Schedule::next(const Pace& pace, std::size_t held) {
   return piece;
 }
 
-void Schedule::giveBack(const std::vector<std::size_t>& piece) { again_.insert(again_.end(), piece.begin(), piece.end()); }
+void Schedule::giveBack(const std::vector<std::size_t>& piece) {
+  again_.insert(again_.end(), piece.begin(), piece.end());
+}
 
 }  // namespace btr

@@ -13,9 +13,9 @@ struct Pace {
   void add(std::size_t jobs, double worked_s, double away_s);
 };
 
-/// Which jobs go to which place: numbered jobs, all worth the same, in pieces sized by measured time. A piece is so long
-/// that its journey is short beside it, so short that places end together: a part of what is left (so that pieces become
-/// shorter towards the end) and never longer than half a second. Knows no clock, no network and no results.
+/// Which jobs go to which place: numbered jobs, all worth the same, in pieces sized by measured time. A piece is so
+/// long that its journey is short beside it, so short that places end together: a part of what is left (so that pieces
+/// become shorter towards the end) and never longer than half a second. Knows no clock, no network and no results.
 class Schedule {
  public:
   Schedule(std::size_t jobs, std::size_t places);

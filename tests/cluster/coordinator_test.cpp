@@ -183,9 +183,8 @@ TEST(Coordinator, RefusesARankWithAnotherBuildByNameAndHost) {
   CoordinatorOptions options = withForemen(0);
   Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1"}, other}), kicks.host(),
                           options);
-  EXPECT_EQ(
-      "rank 1 (host lab7): its library libbtr_core.so is another one; install the same build on every machine",
-      test::refusal([&] { kicks.shasWith(&coordinator); }));
+  EXPECT_EQ("rank 1 (host lab7): its library libbtr_core.so is another one; install the same build on every machine",
+            test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 
 TEST(Coordinator, NamesARankThatNeverBegins) {

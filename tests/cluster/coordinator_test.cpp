@@ -40,8 +40,10 @@ class Kicks {
   }
   std::vector<std::string> shasWith(Workforce* workforce) const {
     Evaluator evaluator(prepared_, 1, workforce);
+    const auto replies = evaluator.evaluate(jobs_, goOn);
     std::vector<std::string> shas;
-    for (const TrialReply& reply : *evaluator.evaluate(jobs_, goOn)) shas.push_back(reply.traceSha256 + reply.detail);
+    if (replies)
+      for (const TrialReply& reply : *replies) shas.push_back(reply.traceSha256 + reply.detail);
     return shas;
   }
   const PluginHost& host() const { return host_; }

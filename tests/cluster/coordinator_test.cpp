@@ -59,7 +59,6 @@ class Kicks {
 CoordinatorOptions withForemen(int foremen) {
   CoordinatorOptions options;
   options.foremen = foremen;
-  options.command = {BTR_PROGRAM, "pieces"};
   return options;
 }
 

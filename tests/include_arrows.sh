@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Arrows point one way: ui, app → remote → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
+# Arrows point one way: ui, app → remote, cluster → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
 # fit → replay → recordings.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
@@ -18,6 +18,7 @@ declare -A may=(
   [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [core/cluster]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/cluster"
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [core/remote]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/live core/remote"

@@ -176,10 +176,10 @@ Answer Child::ask(const std::string& call, const Waiting& waiting) {
     return unwanted();
   };
   const auto late = [&] {
-    return unwanted() ? ended(Code::cancelled, "the call was cancelled while it worked")
-                      : ended(Code::tooLate, "it has not answered for " +
-                                                 std::to_string(static_cast<long>(waiting.patience_s)) +
-                                                 " s and was ended");
+    return unwanted()
+               ? ended(Code::cancelled, "the call was cancelled while it worked")
+               : ended(Code::tooLate, "it has not answered for " +
+                                          std::to_string(static_cast<long>(waiting.patience_s)) + " s and was ended");
   };
   std::string bytes;
   switch (sendFrame(socket_, call, waiting.patience_s, unwanted)) {
@@ -199,6 +199,7 @@ Answer Child::ask(const std::string& call, const Waiting& waiting) {
       case Got::frame:
         break;
     }
+    if (bytes.empty() && lookOn()) return late();
   } while (bytes.empty());  // it is still at it
   return {static_cast<Code>(bytes[0]), bytes.substr(1)};
 }

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 struct RunKeeper::Work {
   Id run = 0;
   double patience_s = 0;
-  long order = 0;  ///< in which runs began
+  long order = 0;                ///< in which runs began
   std::shared_ptr<Child> child;  ///< none once it is over
   std::mutex mutex;
   std::condition_variable changed;
@@ -89,17 +89,17 @@ struct RunKeeper::Work {
 };
 
 // What the run's process asks by itself, until it is over.
-void RunKeeper::follow(Work& work) {
+Answer RunKeeper::follow(Work& work) {
   std::string pending;
   const std::shared_ptr<Child> child = work.running();
   const int socket = child->socket(), line = child->line();
   constexpr double patience_s = 10;
   if (sendFrame(socket, callOf(Method::work, std::to_string(work.run)), patience_s) != Sent::whole)
-    return work.finish({Code::unavailable, "the run's process has ended"});
+    return {Code::unavailable, "the run's process has ended"};
   while (true) {
     pollfd both[2] = {{socket, POLLIN, 0}, {line, POLLIN, 0}};
     constexpr int look_ms = 200;
-    if (poll(both, 2, look_ms) < 0 && errno != EINTR) return work.finish({Code::internal, "poll failed"});
+    if (poll(both, 2, look_ms) < 0 && errno != EINTR) return {Code::internal, "poll failed"};
     if (both[1].revents != 0) {
       char bytes[65536];
       const ssize_t n = recv(line, bytes, sizeof bytes, MSG_DONTWAIT);
@@ -111,8 +111,8 @@ void RunKeeper::follow(Work& work) {
     if (both[0].revents != 0) {
       std::string frame;
       if (receiveFrame(socket, frame, patience_s, {}, patience_s) != Got::frame || frame.empty())
-        return work.finish({Code::unavailable, "the run's process has ended; what it did is stored"});
-      return work.finish({static_cast<Code>(frame[0]), frame.substr(1)});
+        return {Code::unavailable, "the run's process has ended; what it did is stored"};
+      return {static_cast<Code>(frame[0]), frame.substr(1)};
     }
     const std::lock_guard lock(work.mutex);
     if (!work.question.empty() && Clock::now() - work.asked > std::chrono::duration<double>(work.patience_s))
@@ -131,14 +131,15 @@ void RunKeeper::stopAll(const std::function<void(Id)>& request, double patience_
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
   constexpr auto again = std::chrono::milliseconds(300);
   // A run that has just begun may not heed what came before it: it is asked again.
-  for (const auto& [run, work] : works) {
+  for (const auto& each : works) {
+    const std::shared_ptr<Work>& work = each.second;
     std::unique_lock lock(work->mutex);
     while (!work->over && Clock::now() < until) {
       if (!work->question.empty()) {
         work->tellEnd("the server ends; continue the run at any time");
       } else {
         lock.unlock();
-        request(run);
+        request(each.first);
         lock.lock();
       }
       work->changed.wait_for(lock, again, [&] { return work->over; });
@@ -172,7 +173,7 @@ void RunKeeper::begin(Id run, double patience_s) {
   work->child = nursery_.start('r');
   work->follower = std::thread([&w = *work] {
     try {
-      follow(w);
+      w.finish(follow(w));
     } catch (const std::exception& error) {
       w.finish({Code::internal, std::string("what the run's process says cannot be read: ") + error.what()});
     }

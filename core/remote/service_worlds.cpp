@@ -174,9 +174,9 @@ grpc::Status WorldsService::Open(grpc::ServerContext* context, const v1::OpenReq
 
 grpc::Status WorldsService::Close(grpc::ServerContext* context, const v1::CloseRequest* request,
                                   v1::CloseReply* reply) {
-  return guardedCall(desks_, context, Role::drive,
-                 [&](const Gate::Caller&) { take(desks_.switchboard.close(request->world(), [context] { return context->IsCancelled(); }), *reply);
-                 });
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
+    take(desks_.switchboard.close(request->world(), [context] { return context->IsCancelled(); }), *reply);
+  });
 }
 
 grpc::Status WorldsService::Reset(grpc::ServerContext* context, const v1::ResetRequest* request, v1::State* reply) {

@@ -72,8 +72,8 @@ class WorldDesk final : public Desk {
   std::unique_ptr<SessionLogWriter> log_;
   std::vector<std::string> channels_;
   long channelsVersion_ = 0, channelsTold_ = 0;  ///< which they are; which whoever does not say was told last
-  std::vector<std::string> chosen_;    ///< the channels that were wanted last …
-  std::vector<std::size_t> chosenAt_;  ///< … and where they are
+  std::vector<std::string> chosen_;              ///< the channels that were wanted last …
+  std::vector<std::size_t> chosenAt_;            ///< … and where they are
   std::vector<double> row_;
   struct Camera {
     std::unique_ptr<CameraEye> eye;  ///< none: it begins to look with the next call

@@ -22,9 +22,12 @@ spec["stages"].update(first_generations=generations, next_generations=generation
                       total_generations=2 * generations, measured_individuals=2)
 json.dump(spec, open(out, "w"))' "$root" "$1" "$2"
 }
+# below PROCESS: all that descend from it
+below() { for child in $(pgrep -P "$1"); do echo "$child"; below "$child"; done; }
 # content DB OUT: what the run holds, but times
 content() {
-  for what in individuals gaps simulators; do "$btr" export --db "$1" --run 1 --what $what; done > "$2" 2>&1
+  for what in individuals gaps simulators; do "$btr" export --db "$1" --run 1 --what $what; done 2>&1 |
+    sed -E "s/[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]+Z//g" > "$2"
 }
 same() { cmp -s "$folder/one" "$folder/other" || { fail "$1: other content than of one process"; diff "$folder/one" "$folder/other" | head -6; }; }
 
@@ -64,8 +67,8 @@ for ((try = 0; try < 200; try++)); do
   job=$!
   if [ $killed -lt ${KILLS:-12} ]; then
     sleep "$((RANDOM % 3)).$((RANDOM % 10))" # when, not how long it may take
-    victims=($(pgrep -f "$folder/longer.json" | grep -vx $$) $(pgrep -P "$(pgrep -d, -f "$folder/longer.json")" 2> /dev/null))
-    [ ${#victims[@]} -gt 0 ] && kill -9 "${victims[RANDOM % ${#victims[@]}]}" 2> /dev/null && killed=$((killed + 1))
+    victims=($job $(below $job))
+    kill -9 "${victims[RANDOM % ${#victims[@]}]}" 2> /dev/null && killed=$((killed + 1))
   fi
   wait $job
   end=$?

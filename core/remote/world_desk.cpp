@@ -95,9 +95,13 @@ void WorldDesk::begin() {
   session_ = std::make_unique<Session>(*game_, host_);
   ++episode_;
   speed_ = 0;
-  channels_ = session_->channels();
-  chosen_.clear();
-  chosenAt_.clear();
+  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}};
+  if (channels_.empty()) {
+    channels_ = session_->channels();
+    channelsTold_ = ++channelsVersion_;  // by what opens the world
+  } else {
+    refreshChannels();
+  }
   if (!logged_) return;
   const std::string name = GamesFolder::sessions + ("/" + name_) + "-" + std::to_string(episode_);
   gameFile_ = folder_.toWrite(name + ".json", "log");
@@ -121,7 +125,7 @@ void WorldDesk::refreshChannels() {
   std::vector<std::string> now = session().channels();
   if (now == channels_) return;
   channels_ = std::move(now);
-  channelsChanged_ = true;
+  ++channelsVersion_;
   chosen_.clear();
   chosenAt_.clear();
 }
@@ -175,6 +179,7 @@ void WorldDesk::step(const v1::StepRequest& request) {
   for (const v1::Act& act : request.acts()) apply(actOf(act));
   const int rows = std::max(1, request.periods());
   for (int i = 0; i < rows && world.fault().empty(); ++i) {
+    if (i > 0) betweenPieces();
     for (const v1::Targets& targets : request.targets()) apply(targets, i, rows);
     if (request.periods() > 0) onePeriod();
   }
@@ -209,7 +214,6 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       session();
       if (request.has_seed()) game_->seed = request.seed();
       begin();
-      cameras_.clear();
       for (const v1::Act& act : request.acts()) apply(actOf(act));
       return state(request.wanted());
     }

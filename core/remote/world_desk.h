@@ -71,13 +71,13 @@ class WorldDesk final : public Desk {
   std::unique_ptr<Session> session_;
   std::unique_ptr<SessionLogWriter> log_;
   std::vector<std::string> channels_;
-  bool channelsChanged_ = false;
-  std::vector<std::string> chosen_;    ///< the channels that were wanted last …
-  std::vector<std::size_t> chosenAt_;  ///< … and where they are
+  long channelsVersion_ = 0, channelsTold_ = 0;  ///< which they are; which whoever does not say was told last
+  std::vector<std::string> chosen_;              ///< the channels that were wanted last …
+  std::vector<std::size_t> chosenAt_;            ///< … and where they are
   std::vector<double> row_;
   struct Camera {
-    std::unique_ptr<CameraEye> eye;
-    CameraPicture picture{};  ///< the last one
+    std::unique_ptr<CameraEye> eye;  ///< none: it begins to look with the next call
+    CameraPicture picture{};         ///< the last one, of this episode
     long number = 0, period = 0;
     std::string why{};  ///< it looks no longer
   };

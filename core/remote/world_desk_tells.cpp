@@ -1,5 +1,6 @@
 // What a world tells its clients.
 #include <algorithm>
+#include <utility>
 
 #include "core/remote/act_messages.h"
 #include "core/remote/world_desk.h"
@@ -64,6 +65,7 @@ void WorldDesk::describe(v1::World& out) {
   out.set_world(name_);
   out.set_control_period_s(world.scene().controlPeriod_s);
   out.set_episode(episode_);
+  out.set_channels_version(channelsVersion_);
   for (const std::string& channel : channels_) out.add_channels(channel);
   for (const SceneRobot& robot : world.scene().robots) describeRobot(world, robot, host_, *out.add_robots());
   for (const BallSpec& ball : world.game().scene.balls) out.add_balls(ball.name);
@@ -102,9 +104,11 @@ std::string WorldDesk::state(const v1::Wanted& wanted) {
   out.set_fault(world.fault());
   out.set_playing(speed_ > 0);
   fillRow(wanted, out);
-  if (channelsChanged_)
+  out.set_channels_version(channelsVersion_);
+  const long known = wanted.has_channels_known() ? static_cast<long>(wanted.channels_known()) : channelsTold_;
+  if (known != channelsVersion_)
     for (const std::string& channel : channels_) out.add_channels(channel);
-  channelsChanged_ = false;
+  if (!wanted.has_channels_known()) channelsTold_ = channelsVersion_;
   if (wanted.links())
     for (std::size_t i = 0; i < world.scene().robots.size(); ++i) {
       v1::LinkPoses& poses = *out.add_links();
@@ -157,20 +161,22 @@ std::string WorldDesk::picture(const v1::PictureRequest& request) {
   const auto& robots = session().scene().robots;
   if (std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == request.robot(); }))
     throw InputError("robot", "\"" + request.robot() + "\"", "a robot of this game");
-  if (!cameras_.contains(request.robot())) {
+  if (!cameras_.contains(request.robot()) && cameras_.size() >= mostCameras) {
+    // Those of robots that went.
+    std::erase_if(cameras_, [&](const auto& each) {
+      return std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == each.first; });
+    });
     if (cameras_.size() >= mostCameras)
       throw Refusal(Code::tooMuch, "more than " + std::to_string(mostCameras) + " cameras of a world");
-    cameras_[request.robot()].eye = makeCamera_(request.robot());
+  }
+  Camera& camera = cameras_[request.robot()];
+  if (!camera.eye && camera.why.empty()) {
+    camera.eye = makeCamera_(request.robot());
     look(request.robot());
   }
-  const Camera& camera = cameras_.at(request.robot());
-  if (!camera.eye) {
-    const std::string why = camera.why;
-    cameras_.erase(request.robot());  // the next call tries again
-    throw Refusal(Code::notNow, why);
-  }
+  if (!camera.eye) throw Refusal(Code::notNow, std::exchange(camera.why, ""));  // the next call tries again
   v1::PictureReply reply;
-  if (camera.number > request.after()) {
+  if (camera.number > request.after() && !camera.picture.rgb.empty()) {
     reply.set_number(camera.number);
     reply.set_period(camera.period);
     reply.set_width(camera.picture.width);

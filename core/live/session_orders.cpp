@@ -1,6 +1,4 @@
 // What robots' own programs order. They run elsewhere; a session knows what they ordered, and when.
-#include <algorithm>
-
 #include "core/live/orders.h"
 #include "core/live/session.h"
 #include "core/spec/error.h"
@@ -10,11 +8,11 @@ namespace btr {
 /// Of each robot that no plugin moves: what it was ordered before, or what holds when its stick's program starts.
 std::map<std::string, Orders> Session::ordersOf(const Game& game, const std::map<std::string, Orders>& before) const {
   std::map<std::string, Orders> all;
-  for (const auto& [name, was] : before)
-    if (const auto player = game.robots.find(name);
-        std::ranges::any_of(game.scene.robots, [&](const RobotSpec& robot) { return robot.name == name; }) &&
-        (player == game.robots.end() || !player->second.controller))
-      all[name] = was;
+  for (const RobotSpec& robot : game.scene.robots) {
+    const auto player = game.robots.find(robot.name);
+    const auto was = before.find(robot.name);
+    if (was != before.end() && (player == game.robots.end() || !player->second.controller)) all.insert(*was);
+  }
   for (const auto& [name, player] : game.robots) {
     if (!player.hasStick()) continue;
     if (const auto was = before.find(name); was != before.end())

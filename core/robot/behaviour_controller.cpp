@@ -137,6 +137,11 @@ std::size_t Robot::joint(const std::string& joint) const {
   return static_cast<std::size_t>(index);
 }
 
+std::vector<double> BehaviourController::posture(const btr::RobotModel& model) const {
+  std::vector<double> own = make_()->posture(model);
+  return own.empty() && hasFourLegs(model) ? btr::stanceOf(model, name_) : own;
+}
+
 void BehaviourController::arrange(btr::Scene& scene, const Values& settings) const {
   if (scene.robots.empty()) throw InputError(name_ + ": the scene has no robot");
   const std::unique_ptr<Behaviour> behaviour = make_();

@@ -120,8 +120,8 @@ class BehaviourController : public btr::Controller {
   std::unique_ptr<btr::Motion> begin(const btr::Scene& scene, const Values& settings,
                                      std::span<const double> parameters) const override;
   const std::string& name() const { return name_; }
-  /// See Behaviour::posture().
-  std::vector<double> posture(const btr::RobotModel& model) const { return make_()->posture(model); }
+  /// In which it begins, by joint: its own or, of a four-legged robot, the stance; empty: as the scene says.
+  std::vector<double> posture(const btr::RobotModel& model) const;
 
  private:
   std::string name_;

@@ -77,14 +77,14 @@ TEST(TorqueSpeedLimit, FallsAlongTheLineInTheDrivingQuadrantOnly) {
 }
 
 TEST(VoltageSag, WeakensADriveByTheTorqueOfAll) {
-  EXPECT_DOUBLE_EQ(0.3 / 1.4, effect("voltage_sag")->driveTorque(0.3, {.allDrives = 2}, Numbers{0.2}, {}, 1e-3));
+  EXPECT_DOUBLE_EQ(0.3 / 1.4, effect("voltage_sag")->driveTorque(0.3, {.allDrives = 2}, Numbers{0.2, 0}, {}, 1e-3));
 }
 
 TEST(VoltageSag, SettlesWhereTorqueAndVoltageAgree) {
   // A torque drive of 0.6 N·m: τ = 0.6/(1 + s·τ), so s·τ² + τ − 0.6 = 0.
   Scene scene = test::sceneOf(test::robot(test::wheelModel(1), false, {.kind = Drive::Kind::torque}), 0.001);
   const double s = 0.8;
-  World world(test::withEffect(scene, effect("voltage_sag"), "voltage_sag", {s}), 1);
+  World world(test::withEffect(scene, effect("voltage_sag"), "voltage_sag", {s, 0}), 1);
   world.advance(test::commands(scene, 0.6), 0.2);
   EXPECT_NEAR((-1 + std::sqrt(1 + 4 * s * 0.6)) / (2 * s), world.robot(0).torque[0], 1e-9);
 }

@@ -195,6 +195,16 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
   EXPECT_NEAR(-expected * 5, force.dot(ball.velocity_m_s), 1e-14);
 }
 
+TEST(FluidDrag, StopsAWheelAsOneOverTime) {
+  // J·ω̇ = −c·ω²: ω = ω0/(1 + c·ω0·t/J), an angle of J/c·ln(1 + c·ω0·t/J).
+  constexpr double inertia = 0.02, c = 0.004, speed = 12, time_s = 1.5;
+  Scene scene = test::sceneOf(test::robot(test::wheelModel(inertia), false, {.kind = Drive::Kind::none}), 0.001);
+  World world(test::withEffect(scene, effect("fluid_drag"), "fluid_drag", {c}), 1);
+  world.setRobot(0, scene.robots[0].start, {0, 0, 0}, {0, 0, 0}, std::vector{0.0}, std::vector{speed});
+  world.advance(test::commands(scene, 0), time_s);
+  EXPECT_NEAR(inertia / c * std::log(1 + c * speed * time_s / inertia), world.jointPositions(0)[0], 1e-3);
+}
+
 TEST(ViscousDrag, TakesItsShareOfTheSpeedInFlightAndLessOfItRolling) {
   constexpr double b = 0.8, time_s = 0.5;
   const auto lost = [](double rate) { return (1 - std::exp(-rate * time_s)) / rate; };

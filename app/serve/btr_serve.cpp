@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/btr_commands.h"
 #include "app/btr_camera_eye.h"
+#include "app/btr_commands.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 

@@ -106,6 +106,7 @@ class Session {
   // session_orders.cpp
   std::map<std::string, Orders> ordersOf(const Game& game, const std::map<std::string, Orders>& before) const;
   void obey(std::size_t robot);
+  void checkLamps(const OrdersAct& act) const;
   /// A world of this scene with what is remembered of another one.
   std::unique_ptr<World> worldOf(const Game& game, const Scene& scene, const WorldMemory* memory) const;
   // session_referee.cpp

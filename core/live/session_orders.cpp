@@ -47,6 +47,20 @@ void Session::obey(std::size_t robot) {
     for (const auto& joint : held->second) inputs_[robot][jointOf(robot, joint.first)].enabled = true;
 }
 
+/// Nobody knows which lamps there are: so many, and no longer names.
+void Session::checkLamps(const OrdersAct& act) const {
+  constexpr std::size_t most = 100, longestName = 64;
+  const auto was = orders_.find(act.robot);
+  std::size_t count = was == orders_.end() ? 0 : was->second.lamps.size();
+  for (const auto& lamp : act.orders.lamps) {
+    if (lamp.first.empty() || lamp.first.size() > longestName)
+      throw InputError("lamps", "a name of " + std::to_string(lamp.first.size()) + " bytes",
+                       "1 to " + std::to_string(longestName));
+    if (was == orders_.end() || !was->second.lamps.contains(lamp.first)) ++count;
+  }
+  if (count > most) throw InputError("lamps", std::to_string(count) + " names", "at most " + std::to_string(most));
+}
+
 void Session::change(const OrdersAct& act) {
   const std::size_t robot = robotOf(act.robot);
   if (players_.contains(act.robot)) throw InputError("robot", act.robot, "a robot that no controller plugin moves");
@@ -54,6 +68,7 @@ void Session::change(const OrdersAct& act) {
   for (const auto& [joint, target] : act.targets) targets[jointOf(robot, joint)] = target;
   for (const auto& gain : act.orders.gains) jointOf(robot, gain.first);
   for (const auto& on : act.orders.enabled) jointOf(robot, on.first);
+  checkLamps(act);
   for (const auto& [joint, target] : targets) inputs_[robot][joint].command = target;
   if (act.orders.empty()) return;
   // Without a stick its motors are on until a program says otherwise.

@@ -164,6 +164,13 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   return prepared;
 }
 
+/// Trials have no pictures.
+void requireNoCamera(const PreparedExperiment& prepared) {
+  if (prepared.controller->looks())
+    throw InputError("controller/name", "\"" + prepared.spec.controller.name + "\", which looks through a camera",
+                     "a controller that does not look: trials have no pictures, games and the open interface have");
+}
+
 /// A motion that is longer than a trial makes every trial fail.
 void requireTimeForTheMotion(const PreparedExperiment& prepared, const Scene& scene) {
   std::vector<double> vector = prepared.start;
@@ -253,6 +260,7 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
   }
   PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host, true);
   const Scene arranged = prepared.scene(spec.simulator);
+  requireNoCamera(prepared);
   requireTimeForTheMotion(prepared, arranged);
   prepared.fitness->check(arranged);
   return prepared;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the program into a temporary folder, builds resources/plugin-examples against it as a stranger would, and runs
-# them: outside.sh CMAKE BUILD COMPILER TEST_PLUGIN
+# Installs the program into a temporary folder, builds resources/plugin-examples and robot-examples against it as a
+# stranger would, and runs them: outside.sh CMAKE BUILD COMPILER TEST_PLUGIN
 cmake=$1 build=$2 compiler=$3 test_plugin=$4
 . "$(dirname "$0")/../cli/common.sh" "" ""
 prefix=$folder/prefix
@@ -59,6 +59,25 @@ UCHILSIM_PLUGINS=$examples/build/plugins expect 0 "twice the same name" "$btr" l
 says out "not loaded: $XDG_DATA_HOME/uchilsim/plugins/effects/quadratic_drag.so: another effect plugin has the same name"
 says out "$examples/build/plugins/effects/quadratic_drag.so"
 rm -r "$XDG_DATA_HOME/uchilsim"
+
+# Behaviours: as plugins and as programs, with the same bits.
+robots=$prefix/share/uchilsim/robot-examples
+expect 0 "configure behaviours" "$cmake" -S "$robots" -B "$robots/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler"
+expect 0 "build behaviours" "$cmake" --build "$robots/build"
+export UCHILSIM_PLUGINS=$robots/build/plugins
+expect 0 "a behaviour as a plugin" "$btr" --json live "$robots/wall.json" --seconds 2
+plugin=$(grep -o '"trace_sha256": *"[^"]*"' "$folder/out")
+unset UCHILSIM_PLUGINS
+"$btr" --json serve --port 0 > "$folder/serve" 2> "$folder/serve.err" &
+server=$!
+while ! grep -q '"port"' "$folder/serve" && kill -0 $server 2> /dev/null; do read -rt 0.05 < <(:) || true; done
+port=$(grep -o '"port": *[0-9]*' "$folder/serve" | grep -o '[0-9]*$')
+expect 0 "a behaviour as a program" "$robots/build/programs/stroll" --server "127.0.0.1:$port" --game robot-examples/wall.json \
+  --robot red1 --seconds 2 --json
+program=$(grep -o '"trace_sha256": *"[^"]*"' "$folder/out")
+[ -n "$plugin" ] && [ "$plugin" = "$program" ] || fail "the plugin's $plugin, the program's $program"
+kill $server
+wait $server
 
 sed -i 's|"build/plugins"|"nowhere"|' "$examples/experiment.json"
 expect 1 "a folder that is not there" "$btr" run "$examples/experiment.json" --db "$folder/second.db"

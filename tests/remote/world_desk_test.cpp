@@ -291,6 +291,50 @@ TEST_F(WorldDeskTest, EverybodyIsToldWhichChannelsThereAre) {
   EXPECT_EQ(0, got(second));
 }
 
+TEST_F(WorldDeskTest, AProgramOrdersGainsTargetsAndLampsAndItsLogPlaysWithoutIt) {
+  world = open("dog.json");
+  const v1::JointParts& joint = world.robots(0).joints(0);
+  const auto order = [](const std::function<void(v1::Orders&)>& settle) {
+    return [settle](v1::StepRequest& request) {
+      v1::Orders& orders = *request.add_acts()->mutable_orders();
+      orders.set_robot("red1");
+      settle(orders);
+    };
+  };
+  for (int i = 0; i < 10; ++i)
+    step(1, order([&](v1::Orders& orders) {
+           (*orders.mutable_targets())[joint.name()] = 0.05 * i;
+           if (i == 3) (*orders.mutable_gains())[joint.name()].set_p(0.5);
+           if (i == 4) (*orders.mutable_lamps())["face_1"] = 1;
+           if (i == 5) (*orders.mutable_enabled())[joint.name()] = false;
+         }));
+  EXPECT_NEAR(0.45, value(step(1), "red1." + joint.name() + ".command_rad"), 1e-12);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE("", stepRefused(order([&](v1::Orders& orders) { (*orders.mutable_targets())[joint.name()] = nan; })));
+  EXPECT_THAT(stepRefused(order([](v1::Orders& orders) { (*orders.mutable_targets())["WING"] = 0; })),
+              HasSubstr("WING"));
+  EXPECT_THAT(stepRefused(order([](v1::Orders& orders) {
+                for (int i = 0; i < 101; ++i) (*orders.mutable_lamps())["lamp" + std::to_string(i)] = 1;
+              })),
+              HasSubstr("100"));
+  EXPECT_THAT(stepRefused(order([](v1::Orders& orders) { orders.set_robot("nobody"); })), HasSubstr("nobody"));
+  const auto closed = answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
+  const fs::path log = files.server() / world.log();
+  EXPECT_EQ(closed.trace_sha256(), replayed(fs::path(log).replace_extension(".json"), log));
+}
+
+TEST_F(WorldDeskTest, ARobotsModelIsToldToItsProgram) {
+  world = open("dog.json");
+  v1::RobotRequest request;
+  request.set_robot("red1");
+  const auto robot = answered<v1::RobotReply>(desk, Method::robot, request);
+  const auto model = nlohmann::json::parse(robot.model_json());
+  EXPECT_EQ(model.at("joints").size(), static_cast<std::size_t>(robot.start_size()));
+  EXPECT_EQ(robot.start_size(), robot.commands_size());
+  request.set_robot("nobody");
+  EXPECT_THAT(refused(desk, Method::robot, request), HasSubstr("nobody"));
+}
+
 TEST_F(WorldDeskTest, ALongStepThatIsToBeLeftEndsWithAWholePeriod) {
   world = open("ball.json");
   int pieces = 0;
@@ -308,7 +352,7 @@ TEST_F(WorldDeskTest, ALongStepThatIsToBeLeftEndsWithAWholePeriod) {
 TEST_F(WorldDeskTest, AMillionDamagedCallsAreAnsweredAndNothingIsWrittenOutside) {
   google::protobuf::SetLogHandler(nullptr);
   open("ball.json");
-  const std::string methods = "odgrspyvclDERGISOXWMw";
+  const std::string methods = "odgrspyvclDERGISOXWMwB";
   std::vector<std::string> whole;
   const auto keep = [&](Method method, const google::protobuf::Message& message) {
     whole.push_back(callOf(method, message.SerializeAsString()));
@@ -320,6 +364,13 @@ TEST_F(WorldDeskTest, AMillionDamagedCallsAreAnsweredAndNothingIsWrittenOutside)
   for (const double x : {0.1, 0.0, 0.3}) place.add_position_m(x);
   step.add_acts()->set_json(R"({"act": "throw", "object": "ball", "velocity_m_s": [1, 0, 0]})");
   keep(Method::step, step);
+  v1::StepRequest ordered;
+  v1::Orders& orders = *ordered.add_acts()->mutable_orders();
+  orders.set_robot("red1");
+  (*orders.mutable_targets())["LF_J1"] = 0.1;
+  (*orders.mutable_gains())["LF_J1"].set_p(0.5);
+  (*orders.mutable_lamps())["face_1"] = 1;
+  keep(Method::step, ordered);
   v1::PoseRequest pose;
   pose.set_object("ball");
   for (const double x : {0.1, 0.0, 0.3}) pose.add_position_m(x);

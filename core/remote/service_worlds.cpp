@@ -142,6 +142,11 @@ grpc::Status WorldsService::Log(grpc::ServerContext* context, const v1::LogReque
   });
 }
 
+grpc::Status WorldsService::Robot(grpc::ServerContext* context, const v1::RobotRequest* request,
+                                  v1::RobotReply* reply) {
+  return pass(context, Role::watch, Method::robot, *request, *reply);
+}
+
 grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::PictureRequest* request,
                                     v1::PictureReply* reply) {
   return pass(context, Role::drive, Method::picture, *request, *reply);

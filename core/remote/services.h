@@ -134,6 +134,7 @@ class WorldsService final : public v1::Worlds::Service {
   grpc::Status Get(grpc::ServerContext*, const v1::GetRequest*, v1::State*) override;
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::State>*) override;
   grpc::Status Log(grpc::ServerContext*, const v1::LogRequest*, grpc::ServerWriter<v1::LogPart>*) override;
+  grpc::Status Robot(grpc::ServerContext*, const v1::RobotRequest*, v1::RobotReply*) override;
   grpc::Status Picture(grpc::ServerContext*, const v1::PictureRequest*, v1::PictureReply*) override;
   grpc::Status Pictures(grpc::ServerContext*, const v1::PictureRequest*,
                         grpc::ServerWriter<v1::PictureReply>*) override;

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/live/camera_eye.h"
 #include "core/plugin/plugin_host.h"
-#include "core/remote/camera_eye.h"
 #include "core/remote/games_folder.h"
 #include "core/remote/nursery.h"
 #include "core/remote/run_keeper.h"

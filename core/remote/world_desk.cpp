@@ -92,7 +92,7 @@ std::string WorldDesk::open(const v1::OpenRequest& request) {
 // Files are written only for a game that can be played.
 void WorldDesk::begin() {
   end();
-  session_ = std::make_unique<Session>(*game_, host_);
+  session_ = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
   ++episode_;
   speed_ = 0;
   for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}};
@@ -144,7 +144,8 @@ void WorldDesk::apply(const Act& act) {
     refuseStick("act /controller");
   session().apply(act);
   const bool samePlaces = std::holds_alternative<HoldAct>(act) || std::holds_alternative<PlaceAct>(act) ||
-                          std::holds_alternative<ThrowAct>(act) || std::holds_alternative<PullAct>(act);
+                          std::holds_alternative<ThrowAct>(act) || std::holds_alternative<PullAct>(act) ||
+                          std::holds_alternative<OrdersAct>(act);
   if (!samePlaces) refreshChannels();
 }
 
@@ -260,6 +261,8 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
     }
     case Method::picture:
       return picture(messageOf<v1::PictureRequest>(message));
+    case Method::robot:
+      return robot(messageOf<v1::RobotRequest>(message).robot());
     case Method::logFiles:
       if (!log_) throw Refusal(Code::notNow, "this world is not logged");
       return gameFile_ + '\n' + logFile_;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/live/camera_eye.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
-#include "core/remote/camera_eye.h"
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
 
@@ -56,6 +56,7 @@ class WorldDesk final : public Desk {
   void step(const uchilsim::v1::StepRequest& request);
   void onePeriod();
   void look(const std::string& robot);
+  std::string robot(const std::string& name);
   std::string picture(const uchilsim::v1::PictureRequest& request);
   void describe(uchilsim::v1::World& world);
   std::string state(const uchilsim::v1::Wanted& wanted);

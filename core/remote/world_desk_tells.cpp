@@ -1,7 +1,10 @@
 // What a world tells its clients.
 #include <algorithm>
+#include <cstddef>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/model/model_json.h"
 #include "core/remote/act_messages.h"
 #include "core/remote/world_desk.h"
 #include "core/spec/error.h"
@@ -140,6 +143,22 @@ std::string WorldDesk::state(const v1::Wanted& wanted) {
   return out.SerializeAsString();
 }
 
+std::string WorldDesk::robot(const std::string& name) {
+  const Session& world = session();
+  const auto& robots = world.scene().robots;
+  const auto found = std::ranges::find_if(robots, [&](const SceneRobot& r) { return r.name == name; });
+  if (found == robots.end()) throw InputError("robot", "\"" + name + "\"", "a robot of this game");
+  v1::RobotReply reply;
+  reply.set_model_json(toJson(found->model).dump());
+  reply.mutable_start()->Add(found->jointStart.begin(), found->jointStart.end());
+  for (const JointInput& input : world.inputs()[static_cast<std::size_t>(found - robots.begin())])
+    reply.add_commands(input.command);
+  reply.set_seed(world.game().seed);
+  if (const auto player = world.game().robots.find(name); player != world.game().robots.end())
+    for (const SenseSpec& sense : player->second.senses) reply.add_senses(sense.sense);
+  return reply.SerializeAsString();
+}
+
 // A camera that fails ends alone: the world goes on, and who asks for a picture is told why.
 void WorldDesk::look(const std::string& robot) {
   Camera& camera = cameras_.at(robot);
@@ -182,6 +201,7 @@ std::string WorldDesk::picture(const v1::PictureRequest& request) {
     reply.set_width(camera.picture.width);
     reply.set_height(camera.picture.height);
     reply.set_rgb(camera.picture.rgb.data(), camera.picture.rgb.size());
+    reply.set_classes(camera.picture.classes.data(), camera.picture.classes.size());
   }
   return reply.SerializeAsString();
 }

@@ -621,12 +621,12 @@ TEST_F(ServerTest, PicturesOfAServerWithoutCamerasAreSaidNotToBeThere) {
 }
 
 /// A picture of the period's number, every fourth period.
-class NumberEye final : public btr::remote::CameraEye {
+class NumberEye final : public btr::CameraEye {
  public:
-  std::optional<btr::remote::CameraPicture> look(const btr::Session& session) override {
+  std::optional<btr::CameraPicture> look(const btr::Session& session) override {
     if (session.periods() % 4 != 0 || session.periods() == 0) return std::nullopt;
     const auto shade = static_cast<std::uint8_t>(session.periods());
-    return btr::remote::CameraPicture{2, 1, {shade, shade, shade, 0, 0, 0}};
+    return btr::CameraPicture{2, 1, {shade, shade, shade, 0, 0, 0}};
   }
 };
 

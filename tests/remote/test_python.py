@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -67,6 +68,11 @@ class Worlds(WithServer):
         self.assertEqual(("uchilsim.v1", "drive"), (info.schema, info.role))
         self.assertIn("walk", info.controllers)
         self.assertTrue(info.has_database and info.keeps_logs)
+
+    def test_connections_that_say_nothing_keep_nobody_out(self):
+        # btr starts btr-serve in its place: the process is the same.
+        soft, hard = resource.prlimit(self.server.process.pid, resource.RLIMIT_NOFILE)
+        self.assertGreaterEqual(soft, min(hard, 65536))
 
     def test_a_walking_dog_moves_and_its_parameters_are_there(self):
         with self.client.open("games/two-dogs-and-a-ball.json") as world:

@@ -64,7 +64,7 @@ printf 'lab1\n# the next one is switched off\nlab3\nlab2\n' > "$folder/hosts"
 expect 0 "three machines, one of them not there" "$btr" compare "$folder/c.json" --db "$folder/all.db" --ssh "$folder/job" --hosts "$folder/hosts"
 says err "btr: host lab3 is left out: "
 one_line
-[ "$(grep -c " done " "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; cat "$folder/job/parallel.log"; }
+[ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; cat "$folder/job/parallel.log"; }
 expect 0 "collecting" "$btr" array collect "$folder/job"
 says out "3 elements collected"
 expect 0 "the collected comparison" "$btr" compare "$folder/c.json" --db "$folder/all.db" --quiet --csv "$folder/all.csv"
@@ -75,8 +75,9 @@ expect 1 "no machine at all" "$btr" compare "$folder/c.json" --db "$folder/x.db"
 says err "no host that can be used"
 expect 3 "it is written, and machines may come" "$btr" array collect "$folder/none-job"
 expect 0 "with another machine" "$btr" array resume "$folder/none-job" --hosts "$folder/hosts"
-[ "$(grep -c " done " "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; }
-expect 1 "no hosts" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y" --hosts /dev/null
+[ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; }
+echo "# nobody" > "$folder/nobody"
+expect 1 "no hosts" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y" --hosts "$folder/nobody"
 says err "machines that ssh reaches"
 expect 2 "hosts are needed" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y"
 finish

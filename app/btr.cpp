@@ -1,4 +1,6 @@
 // Everything that UCHILSIM does, without a window.
+#include "app/btr_array.h"
+#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
 
 int main(int argc, char** argv) {
@@ -19,6 +21,8 @@ int main(int argc, char** argv) {
   btr::cli::addOpenrCommands(app, shell);
   btr::cli::addCameraCommand(app);
   btr::cli::addServeCommand(app);
+  btr::cli::addArrayCommands(app, shell);
+  btr::cli::addPiecesCommand(app, shell);
   btr::cli::warnOfNetworkFiles(app);
   if (const auto code = btr::cli::passOn(argc, argv)) return *code;
   return btr::cli::runCommands(app, shell, argc, argv);

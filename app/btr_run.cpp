@@ -5,6 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/prepared_experiment.h"
@@ -113,6 +114,8 @@ struct RunArguments {
 void run(const RunArguments& arguments, Shell& shell) {
   if (arguments.spec.empty() == (arguments.run == 0))
     throw CLI::ValidationError("run", "give either an experiment file or --run with the number of a stored run");
+  const ClusterJob cluster(shell, arguments.database, arguments.jobs);
+  if (cluster.isDone()) return;
   // Read before a database is made for it.
   const std::optional<ExperimentSpec> spec =
       arguments.run ? std::nullopt : std::optional(loadExperiment(arguments.spec));
@@ -130,11 +133,13 @@ void run(const RunArguments& arguments, Shell& shell) {
   shell.goesOn = true;
   RunOptions options;
   options.jobs = arguments.jobs;
+  options.workforce = cluster.workforce();
   options.withoutRecordings = arguments.withoutRecordings;
   const bool show = isatty(STDERR_FILENO) && !arguments.quiet;
   if (show) options.progress = showProgress;
   const RunEnd end = continueRun(db, shell.plugins(), id, *shell.stop, options);
   if (show) std::fprintf(stderr, "\n");
+  if (!arguments.quiet) cluster.tell();
   printStatus(db, {db.run(id)}, shell.json);
   shell.exitCode = end == RunEnd::finished ? done : end == RunEnd::waiting ? waitsForFitness : stoppedEarly;
 }
@@ -158,7 +163,9 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   command->add_option("--db", arguments->database, "experiment database")->required();
   command->add_option("--run", arguments->run, "resume this stored run instead of naming a file")
       ->transform(wholeNumber(1));
-  command->add_option("--jobs", arguments->jobs, "worker processes (0: as many as processors)")
+  command
+      ->add_option("--jobs", arguments->jobs,
+                   "worker processes (0: as many as processors); of each rank under mpirun or srun")
       ->transform(wholeNumber(0, 1024));
   CLI::Option* seed =
       command->add_option("--seed", arguments->seed, "instead of the seed in the file")->transform(seedNumber());

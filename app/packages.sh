@@ -4,10 +4,11 @@ BUILD_PACKAGES="g++ make cmake ninja-build ccache pkg-config
   libode-dev libeigen3-dev libceres-dev libsqlitecpp-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev
   libtinyxml2-dev libassimp-dev libboost-dev zlib1g-dev libssl-dev pandoc
   libgrpc++-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc python3-grpcio python3-protobuf python3-numpy
-  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev"
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-videoio-dev
+  libopenmpi-dev openmpi-bin"
 WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
 TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal opencv-doc
-  openssl iproute2"
+  openssl iproute2 slurm-wlm munge parallel rsync openssh-server"
 CLANG_PACKAGES="clang libclang-rt-14-dev"
 
 # Installs those of its arguments that are not there yet, in one apt call.

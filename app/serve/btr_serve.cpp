@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/btr_commands.h"
-#include "app/serve/serve_camera.h"
+#include "app/btr_camera_eye.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 

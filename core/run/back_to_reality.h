@@ -28,8 +28,11 @@ enum class RunEnd { finished, waiting, stopped };
 /// Raised by signals or a window; read between trials.
 using StopFlag = std::atomic<bool>;
 
+class Workforce;
+
 struct RunOptions {
   int jobs = 0;                    ///< worker processes, 0: as many as processors
+  Workforce* workforce = nullptr;  ///< evaluates the trials in place of them, if there is one
   bool withoutRecordings = false;  ///< do not wait for recordings that a person has not attached
   std::function<void(const RunProgress&)> progress;
 };

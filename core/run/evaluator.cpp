@@ -71,7 +71,7 @@ TrialReply runTrialJob(const PreparedExperiment& prepared, const TrialJob& job) 
   return evaluateIn(own, own.scene(job.simulator), job);
 }
 
-Evaluator::Evaluator(const PreparedExperiment& prepared, int workers) : prepared_(prepared) {
+WorkerPool::Work trialWork(const PreparedExperiment& prepared) {
   // A worker keeps the scenes of the last simulator: L1 asks for the same ones all the time.
   struct Task {
     PreparedExperiment experiment;
@@ -82,21 +82,25 @@ Evaluator::Evaluator(const PreparedExperiment& prepared, int workers) : prepared
     std::map<Values, Task> tasks;
   };
   constexpr std::size_t mostTasks = 64;
-  pool_ = std::make_unique<WorkerPool>(
-      workers > 0 ? workers : processorCount(),
-      [&prepared, cache = std::make_shared<Cache>()](const std::string& text) {
-        const TrialJob job = decodeJob(text);
-        if (!cache->simulator || *cache->simulator != job.simulator || cache->tasks.size() >= mostTasks)
-          cache->tasks.clear();
-        cache->simulator = job.simulator;
-        auto task = cache->tasks.find(job.task);
-        if (task == cache->tasks.end()) {
-          PreparedExperiment own = prepared.withTask(job.task);
-          Scene scene = own.scene(job.simulator);
-          task = cache->tasks.emplace(job.task, Task{std::move(own), std::move(scene)}).first;
-        }
-        return encode(evaluateIn(task->second.experiment, task->second.scene, job));
-      });
+  return [&prepared, cache = std::make_shared<Cache>()](const std::string& text) {
+    const TrialJob job = decodeJob(text);
+    if (!cache->simulator || *cache->simulator != job.simulator || cache->tasks.size() >= mostTasks)
+      cache->tasks.clear();
+    cache->simulator = job.simulator;
+    auto task = cache->tasks.find(job.task);
+    if (task == cache->tasks.end()) {
+      PreparedExperiment own = prepared.withTask(job.task);
+      Scene scene = own.scene(job.simulator);
+      task = cache->tasks.emplace(job.task, Task{std::move(own), std::move(scene)}).first;
+    }
+    return encode(evaluateIn(task->second.experiment, task->second.scene, job));
+  };
+}
+
+Evaluator::Evaluator(const PreparedExperiment& prepared, int workers, Workforce* workforce)
+    : prepared_(prepared), workforce_(workforce) {
+  if (!workforce_)
+    pool_ = std::make_unique<WorkerPool>(workers > 0 ? workers : processorCount(), trialWork(prepared));
 }
 
 std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<TrialJob>& jobs,
@@ -105,7 +109,8 @@ std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<Tri
   std::vector<std::string> texts;
   texts.reserve(jobs.size());
   for (const TrialJob& job : jobs) texts.push_back(encode(job));
-  const std::vector<WorkerPool::Reply> replies = pool_->run(texts, stop, done);
+  const std::vector<WorkerPool::Reply> replies =
+      workforce_ ? workforce_->run(prepared_, texts, stop, done) : pool_->run(texts, stop, done);
   if (replies.size() != jobs.size()) return std::nullopt;
   std::vector<TrialReply> results;
   results.reserve(replies.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/run/prepared_experiment.h"
+#include "core/run/workforce.h"
 #include "core/sim/worker_pool.h"
 
 namespace btr {
@@ -34,19 +35,24 @@ struct TrialReply {
 /// Runs one trial here and now; what a worker does.
 TrialReply runTrialJob(const PreparedExperiment& prepared, const TrialJob& job);
 
-/// Evaluates trials on worker processes.
+/// What a worker does with the text of a trial, wherever it works: the reply's text. `prepared` must outlive it.
+WorkerPool::Work trialWork(const PreparedExperiment& prepared);
+
+/// Evaluates trials on worker processes, or with a workforce.
 class Evaluator {
  public:
-  /// `prepared` must outlive the evaluator. `workers` 0: as many as processors.
-  Evaluator(const PreparedExperiment& prepared, int workers);
+  /// `prepared` must outlive the evaluator, and so must the workforce. `workers` 0: as many as processors; with a
+  /// workforce there are no others than its own.
+  Evaluator(const PreparedExperiment& prepared, int workers, Workforce* workforce = nullptr);
   /// Replies in the order of the jobs; nothing if `stop` was raised. `done(n)` after each finished trial.
   std::optional<std::vector<TrialReply>> evaluate(const std::vector<TrialJob>& jobs, const std::atomic<bool>& stop,
                                                   const std::function<void(std::size_t)>& done = {});
-  int workers() const { return pool_->workers(); }
+  int workers() const { return workforce_ ? workforce_->workers() : pool_->workers(); }
 
  private:
   const PreparedExperiment& prepared_;
-  std::unique_ptr<WorkerPool> pool_;
+  Workforce* workforce_;
+  std::unique_ptr<WorkerPool> pool_;  ///< none with a workforce
 };
 
 }  // namespace btr

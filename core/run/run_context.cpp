@@ -23,7 +23,7 @@ RunContext::RunContext(Database& db, const PluginHost& plugins, Id run, const St
 }
 
 Evaluator& RunContext::evaluator() {
-  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(prepared, options_.jobs);
+  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(prepared, options_.jobs, options_.workforce);
   return *evaluator_;
 }
 

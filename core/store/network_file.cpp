@@ -28,15 +28,20 @@ std::string networkFileSystem(long magic) {
   }
 }
 
-std::optional<std::string> networkWarning(const std::string& path) {
+std::optional<std::string> networkFileSystemOf(const std::string& path) {
   std::error_code error;
   std::filesystem::path place = std::filesystem::absolute(path, error);
   if (!std::filesystem::exists(place, error)) place = place.parent_path();
   struct statfs about {};
   if (statfs(place.c_str(), &about) != 0) return std::nullopt;
   const std::string name = networkFileSystem(static_cast<long>(about.f_type));
-  if (name.empty()) return std::nullopt;
-  return path + ": is on a network file system (" + name +
+  return name.empty() ? std::nullopt : std::optional(name);
+}
+
+std::optional<std::string> networkWarning(const std::string& path) {
+  const auto name = networkFileSystemOf(path);
+  if (!name) return std::nullopt;
+  return path + ": is on a network file system (" + *name +
          "): use it from one machine at a time, or copy it to a local disk (btr backup)";
 }
 

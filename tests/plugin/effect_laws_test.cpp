@@ -195,6 +195,20 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
   EXPECT_NEAR(-expected * 5, force.dot(ball.velocity_m_s), 1e-14);
 }
 
+TEST(ViscousDrag, TakesItsShareOfTheSpeedInFlightAndLessOfItRolling) {
+  constexpr double b = 0.8, time_s = 0.5;
+  const auto lost = [](double rate) { return (1 - std::exp(-rate * time_s)) / rate; };
+  for (const bool rolls : {false, true}) {
+    test::Trial trial = rolls ? test::rolling(0.8, 0) : test::flying();
+    BallSpec& ball = trial.scene.balls.at(0);
+    if (!rolls) ball.position_m[2] = 5;
+    const double speed = ball.velocity_m_s[0], rate = rolls ? b / (1 + ball.inertiaFactor) : b;
+    World world(test::withEffect(trial.scene, effect("viscous_drag"), "viscous_drag", {b}), 1);
+    world.advance(test::commands(trial.scene, 0), time_s);
+    EXPECT_NEAR(speed * lost(rate), world.ball(0).position_m.x(), 1e-3) << (rolls ? "rolling" : "flying");
+  }
+}
+
 TEST(MagnusLift, PushesATopSpinDown) {
   // Flying along x with spin about y (top spin): ω × v = −z.
   const BallState ball{.velocity_m_s = {5, 0, 0}, .spin_rad_s = {0, 30, 0}, .radius_m = 0.1, .mass_kg = 0.1};

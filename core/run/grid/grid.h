@@ -21,6 +21,7 @@ struct GridProgress {
 
 struct GridOptions {
   int workers = 0;                                    ///< processes, 0: as many as processors
+  Workforce* workforce = nullptr;                     ///< evaluates the trials in place of them, if there is one
   std::function<void(const GridProgress&)> progress;  ///< about once a second
 };
 

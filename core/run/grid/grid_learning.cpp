@@ -69,7 +69,7 @@ bool GridWork::stopped() {
 
 std::optional<std::vector<TrialReply>> GridWork::evaluate(const std::vector<TrialJob>& jobs) {
   if (stopped()) return std::nullopt;
-  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(base_, options_.workers);
+  if (!evaluator_) evaluator_ = std::make_unique<Evaluator>(base_, options_.workers, options_.workforce);
   const long before = progress.trials;
   return evaluator_->evaluate(jobs, halt_, [&](std::size_t done) {
     progress.trials = before + static_cast<long>(done);

@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "app/btr_commands.h"
+#include "core/run/workforce.h"
+
+namespace btr::cli {
+
+/// This process as one of the ranks that mpirun or srun started; nothing is loaded where it was started alone.
+class ClusterJob {
+ public:
+  /// As `btr run` and others begin. On rank 0: the database must not be on a network file system (InputError), and the
+  /// workforce begins. On every other rank: works for rank 0 until that one ends. `jobs`: worker processes of each
+  /// rank, 0: this rank's share of its machine's processors.
+  ClusterJob(Shell& shell, const std::string& database, int jobs);
+  ~ClusterJob();
+  ClusterJob(const ClusterJob&) = delete;
+  ClusterJob& operator=(const ClusterJob&) = delete;
+
+  /// True on the ranks that only work: what they were asked for is done.
+  bool isDone() const { return isDone_; }
+  Workforce* workforce() const;  ///< none where the process was started alone
+  /// Who did how much, on stderr: a line for each host.
+  void tell() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+  bool isDone_ = false;
+};
+
+/// pieces: works for a rank; not in the list of commands.
+void addPiecesCommand(CLI::App& app, Shell& shell);
+
+}  // namespace btr::cli

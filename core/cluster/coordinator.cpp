@@ -1,0 +1,314 @@
+#include "core/cluster/coordinator.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <thread>
+#include <utility>
+
+#include "core/cluster/build_identity.h"
+#include "core/cluster/schedule.h"
+#include "core/spec/error.h"
+#include "core/spec/parameter.h"
+
+namespace btr {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// A job that was lost so often is at fault, or the machines are.
+constexpr int mostTries = 3;
+/// A foreman tries each job twice before it says so; this long it may take beyond that.
+constexpr double grace_s = 30;
+
+struct Piece {
+  long number = 0;
+  std::vector<std::size_t> jobs;
+  Clock::time_point sent;
+  bool abandoned = false;  ///< of work that was stopped: nobody waits for it
+};
+
+struct Place {
+  PlaceReport report;
+  bool begun = false, gone = false;
+  std::string why;               ///< it was lost
+  long experiment = 0;           ///< the last one that it was told
+  std::deque<Piece> pieces;      ///< in the order in which it works on them
+  Clock::time_point since = {};  ///< when it began with the first of them
+};
+
+Parts experimentMessage(long number, const RunRecord& record) {
+  Parts parts{"experiment", std::to_string(number), record.specJson, record.sceneJson};
+  for (const StoredFile& file : record.files) parts.insert(parts.end(), {file.name, file.sha256, file.content});
+  return parts;
+}
+
+}  // namespace
+
+struct Coordinator::Impl {
+  std::unique_ptr<RankLink> link;
+  const PluginHost& host;
+  const CoordinatorOptions options;
+  const Parts identity;
+  std::unique_ptr<Crew> crew;
+  std::vector<Place> places;  ///< this rank's foremen first
+  std::vector<bool> arrived;  ///< by rank: its crew is known
+  bool allBegun = false;
+  long experiment = 0, lastPiece = 0;
+  Parts experimentText;  ///< as it was sent, without its number
+  Pace pace;
+
+  // Of the work that is done now.
+  std::vector<WorkerPool::Reply>* replies = nullptr;
+  std::vector<int> tries;
+  Schedule* schedule = nullptr;
+  std::size_t finished = 0;
+
+  Impl(std::unique_ptr<RankLink> ranks, const PluginHost& plugins, CoordinatorOptions wanted)
+      : link(std::move(ranks)), host(plugins), options(std::move(wanted)), identity(buildIdentity(plugins)) {
+    arrived.assign(link ? static_cast<std::size_t>(link->size()) : 1, false);
+    arrived[0] = true;
+    for (int k = 0; k < options.foremen; ++k) addPlace(0, k, hostName());
+  }
+
+  void addPlace(int rank, int foreman, const std::string& name) {
+    Place place;
+    place.report.rank = rank;
+    place.report.foreman = foreman;
+    place.report.host = name;
+    places.push_back(std::move(place));
+  }
+
+  static std::string nameOf(const Place& place) {
+    return "rank " + std::to_string(place.report.rank) + " (host " + place.report.host + ")";
+  }
+
+  void send(const Place& place, const Parts& parts) {
+    if (place.report.rank == 0) return crew->send(place.report.foreman, parts);
+    Parts whole{"to", std::to_string(place.report.foreman)};
+    whole.insert(whole.end(), parts.begin(), parts.end());
+    link->send(place.report.rank, pack(whole));
+  }
+
+  void restart(const Place& place) {
+    if (place.report.rank == 0) return crew->restart(place.report.foreman);
+    link->send(place.report.rank, pack({"restart", std::to_string(place.report.foreman)}));
+  }
+
+  /// Takes what has come, waiting a moment for it.
+  void listen() {
+    if (crew)
+      for (Crew::Event& event : crew->wait(link ? 1 : 100))
+        hear(places[static_cast<std::size_t>(event.foreman)], event.parts);
+    if (!link) return;
+    int from = 0;
+    std::string bytes;
+    bool any = false;
+    while (link->receive(from, bytes)) {
+      any = true;
+      Parts parts = unpack(bytes);
+      if (parts.size() == 3 && parts[0] == "crew") {
+        const int foremen = std::stoi(parts[2]);
+        for (int k = 0; k < foremen; ++k) addPlace(from, k, parts[1]);
+        arrived[static_cast<std::size_t>(from)] = true;
+        continue;
+      }
+      const int foreman = std::stoi(parts.front());
+      const auto place = std::ranges::find_if(
+          places, [&](const Place& p) { return p.report.rank == from && p.report.foreman == foreman; });
+      parts.erase(parts.begin());
+      if (place != places.end()) hear(*place, parts);
+    }
+    if (!crew && !any) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  void requireSame(const Place& place, Parts::const_iterator from, Parts::const_iterator to) const {
+    const Parts ours = experiment ? buildIdentity(host) : identity;
+    if (const auto what = difference(ours, Parts(from, to)))
+      throw InputError(nameOf(place) + ": " + *what + "; install the same build on every machine");
+  }
+
+  void hear(Place& place, const Parts& parts) {
+    const std::string& kind = parts.front();
+    if (kind == "hello") {
+      // Of a foreman that was started anew, the plugins of the experiment are checked once it is ready.
+      if (!allBegun) requireSame(place, parts.begin() + 1, parts.end());
+      place.begun = true;
+    } else if (kind == "ready") {
+      if (std::stol(parts[1]) == experiment) requireSame(place, parts.begin() + 2, parts.end());
+    } else if (kind == "refused") {
+      if (std::stol(parts[1]) == experiment) throw InputError(nameOf(place) + ": " + parts[2]);
+    } else if (kind == "done") {
+      take(place, parts);
+    } else if (kind == "lost" || kind == "gone") {
+      lose(place, parts);
+    }
+  }
+
+  void take(Place& place, const Parts& parts) {
+    const long number = std::stol(parts[1]);
+    if (place.pieces.empty() || place.pieces.front().number != number) return;
+    const Piece piece = std::move(place.pieces.front());
+    place.pieces.pop_front();
+    place.since = Clock::now();
+    const double worked_s = std::stod(parts[2]);
+    place.report.worked_s += worked_s;
+    place.report.pieces += 1;
+    place.report.jobs += static_cast<long>(piece.jobs.size());
+    if (piece.abandoned) return;
+    pace.add(piece.jobs.size(), worked_s, secondsSince(piece.sent));
+    for (std::size_t i = 0; i < piece.jobs.size(); ++i) {
+      const std::size_t job = piece.jobs[i];
+      const std::string& state = parts[3 + 2 * i];
+      // Killed twice from outside: another machine may have more memory.
+      if (state == "K" && ++tries[job] < mostTries) {
+        schedule->giveBack({job});
+        continue;
+      }
+      WorkerPool::Reply& reply = (*replies)[job];
+      reply.ok = state == "R";
+      reply.killed = state == "K";
+      (reply.ok ? reply.bytes : reply.failure) = parts[4 + 2 * i];
+      ++finished;
+    }
+  }
+
+  void lose(Place& place, const Parts& parts) {
+    place.why = parts.size() > 1 ? parts[1] : "";
+    place.gone = parts.front() == "gone";
+    place.begun = false;
+    place.experiment = 0;
+    ++place.report.losses;
+    bool first = true;
+    for (const Piece& piece : std::exchange(place.pieces, {})) {
+      if (!piece.abandoned) {
+        // What it worked on was among the first piece's jobs.
+        if (first)
+          for (const std::size_t job : piece.jobs)
+            if (++tries[job] >= mostTries)
+              throw InputError(nameOf(place) +
+                               ": the process that worked on a trial was lost, the third time for this "
+                               "trial (" +
+                               place.why + "); nothing of this generation is stored: go on with btr run");
+        schedule->giveBack(piece.jobs);
+      }
+      first = false;
+    }
+    if (place.gone && std::ranges::all_of(places, &Place::gone))
+      throw InputError(nameOf(place) + ": no place is left that works (" + place.why +
+                       "); what was stored is kept: go on with btr run");
+  }
+
+  bool haveAllBegun() const {
+    return std::ranges::all_of(arrived, [](bool a) { return a; }) &&
+           std::ranges::all_of(places, [](const Place& p) { return p.begun || p.gone; });
+  }
+
+  /// Every rank is there and has the same build. False if stopped.
+  bool begin(const std::atomic<bool>& stop) {
+    if (allBegun) return true;
+    if (!crew && options.foremen > 0) crew = std::make_unique<Crew>(options.foremen, options.command);
+    const auto begun = Clock::now();
+    while (!haveAllBegun()) {
+      if (stop) return false;
+      listen();
+      if (secondsSince(begun) < options.patience_s) continue;
+      for (std::size_t rank = 0; rank < arrived.size(); ++rank)
+        if (!arrived[rank]) throw InputError("rank " + std::to_string(rank) + " did not begin in time");
+      for (const Place& place : places)
+        if (!place.begun && !place.gone) throw InputError(nameOf(place) + ": its workers did not begin in time");
+    }
+    if (std::ranges::all_of(places, &Place::gone)) throw InputError("no rank has a worker");
+    allBegun = true;
+    return true;
+  }
+
+  void setExperiment(const PreparedExperiment& prepared) {
+    Parts text = experimentMessage(0, makeRunRecord(prepared, 0, 0));
+    if (experiment > 0 && text == experimentText) return;
+    experimentText = std::move(text);
+    ++experiment;
+  }
+
+  void handOut(const std::vector<std::string>& jobs) {
+    for (Place& place : places) {
+      if (place.gone || !place.begun) continue;
+      while (true) {
+        std::vector<std::size_t> numbers = schedule->next(pace, place.pieces.size());
+        if (numbers.empty()) break;
+        if (place.experiment != experiment) {
+          Parts text = experimentText;
+          text[1] = std::to_string(experiment);
+          send(place, text);
+          place.experiment = experiment;
+        }
+        Piece piece{++lastPiece, std::move(numbers), Clock::now(), false};
+        Parts message{"piece", std::to_string(piece.number)};
+        for (const std::size_t job : piece.jobs) message.push_back(jobs[job]);
+        send(place, message);
+        if (place.pieces.empty()) place.since = piece.sent;
+        place.pieces.push_back(std::move(piece));
+      }
+    }
+  }
+
+  void restartTheHanging() {
+    for (Place& place : places) {
+      if (place.pieces.empty()) continue;
+      const double most = grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      if (secondsSince(place.since) < most) continue;
+      place.since = Clock::now();
+      restart(place);
+    }
+  }
+};
+
+Coordinator::Coordinator(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
+    : impl_(new Impl(std::move(link), host, std::move(options))) {}
+
+Coordinator::~Coordinator() {
+  impl_->crew.reset();
+  if (!impl_->link) return;
+  for (int rank = 1; rank < impl_->link->size(); ++rank) impl_->link->send(rank, pack({"quit"}));
+  impl_->link->finish();
+}
+
+int Coordinator::workers() const { return std::max(1, static_cast<int>(impl_->places.size())); }
+
+std::vector<PlaceReport> Coordinator::report() const {
+  std::vector<PlaceReport> all;
+  for (const Place& place : impl_->places) all.push_back(place.report);
+  return all;
+}
+
+std::vector<WorkerPool::Reply> Coordinator::run(const PreparedExperiment& experiment,
+                                                const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
+                                                const std::function<void(std::size_t)>& done) {
+  Impl& impl = *impl_;
+  if (!impl.begin(stop)) return {};
+  impl.setExperiment(experiment);
+  std::vector<WorkerPool::Reply> replies(jobs.size());
+  Schedule schedule(jobs.size(), static_cast<std::size_t>(
+                                     std::ranges::count_if(impl.places, [](const Place& p) { return !p.gone; })));
+  impl.replies = &replies;
+  impl.schedule = &schedule;
+  impl.tries.assign(jobs.size(), 0);
+  impl.finished = 0;
+  std::size_t told = 0;
+  while (impl.finished < jobs.size()) {
+    if (stop) {
+      for (Place& place : impl.places)
+        for (Piece& piece : place.pieces) piece.abandoned = true;
+      return {};
+    }
+    impl.handOut(jobs);
+    impl.listen();
+    impl.restartTheHanging();
+    while (told < impl.finished)
+      if (++told; done) done(told);
+  }
+  return replies;
+}
+
+}  // namespace btr

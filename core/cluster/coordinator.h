@@ -1,0 +1,59 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/cluster/crew.h"
+#include "core/cluster/rank_link.h"
+#include "core/run/workforce.h"
+
+namespace btr {
+
+/// How the work goes at one place: a foreman of a rank.
+struct PlaceReport {
+  int rank = 0, foreman = 0;
+  std::string host;
+  long pieces = 0, jobs = 0, losses = 0;
+  double worked_s = 0;  ///< in its worker, by the clock
+};
+
+struct CoordinatorOptions {
+  int foremen = 1;             ///< of this rank; 0: it only coordinates
+  double secondsPerJob = 120;  ///< as WorkerPool
+  double patience_s = 120;     ///< how long ranks may take to begin
+  ForemanCommand command = ownForeman();
+};
+
+/// The workforce of rank 0: its own foremen and those of the other ranks. Hands out pieces as Schedule says and puts
+/// results together by the numbers of their jobs, so that they do not depend on who worked where, or when. A place that
+/// is lost or does not answer in time is started anew and its piece given to the next that is free. All must have the
+/// build that this process has. Belongs to one thread.
+class Coordinator : public Workforce {
+ public:
+  /// `link` may be none: only this rank's foremen. `host` must outlive it; its plugins are those that the others must
+  /// have.
+  Coordinator(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options);
+  /// Lets all ranks end.
+  ~Coordinator() override;
+
+  int workers() const override;
+  /// Throws InputError, which names rank and host, if one of them has another build, cannot prepare the experiment or
+  /// never began; and if all places are gone or a job was lost three times with its process.
+  std::vector<WorkerPool::Reply> run(const PreparedExperiment& experiment, const std::vector<std::string>& jobs,
+                                     const std::atomic<bool>& stop,
+                                     const std::function<void(std::size_t)>& done) override;
+  std::vector<PlaceReport> report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The life of every other rank: starts its foremen and passes on what is said to them and what they say, until rank 0
+/// lets it end.
+void serveRank(RankLink& link, int foremen, const ForemanCommand& command);
+
+/// This machine's name.
+std::string hostName();
+
+}  // namespace btr

@@ -1,0 +1,19 @@
+// The tests are their own foremen: those must have the build of who hands out the work.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "core/cluster/foreman.h"
+#include "core/spec/process.h"
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "pieces") {
+    btr::beginProgram();
+    const btr::PluginHost host(PLUGIN_DIR);
+    btr::servePieces(host, argc > 2 ? std::atof(argv[2]) : 120);
+    return 0;
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

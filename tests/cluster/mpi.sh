@@ -1,0 +1,83 @@
+# btr run under mpirun: the bits of one process whatever the number of ranks, killed ranks and workers, other builds.
+. "$(dirname "$0")/../cli/common.sh"
+skip() { echo "skipped: $*"; exit 77; }
+command -v mpirun > /dev/null || skip "mpirun is not installed (openmpi-bin)"
+[ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] || skip "this btr was built without MPI"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export TMPDIR=$folder # Open MPI's own files
+ranks() { local count=$1; shift; mpirun -n "$count" --oversubscribe --bind-to none "$@"; }
+
+# small FILE GENERATIONS: a short kick with a stand-in reality, measured in the middle
+small() {
+  python3 -c '
+import json, os, sys
+root, out, generations = sys.argv[1], sys.argv[2], int(sys.argv[3])
+source = os.path.join(root, "resources/experiments/kick-short.json")
+spec = json.load(open(source))
+spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+spec["learner"]["settings"]["population"] = 8
+spec["adaptation"]["learner"]["settings"]["population"] = 4
+spec["adaptation"]["settings"]["generations"] = 2
+spec["stages"].update(first_generations=generations, next_generations=generations,
+                      total_generations=2 * generations, measured_individuals=2)
+json.dump(spec, open(out, "w"))' "$root" "$1" "$2"
+}
+# below PROCESS: all that descend from it
+below() { for child in $(pgrep -P "$1"); do echo "$child"; below "$child"; done; }
+# content DB OUT: what the run holds, but times
+content() {
+  for what in individuals gaps simulators; do "$btr" export --db "$1" --run 1 --what $what; done 2>&1 |
+    sed -E "s/[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]+Z//g" > "$2"
+}
+same() { cmp -s "$folder/one" "$folder/other" || { fail "$1: other content than of one process"; diff "$folder/one" "$folder/other" | head -6; }; }
+
+small "$folder/kick.json" 2
+expect 0 "one process" "$btr" run "$folder/kick.json" --db "$folder/one.db" --jobs 1 --quiet
+content "$folder/one.db" "$folder/one"
+[ "$(wc -l < "$folder/one")" -gt 30 ] || fail "the run of one process is too short to compare"
+for n in 2 3; do
+  expect 0 "$n ranks" ranks $n "$btr" run "$folder/kick.json" --db "$folder/ranks-$n.db"
+  says err "trials in"
+  content "$folder/ranks-$n.db" "$folder/other"
+  same "$n ranks"
+done
+
+# A rank with another build is refused by name. It is a whole copy of which one plugin was changed.
+mkdir -p "$folder/copy"
+cp -r "$(dirname "$btr")/../lib" "$folder/copy/lib"
+mkdir "$folder/copy/bin"
+cp "$btr" "$folder/copy/bin/btr"
+printf x >> "$folder/copy/lib/plugins/fitness/$(ls "$folder/copy/lib/plugins/fitness" | head -1)"
+LD_LIBRARY_PATH=$folder/copy/lib expect 1 "another build" mpirun --oversubscribe --bind-to none \
+  -n 1 "$btr" run "$folder/kick.json" --db "$folder/other.db" : \
+  -n 1 env LD_LIBRARY_PATH="$folder/copy/lib" "$folder/copy/bin/btr" run "$folder/kick.json" --db "$folder/other.db"
+says err "btr: rank 1 (host $(hostname)): its "
+says err "is another one; install the same build on every machine"
+[ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "another build: more than one sentence"
+
+# Killed at moments drawn at random, ranks and workers and all: the database is whole, and what goes on has the same bits.
+RANDOM=${SEED:-7}
+small "$folder/longer.json" 4
+expect 0 "one process, longer" "$btr" run "$folder/longer.json" --db "$folder/longer-one.db" --jobs 1 --quiet
+content "$folder/longer-one.db" "$folder/one"
+killed=0
+end=stopped
+for ((try = 0; try < 200; try++)); do
+  ranks 2 "$btr" run "$folder/longer.json" --db "$folder/killed.db" --quiet > "$folder/out" 2> "$folder/err" &
+  job=$!
+  if [ $killed -lt ${KILLS:-12} ]; then
+    sleep "$((RANDOM % 3)).$((RANDOM % 10))" # when, not how long it may take
+    victims=($job $(below $job))
+    kill -9 "${victims[RANDOM % ${#victims[@]}]}" 2> /dev/null && killed=$((killed + 1))
+  fi
+  wait $job
+  end=$?
+  "$btr" check --db "$folder/killed.db" --replays 0 > "$folder/check" 2>&1 || { grep -q "no such" "$folder/check" || { fail "after kill $killed the database is not whole"; head -3 "$folder/check"; }; }
+  [ $end = 0 ] && [ $killed -ge ${KILLS:-12} ] && break
+  [ $end = 0 ] && { content "$folder/killed.db" "$folder/other"; same "after $killed kills"; rm -f "$folder/killed.db"*; }
+done
+[ $end = 0 ] || fail "the killed run never ended: exit code $end"
+content "$folder/killed.db" "$folder/other"
+same "after $killed kills"
+
+finish

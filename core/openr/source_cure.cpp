@@ -136,6 +136,13 @@ bool wordAt(const std::string& text, std::size_t at, const std::string& word) {
          (at + word.size() == text.size() || !isNameCharacter(text[at + word.size()]));
 }
 
+/// The first place from `begin` on where `name` stands as a word; npos if it does not.
+std::size_t firstWord(const std::string& text, std::size_t begin, const std::string& name) {
+  auto found = text.find(name, begin);
+  while (found != std::string::npos && !wordAt(text, found, name)) found = text.find(name, found + 1);
+  return found;
+}
+
 /// What a `for` at `at` begins with, from behind its parenthesis to its first semicolon; empty if that declares no
 /// `name`.
 std::pair<std::size_t, std::size_t> declarationIn(const std::string& text, std::size_t at, const std::string& name) {
@@ -145,8 +152,7 @@ std::pair<std::size_t, std::size_t> declarationIn(const std::string& text, std::
   const auto end = text.find(';', open);
   const auto begin = text.find_first_not_of(" \t\n", open + 1);
   if (end == std::string::npos || begin >= end) return none;
-  auto found = text.find(name, begin);
-  while (found < end && !wordAt(text, found, name)) found = text.find(name, found + 1);
+  const auto found = firstWord(text, begin, name);
   // A declaration has its type before the name: "int i", "T* i", "a, i".
   const bool typed = found < end && found > begin && isNameCharacter(text[begin]);
   return typed ? std::pair{begin, end} : none;
@@ -187,13 +193,8 @@ void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::s
       }
       known = depth == 0 && least == 0;
     }
-    const auto variable = [&] {
-      auto found = text.find(name, begin);
-      while (!wordAt(text, found, name)) found = text.find(name, found + 1);
-      return found;
-    };
     if (known) {
-      changes[begin] = {variable() - begin, ""};
+      changes[begin] = {firstWord(text, begin, name) - begin, ""};
     } else {
       changes[at] = {0, text.substr(begin, end - begin) + "; "};
       changes[begin] = {end - begin, ""};

@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (what == "headers" && argc == 3) {
-      for (const std::string& header : btr::openr::missingHeaders(content(argv[2]))) std::printf("%s\n", header.c_str());
+      for (const std::string& header : btr::openr::missingHeaders(content(argv[2])))
+        std::printf("%s\n", header.c_str());
       return 0;
     }
   } catch (const btr::InputError& error) {

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 
-using std::swap;
-using std::iter_swap;
-using std::min;
-using std::max;
 using std::copy;
 using std::copy_backward;
+using std::equal;
 using std::fill;
 using std::fill_n;
-using std::equal;
-using std::mismatch;
+using std::iter_swap;
 using std::lexicographical_compare;
+using std::max;
+using std::min;
+using std::mismatch;
 using std::pair;
+using std::swap;
 
 #endif

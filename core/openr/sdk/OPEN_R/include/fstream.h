@@ -7,9 +7,9 @@
 #include <iostream.h>
 
 using std::filebuf;
+using std::fstream;
 using std::ifstream;
 using std::ofstream;
-using std::fstream;
 using std::streambuf;
 
 #endif

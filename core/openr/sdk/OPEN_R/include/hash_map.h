@@ -4,8 +4,8 @@
 
 #include <ext/hash_map>
 
+using __gnu_cxx::hash;
 using __gnu_cxx::hash_map;
 using __gnu_cxx::hash_multimap;
-using __gnu_cxx::hash;
 
 #endif

@@ -4,8 +4,8 @@
 
 #include <ext/hash_set>
 
-using __gnu_cxx::hash_set;
-using __gnu_cxx::hash_multiset;
 using __gnu_cxx::hash;
+using __gnu_cxx::hash_multiset;
+using __gnu_cxx::hash_set;
 
 #endif

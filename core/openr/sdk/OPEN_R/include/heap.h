@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-using std::push_heap;
-using std::pop_heap;
 using std::make_heap;
+using std::pop_heap;
+using std::push_heap;
 using std::sort_heap;
 
 #endif

@@ -2,17 +2,17 @@
 #ifndef BTR_OPENR_OLD_ISTREAM_H
 #define BTR_OPENR_OLD_ISTREAM_H
 
-#include <istream>
 #include <iostream>
+#include <istream>
 
+using std::endl;
+using std::ends;
+using std::flush;
 using std::ios;
 using std::iostream;
 using std::istream;
 using std::ostream;
 using std::streambuf;
 using std::ws;
-using std::endl;
-using std::ends;
-using std::flush;
 
 #endif

@@ -4,14 +4,14 @@
 
 #include <iterator>
 
-using std::iterator;
-using std::istream_iterator;
-using std::ostream_iterator;
-using std::reverse_iterator;
+using std::advance;
 using std::back_inserter;
+using std::distance;
 using std::front_inserter;
 using std::inserter;
-using std::advance;
-using std::distance;
+using std::istream_iterator;
+using std::iterator;
+using std::ostream_iterator;
+using std::reverse_iterator;
 
 #endif

@@ -5,9 +5,9 @@
 #include <new>
 
 using std::bad_alloc;
+using std::new_handler;
 using std::nothrow;
 using std::nothrow_t;
-using std::new_handler;
 using std::set_new_handler;
 
 #endif

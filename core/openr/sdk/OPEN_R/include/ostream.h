@@ -2,14 +2,14 @@
 #ifndef BTR_OPENR_OLD_OSTREAM_H
 #define BTR_OPENR_OLD_OSTREAM_H
 
-#include <ostream>
 #include <iostream>
+#include <ostream>
 
-using std::ios;
-using std::ostream;
-using std::streambuf;
 using std::endl;
 using std::ends;
 using std::flush;
+using std::ios;
+using std::ostream;
+using std::streambuf;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-using std::pair;
 using std::make_pair;
+using std::pair;
 
 #endif

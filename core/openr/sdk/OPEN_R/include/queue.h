@@ -4,7 +4,7 @@
 
 #include <queue>
 
-using std::queue;
 using std::priority_queue;
+using std::queue;
 
 #endif

@@ -4,6 +4,13 @@
 
 #include <iostream>
 
+using std::cerr;
+using std::cin;
+using std::clog;
+using std::cout;
+using std::endl;
+using std::ends;
+using std::flush;
 using std::ios;
 using std::iostream;
 using std::istream;
@@ -11,13 +18,6 @@ using std::ostream;
 using std::streambuf;
 using std::streamoff;
 using std::streampos;
-using std::cin;
-using std::cout;
-using std::cerr;
-using std::clog;
 using std::ws;
-using std::endl;
-using std::ends;
-using std::flush;
 
 #endif

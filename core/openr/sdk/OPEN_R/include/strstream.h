@@ -6,9 +6,9 @@
 
 #include <iostream.h>
 
-using std::strstreambuf;
 using std::istrstream;
 using std::ostrstream;
 using std::strstream;
+using std::strstreambuf;
 
 #endif

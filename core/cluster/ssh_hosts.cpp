@@ -75,7 +75,7 @@ void runOverSsh(const std::string& folder, const std::string& hostsFile, const s
   writeFile(hosts, usable);
 
   std::vector<std::string> words{"parallel", "--will-cite", "--sshloginfile", hosts,      "--jobs",    "1", "--workdir",
-                                 "...",      "--cleanup",   "--basefile",     "job.json", "--retries", "3"};
+                                 "...",      "--cleanup",   "--transferfile", "job.json", "--retries", "3"};
   const bool hasDatabase = fs::exists(elementDatabase(folder, numbers.front()));
   if (hasDatabase) words.insert(words.end(), {"--transferfile", "{}.db"});
   for (const char* result : {hasDatabase ? "{}.db" : "{}.tar", "{}.json", "{}.log"})
@@ -87,8 +87,9 @@ void runOverSsh(const std::string& folder, const std::string& hostsFile, const s
   words.insert(words.begin(), {"env", "--chdir=" + folder});
   const ChildEnd end = runChild(words);
   writeFile((fs::path(folder) / "parallel.log").string(), end.out + end.err);
-  constexpr int notFound = 127;
+  constexpr int notFound = 127, isRefused = 255;
   if (end.exitCode == notFound) throw InputError("GNU parallel is not installed (package parallel)");
+  if (end.exitCode == isRefused) throw InputError("parallel: " + lastLine(end.err));
 }
 
 }  // namespace btr

@@ -244,12 +244,15 @@ std::unique_ptr<Child> Nursery::start(char kind) {
   const int given[2] = {work[1], line[1]};
   char reply = 'F';
   std::array<int, 2> process{-1, -1};
-  const bool made = sendWith(socket_, kind, given, 2) && receiveWith(socket_, reply, process) && process[0] >= 0;
+  const bool isThere = sendWith(socket_, kind, given, 2) && receiveWith(socket_, reply, process);
+  const bool made = isThere && process[0] >= 0;
   close(work[1]);
   close(line[1]);
   if (made) return std::make_unique<Child>(work[0], line[0], process[0]);
   close(work[0]);
   close(line[0]);
+  if (!isThere)
+    throw Refusal(Code::unavailable, "the process that makes the server's others has ended; start the server again");
   throw Refusal(Code::tooMuch, "cannot make a process: the system gives no more");
 }
 

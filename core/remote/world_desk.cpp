@@ -177,7 +177,10 @@ void WorldDesk::step(const v1::StepRequest& request) {
     for (const double position : targets.positions())
       if (!std::isfinite(position)) throw InputError("targets of " + targets.robot(), "no number", "finite numbers");
   Session& world = session();
-  for (const v1::Act& act : request.acts()) apply(actOf(act));
+  for (const v1::Act& act : request.acts()) {
+    betweenPieces();
+    apply(actOf(act));
+  }
   const int rows = std::max(1, request.periods());
   for (int i = 0; i < rows && world.fault().empty(); ++i) {
     if (i > 0) betweenPieces();

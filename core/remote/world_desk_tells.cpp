@@ -83,6 +83,9 @@ void WorldDesk::fillRow(const v1::Wanted& wanted, v1::State& out) {
     out.mutable_row()->Add(row_.begin(), row_.end());
     return;
   }
+  if (static_cast<std::size_t>(wanted.channels_size()) > channels_.size())
+    throw InputError("wanted channels", std::to_string(wanted.channels_size()),
+                     "at most " + std::to_string(channels_.size()) + ", those of this world");
   if (!std::ranges::equal(wanted.channels(), chosen_)) {
     std::vector<std::size_t> at;
     for (const std::string& channel : wanted.channels()) {

@@ -1,8 +1,11 @@
 /// A servo's firmware that adds up its error, which the scene does not know:
-///   z' = k·(c − q), |z| ≤ Z;   τ' = clamp(τ + z, ±limit)      k in N·m/(rad·s), Z in N·m: clamp against wind-up
-/// z is zero when a trial begins. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
+///   z' = k·(c − q), |z| ≤ Z;   τ' = clamp(p·(c − q) − d·q̇ + z, ±limit)      k in N·m/(rad·s), Z in N·m: clamp against
+///   wind-up
+/// z is zero when a trial begins; with `settled` 1 it holds the weight of a joint that rests then, since its servo was
+/// on long before. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
 /// Drives that follow a position only. Neutral: k = 0. State: z.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/plugin/plugin.h"
@@ -11,8 +14,11 @@ namespace {
 
 class IntegralAction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
+    btr::Parameter settled{"settled", "", "at the start: 0 nothing is added up, 1 the weight is held", 0, 1, 0};
+    settled.integer = true;
     return {{"gain_nm_rad_s", "N·m/(rad·s)", "torque per error and second, N/(m·s) on a slide joint", 0, 1000, 2, 0.0},
-            {"clamp_nm", "N·m", "largest torque that it adds up to, N on a slide joint", 1e-3, 100, 0.3}};
+            {"clamp_nm", "N·m", "largest torque that it adds up to, N on a slide joint", 1e-3, 100, 0.3},
+            settled};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::drive, "a servo that adds up its error", "ż = k·(c − q),  |z| ≤ Z,  τ’ = τ + z",
@@ -23,12 +29,18 @@ class IntegralAction final : public btr::Effect {
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 1; }
 
+  void rest(const btr::JointState& joint, std::span<const double> values, std::span<double> state) const override {
+    if (values[0] != 0 && values[2] != 0) state[0] = std::clamp(-joint.load, -values[1], values[1]);
+  }
+
   bool changesDrive() const override { return true; }
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
                      std::span<double> state, double dt) const override {
     if (values[0] == 0 || !joint.followsPosition) return torque;
     state[0] = std::clamp(state[0] + values[0] * (joint.command - joint.position) * dt, -values[1], values[1]);
-    return std::clamp(torque + state[0], -joint.limit, joint.limit);
+    // The sum is limited, not its parts.
+    const double most = joint.beyond != 0 ? std::abs(torque) : joint.limit;
+    return std::clamp(torque + joint.beyond + state[0], -most, most);
   }
 };
 

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "core/remote/desk.h"
@@ -68,6 +69,23 @@ TEST(RunKeeper, ARunWhoseProcessDiesSaysSoAndHoldsNothing) {
   EXPECT_THAT(news.message, HasSubstr("what it did is stored"));
   EXPECT_FALSE(keeper.isHere(7));
   EXPECT_EQ(before, descriptors());
+}
+
+TEST(Nursery, ThatHasEndedSaysSo) {
+  const std::string self = std::to_string(getpid());
+  Nursery nursery([](char) {});
+  pid_t process = 0;
+  std::ifstream("/proc/self/task/" + self + "/children") >> process;
+  ASSERT_GT(process, 0);
+  kill(process, SIGKILL);
+  try {
+    // It may make one more before it ends.
+    for (int i = 0; i < 1000; ++i) nursery.start('x');
+    FAIL();
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(Code::unavailable, refusal.code);
+    EXPECT_THAT(refusal.what(), HasSubstr("start the server again"));
+  }
 }
 
 TEST(Child, SignsOfLifeAreNoAnswer) {

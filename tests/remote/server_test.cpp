@@ -13,6 +13,7 @@
 #include <random>
 #include <thread>
 
+#include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/spec/json_reader.h"
 #include "tests/refusal.h"

@@ -262,6 +262,9 @@ TEST_F(WorldDeskTest, ChannelsComeAndGoWithObjects) {
   const auto state = answered<v1::State>(desk, Method::get, get);
   EXPECT_EQ(1, state.row_size());
   EXPECT_EQ(7 * world.robots(0).links_size(), state.links(0).pose_size());
+  v1::GetRequest many;
+  for (int i = 0; i <= world.channels_size(); ++i) many.mutable_wanted()->add_channels("ball.z_m");
+  EXPECT_THAT(refused(desk, Method::get, many), HasSubstr("at most " + std::to_string(world.channels_size())));
   get.mutable_wanted()->add_channels("ball.temperature");
   EXPECT_THAT(refused(desk, Method::get, get), HasSubstr("a channel of this world"));
 }
@@ -298,7 +301,14 @@ TEST_F(WorldDeskTest, ALongStepThatIsToBeLeftEndsWithAWholePeriod) {
     if (++pieces == 5) throw Refusal(Code::cancelled, "the server ends");
   };
   EXPECT_EQ("the server ends", stepRefused([](auto& r) { r.set_periods(10000); }));
+  EXPECT_EQ(5, pieces);
   EXPECT_EQ(5, answered<v1::State>(desk, Method::get, v1::GetRequest()).period());
+  // Many acts are a long answer too.
+  step(0, [](auto& r) {
+    for (int i = 0; i < 3; ++i)
+      r.add_acts()->set_json(R"({"act": "throw", "object": "ball", "velocity_m_s": [0, 0, 0]})");
+  });
+  EXPECT_EQ(8, pieces);
   answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
   const fs::path log = files.server() / world.log();
   replayed(fs::path(log).replace_extension(".json"), log);

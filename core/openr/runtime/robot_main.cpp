@@ -65,9 +65,11 @@ void quietPlace(int link) {
   setenv("TZ", "UTC", 1);
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) dup2(nothing, standard);
-  const rlimit noCore{0, 0}, memory{rlim_t{4} << 30, rlim_t{4} << 30};
+  const rlimit noCore{0, 0}, memory{rlim_t{4} << 30, rlim_t{4} << 30}, file{rlim_t{256} << 20, rlim_t{256} << 20};
   setrlimit(RLIMIT_CORE, &noCore);
   setrlimit(RLIMIT_AS, &memory);
+  setrlimit(RLIMIT_FSIZE, &file);  // many times a memory stick
+  signal(SIGXFSZ, SIG_IGN);        // what is too large is not written
   signal(SIGPIPE, SIG_IGN);
   signal(SIGINT, SIG_IGN);  // the simulator ends us
 }

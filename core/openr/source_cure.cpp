@@ -170,6 +170,29 @@ std::size_t forBefore(const std::string& text, std::size_t use, const std::strin
   return std::string::npos;
 }
 
+/// Where the declaration that `at` stands in begins.
+std::size_t declarationBegin(const std::string& text, std::size_t at) {
+  const auto before = text.find_last_of(";{}", at);
+  const auto begin = before == std::string::npos || at == 0 ? 0 : before + 1;
+  return text.find_first_not_of(" \t\n", begin);
+}
+
+/// Where the class begins that names `name` its friend before `use`, which made that name known before the standard;
+/// npos if there is none.
+std::size_t befriendingClass(const std::string& text, std::size_t use, const std::string& name) {
+  const std::string words = "friend class " + name;
+  auto at = text.rfind(words, use);
+  while (at != std::string::npos && (at + words.size() > use || !wordAt(text, at, words)))
+    at = at == 0 ? std::string::npos : text.rfind(words, at - 1);
+  if (at == std::string::npos) return at;
+  int depth = 0;
+  while (at-- > 0) {
+    depth += text[at] == '}' ? 1 : text[at] == '{' ? -1 : 0;
+    if (depth < 0) return at == 0 ? std::string::npos : declarationBegin(text, at - 1);
+  }
+  return std::string::npos;
+}
+
 struct Change {
   std::size_t length;  ///< of what it replaces
   std::string text;
@@ -241,7 +264,16 @@ std::string curedSource(const std::string& preprocessed, const std::string& erro
       changes[at] = {0, "typename "};
       continue;
     }
+    if (complaint.text.find("requires 'template<>' syntax") != std::string::npos) {
+      changes[at == 0 ? 0 : declarationBegin(bare, at - 1)] = {0, "template<> "};
+      continue;
+    }
     const std::string name = quoted(complaint.text, "'");
+    if (complaint.text == "'" + name + "' does not name a type") {
+      const auto friendly = befriendingClass(bare, at, name);
+      if (friendly != std::string::npos) changes[friendly] = {0, "class " + name + "; "};
+      continue;
+    }
     if (complaint.text.find("was not declared in this scope") == std::string::npos || !wordAt(preprocessed, at, name))
       continue;
     if (const auto loop = forBefore(bare, at, name); loop != std::string::npos)

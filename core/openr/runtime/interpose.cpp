@@ -1,6 +1,7 @@
 // The C library's functions that a robot has in another way: files are the stick's, time is simulated, exit() ends a
 // method, and there are no other programs. They serve methods only; everything else in this process gets the C
 // library's own.
+#include <apsys.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -292,3 +293,9 @@ int nanosleep(const struct timespec* wanted, struct timespec* left) {
 }
 
 }  // extern "C"
+
+sError Wait(longlong nanoseconds) {
+  if (nanoseconds < 0) return sINVALID_ARG;
+  rest(nanoseconds / 1000);
+  return sSUCCESS;
+}

@@ -14,6 +14,9 @@ typedef unsigned int longword;
 typedef signed char sbyte;
 typedef short sword;
 typedef int slongword;
+typedef long long longlong;
+typedef unsigned long long ulonglong;
+typedef long long slonglong;
 
 typedef signed char int8;
 typedef short int16;

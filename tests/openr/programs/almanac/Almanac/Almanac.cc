@@ -24,6 +24,8 @@ OStatus Almanac::DoStart(const OSystemEvent& event) {
  cout << OCalendarTime(now) << endl;
  RelativeTime r = ConvertToRelativeTime(ConvertToSystemTime(RelativeTime(2, 500)));
  OSYSPRINT(("in %d.%03d s\n", r.sec, r.msec));
+ SystemTime before, after; GetSystemTime(&before); Wait(static_cast<longlong>(40000000)); GetSystemTime(&after); after = after - before;
+ OSYSPRINT(("waited %d us\n", after.useconds));
  const char* files[] = {"/MS/ZEBRA.TXT", "/MS/APE.TXT", "/MS/MOUSE.TXT"};
  for (int i = 0; i < 3; i++) { ofstream out(files[i]); out << i; }
  list("/MS"); list("/MS/OPEN-R/MW");

@@ -1,4 +1,5 @@
 // Everything that UCHILSIM does, without a window.
+#include "app/btr_array.h"
 #include "app/btr_cluster.h"
 #include "app/btr_commands.h"
 
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
   btr::cli::addOpenrCommands(app, shell);
   btr::cli::addCameraCommand(app);
   btr::cli::addServeCommand(app);
+  btr::cli::addArrayCommands(app, shell);
   btr::cli::addPiecesCommand(app, shell);
   btr::cli::warnOfNetworkFiles(app);
   if (const auto code = btr::cli::passOn(argc, argv)) return *code;

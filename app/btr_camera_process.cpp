@@ -1,7 +1,10 @@
 #include "app/btr_camera_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,9 +39,19 @@ struct Pipe {
   int take(int end) { return std::exchange(ends[end], -1); }
 };
 
+/// Whether a child ends by itself by then; it is still to be waited for.
+bool endsWithin(pid_t process, int patience_ms) {
+  const int watched = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  if (watched < 0) return false;
+  pollfd one{watched, POLLIN, 0};
+  const bool ended = poll(&one, 1, patience_ms) > 0;
+  close(watched);
+  return ended;
+}
+
 }  // namespace
 
-CameraProcess::CameraProcess(std::vector<std::string> words, bool answers) {
+CameraProcess::CameraProcess(std::vector<std::string> words, bool answers) : answers_(answers) {
   words.insert(words.begin(), cameraProgram());
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -64,7 +77,12 @@ CameraProcess::CameraProcess(std::vector<std::string> words, bool answers) {
 CameraProcess::~CameraProcess() {
   if (in_ >= 0) close(in_);
   if (out_ >= 0) close(out_);
-  if (process_ > 0) waitpid(process_, nullptr, 0);
+  if (process_ <= 0) return;
+  // Who answers has nothing to finish: one that hangs is ended.
+  constexpr int patience_ms = 5000;
+  if (answers_ && !endsWithin(process_, patience_ms)) kill(process_, SIGKILL);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 bool CameraProcess::send(const std::string& line) {
@@ -79,7 +97,13 @@ bool CameraProcess::send(const std::string& line) {
 }
 
 bool CameraProcess::read(std::uint8_t* bytes, std::size_t count) {
+  // Shorter than anybody waits for the world that asks.
+  constexpr int patience_ms = 30000;
   for (std::size_t done = 0; done < count;) {
+    pollfd one{out_, POLLIN, 0};
+    const int ready = poll(&one, 1, patience_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return false;
     const ssize_t got = ::read(out_, bytes + done, count - done);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;

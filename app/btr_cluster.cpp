@@ -49,10 +49,18 @@ ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : im
   options.secondsPerJob = longestJob_s;
   options.foremen = jobs > 0 ? jobs : shareOfProcessors(launch);
   if (launch.rank > 0) {
-    const std::unique_ptr<RankLink> link = openMpi(launch);
+    isDone_ = true;
+    std::unique_ptr<RankLink> link;
+    try {
+      link = openMpi(launch);
+    } catch (const InputError&) {
+      // What keeps every rank from joining is said once, by rank 0.
+      if (launch.by != "srun") throw;
+      shell.exitCode = badInput;
+      return;
+    }
     serveRank(*link, options.foremen, options.command);
     link->finish();
-    isDone_ = true;
     return;
   }
   if (launch.size > mostRanksWithAWorkingFirst) options.foremen = 0;

@@ -1,8 +1,10 @@
 // btr compare: several experiments with the same seeds, side by side.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 
+#include "app/btr_array.h"
 #include "app/btr_commands.h"
 #include "core/run/comparison.h"
 
@@ -13,6 +15,7 @@ struct CompareArguments {
   std::string file, database, csv;
   int jobs = 0;
   bool quiet = false;
+  ArrayArguments array;
 };
 
 void print(const Comparison& comparison) {
@@ -31,9 +34,31 @@ void print(const Comparison& comparison) {
                      rows));
 }
 
+/// An element for each arm and seed, whose run has begun in its database.
+void compareElsewhere(const CompareArguments& a, const ComparisonSpec& spec, const ComparedExperiments& arms,
+                      Shell& shell) {
+  ArrayJob array;
+  array.what = "compare";
+  array.into = a.database;
+  array.workers = std::max(1, a.jobs);
+  const auto begin = [&](const std::string& folder, ArrayJob& job) {
+    // Seed by seed: what is done first makes whole pairs.
+    for (const std::uint64_t seed : spec.seeds)
+      for (std::size_t arm = 0; arm < spec.arms.size(); ++arm) {
+        job.elements.push_back(
+            {spec.arms[arm].name + ", seed " + std::to_string(seed),
+             {"run", "--run", "1", "--db", "{db}", "--jobs", std::to_string(job.workers), "--quiet"}});
+        Database db = Database::open(elementDatabase(folder, job.elements.size()), Database::Mode::create);
+        startRun(db, shell.plugins(), arms.experiments[arm], seed);
+      }
+  };
+  beginArray(a.array, std::move(array), begin, shell);
+}
+
 void compare(const CompareArguments& a, Shell& shell) {
   const ComparisonSpec spec = loadComparison(a.file);
   const ComparedExperiments arms = loadArms(spec, shell.plugins());  // before a database is made for them
+  if (a.array.isWanted()) return compareElsewhere(a, spec, arms, shell);
   Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
   shell.goesOn = true;
   RunOptions options;
@@ -61,6 +86,7 @@ void addCompareCommand(CLI::App& app, Shell& shell) {
       ->transform(wholeNumber(0, 1024));
   shell.writesFile(command, command->add_option("--csv", a->csv, "write the table to this file, too"));
   command->add_flag("--quiet", a->quiet, "do not say which run is worked on");
+  addArrayOptions(command, a->array);
   command->callback([a, &shell] { compare(*a, shell); });
 }
 

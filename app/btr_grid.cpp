@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/btr_array.h"
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
 #include "core/run/grid/grid.h"
@@ -27,6 +28,7 @@ struct GridArguments {
   int workers = 0, columns = 21, rows = 21;
   double distance = 0, bearing = 0, direction = 0;
   bool quiet = false, progress = false;
+  ArrayArguments array;
 };
 
 std::string degrees(double rad) {
@@ -127,6 +129,25 @@ bool goOn(Database& db, Id id, const GridArguments& a, Shell& shell, std::size_t
   return false;
 }
 
+/// An element for each seed and method, whose grid has begun in its database.
+void gridElsewhere(const GridArguments& a, const GridSpec& spec, Shell& shell) {
+  ArrayJob array;
+  array.what = "grid";
+  array.into = a.database;
+  array.workers = std::max(1, a.workers);
+  const auto begin = [&](const std::string& folder, ArrayJob& job) {
+    for (const std::uint64_t seed : spec.seeds)
+      for (const GridSpec::Method method : spec.methods) {
+        job.elements.push_back(
+            {std::string(toText(method)) + ", seed " + std::to_string(seed),
+             {"grid", "--grid", "1", "--db", "{db}", "--workers", std::to_string(job.workers), "--quiet"}});
+        Database db = Database::open(elementDatabase(folder, job.elements.size()), Database::Mode::create);
+        startGrid(db, shell.plugins(), spec, method, seed);
+      }
+  };
+  beginArray(a.array, std::move(array), begin, shell);
+}
+
 void runGrid(const GridArguments& a, Shell& shell) {
   GridSpec spec = loadGrid(a.file);
   if (!a.methods.empty()) {
@@ -134,6 +155,7 @@ void runGrid(const GridArguments& a, Shell& shell) {
     for (const std::string& name : a.methods) spec.methods.push_back(gridMethodFromText(name));
   }
   if (!a.seeds.empty()) spec.seeds = a.seeds;
+  if (a.array.isWanted()) return gridElsewhere(a, spec, shell);
   Database db = Database::open(a.database, Database::Mode::create, workingPatience_ms);
   shell.goesOn = true;
   std::string sha;
@@ -235,6 +257,7 @@ void addGridCommands(CLI::App& app, Shell& shell) {
                                          "write the table to a file (grid, table: methods; map: points; kick: trace)");
   shell.writesFile(command, csv);
   command->add_flag("--quiet", a->quiet, "no progress, no tables of cells");
+  addArrayOptions(command, a->array);
   command->add_flag("--progress", a->progress, "lines \"STAGE SHARE\" on stderr");
 
   CLI::App* tables = command->add_subcommand("table", "what is stored: cells of each grid, and the methods compared");

@@ -53,6 +53,13 @@ json lamps(const Session& session) {
     seen.lamps = orders.lamps;
     all[robot] = toJson(seen);
   }
+  for (const auto& [robot, lit] : session.lamps()) {
+    if (lit.empty()) continue;
+    Orders seen;
+    seen.motorPower = true;
+    for (const auto& [lamp, brightness] : lit) seen.lamps[lamp] = {brightness};
+    all[robot] = toJson(seen);
+  }
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/btr_camera_eye.h"
 #include "app/btr_live_steering.h"
 #include "app/btr_openr_robots.h"
 #include "core/live/session.h"
@@ -58,7 +59,7 @@ class LiveRun {
                                                [](const auto&, double) {
                                                  // Its process is ended by whoever started it: the world goes on.
                                                })),
-        session_(std::move(game), host, dog_.get()) {
+        session_(std::move(game), host, dog_.get(), cameraMaker()) {
     if (!arguments.replay.empty()) {
       replayed_ = loadSessionLog(arguments.replay);
       if (replayed_->gameSha256 != gameSha256(begun_))

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "app/btr_array.h"
 #include "app/btr_commands.h"
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/proof/proof_json.h"
@@ -23,6 +24,28 @@ void printProof(const ProofScore& total, const std::vector<ProvedCase>& cases, c
   std::cout << (shell.json ? proofJson(total, cases) : proofText(total));
 }
 
+/// An element for each case.
+void proveElsewhere(const ProofRequest& request, const ArrayArguments& arguments, Shell& shell) {
+  ArrayJob array;
+  array.what = "gap prove";
+  array.into = request.out;
+  const auto begin = [&](const std::string&, ArrayJob& job) {
+    for (std::size_t number = 1; number <= request.cases; ++number) {
+      const std::string only = std::to_string(number);
+      std::vector<std::string> words{
+          "gap", "prove", "--cases", only, "--only", only, "--seed", std::to_string(request.seed), "--out", "{out}"};
+      for (const auto& [option, value] : {std::pair<const char*, std::string>{"--engine", request.engine},
+                                          {"--scene", request.scene},
+                                          {"--kind", request.kind},
+                                          {"--dirt", request.dirt},
+                                          {"--spoiled", request.spoiled ? std::to_string(request.spoiled) : ""}})
+        if (!value.empty()) words.insert(words.end(), {option, value});
+      job.elements.push_back({"case " + only, std::move(words)});
+    }
+  };
+  beginArray(arguments, std::move(array), begin, shell);
+}
+
 void proveCommand(ProofRequest request, Shell& shell) {
   request.generator = findGenerator();
   const PluginHost& plugins = shell.plugins();
@@ -39,7 +62,7 @@ void proveCommand(ProofRequest request, Shell& shell) {
   });
   if (show) std::fprintf(stderr, "\n");
   printProof(score(cases), cases, shell);
-  if (cases.size() < request.cases) shell.exitCode = stoppedEarly;
+  if (cases.size() < (request.only ? 1 : request.cases)) shell.exitCode = stoppedEarly;
 }
 
 struct TallyRequest {
@@ -95,7 +118,13 @@ void addGapProveCommands(CLI::App& gap, Shell& shell) {
       ->add_option("--spoiled", request->spoiled,
                    "trials of each case, at most a third, that are not what their files say")
       ->transform(wholeNumber(0, 100));
-  prove->callback([request, &shell] { proveCommand(*request, shell); });
+  prove->add_option("--only", request->only, "of these cases only this one")->transform(wholeNumber(1, 100000));
+  auto array = std::make_shared<ArrayArguments>();
+  addArrayOptions(prove, *array);
+  prove->callback([request, array, &shell] {
+    if (array->isWanted()) return proveElsewhere(*request, *array, shell);
+    proveCommand(*request, shell);
+  });
   addTally(gap, shell);
 }
 

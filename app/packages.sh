@@ -8,7 +8,7 @@ BUILD_PACKAGES="g++ make cmake ninja-build ccache pkg-config
   libopenmpi-dev openmpi-bin"
 WINDOW_PACKAGES="breeze-icon-theme fonts-dejavu-core libgl1-mesa-dri libegl-mesa0 libglx-mesa0"
 TEST_PACKAGES="clang-format libgtest-dev libgmock-dev libmujoco-dev xvfb xauth xdotool sqlite3 python3-minimal opencv-doc
-  openssl iproute2 slurm-wlm munge parallel openssh-server"
+  openssl iproute2 slurm-wlm munge parallel rsync openssh-server"
 CLANG_PACKAGES="clang libclang-rt-14-dev"
 
 # Installs those of its arguments that are not there yet, in one apt call.

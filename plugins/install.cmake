@@ -38,8 +38,8 @@ endforeach()
 install(DIRECTORY resources/ DESTINATION ${UCHILSIM_INSTALL_RESOURCES} PATTERN manual EXCLUDE)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/uchilsim)
 
-# The public headers are those that plugin.h includes, followed from file to file.
-set(public core/plugin/plugin.h)
+# The public headers are plugin.h, robot.h and those that they include, followed from file to file.
+set(public core/plugin/plugin.h core/robot/robot.h)
 set(next ${public})
 while(next)
   list(POP_FRONT next header)

@@ -23,7 +23,8 @@ declare -A may=(
   [core/live]="core/spec core/model core/sim core/plugin core/live"
   [core/remote]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/live core/remote"
   [core/openr]="core/spec core/model core/sim core/plugin core/live core/openr"
-  [plugins]="core/plugin"
+  [core/robot]="core/spec core/model core/sim core/learn core/plugin core/robot"
+  [plugins]="core/plugin core/robot"
   [ui]="core ui"
   [app]="core ui app"
 )
@@ -69,7 +70,8 @@ while IFS=: read -r file target; do
     { echo "$file includes \"$target\": no public header of core for the window"; bad=1; }
 done < <(grep -rE '^[[:space:]]*#include "core/' ui --include=*.cpp --include=*.h |
            sed -nE 's/^([^:]+):[[:space:]]*#include "([^"]+)".*/\1:\2/p')
-# core never names a widget toolkit, and a plugin sees only plugin.h.
+# core never names a widget toolkit, and a plugin sees only plugin.h or robot.h.
 grep -rnE '#include <(Q|osg)' core app/btr*.cpp plugins --include=*.cpp --include=*.h && { echo "Qt or OSG outside ui/"; bad=1; }
-grep -rnP '#include "core/plugin/(?!plugin\.h)' plugins --include=*.cpp && { echo "a plugin may include only core/plugin/plugin.h"; bad=1; }
+grep -rnP '#include "core/(plugin/(?!plugin\.h)|robot/(?!robot\.h))' plugins --include=*.cpp &&
+  { echo "a plugin may include only core/plugin/plugin.h or core/robot/robot.h"; bad=1; }
 exit $bad

@@ -1,5 +1,4 @@
 // btr-camera eye: what a robot's camera sees, for its own program: each row on standard input is answered at once.
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -46,9 +45,12 @@ class Eye {
     if (!line.contains("row")) return;
     if (!eye_) throw InputError("standard input", "a row before a game", "a game first");
     eye_->add(ui::liveRowFrom(line));
-    std::vector<std::uint8_t> planes;
-    while (const auto frame = eye_->next()) planes = asRgb_ ? frame->picture.rgb : planesOf(frame->picture);
-    answer(planes);
+    std::vector<std::uint8_t> planes, classes;
+    while (const auto frame = eye_->next()) {
+      planes = asRgb_ ? frame->picture.rgb : planesOf(frame->picture);
+      if (asRgb_) classes = frame->picture.classes;
+    }
+    answer(planes, classes);
   }
 
  private:
@@ -70,17 +72,20 @@ class Eye {
     eye_->setCamera(*camera_);
   }
 
-  /// Width and height, 0 where there is no frame, each 4 bytes, the lowest first; then the planes.
-  void answer(const std::vector<std::uint8_t>& planes) const {
-    std::array<std::uint8_t, 8> head{};
+  /// Width and height, 0 where there is no frame, each 4 bytes, the lowest first; of red, green and blue then a byte
+  /// that says whether classes follow; then the planes, and the classes.
+  void answer(const std::vector<std::uint8_t>& planes, const std::vector<std::uint8_t>& classes) const {
+    std::vector<std::uint8_t> head(asRgb_ ? 9 : 8);
     constexpr int byte = 8;
     if (!planes.empty())
       for (int i = 0; i < 4; ++i) {
         head[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(camera_->width >> (byte * i));
         head[static_cast<std::size_t>(4 + i)] = static_cast<std::uint8_t>(camera_->height >> (byte * i));
       }
+    if (asRgb_) head.back() = classes.empty() ? 0 : 1;
     std::fwrite(head.data(), 1, head.size(), stdout);
     std::fwrite(planes.data(), 1, planes.size(), stdout);
+    std::fwrite(classes.data(), 1, classes.size(), stdout);
     std::fflush(stdout);
   }
 
@@ -98,7 +103,9 @@ void addEyeCommand(CLI::App& app, Shell&) {
   eye->group("");  // btr starts it
   eye->add_option("--robot", *robot, "whose camera")->required();
   auto asRgb = std::make_shared<bool>(false);
-  eye->add_flag("--rgb", *asRgb, "red, green and blue of each pixel instead of Sony's planes");
+  eye->add_flag(
+      "--rgb", *asRgb,
+      "red, green and blue of each pixel instead of Sony's planes, and its colour class if the camera has classes");
   eye->callback([robot, asRgb] {
     Eye work(*robot, *asRgb);
     std::string line;

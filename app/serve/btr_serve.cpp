@@ -1,4 +1,7 @@
 // The open interface: other people's programs watch, drive and learn over the network.
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -6,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/btr_camera_eye.h"
 #include "app/btr_commands.h"
-#include "app/serve/serve_camera.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 
@@ -35,7 +38,17 @@ std::string ownResources() {
   }
 }
 
+/// Connections that say nothing hold a descriptor each for a while: they shall not keep others out.
+void allowManyConnections() {
+  constexpr rlim_t enough = 65536;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= enough) return;
+  limit.rlim_cur = std::min(limit.rlim_max, enough);
+  setrlimit(RLIMIT_NOFILE, &limit);  // else as many as there may be
+}
+
 void serve(ServeArguments& a, Shell& shell) {
+  allowManyConnections();
   const bool ownFolder = !a.games.empty();
   remote::Switchboard::Options options{remote::GamesFolder(ownFolder ? a.games : ownResources(), ownFolder)};
   if (!a.database.empty()) options.database = fs::absolute(a.database).lexically_normal().string();

@@ -47,6 +47,10 @@ Launch launchOfThisProcess() {
 }
 
 std::unique_ptr<RankLink> openMpi(const Launch& launch) {
+  // MPI itself would end the process with a page of text.
+  if (launch.by == "srun" && !std::getenv("PMIX_RANK") && !std::getenv("PMI_RANK"))
+    throw InputError("srun started " + std::to_string(launch.size) +
+                     " tasks that MPI cannot join; start it with srun --mpi=pmix");
   const std::string path = moduleBesideCore();
   if (!std::filesystem::exists(path))
     throw InputError(launch.by + " started " + std::to_string(launch.size) +

@@ -57,6 +57,14 @@ GameState stateFrom(JsonReader reader) {
     senses->finish();
   }
   if (auto referee = reader.objectIfAny("referee")) state.referee = refereeStateFromReader(*referee);
+  if (auto memories = reader.objectIfAny("memories")) {
+    for (const auto& member : memories->node().items()) try {
+        state.memories[member.key()] = memories->any(member.key())->get<std::vector<double>>();
+      } catch (const json::exception&) {
+        memories->refuse(member.key(), "a list of numbers");
+      }
+    memories->finish();
+  }
   reader.members("orders", [&](const std::string& robot, JsonReader orders) {
     state.orders[robot] = ordersFromReader(orders);
     orders.finish();
@@ -71,6 +79,7 @@ json toJson(const GameState& state) {
       {"commands", state.commands},        {"pulls", json::array()}};
   for (const PullAct& pull : state.pulls) object["pulls"].push_back(btr::toJson(pull));
   if (!state.senses.empty()) object["senses"] = state.senses;
+  if (!state.memories.empty()) object["memories"] = state.memories;
   if (state.referee) object["referee"] = btr::toJson(*state.referee);
   for (const auto& [robot, orders] : state.orders) object["orders"][robot] = btr::toJson(orders);
   return object;
@@ -268,7 +277,10 @@ GameRobot gameRobotFromReader(JsonReader& reader) {
     robot.simulator = simulatorFromReader(*simulator);
     simulator->finish();
   }
-  robot.posture = reader.flag("posture", true);
+  if (const json* posture = reader.any("posture"); posture && posture->is_object())
+    robot.stance = reader.anyValues("posture");
+  else
+    robot.posture = reader.flag("posture", true);
   if (const json* senses = reader.any("senses"); senses && senses->is_string())
     robot.senses = sensesOfModel(senses->get<std::string>(), reader.at("senses"));
   else
@@ -283,6 +295,7 @@ GameRobot gameRobotFromReader(JsonReader& reader) {
 
 json toJson(const GameRobot& robot) {
   json object{{"team", robot.team}, {"posture", robot.posture}};
+  if (!robot.stance.empty()) object["posture"] = robot.stance;
   if (robot.controller) object["controller"] = toJson(*robot.controller);
   if (robot.simulator) object["simulator"] = simulatorToJson(*robot.simulator);
   for (const SenseSpec& sense : robot.senses)

@@ -45,6 +45,7 @@ struct GameRobot {
   /// It begins in its controller's starting posture (without controller, a four-legged robot: in a stance), at its
   /// place in the scene; else exactly as the scene says.
   bool posture = true;
+  Values stance{};  ///< joints of the posture of a robot without controller: on its feet, other joints at rest
   std::vector<SenseSpec> senses{};
   bool operator==(const GameRobot&) const = default;
   bool hasPlugin() const { return controller && !controller->openr; }
@@ -87,7 +88,8 @@ struct GameState {
   std::vector<PullAct> pulls;
   std::map<std::string, std::vector<std::vector<double>>> senses;  ///< by robot, see Senses::memory()
   std::optional<RefereeState> referee;
-  std::map<std::string, Orders> orders{};  ///< by robot
+  std::map<std::string, Orders> orders{};                 ///< by robot
+  std::map<std::string, std::vector<double>> memories{};  ///< by robot: of its motion, see Motion::memory()
 };
 
 /// A scene with who plays in it ("format": "uchilsim-game-1"). A value.

@@ -44,6 +44,18 @@ bool hasFourLegs(const RobotModel& model) {
   return true;
 }
 
+/// On its feet with these joints, the others at rest.
+void takeStance(SceneRobot& robot, const Values& joints, const std::string& who) {
+  robot.jointStart = restPositions(robot.model);
+  for (const auto& [name, position] : joints) {
+    const int j = robot.model.findJoint(name);
+    if (j < 0) throw InputError(who + "/posture", "\"" + name + "\"", "joints of the robot");
+    robot.jointStart[static_cast<std::size_t>(j)] = position;
+  }
+  robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
+  robot.start = standing(robot.model, robot.jointStart, who);
+}
+
 /// The posture at the place of the scene: x, y and heading from there, height and tilt from the posture.
 void takePosture(SceneRobot& robot, const SceneRobot& arranged) {
   const Eigen::Matrix3d& r = robot.start.linear();
@@ -70,13 +82,17 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
     if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
     SceneRobot& robot = scene.robots[i];
     if (!plays.posture || !robot.freeBase || !scene.floor) continue;
-    if (!plays.hasPlugin() && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model))) continue;
+    const bool stands = !plays.hasPlugin() && !plays.stance.empty();
+    if (!plays.hasPlugin() && !stands && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model)))
+      continue;
     // A controller arranges the first robot of a scene.
     Scene posture = scene;
     std::swap(posture.robots.front(), posture.robots[i]);
     const std::string who = "robots " + robot.name;
     if (plays.hasPlugin())
       host.controller(plays.controller->plugin)->arrange(posture, plays.controller->settings);
+    else if (stands)
+      takeStance(posture.robots.front(), plays.stance, who);
     else
       arrangeStance(posture, who);
     takePosture(robot, posture.robots.front());

@@ -71,7 +71,8 @@ void check(const Game& game, const PluginHost& host) {
 
 }  // namespace
 
-Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host), dog_(dog) {
+Session::Session(Game game, const PluginHost& host, Watchdog* dog, CameraMaker cameras)
+    : host_(host), makeCamera_(std::move(cameras)), dog_(dog) {
   check(game, host);
   if (game.referee) field_ = fieldOf(game);
   models_ = loadModels(game.scene);
@@ -82,6 +83,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
   game_ = std::move(game);
   if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
   std::map<std::string, double> clocks;
+  std::map<std::string, std::vector<double>> memories;
   Commands commands;
   orders_ = ordersOf(game_, game_.state ? game_.state->orders : std::map<std::string, Orders>{});
   if (game_.state) {
@@ -95,6 +97,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
     }
     periods_ = game_.state->periods;
     clocks = game_.state->clocks;
+    memories = game_.state->memories;
     held_ = game_.state->held;
     commands = game_.state->commands;
     lastGood_ = std::move(game_.state->world);
@@ -112,7 +115,10 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog) : host_(host)
   }
   holdCommands(lastGood_, commands);
   for (const auto& [name, player] : game_.robots)
-    if (player.hasPlugin()) players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
+    if (player.hasPlugin()) {
+      players_[name] = playerOf(game_, scene_, name, clocks.contains(name) ? clocks[name] : 0);
+      if (memories.contains(name)) players_[name].motion->remember(memories[name]);
+    }
   sense(true);
   hashChannels();
 }
@@ -122,7 +128,7 @@ std::unique_ptr<World> Session::worldOf(const Game& game, const Scene& scene, co
   world->measureForces(contacts_);
   for (std::size_t i = 0; i < scene.robots.size(); ++i)
     if (const auto player = game.robots.find(scene.robots[i].name);
-        player != game.robots.end() && (player->second.hasStick() || !player->second.senses.empty()))
+        player != game.robots.end() && (player->second.hasStick() || !sensesOf(game, player->first).empty()))
       world->measureAcceleration(i);
   if (memory) world->remember(*memory);
   return world;
@@ -149,11 +155,18 @@ Session::Player Session::playerOf(const Game& game, const Scene& scene, const st
   const Asked asked(dog_, robot + "'s controller \"" + spec.plugin + "\"");
   Player player;
   player.controller = host_.controller(spec.plugin);
+  if (player.controller->looks() && !makeCamera_)
+    throw InputError("robots " + robot + "/controller", "\"" + spec.plugin + "\", which looks through a camera",
+                     "a controller that does not look: nothing can be drawn here");
   // A controller drives the first robot of a scene.
   Scene mine = scene;
   std::swap(mine.robots.front(), mine.robots.at(indexOf(game.scene.robots, robot)));
   player.motion = player.controller->begin(mine, spec.settings, vectorOf(*player.controller, spec, "robots " + robot));
   player.clock = clock;
+  if (const auto was = players_.find(robot); clock > 0 && was != players_.end()) {
+    const auto& before = game_.robots.at(robot).controller;
+    if (before && before->plugin == spec.plugin) player.motion->remember(was->second.motion->memory());
+  }
   return player;
 }
 
@@ -231,20 +244,15 @@ Vector3d Session::handForce_n(const std::string& object) const {
 
 void Session::step() {
   if (!fault_.empty()) return;
-  const double half = scene_.controlPeriod_s / 2;
-  RobotReadings readings;
+  const double period = scene_.controlPeriod_s;
   for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
     const std::string& name = scene_.robots[i].name;
     if (const auto found = players_.find(name); found != players_.end()) {
       Player& player = found->second;
-      const bool over = player.clock >= player.motion->duration() - half;
+      const bool over = player.isOver(period);
       if (over && game_.robots.at(name).controller->repeats) player = playerOf(game_, scene_, name, 0);
-      if (!over || player.clock < half) {
-        world_->read(i, readings);
-        const Asked asked(dog_, name + "'s controller \"" + game_.robots.at(name).controller->plugin + "\"");
-        player.motion->command(player.clock, readings, inputs_[i]);
-      }
-      player.clock += scene_.controlPeriod_s;
+      if (!over || player.clock < period / 2) askController(i, player);
+      player.clock += period;
     }
     if (const auto found = held_.find(name); found != held_.end())
       for (const auto& [joint, position] : found->second) inputs_[i][jointOf(i, joint)].command = position;
@@ -258,7 +266,7 @@ void Session::step() {
   }
   if (fault_.empty()) {
     const Asked asked(dog_, "the world");
-    world_->advance(inputs_, scene_.controlPeriod_s);
+    world_->advance(inputs_, period);
     if (!world_->fault().empty()) fault_ = world_->fault() + " at " + toText(time_s()) + " s";
   }
   if (!fault_.empty()) {
@@ -276,6 +284,35 @@ void Session::step() {
   if (periods_ % goodEvery == 0) lastGood_ = world_->memory();
 }
 
+void Session::askController(std::size_t robot, Player& player) {
+  const std::string& name = scene_.robots[robot].name;
+  const std::string who = name + "'s controller \"" + game_.robots.at(name).controller->plugin + "\"";
+  MotionSenses now;
+  now.seed = game_.seed;
+  now.period = periods_;
+  std::vector<double> values;
+  if (const auto found = std::ranges::find(sensing_, robot, &Sensing::robot); found != sensing_.end()) {
+    found->senses.sample(values);
+    now.channels = found->senses.channels();
+    now.values = values;
+  }
+  std::optional<CameraPicture> picture;
+  try {
+    if (player.controller->looks()) {
+      if (!eyes_[name]) eyes_[name] = makeCamera_(name);
+      picture = eyes_[name]->look(*this);
+    }
+    if (picture) now.picture = &*picture;
+    world_->read(robot, readings_);
+    const Asked asked(dog_, who);
+    player.motion->sense(now);
+    player.motion->command(player.clock, readings_, inputs_[robot]);
+    lamps_[name] = player.motion->lamps();
+  } catch (const InputError& error) {
+    fault_ = who + ": " + error.what() + ", at " + toText(time_s()) + " s";
+  }
+}
+
 void Session::apply(const Act& act) {
   if (!fault_.empty()) throw InputError("session", fault_, "a session that goes on; open the game again");
   // Nothing that a log could not say.
@@ -289,10 +326,6 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   ModelSet models = loadModels(game.scene);
   Scene scene = sceneOf(game, models, host_);
   std::vector<Sensing> sensing = sensingOf(game, scene);
-  for (Sensing& now : sensing)
-    for (const Sensing& was : sensing_)
-      if (was.senses.channels() == now.senses.channels() && !was.senses.memory().empty())
-        now.senses.remember(was.senses.memory(), "senses");
   std::map<std::string, Player> players;
   for (const auto& [name, player] : game.robots)
     if (player.hasPlugin())
@@ -313,7 +346,9 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   models_ = std::move(models);
   scene_ = std::move(scene);
   players_ = std::move(players);
-  sensing_ = std::move(sensing);
+  std::erase_if(lamps_, [&](const auto& each) { return !players_.contains(each.first); });
+  std::erase_if(eyes_, [&](const auto& each) { return !players_.contains(each.first); });
+  takeSenses(std::move(sensing));
   orders_ = ordersOf(game_, orders_);
   holdCommands(memory, told);
   setPulls();
@@ -331,7 +366,10 @@ Game Session::save() {
   // What the world was begun anew from: what it remembers of it may differ in a last bit.
   state.world = lastGood_;
   state.periods = periods_;
-  for (const auto& [name, player] : players_) state.clocks[name] = player.clock;
+  for (const auto& [name, player] : players_) {
+    state.clocks[name] = player.clock;
+    if (std::vector<double> memory = player.motion->memory(); !memory.empty()) state.memories[name] = std::move(memory);
+  }
   state.held = held_;
   state.commands = commands();
   for (const auto& [name, pull] : pulls_) state.pulls.push_back(pull);
@@ -488,18 +526,30 @@ void Session::change(const ControllerAct& act) {
   Game game = game_;
   game.robots[act.robot].controller = act.controller;
   check(game, host_);
+  std::vector<Sensing> sensing = sensingOf(game, scene_);
+  const auto senseAs = [&] {
+    const std::vector<std::string> before = channels();
+    if (!sensesOf(game_, act.robot).empty()) world_->measureAcceleration(robot);
+    takeSenses(std::move(sensing));
+    sense(true);
+    if (channels() != before) hashChannels();
+  };
   if (game.robots[act.robot].hasPlugin()) {
     Player player = playerOf(game, scene_, act.robot, 0);
     game_ = std::move(game);
     players_[act.robot] = std::move(player);
     orders_.erase(act.robot);
     for (JointInput& input : inputs_[robot]) input = JointInput{input.command};
+    senseAs();
     return;
   }
   std::map<std::size_t, double> told;
   for (const auto& [joint, command] : act.commands) told[jointOf(robot, joint)] = command;
   game_ = std::move(game);
   players_.erase(act.robot);
+  lamps_.erase(act.robot);
+  eyes_.erase(act.robot);
+  senseAs();
   orders_.erase(act.robot);
   orders_ = ordersOf(game_, orders_);
   if (game_.robots[act.robot].hasStick()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/live/act.h"
+#include "core/live/camera_eye.h"
 #include "core/live/game.h"
 #include "core/live/watchdog.h"
 #include "core/plugin/plugin_host.h"
@@ -21,8 +22,8 @@ namespace btr {
 class Session {
  public:
   /// Throws InputError for a game whose files, plugins or numbers are not there or not allowed.
-  /// `dog`, which outlives it, sees whether controllers answer.
-  Session(Game game, const PluginHost& host, Watchdog* dog = nullptr);
+  /// `dog`, which outlives it, sees whether controllers answer. `cameras` are for controllers that look.
+  Session(Game game, const PluginHost& host, Watchdog* dog = nullptr, CameraMaker cameras = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -50,8 +51,10 @@ class Session {
   const std::vector<std::vector<JointInput>>& inputs() const { return inputs_; }
   const std::map<std::string, PullAct>& pulls() const { return pulls_; }  ///< by object
   const std::map<std::string, std::map<std::string, double>>& held() const { return held_; }
-  /// What their programs have ordered, by robots whose controller is a stick.
+  /// What their programs have ordered, by robot: of those that no controller plugin moves.
   const std::map<std::string, Orders>& orders() const { return orders_; }
+  /// By robot the lamps that its controller plugin has lit, by name, brightness 0 … 1.
+  const std::map<std::string, Values>& lamps() const { return lamps_; }
   long periods() const { return periods_; }
   double time_s() const { return static_cast<double>(periods_) * game_.scene.controlPeriod_s; }
   /// Why it no longer goes on; "" while it does. The world is as it was at most a tenth of a second before.
@@ -71,6 +74,7 @@ class Session {
     std::shared_ptr<const Controller> controller;
     std::unique_ptr<Motion> motion;
     double clock = 0;  ///< time since the motion began [s]
+    bool isOver(double period_s) const { return clock >= motion->duration() - period_s / 2; }
   };
 
   void change(const PlaceAct& act);
@@ -92,7 +96,9 @@ class Session {
 
   /// Builds the world of `game` with what is remembered, and only then takes it over.
   void rebuild(Game game, const WorldMemory& memory);
+  /// What the motion that moves the robot until now remembers, it knows if the controller is the same.
   Player playerOf(const Game& game, const Scene& scene, const std::string& robot, double clock) const;
+  void askController(std::size_t robot, Player& player);
   using Commands = std::map<std::string, std::map<std::string, double>>;  ///< by robot and joint
   Commands commands() const;
   void holdCommands(const WorldMemory& memory, const Commands& commands);
@@ -111,7 +117,10 @@ class Session {
     std::size_t robot;
     Senses senses;
   };
+  std::vector<SenseSpec> sensesOf(const Game& game, const std::string& robot) const;
   std::vector<Sensing> sensingOf(const Game& game, const Scene& scene) const;
+  /// The session's senses become these; what both have is remembered.
+  void takeSenses(std::vector<Sensing> sensing);
   void sense(bool onlyNew);
   void hashChannels();
   SimulatorSpec& simulatorOf(Game& game, const std::string& robot) const;
@@ -119,6 +128,7 @@ class Session {
   std::size_t jointOf(std::size_t robot, const std::string& joint) const;
 
   const PluginHost& host_;
+  const CameraMaker makeCamera_;
   Game game_;
   ModelSet models_;
   Scene scene_;
@@ -126,7 +136,10 @@ class Session {
   std::map<std::string, Player> players_;
   std::map<std::string, PullAct> pulls_;  ///< by object
   std::map<std::string, std::map<std::string, double>> held_;
-  std::map<std::string, Orders> orders_;  ///< by robot, of all whose controller is a stick
+  std::map<std::string, Orders> orders_;  ///< by robot: of a stick always, else once its program has ordered something
+  std::map<std::string, Values> lamps_;
+  std::map<std::string, std::unique_ptr<CameraEye>> eyes_;  ///< of robots whose controllers look
+  RobotReadings readings_;
   std::vector<std::vector<JointInput>> inputs_;
   std::vector<double> row_;
   std::vector<Sensing> sensing_;

@@ -5,9 +5,14 @@
 
 namespace btr {
 
-/// Of each robot that is moved by a stick: what it was ordered before, or what holds when its program starts.
+/// Of each robot that no plugin moves: what it was ordered before, or what holds when its stick's program starts.
 std::map<std::string, Orders> Session::ordersOf(const Game& game, const std::map<std::string, Orders>& before) const {
   std::map<std::string, Orders> all;
+  for (const RobotSpec& robot : game.scene.robots) {
+    const auto player = game.robots.find(robot.name);
+    const auto was = before.find(robot.name);
+    if (was != before.end() && (player == game.robots.end() || !player->second.controller)) all.insert(*was);
+  }
   for (const auto& [name, player] : game.robots) {
     if (!player.hasStick()) continue;
     if (const auto was = before.find(name); was != before.end())
@@ -44,12 +49,19 @@ void Session::obey(std::size_t robot) {
 
 void Session::change(const OrdersAct& act) {
   const std::size_t robot = robotOf(act.robot);
-  if (!orders_.contains(act.robot)) throw InputError("robot", act.robot, "a robot whose controller is an OPEN-R stick");
+  if (players_.contains(act.robot)) throw InputError("robot", act.robot, "a robot that no controller plugin moves");
   std::map<std::size_t, double> targets;
   for (const auto& [joint, target] : act.targets) targets[jointOf(robot, joint)] = target;
   for (const auto& gain : act.orders.gains) jointOf(robot, gain.first);
   for (const auto& on : act.orders.enabled) jointOf(robot, on.first);
   for (const auto& [joint, target] : targets) inputs_[robot][joint].command = target;
+  if (act.orders.empty()) return;
+  // Without a stick its motors are on until a program says otherwise.
+  if (!orders_.contains(act.robot)) {
+    Orders& all = orders_[act.robot];
+    all.motorPower = true;
+    for (const Joint& joint : scene_.robots[robot].model.joints) all.enabled[joint.name] = true;
+  }
   orders_[act.robot].add(act.orders);
 }
 

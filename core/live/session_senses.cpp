@@ -1,17 +1,38 @@
 // What the robots of a session sense.
+#include <algorithm>
+
 #include "core/live/session.h"
 
 namespace btr {
+
+/// Those of the game, and those that the robot's controller needs beside them.
+std::vector<SenseSpec> Session::sensesOf(const Game& game, const std::string& robot) const {
+  const auto player = game.robots.find(robot);
+  if (player == game.robots.end()) return {};
+  std::vector<SenseSpec> all = player->second.senses;
+  if (!player->second.hasPlugin()) return all;
+  for (const SenseSpec& wanted : host_.controller(player->second.controller->plugin)->senses())
+    if (std::ranges::none_of(all, [&](const SenseSpec& has) { return has.sense == wanted.sense; }))
+      all.push_back(wanted);
+  return all;
+}
 
 std::vector<Session::Sensing> Session::sensingOf(const Game& game, const Scene& scene) const {
   std::vector<Sensing> all;
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const std::string& name = scene.robots[i].name;
-    const auto player = game.robots.find(name);
-    if (player == game.robots.end() || player->second.senses.empty()) continue;
-    all.push_back({i, Senses(player->second.senses, scene.robots[i], game.seed, "robots " + name + "/senses")});
+    const std::vector<SenseSpec> senses = sensesOf(game, name);
+    if (!senses.empty()) all.push_back({i, Senses(senses, scene.robots[i], game.seed, "robots " + name + "/senses")});
   }
   return all;
+}
+
+void Session::takeSenses(std::vector<Sensing> sensing) {
+  for (Sensing& now : sensing)
+    for (const Sensing& was : sensing_)
+      if (was.senses.channels() == now.senses.channels() && !was.senses.memory().empty())
+        now.senses.remember(was.senses.memory(), "senses");
+  sensing_ = std::move(sensing);
 }
 
 void Session::sense(bool onlyNew) {

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -93,10 +94,23 @@ OrderFrame RobotProcess::endWith(Ended::Why why, const std::string& what) {
   return orders;
 }
 
+// It has hung up. A program that closes its link and lives on is ended, too.
 std::string RobotProcess::howItEnded() {
+  if (process_ <= 0) return "its process is gone";
+  constexpr int patience_ms = 1000;
+  const int watched = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));
+  pollfd one{watched, POLLIN, 0};
+  const bool over = watched >= 0 && poll(&one, 1, patience_ms) > 0;
+  if (watched >= 0) close(watched);
+  if (!over) ::kill(process_, SIGKILL);
   int status = 0;
-  if (process_ <= 0 || waitpid(process_, &status, 0) != process_) return "its process is gone";
+  pid_t waited;
+  while ((waited = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
+  }
+  const bool known = waited == process_;
   process_ = -1;
+  if (!known) return "its process is gone";
+  if (!over) return "its process has closed the link to its robot, and was ended";
   if (WIFSIGNALED(status)) return std::string("its process was ended by a signal: ") + strsignal(WTERMSIG(status));
   return "its process ended by itself with status " + std::to_string(WEXITSTATUS(status));
 }
@@ -108,21 +122,13 @@ OrderFrame RobotProcess::exchange(const SensorFrame& frame, double deadline_s) {
     return orders;
   }
   std::vector<std::uint8_t> bytes;
-  if (!sendMessage(link_, bytesOf(frame))) {
-    // It may have said why before it went.
-    if (!receiveMessage(link_, bytes)) return endWith(Ended::Why::crash, howItEnded());
-  } else {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(deadline_s);
-    for (;;) {
-      const double left_s = std::chrono::duration<double>(until - std::chrono::steady_clock::now()).count();
-      if (left_s <= 0) return endWith(Ended::Why::endlessLoop, "its process has not answered in time");
-      pollfd one{link_, POLLIN, 0};
-      const int ready = poll(&one, 1, static_cast<int>(left_s * 1000) + 1);
-      if (ready > 0) break;
-      if (ready < 0 && errno != EINTR) return endWith(Ended::Why::crash, "its process cannot be reached");
-    }
-    if (!receiveMessage(link_, bytes)) return endWith(Ended::Why::crash, howItEnded());
-  }
+  const Deadline until = std::chrono::steady_clock::now() +
+                         std::chrono::duration_cast<Deadline::duration>(std::chrono::duration<double>(deadline_s));
+  // Who did not take the frame may have said why before it went.
+  Passed passed = sendMessage(link_, bytesOf(frame), until);
+  if (passed != Passed::late) passed = receiveMessage(link_, bytes, until);
+  if (passed == Passed::late) return endWith(Ended::Why::endlessLoop, "its process has not answered in time");
+  if (passed == Passed::gone) return endWith(Ended::Why::crash, howItEnded());
   try {
     OrderFrame orders = orderFrameFrom(bytes.data(), bytes.size());
     if (orders.ended) {

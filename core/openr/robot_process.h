@@ -25,8 +25,9 @@ class RobotProcess {
   RobotProcess(const RobotProcess&) = delete;
   RobotProcess& operator=(const RobotProcess&) = delete;
 
-  /// One frame of 8 ms: what the robot senses, and what the program orders. If the process dies, or does not answer for
-  /// `deadline_s` of real time, the answer says so in `ended`; so do all answers after an end, with nothing else.
+  /// One frame of 8 ms: what the robot senses, and what the program orders. If the process dies, or has not taken the
+  /// frame and answered all of it within `deadline_s` of real time, the answer says so in `ended`; so do all answers
+  /// after an end, with nothing else.
   OrderFrame exchange(const SensorFrame& frame, double deadline_s = 60);
 
   const std::optional<Ended>& ended() const { return ended_; }

@@ -1,5 +1,11 @@
 #include "core/openr/stick_parameters.h"
 
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -32,6 +38,19 @@ Parameter parameterFrom(JsonReader& reader) {
   return parameter;
 }
 
+const std::string shelfName = "uchilsim-sticks-", lockName = "owner";
+
+/// A shelf whose lock nobody holds belongs to nobody.
+void removeIfAbandoned(const fs::path& shelf) {
+  struct stat status {};
+  if (lstat(shelf.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid()) return;
+  const int lock = open((shelf / lockName).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (lock < 0) return;
+  std::error_code ignored;  // another process may be doing the same
+  if (flock(lock, LOCK_EX | LOCK_NB) == 0) fs::remove_all(shelf, ignored);
+  close(lock);
+}
+
 }  // namespace
 
 std::vector<Parameter> stickParameters(const std::string& stick) {
@@ -55,10 +74,45 @@ std::string parametersText(std::span<const Parameter> declared, std::span<const 
   return text;
 }
 
-PrivateStick::PrivateStick(const std::string& stick, const std::string& parametersText) {
-  std::string pattern = (fs::temp_directory_path() / "uchilsim-stick-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw InputError(pattern, std::strerror(errno), "a folder for temporary files");
+StickShelf::StickShelf() : owner_(getpid()) {
+  std::error_code error;
+  const fs::path temporary = fs::temp_directory_path(error);
+  for (fs::directory_iterator at(temporary, error), end; !error && at != end; at.increment(error))
+    if (at->path().filename().string().starts_with(shelfName)) removeIfAbandoned(at->path());
+  std::string pattern = (temporary / (shelfName + "XXXXXX")).string();
+  if (!mkdtemp(pattern.data())) {
+    problem_ = pattern + ": " + std::strerror(errno);
+    return;
+  }
   folder_ = pattern;
+  // It gets its name when it is locked: nobody finds it without an owner.
+  const fs::path made = fs::path(folder_) / "making", name = fs::path(folder_) / lockName;
+  lock_ = open(made.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0) fs::rename(made, name, error);
+}
+
+StickShelf::~StickShelf() {
+  if (lock_ >= 0) close(lock_);
+  if (getpid() != owner_ || folder_.empty()) return;
+  std::error_code ignored;  // a temporary folder: nobody can do more about it
+  fs::remove_all(folder_, ignored);
+}
+
+std::string StickShelf::newFolder() const {
+  if (folder_.empty()) throw InputError("the system's folder for temporary files", problem_, "one that can be written");
+  std::error_code error;
+  for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
+    const int process = std::atoi(at->path().filename().c_str());
+    std::error_code ignored;
+    if (process > 0 && kill(process, 0) != 0 && errno == ESRCH) fs::remove_all(at->path(), ignored);
+  }
+  std::string pattern = (fs::path(folder_) / (std::to_string(getpid()) + "-XXXXXX")).string();
+  if (!mkdtemp(pattern.data())) throw InputError(pattern, std::strerror(errno), "a folder for temporary files");
+  return pattern;
+}
+
+PrivateStick::PrivateStick(const StickShelf& shelf, const std::string& stick, const std::string& parametersText)
+    : folder_(shelf.newFolder()) {
   std::error_code problem;
   // Links stay links, which the program cannot follow out of its stick.
   fs::copy(stick, folder_, fs::copy_options::recursive | fs::copy_options::copy_symlinks, problem);

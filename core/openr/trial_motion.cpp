@@ -70,7 +70,8 @@ void TrialMotion::obey(const OrderFrame& orders) {
 void TrialMotion::command(double, const RobotReadings& readings, std::span<JointInput> inputs) {
   if (!program_) {
     inputs_.assign(inputs.begin(), inputs.end());
-    stick_ = std::make_unique<PrivateStick>(task_.stick, task_.parametersText);
+    if (!task_.shelf) task_.shelf = std::make_shared<StickShelf>();
+    stick_ = std::make_unique<PrivateStick>(*task_.shelf, task_.stick, task_.parametersText);
     program_ = start_(stick_->folder(), units_.design());
   }
   if (!over_) obey(program_->exchange(frameOf(readings)));

@@ -18,7 +18,8 @@ class TrialMotion final : public Motion {
     std::string stick;           ///< folder that is copied
     std::string parametersText;  ///< of its PARAMS.TXT
     double duration_s = 10;
-    bool motorPower = true;  ///< on at the start
+    bool motorPower = true;                     ///< on at the start
+    std::shared_ptr<const StickShelf> shelf{};  ///< where its copy of the stick is; none: one of its own
   };
   /// Throws InputError for a scene of another control period or a robot that is none of Sony's.
   TrialMotion(const Scene& scene, Task task, LivePrograms::Starter start);

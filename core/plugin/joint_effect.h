@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/sim/scene.h"
@@ -12,6 +14,24 @@ inline Drive& driveAt(Scene& scene, const std::string& at, const std::string& ef
     for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
       if (at == robot.name + "." + robot.model.joints[j].name) return robot.drives[j];
   throw InputError(effect + ": the scene has no joint \"" + at + "\"; write ROBOT.JOINT");
+}
+
+/// What of a drive grows weaker with its supply, a whole number that an analysis tries one by one: 0 all of its torque,
+/// 1 what its voltage drives, while the damping by its own motion (back electromotive force) stays.
+inline Parameter dampingStaysParameter() {
+  Parameter stays{
+      "damping_stays", "", "what grows weaker: 0 all of the torque, 1 all but the drive's own damping", 0, 1, 0};
+  stays.integer = true;
+  return stays;
+}
+
+/// A drive's torque with `share` (0 to 1) of its supply. Where its damping stays, and within its limit, it is
+///   share·(τ + d·ω) − d·ω      d: JointState::damping, ω: JointState::rate
+inline double weakened(double torque, const JointState& joint, double share, bool dampingStays) {
+  if (!dampingStays || joint.damping == 0) return share * torque;
+  const double own = -joint.damping * joint.rate;
+  const double most = share * (joint.beyond != 0 ? std::abs(torque) : joint.limit);
+  return std::clamp(share * (torque + joint.beyond - own) + own, -most, most);
 }
 
 /// What a servo's loop follows and what is recorded, where motor and joint can part: a whole number that an analysis

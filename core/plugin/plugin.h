@@ -59,14 +59,14 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 8;
+inline constexpr int pluginApiVersion = 9;
 
 /// Changes when a type that passes between plugin and program changes its size.
-inline constexpr std::size_t pluginLayout = sizeof(Parameter) + 3 * sizeof(JointState) + 5 * sizeof(BallState) +
-                                            7 * sizeof(RobotReadings) + 11 * sizeof(JointInput) + 13 * sizeof(Scene) +
-                                            17 * sizeof(SceneRobot) + 19 * sizeof(RobotModel) +
-                                            23 * sizeof(TrialResult) + 29 * sizeof(Candidate) + 31 * sizeof(Random) +
-                                            37 * sizeof(RealTask) + 41 * sizeof(RealityContext);
+inline constexpr std::size_t pluginLayout =
+    sizeof(Parameter) + 3 * sizeof(JointState) + 5 * sizeof(BallState) + 7 * sizeof(RobotReadings) +
+    11 * sizeof(JointInput) + 13 * sizeof(Scene) + 17 * sizeof(SceneRobot) + 19 * sizeof(RobotModel) +
+    23 * sizeof(TrialResult) + 29 * sizeof(Candidate) + 31 * sizeof(Random) + 37 * sizeof(RealTask) +
+    41 * sizeof(RealityContext) + 43 * sizeof(MotionSenses) + 47 * sizeof(CameraPicture);
 
 }  // namespace btr
 

@@ -38,6 +38,16 @@ Act pullOf(const v1::Pull& m) {
   return act;
 }
 
+Act ordersOf(const v1::Orders& m) {
+  OrdersAct act;
+  act.robot = m.robot();
+  act.targets = valuesOf(m.targets());
+  for (const auto& [joint, gains] : m.gains()) act.orders.gains[joint] = {gains.p(), gains.i(), gains.d()};
+  for (const auto& [joint, on] : m.enabled()) act.orders.enabled[joint] = on;
+  for (const auto& [lamp, brightness] : m.lamps()) act.orders.lamps[lamp] = {brightness};
+  return act;
+}
+
 template <class Optional>
 std::optional<double> valueOf(const Optional& m) {
   return m.has_value() ? std::optional(m.value()) : std::nullopt;
@@ -71,6 +81,8 @@ Act actOf(const v1::Act& message) {
       return NumberAct{message.number().robot(), message.number().name(), valueOf(message.number())};
     case v1::Act::kRemove:
       return RemoveAct{message.remove()};
+    case v1::Act::kOrders:
+      return ordersOf(message.orders());
     case v1::Act::kJson:
       requireShallow(message.json(), "act");
       return actFromJson(message.json(), "act");

@@ -2,7 +2,7 @@
 
 #include <new>
 
-#include "core/remote/frame.h"
+#include "core/remote/clock.h"
 #include "core/spec/error.h"
 
 namespace btr::remote {
@@ -10,7 +10,11 @@ namespace btr::remote {
 Answer answerCall(Desk& desk, std::string_view call) {
   if (call.empty()) return {Code::invalid, "an empty call"};
   try {
-    return {Code::ok, desk.answer(static_cast<Method>(call[0]), call.substr(1))};
+    Answer answer{Code::ok, desk.answer(static_cast<Method>(call[0]), call.substr(1))};
+    if (answer.bytes.size() <= largestAnswer) return answer;
+    return {Code::tooMuch, "the answer has " + std::to_string((answer.bytes.size() >> 20) + 1) + " MB; at most " +
+                               std::to_string(largestFrame >> 20) +
+                               " MB is allowed: ask for less at a time (fewer vectors, generations or channels)"};
   } catch (const Refusal& refusal) {
     return {refusal.code, refusal.what()};
   } catch (const InputError& error) {
@@ -22,14 +26,22 @@ Answer answerCall(Desk& desk, std::string_view call) {
   }
 }
 
-void serve(Desk& desk, int socket) {
+void serve(Desk& desk, int socket, double beat_s, const std::function<bool()>& isToLeave) {
   std::string call;
+  double told_s = 0;
+  desk.betweenPieces = [&] {
+    if (isToLeave && isToLeave()) throw Refusal(Code::cancelled, "the server ends");
+    if (now_s() - told_s < beat_s) return;
+    sendFrame(socket, "");
+    told_s = now_s();
+  };
   while (true) {
     const Got got = receiveFrame(socket, call, desk.patience_s());
     if (got == Got::hungUp) return;
     if (got == Got::frame) {
+      told_s = now_s();
       const Answer answer = answerCall(desk, call);
-      if (!sendFrame(socket, static_cast<char>(answer.code) + answer.bytes)) return;
+      if (sendFrame(socket, static_cast<char>(answer.code) + answer.bytes) != Sent::whole) return;
     }
     desk.goOn();
   }

@@ -1,8 +1,10 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "core/remote/frame.h"
 #include "core/remote/refusal.h"
 
 namespace btr::remote {
@@ -20,6 +22,7 @@ enum class Method : char {
   close = 'c',
   logFiles = 'l',
   picture = 'P',
+  robot = 'B',
   describeExperiment = 'D',
   evaluate = 'E',
   runs = 'R',
@@ -44,13 +47,21 @@ class Desk {
   /// How long it can wait for a call [s], negative: for ever; then goOn() is due.
   virtual double patience_s() const { return -1; }
   virtual void goOn() {}
+
+  /// Called by a long answer between its pieces. serve() tells who waits that this is still at work, and throws Refusal
+  /// where the answer is to be left.
+  std::function<void()> betweenPieces = [] {};
 };
+
+/// The largest answer: one byte of a frame is its code.
+inline constexpr std::size_t largestAnswer = largestFrame - 1;
 
 /// One call, whatever its bytes: never throws.
 Answer answerCall(Desk& desk, std::string_view call);
 
-/// Answers calls at a socket until its other end hangs up.
-void serve(Desk& desk, int socket);
+/// Answers calls at a socket until its other end hangs up. While an answer takes long an empty frame goes out each
+/// `beat_s`, and it is left where `isToLeave` says so, if given: a call that was not begun then is not left.
+void serve(Desk& desk, int socket, double beat_s = 1, const std::function<bool()>& isToLeave = {});
 
 /// Throws Refusal where the bytes are no such message.
 template <class Message>

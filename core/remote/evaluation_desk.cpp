@@ -1,9 +1,17 @@
 #include "core/remote/evaluation_desk.h"
 
+#include <algorithm>
+#include <filesystem>
+
+#include "core/model/load_model.h"
 #include "core/remote/act_messages.h"
 #include "core/remote/experiments.h"
 #include "core/run/search.h"
 #include "core/spec/error.h"
+#include "core/spec/file_ending.h"
+#include "core/spec/json_reader.h"
+#include "core/spec/scene_spec.h"
+#include "core/spec/sha256.h"
 #include "core/store/database.h"
 #include "uchilsim.pb.h"
 
@@ -32,6 +40,48 @@ std::vector<std::vector<double>> vectorsOf(const v1::EvaluateRequest& request, c
   return vectors;
 }
 
+/// What a file is now, whatever its time stamp; "" if it cannot be read.
+std::string stateOf(const std::string& path) {
+  try {
+    return sha256(readFile(path));
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+/// The files that trials of an experiment come from: its scene, the robots and their meshes, and what its controller
+/// is told to read.
+std::map<std::string, std::string> filesOf(const ExperimentSpec& spec, const PluginHost& host) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> files;
+  const auto add = [&](const fs::path& path) { files.try_emplace(path.string(), stateOf(path.string())); };
+  const fs::path scenePath = fs::path(spec.directory) / spec.scene;
+  add(scenePath);
+  const SceneSpec scene = loadScene(scenePath.string());
+  for (const RobotSpec& robot : scene.robots) {
+    const std::string path = (fs::path(scene.directory) / robot.model).string();
+    add(path);
+    if (fileEnding(path) != ".urdf") continue;
+    parseUrdf(readFile(path), path, {}, [&, find = meshesBeside(path)](const std::string& mesh) {
+      MeshFile found = find(mesh);
+      add(found.path);
+      return found;
+    });
+  }
+  for (const std::string& name : host.controller(spec.controller.name)->paths()) {
+    const auto word = spec.controller.words.find(name);
+    if (word == spec.controller.words.end()) continue;
+    const fs::path path = fs::path(spec.directory) / word->second;
+    if (!fs::is_directory(path)) {
+      add(path);
+      continue;
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file()) add(entry.path());
+  }
+  return files;
+}
+
 }  // namespace
 
 void EvaluationDesk::prepare(const v1::Experiment& experiment, Id run) {
@@ -51,10 +101,13 @@ void EvaluationDesk::prepare(const v1::Experiment& experiment, Id run) {
     text_ = toJsonText(*spec);
     made = spec->directory + text_;
   }
-  if (made == known_) return;
+  if (made == known_ && std::ranges::all_of(files_, [](const auto& f) { return stateOf(f.first) == f.second; })) return;
   known_.clear();
   evaluator_.reset();
   if (spec && !spec->plugins.empty()) host_.load(pluginFolders(*spec), "experiment /plugins");
+  files_.clear();
+  // Looked at before they are read: who changes one in between is seen the next time.
+  if (spec) files_ = filesOf(*spec, host_);
   prepared_ =
       std::make_unique<PreparedExperiment>(record ? prepareFromRun(*record, host_) : prepareFromFiles(*spec, host_));
   simulator_ = record ? simulator : firstSimulator(prepared_->spec).simulator;

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,8 +36,9 @@ class EvaluationDesk final : public Desk {
   const GamesFolder& folder_;
   const std::string database_;
   const int jobs_;
-  std::string text_;   ///< the experiment as a file has it
-  std::string known_;  ///< what `prepared_` was made of
+  std::string text_;                          ///< the experiment as a file has it
+  std::string known_;                         ///< what `prepared_` was made of …
+  std::map<std::string, std::string> files_;  ///< … and the files that it was read from, with what they were
   std::unique_ptr<PreparedExperiment> prepared_;
   SimulatorSpec simulator_;
   std::uint64_t seed_ = 0;

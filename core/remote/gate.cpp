@@ -9,7 +9,6 @@
 #include <cstring>
 #include <sstream>
 
-#include "core/remote/clock.h"
 #include "core/remote/refusal.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -105,7 +104,7 @@ Gate::Gate(const Options& options) : options_(options) {
 bool Gate::take(std::map<std::string, Bucket>& buckets, const std::string& name, double perSecond) {
   constexpr std::size_t mostNames = 10000;
   const std::lock_guard lock(mutex_);
-  const double now = now_s();
+  const double now = options_.clock_s();
   // Who has not called for a second is forgotten, and nobody new comes in while there are too many others.
   if (buckets.size() >= mostNames && !buckets.contains(name)) {
     std::erase_if(buckets, [&](const auto& each) { return each.second.isFull(now); });

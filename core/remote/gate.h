@@ -1,9 +1,12 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "core/remote/clock.h"
 
 namespace btr::remote {
 
@@ -52,9 +55,10 @@ class Bucket {
 class Gate {
  public:
   struct Options {
-    std::string tokenFile;          ///< "": who reaches the server may drive
-    double callsPerSecond = 10000;  ///< of one client
-    double failuresPerSecond = 5;   ///< tries with a wrong token from one address
+    std::string tokenFile;                    ///< "": who reaches the server may drive
+    double callsPerSecond = 10000;            ///< of one client
+    double failuresPerSecond = 5;             ///< tries with a wrong token from one address
+    std::function<double()> clock_s = now_s;  ///< never goes back
   };
   explicit Gate(const Options& options);
 

@@ -74,6 +74,10 @@ void tellServerOfCrash(const char* text, std::size_t size) {
   [[maybe_unused]] const ssize_t sent = send(Nursery::socketOfChild, frame, 5 + size, MSG_NOSIGNAL);
 }
 
+// Told to leave its work.
+volatile sig_atomic_t leaving = 0;
+void onLeave(int) { leaving = 1; }
+
 [[noreturn]] void live(const Nursery::Life& life, char kind, const std::array<int, 2>& sockets) {
   signal(SIGCHLD, SIG_DFL);
   signal(SIGTERM, SIG_DFL);
@@ -82,11 +86,16 @@ void tellServerOfCrash(const char* text, std::size_t size) {
   dup2(socket, Nursery::socketOfChild);
   dup2(line, Nursery::lineOfChild);
   close_range(Nursery::lineOfChild + 1, ~0U, 0);
+  struct sigaction leave {};
+  leave.sa_handler = onLeave;
+  leave.sa_flags = SA_RESTART;
+  sigaction(SIGUSR1, &leave, nullptr);
   tellCrashes(tellServerOfCrash, false);
   try {
     life(kind);
   } catch (const std::exception& error) {
-    sendFrame(Nursery::socketOfChild, static_cast<char>(Code::internal) + std::string(error.what()));
+    constexpr double patience_s = 10;
+    sendFrame(Nursery::socketOfChild, static_cast<char>(Code::internal) + std::string(error.what()), patience_s);
   }
   _exit(0);
 }
@@ -129,6 +138,8 @@ Child::~Child() {
   close(process_);
 }
 
+bool Child::isToLeave() { return leaving != 0; }
+
 bool Child::alive() const {
   const std::lock_guard lock(state_);
   return why_.empty();
@@ -143,36 +154,53 @@ void Child::kill(const std::string& why) {
   shutdown(line_, SHUT_RDWR);
 }
 
-Answer Child::ask(const std::string& call, double patience_s, const std::function<bool()>& cancelled) {
+Answer Child::ask(const std::string& call, const Waiting& waiting) {
   std::unique_lock turn(turn_, std::defer_lock);
+  const auto& cancelled = waiting.cancelled;
   constexpr auto look = std::chrono::milliseconds(100);
   while (!turn.try_lock_for(look))
-    if (cancelled && cancelled()) return {Code::cancelled, "the call was cancelled before its turn came"};
-  const auto ended = [&](Code code) {
+    if (cancelled && cancelled()) return {Code::cancelled, "the call was cancelled before its turn came", false};
+  const auto ended = [&](Code code, const std::string& why) {
+    kill(why);
     const std::lock_guard lock(state_);
     return Answer{code, why_};
   };
-  if (!alive()) return ended(Code::unavailable);
-  std::string bytes;
-  if (!sendFrame(socket_, call)) {
-    kill("its process has ended");
-    return ended(Code::unavailable);
+  if (!alive()) {
+    Answer answer = ended(Code::unavailable, "");
+    answer.begun = false;
+    return answer;
   }
-  switch (receiveFrame(socket_, bytes, patience_s, cancelled)) {
-    case Got::nothing:
-      if (cancelled && cancelled()) {
-        kill("the call was cancelled while it worked");
-        return ended(Code::cancelled);
-      }
-      kill("it has not answered for " + std::to_string(static_cast<long>(patience_s)) + " s and was ended");
-      return ended(Code::tooLate);
-    case Got::hungUp:
-      kill("its process has ended");
-      return ended(Code::unavailable);
-    case Got::frame:
+  const auto unwanted = [&] { return cancelled && !waiting.outlivesCaller && cancelled(); };
+  const auto lookOn = [&] {
+    if (waiting.leaves && waiting.leaves()) syscall(SYS_pidfd_send_signal, process_, SIGUSR1, nullptr, 0);
+    return unwanted();
+  };
+  const auto late = [&] {
+    return unwanted()
+               ? ended(Code::cancelled, "the call was cancelled while it worked")
+               : ended(Code::tooLate, "it has not answered for " +
+                                          std::to_string(static_cast<long>(waiting.patience_s)) + " s and was ended");
+  };
+  std::string bytes;
+  switch (sendFrame(socket_, call, waiting.patience_s, unwanted)) {
+    case Sent::nothing:
+      return late();
+    case Sent::hungUp:
+      return ended(Code::unavailable, "its process has ended");
+    case Sent::whole:
       break;
   }
-  if (bytes.empty()) return {Code::internal, "an empty answer"};
+  do {
+    switch (receiveFrame(socket_, bytes, waiting.patience_s, lookOn, waiting.patience_s)) {
+      case Got::nothing:
+        return late();
+      case Got::hungUp:
+        return ended(Code::unavailable, "its process has ended");
+      case Got::frame:
+        break;
+    }
+    if (bytes.empty() && lookOn()) return late();
+  } while (bytes.empty());  // it is still at it
   return {static_cast<Code>(bytes[0]), bytes.substr(1)};
 }
 
@@ -216,12 +244,15 @@ std::unique_ptr<Child> Nursery::start(char kind) {
   const int given[2] = {work[1], line[1]};
   char reply = 'F';
   std::array<int, 2> process{-1, -1};
-  const bool made = sendWith(socket_, kind, given, 2) && receiveWith(socket_, reply, process) && process[0] >= 0;
+  const bool isThere = sendWith(socket_, kind, given, 2) && receiveWith(socket_, reply, process);
+  const bool made = isThere && process[0] >= 0;
   close(work[1]);
   close(line[1]);
   if (made) return std::make_unique<Child>(work[0], line[0], process[0]);
   close(work[0]);
   close(line[0]);
+  if (!isThere)
+    throw Refusal(Code::unavailable, "the process that makes the server's others has ended; start the server again");
   throw Refusal(Code::tooMuch, "cannot make a process: the system gives no more");
 }
 

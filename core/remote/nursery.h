@@ -16,14 +16,24 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  /// What may end the waiting for an answer.
+  struct Waiting {
+    double patience_s = 60;             ///< since the process last said that it is still at it
+    std::function<bool()> cancelled{};  ///< nobody wants the answer any more
+    bool outlivesCaller = false;        ///< what was begun goes on though nobody wants the answer any more
+    std::function<bool()> leaves{};     ///< the process is to leave its work where it can: see isToLeave()
+  };
   /// Sends a call and waits for its answer; one at a time, from any thread. Whose `cancelled` comes while he still
-  /// waits for his turn goes away. Where the answer does not come within `patience_s`, or `cancelled` says that nobody
-  /// wants it any more, or the process has died, the process is ended: alive() is false from then on, and every call is
-  /// refused with why.
-  Answer ask(const std::string& call, double patience_s, const std::function<bool()>& cancelled = {});
+  /// waits for his turn goes away. Where the answer does not come in time, or is wanted no more, or the process has
+  /// died, the process is ended: alive() is false from then on, and every call is refused with why. Calls that were not
+  /// begun by then say so: another process may answer them.
+  Answer ask(const std::string& call, const Waiting& waiting);
   bool alive() const;
   /// Ends it at once. From any thread; a call that waits is refused.
   void kill(const std::string& why);
+
+  /// In a child: what it works on is to be left, from now on.
+  static bool isToLeave();
 
   int line() const { return line_; }      ///< a second socket, for what the process asks by itself
   int socket() const { return socket_; }  ///< for whoever waits for both

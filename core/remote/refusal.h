@@ -31,6 +31,7 @@ class Refusal : public std::runtime_error {
 struct Answer {
   Code code = Code::ok;
   std::string bytes;
+  bool begun = true;  ///< false: nothing was done, the same call may be tried again elsewhere
 };
 
 }  // namespace btr::remote

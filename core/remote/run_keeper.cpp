@@ -18,17 +18,13 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-bool say(int socket, const json& object) {
-  const std::string line = object.dump() + "\n";
-  return send(socket, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
-}
-
 }  // namespace
 
 struct RunKeeper::Work {
   Id run = 0;
   double patience_s = 0;
-  std::unique_ptr<Child> child;
+  long order = 0;                ///< in which runs began
+  std::shared_ptr<Child> child;  ///< none once it is over
   std::mutex mutex;
   std::condition_variable changed;
   std::string question;                ///< JSON that waits for an answer; else ""
@@ -43,8 +39,13 @@ struct RunKeeper::Work {
   std::thread follower;
 
   ~Work() {
-    child->kill("the server ends");
+    if (const auto process = running()) process->kill("the server ends");
     if (follower.joinable()) follower.join();
+  }
+
+  std::shared_ptr<Child> running() {
+    const std::lock_guard lock(mutex);
+    return child;
   }
 
   void hear(const std::string& line) {
@@ -67,7 +68,8 @@ struct RunKeeper::Work {
   void tellEnd(const std::string& why) {
     if (endTold) return;
     endTold = true;
-    say(child->line(), {{"end", why}});
+    // Its learner only listens: who has no room for a line is stuck.
+    if (child && sendBytes(child->line(), json{{"end", why}}.dump() + "\n", 0) != Sent::whole) child->kill(why);
   }
 
   void finish(const Answer& answer) {
@@ -81,20 +83,23 @@ struct RunKeeper::Work {
     else if (answer.bytes == "waiting")
       end = RunNews::What::waiting;
     if (!refused) refused = "the run has stopped";
+    child.reset();  // ends the process: what it did is stored
     changed.notify_all();
   }
 };
 
 // What the run's process asks by itself, until it is over.
-void RunKeeper::follow(Work& work) {
+Answer RunKeeper::follow(Work& work) {
   std::string pending;
-  const int socket = work.child->socket(), line = work.child->line();
-  if (!sendFrame(socket, callOf(Method::work, std::to_string(work.run))))
-    return work.finish({Code::unavailable, "the run's process has ended"});
+  const std::shared_ptr<Child> child = work.running();
+  const int socket = child->socket(), line = child->line();
+  constexpr double patience_s = 10;
+  if (sendFrame(socket, callOf(Method::work, std::to_string(work.run)), patience_s) != Sent::whole)
+    return {Code::unavailable, "the run's process has ended"};
   while (true) {
     pollfd both[2] = {{socket, POLLIN, 0}, {line, POLLIN, 0}};
     constexpr int look_ms = 200;
-    if (poll(both, 2, look_ms) < 0 && errno != EINTR) return work.finish({Code::internal, "poll failed"});
+    if (poll(both, 2, look_ms) < 0 && errno != EINTR) return {Code::internal, "poll failed"};
     if (both[1].revents != 0) {
       char bytes[65536];
       const ssize_t n = recv(line, bytes, sizeof bytes, MSG_DONTWAIT);
@@ -105,9 +110,9 @@ void RunKeeper::follow(Work& work) {
     }
     if (both[0].revents != 0) {
       std::string frame;
-      if (receiveFrame(socket, frame, 10) != Got::frame || frame.empty())
-        return work.finish({Code::unavailable, "the run's process has ended; what it did is stored"});
-      return work.finish({static_cast<Code>(frame[0]), frame.substr(1)});
+      if (receiveFrame(socket, frame, patience_s, {}, patience_s) != Got::frame || frame.empty())
+        return {Code::unavailable, "the run's process has ended; what it did is stored"};
+      return {static_cast<Code>(frame[0]), frame.substr(1)};
     }
     const std::lock_guard lock(work.mutex);
     if (!work.question.empty() && Clock::now() - work.asked > std::chrono::duration<double>(work.patience_s))
@@ -126,14 +131,15 @@ void RunKeeper::stopAll(const std::function<void(Id)>& request, double patience_
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
   constexpr auto again = std::chrono::milliseconds(300);
   // A run that has just begun may not heed what came before it: it is asked again.
-  for (const auto& [run, work] : works) {
+  for (const auto& each : works) {
+    const std::shared_ptr<Work>& work = each.second;
     std::unique_lock lock(work->mutex);
     while (!work->over && Clock::now() < until) {
       if (!work->question.empty()) {
         work->tellEnd("the server ends; continue the run at any time");
       } else {
         lock.unlock();
-        request(run);
+        request(each.first);
         lock.lock();
       }
       work->changed.wait_for(lock, again, [&] { return work->over; });
@@ -148,7 +154,7 @@ std::shared_ptr<RunKeeper::Work> RunKeeper::find(Id run) const {
 }
 
 void RunKeeper::begin(Id run, double patience_s) {
-  std::shared_ptr<Work> before;  // ends outside of the lock
+  std::vector<std::shared_ptr<Work>> forgotten;  // end outside of the lock
   const std::lock_guard lock(mutex_);
   std::size_t active = 0;
   for (const auto& [id, work] : works_) {
@@ -161,18 +167,30 @@ void RunKeeper::begin(Id run, double patience_s) {
     throw Refusal(Code::tooMuch, "this server works on " + std::to_string(most) + " runs already; stop one or wait");
   auto work = std::make_shared<Work>();
   work->run = run;
+  work->order = ++begun_;
   constexpr double usual_s = 600, most_s = 86400;
   work->patience_s = patience_s > 0 ? std::min(patience_s, most_s) : usual_s;
   work->child = nursery_.start('r');
   work->follower = std::thread([&w = *work] {
     try {
-      follow(w);
+      w.finish(follow(w));
     } catch (const std::exception& error) {
       w.finish({Code::internal, std::string("what the run's process says cannot be read: ") + error.what()});
     }
-    w.child->kill("the run is over");  // what it did is stored
   });
-  before = std::exchange(works_[run], std::move(work));
+  if (auto& known = works_[run]; known) forgotten.push_back(std::move(known));
+  works_[run] = std::move(work);
+  for (auto& each : takeForgotten()) forgotten.push_back(std::move(each));
+}
+
+std::vector<std::shared_ptr<RunKeeper::Work>> RunKeeper::takeForgotten() {
+  std::vector<std::shared_ptr<Work>> over;
+  for (const auto& [run, work] : works_)
+    if (const std::lock_guard lock(work->mutex); work->over) over.push_back(work);
+  std::ranges::sort(over, {}, &Work::order);
+  over.resize(over.size() - std::min(over.size(), mostRemembered));
+  for (const auto& work : over) works_.erase(work->run);
+  return over;
 }
 
 bool RunKeeper::isHere(Id run) const {
@@ -210,8 +228,10 @@ void RunKeeper::tell(Id run, long number, const std::string& answer) {
   const std::string name = "run " + std::to_string(run);
   if (!work) throw Refusal(Code::notNow, name + " is not worked on by this server; continue it first");
   std::unique_lock lock(work->mutex);
-  constexpr auto patience = std::chrono::seconds(30);
-  work->changed.wait_for(lock, patience, [&] { return !work->answering; });
+  constexpr double patience_s = 30;
+  constexpr auto patience = std::chrono::seconds(static_cast<int>(patience_s));
+  if (!work->changed.wait_for(lock, patience, [&] { return !work->answering; }))
+    throw Refusal(Code::tooLate, "another answer to " + name + " is still on its way");
   if (work->over) throw Refusal(Code::notNow, name + " is over: " + work->message);
   // Learners of two levels count each for itself: what is asked now comes before what was taken already.
   const bool asked = !work->question.empty() && number == work->number;
@@ -222,16 +242,11 @@ void RunKeeper::tell(Id run, long number, const std::string& answer) {
                       (work->question.empty() ? "; it asks none now" : "; it asks " + std::to_string(work->number)));
   work->answering = true;
   work->refused.reset();
-  const std::string text = answer + "\n";
-  // The learner reads at once, so that the socket's room suffices for any answer.
+  const std::shared_ptr<Child> child = work->child;
   lock.unlock();
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const ssize_t n = send(work->child->line(), text.data() + at, text.size() - at, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    at += static_cast<std::size_t>(n);
-  }
+  // The learner reads at once. Who does not is stuck, and half an answer would spoil the next one.
+  const Sent sent = sendBytes(child->line(), answer + "\n", patience_s);
+  if (sent == Sent::nothing) child->kill("its learner does not take an answer");
   lock.lock();
   work->changed.wait_for(lock, patience, [&] { return work->refused.has_value(); });
   work->answering = false;

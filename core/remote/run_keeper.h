@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/remote/nursery.h"
 #include "core/store/records.h"
@@ -24,7 +25,8 @@ struct RunNews {
 /// The runs that processes of this server work on, and the questions of their learners. From any thread.
 class RunKeeper {
  public:
-  static constexpr std::size_t most = 4;  ///< at a time
+  static constexpr std::size_t most = 4;             ///< at a time
+  static constexpr std::size_t mostRemembered = 16;  ///< that are over, with why
 
   explicit RunKeeper(Nursery& nursery) : nursery_(nursery) {}
   /// Ends the processes that are still there.
@@ -51,11 +53,15 @@ class RunKeeper {
  private:
   struct Work;
   std::shared_ptr<Work> find(Id run) const;
-  static void follow(Work& work);
+  /// What its process said in the end.
+  static Answer follow(Work& work);
+  /// The oldest of those that are over, so that few stay. To be destroyed outside of the lock.
+  std::vector<std::shared_ptr<Work>> takeForgotten();
 
   Nursery& nursery_;
   mutable std::mutex mutex_;
   std::map<Id, std::shared_ptr<Work>> works_;
+  long begun_ = 0;
 };
 
 }  // namespace btr::remote

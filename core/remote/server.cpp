@@ -42,7 +42,7 @@ void requireAllowed(const Server::Options& options) {
 
 struct Server::Impl {
   Impl(const Options& given, Switchboard& switchboard)
-      : options(given), gate(given.gate), desks{options, switchboard, gate}, worlds(desks), learning(desks) {}
+      : options(given), gate(given.gate), desks(options, switchboard, gate), worlds(desks), learning(desks) {}
 
   const Options options;
   Gate gate;
@@ -69,7 +69,9 @@ Server::Server(const Options& options, Switchboard& switchboard) {
                              options.address.empty() ? credentials : grpc::InsecureServerCredentials());
 
   // Every message, thread and byte is bounded.
-  constexpr int mostThreads = 64, mostCallsOfOne = 64;
+  // Whoever comes too many is told so by a thread of its own.
+  constexpr int spareThreads = 16;
+  const int mostThreads = impl_->desks.threads() + spareThreads, mostCallsOfOne = mostThreads;
   constexpr std::size_t memory = 256u << 20;
   grpc::ResourceQuota quota("server");
   quota.SetMaxThreads(mostThreads).Resize(memory);
@@ -83,6 +85,8 @@ Server::Server(const Options& options, Switchboard& switchboard) {
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, 600000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 60000);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 20000);
+  // Clients that wait for long may ask whether the server is still there.
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 10000);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::NUM_CQS, 1);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::MIN_POLLERS, 1);
   builder.SetSyncServerOption(grpc::ServerBuilder::SyncServerOption::MAX_POLLERS, 2);

@@ -17,7 +17,8 @@ class Server {
     std::string certificate{}, key{};   ///< PEM files; without them nothing is encrypted
     Gate::Options gate{};
     std::size_t largestMessage = 4u << 20;
-    int mostStreams = 32;
+    int mostStreams = 0;       ///< at once, of one client half of them; 0: enough for all worlds
+    int mostEvaluations = 32;  ///< that compute or wait at once, of one client half of them
   };
 
   /// Begins to listen. The switchboard must outlive it. Throws InputError for an address that cannot be had, and for

@@ -70,8 +70,10 @@ std::string answerOf(const v1::TellRequest& request) {
 template <class Request, class Reply>
 grpc::Status LearningService::pass(grpc::ServerContext* context, Role needed, Method method, const Request& request,
                                    Reply& reply) {
-  return guarded(desks_, context, needed, [&](const Gate::Caller&) {
-    take(desks_.switchboard.records(callOf(method, request.SerializeAsString())), reply);
+  return guardedCall(desks_, context, needed, [&](const Gate::Caller&) {
+    take(desks_.switchboard.records(callOf(method, request.SerializeAsString()),
+                                    [context] { return context->IsCancelled(); }),
+         reply);
   });
 }
 
@@ -86,7 +88,7 @@ v1::Run LearningService::runOf(std::int64_t run) {
 
 grpc::Status LearningService::Describe(grpc::ServerContext* context, const v1::ExperimentRequest* request,
                                        v1::ExperimentReply* reply) {
-  return guarded(desks_, context, Role::watch, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::watch, [&](const Gate::Caller&) {
     // By a process of its own: who only asks does not wait for others' trials.
     constexpr double patience_s = 60;
     take(desks_.switchboard.evaluate("describe", callOf(Method::describeExperiment, request->SerializeAsString()),
@@ -97,7 +99,8 @@ grpc::Status LearningService::Describe(grpc::ServerContext* context, const v1::E
 
 grpc::Status LearningService::Evaluate(grpc::ServerContext* context, const v1::EvaluateRequest* request,
                                        v1::EvaluateReply* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+    const Places::Place place(desks_.evaluations, caller);
     constexpr double longest_s = 24 * 3600;
     const std::string key =
         request->run() != 0 ? "run " + std::to_string(request->run()) : request->experiment().SerializeAsString();
@@ -124,7 +127,7 @@ grpc::Status LearningService::Individuals(grpc::ServerContext* context, const v1
 }
 
 grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::StartRequest* request, v1::Run* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     take(desks_.switchboard.records(callOf(Method::start, request->SerializeAsString())), *reply);
     desks_.switchboard.runs().begin(reply->run(), request->patience_s());
     *reply = runOf(reply->run());
@@ -133,7 +136,7 @@ grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::Star
 
 grpc::Status LearningService::Continue(grpc::ServerContext* context, const v1::ContinueRequest* request,
                                        v1::Run* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     // That a run rests is stored before its process has left.
     constexpr double leaving_s = 10;
     const std::string state = runOf(request->run()).state();
@@ -145,7 +148,7 @@ grpc::Status LearningService::Continue(grpc::ServerContext* context, const v1::C
 }
 
 grpc::Status LearningService::Stop(grpc::ServerContext* context, const v1::StopRequest* request, v1::Run* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     take(desks_.switchboard.records(callOf(Method::stop, request->SerializeAsString())), *reply);
     desks_.switchboard.runs().end(request->run(), "it was stopped; continue the run at any time");
     reply->set_here(desks_.switchboard.runs().isHere(request->run()));
@@ -154,26 +157,36 @@ grpc::Status LearningService::Stop(grpc::ServerContext* context, const v1::StopR
 
 grpc::Status LearningService::Ask(grpc::ServerContext* context, const v1::AskRequest* request, v1::Question* reply) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);  // it waits as long as one
+    const Places::Place place(desks_.streams, caller);  // it waits as long as one
     constexpr double longest_s = 30;
     const double wait_s = std::isfinite(request->wait_s()) ? std::clamp(request->wait_s(), 0.0, longest_s) : 0;
-    const RunNews news =
-        desks_.switchboard.runs().news(request->run(), wait_s, [&] { return context->IsCancelled() || desks_.ends; });
-    if (news.what == RunNews::What::working) return;
-    const v1::Run run = runOf(request->run());
-    if (news.what == RunNews::What::asks) return fill(news, run.level(), *reply);
-    reply->set_message(news.message.empty() ? run.message() : news.message);
-    if (run.state() == "finished")
-      reply->set_what(v1::Question::FINISHED);
-    else if (run.state() == "waiting")
-      reply->set_what(v1::Question::FITNESS);
-    else if (!run.active())
-      reply->set_what(v1::Question::STOPPED);
+    using Clock = std::chrono::steady_clock;
+    const auto until =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wait_s));
+    const auto cancelled = [&] { return context->IsCancelled() || desks_.ends; };
+    while (true) {
+      const double left_s = std::chrono::duration<double>(until - Clock::now()).count();
+      const RunNews news = desks_.switchboard.runs().news(request->run(), std::max(0.0, left_s), cancelled);
+      if (news.what == RunNews::What::working) return;
+      const v1::Run run = runOf(request->run());
+      if (news.what == RunNews::What::asks) return fill(news, run.level(), *reply);
+      reply->set_message(news.message.empty() ? run.message() : news.message);
+      if (run.state() == "finished")
+        reply->set_what(v1::Question::FINISHED);
+      else if (run.state() == "waiting")
+        reply->set_what(v1::Question::FITNESS);
+      else if (!run.active())
+        reply->set_what(v1::Question::STOPPED);
+      // Another process works on it, which tells nobody: it is looked at again from time to time.
+      if (reply->what() != v1::Question::WORKING || Clock::now() >= until || cancelled()) return;
+      constexpr auto again = std::chrono::milliseconds(500);
+      pause(desks_, *context, std::min<Clock::time_point>(until, Clock::now() + again));
+    }
   });
 }
 
 grpc::Status LearningService::Tell(grpc::ServerContext* context, const v1::TellRequest* request, v1::TellReply*) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     desks_.switchboard.runs().tell(request->run(), request->number(), answerOf(*request));
   });
 }
@@ -185,7 +198,7 @@ grpc::Status LearningService::Wanted(grpc::ServerContext* context, const v1::Mea
 
 grpc::Status LearningService::Measured(grpc::ServerContext* context, const v1::MeasuredRequest* request,
                                        v1::MeasuredReply* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
     v1::MeasuredRequest from = *request;
     from.set_who(caller.who);
     take(desks_.switchboard.records(callOf(Method::measured, from.SerializeAsString())), *reply);

@@ -1,3 +1,5 @@
+#include <array>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -14,10 +16,12 @@ constexpr std::size_t logPart = 65536;
 void sendFile(const std::string& path, const std::string& shown, grpc::ServerWriter<v1::LogPart>& writer) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Refusal(Code::internal, shown + ": cannot be read");
+  // As it is now: a world that goes on may write as fast as this reads.
+  const auto end = std::filesystem::file_size(path);
   v1::LogPart part;
   part.set_file(shown);
   std::string bytes(logPart, '\0');
-  while (file) {
+  while (file && static_cast<std::uintmax_t>(file.tellg()) < end) {
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     // Only whole characters: names may have some of several bytes.
     auto count = static_cast<std::size_t>(file.gcount());
@@ -40,19 +44,25 @@ void sendFile(const std::string& path, const std::string& shown, grpc::ServerWri
 template <class Request, class Reply>
 grpc::Status WorldsService::pass(grpc::ServerContext* context, Role needed, Method method, const Request& request,
                                  Reply& reply) {
-  return guarded(desks_, context, needed, [&](const Gate::Caller&) {
-    take(desks_.switchboard.world(request.world(), callOf(method, request.SerializeAsString())), reply);
+  return guardedCall(desks_, context, needed, [&](const Gate::Caller&) {
+    take(world(*context, request.world(), callOf(method, request.SerializeAsString())), reply);
   });
 }
 
-void WorldsService::pause(const grpc::ServerContext& context, std::chrono::steady_clock::time_point until) const {
+Answer WorldsService::world(const grpc::ServerContext& context, const std::string& name,
+                            const std::string& call) const {
+  return desks_.switchboard.world(
+      name, call, [&context] { return context.IsCancelled(); }, [this] { return desks_.ends.load(); });
+}
+
+void pause(const Desks& desks, const grpc::ServerContext& context, std::chrono::steady_clock::time_point until) {
   using Clock = std::chrono::steady_clock;
-  while (Clock::now() < until && !context.IsCancelled() && !desks_.ends)
+  while (Clock::now() < until && !context.IsCancelled() && !desks.ends)
     std::this_thread::sleep_for(std::min<Clock::duration>(until - Clock::now(), std::chrono::milliseconds(50)));
 }
 
 grpc::Status WorldsService::Info(grpc::ServerContext* context, const v1::InfoRequest*, v1::InfoReply* reply) {
-  return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
+  return guardedCall(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
     const Switchboard::Options& options = desks_.switchboard.options();
     reply->set_version(programVersion());
     reply->set_schema("uchilsim.v1");
@@ -61,6 +71,8 @@ grpc::Status WorldsService::Info(grpc::ServerContext* context, const v1::InfoReq
     reply->set_calls_per_second(desks_.options.gate.callsPerSecond);
     reply->set_most_worlds(options.mostWorlds);
     reply->set_most_periods(WorldDesk::mostPeriods);
+    reply->set_most_streams(desks_.streams.ofOneClient());
+    reply->set_most_evaluations(desks_.evaluations.ofOneClient());
     reply->set_has_database(!options.database.empty());
     reply->set_keeps_logs(options.folder.writable());
     reply->set_workers(options.jobs > 0 ? options.jobs : processorCount());
@@ -71,7 +83,7 @@ grpc::Status WorldsService::Info(grpc::ServerContext* context, const v1::InfoReq
 
 grpc::Status WorldsService::List(grpc::ServerContext* context, const v1::ListWorldsRequest*,
                                  v1::ListWorldsReply* reply) {
-  return guarded(desks_, context, Role::watch, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::watch, [&](const Gate::Caller&) {
     for (const std::string& name : desks_.switchboard.worlds()) reply->add_worlds(name);
   });
 }
@@ -88,29 +100,34 @@ grpc::Status WorldsService::Get(grpc::ServerContext* context, const v1::GetReque
 grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchRequest* request,
                                   grpc::ServerWriter<v1::State>* writer) {
   return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);
+    const Places::Place place(desks_.streams, caller);
     constexpr double slowest_hz = 0.1, fastest_hz = 1000;
     if (!(request->rate_hz() >= slowest_hz && request->rate_hz() <= fastest_hz))
       throw Refusal(Code::invalid, "rate_hz: " + std::to_string(request->rate_hz()) + " is not allowed; 0.1 to 1000");
     v1::GetRequest get;
     get.set_world(request->world());
     *get.mutable_wanted() = request->wanted();
-    const std::string call = callOf(Method::get, get.SerializeAsString());
+    if (!get.wanted().has_channels_known()) get.mutable_wanted()->set_channels_known(0);
+    std::string call = callOf(Method::get, get.SerializeAsString());
     using Clock = std::chrono::steady_clock;
     const auto each =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / request->rate_hz()));
     auto due = Clock::now();
-    std::pair<std::int64_t, std::int64_t> told{-1, -1};
+    std::array<std::int64_t, 3> told{-1, -1, -1};
     while (!context->IsCancelled() && !desks_.ends) {
       desks_.gate.count(caller);
       v1::State state;
-      take(desks_.switchboard.world(request->world(), call), state);
-      const std::pair<std::int64_t, std::int64_t> now{state.episode(), state.period()};
+      take(this->world(*context, request->world(), call), state);
+      const std::array<std::int64_t, 3> now{state.episode(), state.period(), state.channels_version()};
       // A client that does not read holds up nobody but this stream.
       if (now != told && !writer->Write(state)) return;
+      if (now != told && state.channels_version() != get.wanted().channels_known()) {
+        get.mutable_wanted()->set_channels_known(state.channels_version());
+        call = callOf(Method::get, get.SerializeAsString());
+      }
       told = now;
       due = std::max(due + each, Clock::now());
-      pause(*context, due);
+      pause(desks_, *context, due);
     }
   });
 }
@@ -118,14 +135,19 @@ grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchR
 grpc::Status WorldsService::Log(grpc::ServerContext* context, const v1::LogRequest* request,
                                 grpc::ServerWriter<v1::LogPart>* writer) {
   return guarded(desks_, context, Role::watch, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);
-    const Answer files = desks_.switchboard.world(request->world(), callOf(Method::logFiles, ""));
+    const Places::Place place(desks_.streams, caller);
+    const Answer files = this->world(*context, request->world(), callOf(Method::logFiles, ""));
     if (files.code != Code::ok) throw Refusal(files.code, files.bytes);
     const GamesFolder& folder = desks_.switchboard.options().folder;
     const std::size_t line = files.bytes.find('\n');
     for (const std::string& path : {files.bytes.substr(0, line), files.bytes.substr(line + 1)})
       sendFile(path, folder.shown(path), *writer);
   });
+}
+
+grpc::Status WorldsService::Robot(grpc::ServerContext* context, const v1::RobotRequest* request,
+                                  v1::RobotReply* reply) {
+  return pass(context, Role::watch, Method::robot, *request, *reply);
 }
 
 grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::PictureRequest* request,
@@ -136,29 +158,33 @@ grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::Pict
 grpc::Status WorldsService::Pictures(grpc::ServerContext* context, const v1::PictureRequest* request,
                                      grpc::ServerWriter<v1::PictureReply>* writer) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);
+    const Places::Place place(desks_.streams, caller);
     constexpr auto often = std::chrono::milliseconds(2);
     v1::PictureRequest next = *request;
     v1::PictureReply reply;
     while (!context->IsCancelled() && !desks_.ends) {
-      take(desks_.switchboard.world(next.world(), callOf(Method::picture, next.SerializeAsString())), reply);
-      if (reply.number() > 0 && !writer->Write(reply)) return;
-      if (reply.number() > 0) next.set_after(reply.number());
-      pause(*context, std::chrono::steady_clock::now() + often);
+      take(this->world(*context, next.world(), callOf(Method::picture, next.SerializeAsString())), reply);
+      if (reply.number() > 0) {
+        desks_.gate.count(caller);
+        if (!writer->Write(reply)) return;
+        next.set_after(reply.number());
+      }
+      pause(desks_, *context, std::chrono::steady_clock::now() + often);
     }
   });
 }
 
 grpc::Status WorldsService::Open(grpc::ServerContext* context, const v1::OpenRequest* request, v1::World* reply) {
-  return guarded(desks_, context, Role::drive, [&](const Gate::Caller&) {
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
     take(desks_.switchboard.open(request->SerializeAsString(), [context] { return context->IsCancelled(); }), *reply);
   });
 }
 
 grpc::Status WorldsService::Close(grpc::ServerContext* context, const v1::CloseRequest* request,
                                   v1::CloseReply* reply) {
-  return guarded(desks_, context, Role::drive,
-                 [&](const Gate::Caller&) { take(desks_.switchboard.close(request->world()), *reply); });
+  return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
+    take(desks_.switchboard.close(request->world(), [context] { return context->IsCancelled(); }), *reply);
+  });
 }
 
 grpc::Status WorldsService::Reset(grpc::ServerContext* context, const v1::ResetRequest* request, v1::State* reply) {
@@ -172,14 +198,20 @@ grpc::Status WorldsService::Step(grpc::ServerContext* context, const v1::StepReq
 grpc::Status WorldsService::Steps(grpc::ServerContext* context,
                                   grpc::ServerReaderWriter<v1::State, v1::StepRequest>* stream) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);
+    const Places::Place place(desks_.streams, caller);
     std::string world;
+    std::int64_t known = 0;  // of its channels: none yet
     v1::StepRequest request;
     v1::State state;
     while (stream->Read(&request)) {
       desks_.gate.count(caller);
-      if (!request.world().empty()) world = request.world();
-      take(desks_.switchboard.world(world, callOf(Method::step, request.SerializeAsString())), state);
+      if (!request.world().empty() && world != request.world()) {
+        world = request.world();
+        known = 0;
+      }
+      if (!request.wanted().has_channels_known()) request.mutable_wanted()->set_channels_known(known);
+      take(this->world(*context, world, callOf(Method::step, request.SerializeAsString())), state);
+      known = state.channels_version();
       if (!stream->Write(state)) return;
     }
   });
@@ -188,7 +220,7 @@ grpc::Status WorldsService::Steps(grpc::ServerContext* context,
 grpc::Status WorldsService::Poses(grpc::ServerContext* context, grpc::ServerReader<v1::PoseRequest>* reader,
                                   v1::PosesReply* reply) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {
-    const StreamPlace place(desks_, caller);
+    const Places::Place place(desks_.streams, caller);
     std::string world;
     v1::PoseRequest request;
     v1::PosesReply each;
@@ -196,7 +228,7 @@ grpc::Status WorldsService::Poses(grpc::ServerContext* context, grpc::ServerRead
     while (reader->Read(&request)) {
       desks_.gate.count(caller);
       if (!request.world().empty()) world = request.world();
-      take(desks_.switchboard.world(world, callOf(Method::pose, request.SerializeAsString())), each);
+      take(this->world(*context, world, callOf(Method::pose, request.SerializeAsString())), each);
       ++taken;
     }
     reply->set_taken(taken);

@@ -15,14 +15,68 @@ namespace btr::remote {
 
 namespace v1 = uchilsim::v1;
 
+/// Every call that is answered holds a thread: there may be only so many of a kind at once, and of one client half of
+/// them. From any thread.
+class Places {
+ public:
+  Places(int most, std::string kind) : most_(most), kind_(std::move(kind)) {}
+  int most() const { return most_; }
+  int ofOneClient() const { return (most_ + 1) / 2; }
+
+  /// One of them, as long as this is there. Throws Refusal where there is none.
+  class Place {
+   public:
+    Place(Places& places, const Gate::Caller& caller) : places_(places), name_(caller.name) {
+      const std::lock_guard lock(places_.mutex_);
+      const auto own = places_.taken_.find(name_);
+      if (places_.all_ >= places_.most_ || (own != places_.taken_.end() && own->second >= places_.ofOneClient()))
+        throw Refusal(Code::tooMuch, "too many " + places_.kind_ + " at once; " +
+                                         std::to_string(places_.ofOneClient()) + " of one client, " +
+                                         std::to_string(places_.most_) + " of all");
+      ++places_.taken_[name_];
+      ++places_.all_;
+    }
+    ~Place() {
+      const std::lock_guard lock(places_.mutex_);
+      if (--places_.taken_[name_] == 0) places_.taken_.erase(name_);
+      --places_.all_;
+    }
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+
+   private:
+    Places& places_;
+    const std::string name_;
+  };
+
+ private:
+  const int most_;
+  const std::string kind_;
+  std::mutex mutex_;
+  std::map<std::string, int> taken_;  ///< by caller
+  int all_ = 0;
+};
+
 /// What both services share.
 struct Desks {
+  Desks(const Server::Options& given, Switchboard& passing, Gate& judging)
+      : options(given),
+        switchboard(passing),
+        gate(judging),
+        streams(given.mostStreams > 0 ? given.mostStreams : mostStreamsFor(passing.options().mostWorlds), "streams"),
+        evaluations(given.mostEvaluations, "evaluations"),
+        calls(mostStreamsFor(passing.options().mostWorlds), "calls") {}
+
+  /// One client may step all worlds, and watch some beside.
+  static int mostStreamsFor(int worlds) { return 2 * (worlds + 8); }
+  /// Threads that all together may take.
+  int threads() const { return streams.most() + evaluations.most() + calls.most(); }
+
   const Server::Options& options;
   Switchboard& switchboard;
   Gate& gate;
   std::atomic<bool> isToEnd{false}, ends{false};
-  std::mutex streaming{};
-  std::map<std::string, int> streams{};  ///< open ones by caller
+  Places streams, evaluations, calls;
 };
 
 inline std::string metadataOf(const grpc::ServerContext& context, const char* key) {
@@ -51,6 +105,15 @@ grpc::Status guarded(Desks& desks, grpc::ServerContext* context, Role needed, Wo
   }
 }
 
+/// The same for a call that is answered at once, or whose turn comes soon.
+template <class Work>
+grpc::Status guardedCall(Desks& desks, grpc::ServerContext* context, Role needed, Work&& work) {
+  return guarded(desks, context, needed, [&](const Gate::Caller& caller) {
+    const Places::Place place(desks.calls, caller);
+    work(caller);
+  });
+}
+
 /// The message of an answer, or its refusal.
 template <class Message>
 void take(const Answer& answer, Message& message) {
@@ -58,31 +121,8 @@ void take(const Answer& answer, Message& message) {
   if (!message.ParseFromString(answer.bytes)) throw Refusal(Code::internal, "an answer that cannot be read");
 }
 
-/// A stream holds a thread: there may be only so many, and of one client half of them.
-class StreamPlace {
- public:
-  StreamPlace(Desks& desks, const Gate::Caller& caller) : desks_(desks), name_(caller.name) {
-    const std::lock_guard lock(desks_.streaming);
-    int all = 0;
-    for (const auto& [name, count] : desks_.streams) all += count;
-    const int most = desks_.options.mostStreams;
-    const auto own = desks_.streams.find(name_);
-    if (all >= most || (own != desks_.streams.end() && own->second >= (most + 1) / 2))
-      throw Refusal(Code::tooMuch, "too many streams at once; " + std::to_string((most + 1) / 2) + " of one client, " +
-                                       std::to_string(most) + " of all");
-    ++desks_.streams[name_];
-  }
-  ~StreamPlace() {
-    const std::lock_guard lock(desks_.streaming);
-    if (--desks_.streams[name_] == 0) desks_.streams.erase(name_);
-  }
-  StreamPlace(const StreamPlace&) = delete;
-  StreamPlace& operator=(const StreamPlace&) = delete;
-
- private:
-  Desks& desks_;
-  const std::string name_;
-};
+/// Sleeps until then, or until the call is cancelled or the server ends.
+void pause(const Desks& desks, const grpc::ServerContext& context, std::chrono::steady_clock::time_point until);
 
 class WorldsService final : public v1::Worlds::Service {
  public:
@@ -94,6 +134,7 @@ class WorldsService final : public v1::Worlds::Service {
   grpc::Status Get(grpc::ServerContext*, const v1::GetRequest*, v1::State*) override;
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::State>*) override;
   grpc::Status Log(grpc::ServerContext*, const v1::LogRequest*, grpc::ServerWriter<v1::LogPart>*) override;
+  grpc::Status Robot(grpc::ServerContext*, const v1::RobotRequest*, v1::RobotReply*) override;
   grpc::Status Picture(grpc::ServerContext*, const v1::PictureRequest*, v1::PictureReply*) override;
   grpc::Status Pictures(grpc::ServerContext*, const v1::PictureRequest*,
                         grpc::ServerWriter<v1::PictureReply>*) override;
@@ -110,8 +151,7 @@ class WorldsService final : public v1::Worlds::Service {
  private:
   template <class Request, class Reply>
   grpc::Status pass(grpc::ServerContext* context, Role needed, Method method, const Request& request, Reply& reply);
-  /// A little later, or when the call is cancelled.
-  void pause(const grpc::ServerContext& context, std::chrono::steady_clock::time_point until) const;
+  Answer world(const grpc::ServerContext& context, const std::string& name, const std::string& call) const;
 
   Desks& desks_;
 };

@@ -27,7 +27,7 @@ std::string newName() {
   return name;
 }
 
-/// A world or evaluator that a client blew up ends alone.
+/// A world that a client blew up ends alone. An evaluator has no such limit: it only hands trials to its workers.
 void limitMemory() {
 #if !defined(__SANITIZE_ADDRESS__)
 #if defined(__has_feature)
@@ -46,7 +46,10 @@ void beSilent() { google::protobuf::SetLogHandler(nullptr); }
 
 Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host) {
   return [&options, &host](char kind) {
-    const auto answer = [](Desk&& desk) { serve(desk, Nursery::socketOfChild); };
+    const auto answer = [](Desk&& desk) {
+      constexpr double beat_s = 1;
+      serve(desk, Nursery::socketOfChild, beat_s, Child::isToLeave);
+    };
     if (kind == 'w') limitMemory();
     if (kind == 'w') answer(WorldDesk(host, options.folder, options.cameras));
     if (kind == 'e') answer(EvaluationDesk(host, options.folder, options.database, options.jobs));
@@ -114,7 +117,7 @@ Answer Switchboard::open(const std::string& request, const Cancelled& cancelled)
     world->child = nursery_.start('w');
     worlds_[name] = world;
   }
-  Answer answer = world->child->ask(callOf(Method::open, name + request), options_.patience_s, cancelled);
+  Answer answer = world->child->ask(callOf(Method::open, name + request), {options_.patience_s, cancelled});
   world->used_s = now_s();
   world->callers = 0;
   if (answer.code != Code::ok) {
@@ -124,8 +127,8 @@ Answer Switchboard::open(const std::string& request, const Cancelled& cancelled)
   return answer;
 }
 
-// What was begun is done, whether or not its caller still waits: others may be there too.
-Answer Switchboard::world(const std::string& name, const std::string& call) {
+Answer Switchboard::world(const std::string& name, const std::string& call, const Cancelled& cancelled,
+                          const Cancelled& leaves) {
   std::shared_ptr<World> world;
   {
     const std::lock_guard lock(mutex_);
@@ -134,14 +137,14 @@ Answer Switchboard::world(const std::string& name, const std::string& call) {
     world = found->second;
     ++world->callers;
   }
-  Answer answer = world->child->ask(call, options_.patience_s);
+  Answer answer = world->child->ask(call, {options_.patience_s, cancelled, true, leaves});
   world->used_s = now_s();
   --world->callers;
   if (!world->child->alive()) answer.bytes = "the world has ended: " + answer.bytes;
   return answer;
 }
 
-Answer Switchboard::close(const std::string& name) {
+Answer Switchboard::close(const std::string& name, const Cancelled& cancelled) {
   std::shared_ptr<World> world;
   {
     const std::lock_guard lock(mutex_);
@@ -151,7 +154,7 @@ Answer Switchboard::close(const std::string& name) {
     worlds_.erase(found);
   }
   constexpr double patience_s = 5;
-  return world->child->ask(callOf(Method::close, ""), patience_s);
+  return world->child->ask(callOf(Method::close, ""), {patience_s, cancelled, true});
 }
 
 std::vector<std::string> Switchboard::worlds() const {
@@ -161,51 +164,61 @@ std::vector<std::string> Switchboard::worlds() const {
   return names;
 }
 
-Answer Switchboard::evaluate(const std::string& key, const std::string& call, double patience_s,
-                             const Cancelled& cancelled) {
-  std::shared_ptr<Evaluator> evaluator, oldest;
-  {
-    const std::lock_guard lock(mutex_);
-    auto found = evaluators_.find(key);
-    if (found != evaluators_.end() && !found->second->child->alive()) {
-      evaluators_.erase(found);
-      found = evaluators_.end();
-    }
-    if (found == evaluators_.end()) {
-      if (evaluators_.size() >= mostEvaluators) {
-        auto least = evaluators_.end();
-        for (auto each = evaluators_.begin(); each != evaluators_.end(); ++each)
-          if (each->second->callers == 0 &&
-              (least == evaluators_.end() || each->second->used_s < least->second->used_s))
-            least = each;
-        if (least == evaluators_.end())
-          return {Code::tooMuch, "this server evaluates " + std::to_string(mostEvaluators) + " experiments already"};
-        oldest = least->second;
-        evaluators_.erase(least);
-      }
-      auto fresh = std::make_shared<Evaluator>();
-      fresh->child = nursery_.start('e');
-      found = evaluators_.emplace(key, std::move(fresh)).first;
-    }
-    evaluator = found->second;
-    ++evaluator->callers;
-  }
-  oldest.reset();  // its processes end before the call begins
-  const Answer answer = evaluator->child->ask(call, patience_s, cancelled);
+std::shared_ptr<Switchboard::Evaluator> Switchboard::evaluatorOf(const std::string& key) {
+  std::shared_ptr<Evaluator> evaluator, oldest;  // `oldest` ends outside of the lock, before the call begins
   const std::lock_guard lock(mutex_);
-  --evaluator->callers;
-  evaluator->used_s = now_s();
-  return answer;
+  auto found = evaluators_.find(key);
+  if (found != evaluators_.end() && !found->second->child->alive()) {
+    evaluators_.erase(found);
+    found = evaluators_.end();
+  }
+  if (found == evaluators_.end()) {
+    if (evaluators_.size() >= mostEvaluators) {
+      auto least = evaluators_.end();
+      for (auto each = evaluators_.begin(); each != evaluators_.end(); ++each)
+        if (each->second->callers == 0 && (least == evaluators_.end() || each->second->used_s < least->second->used_s))
+          least = each;
+      if (least == evaluators_.end())
+        throw Refusal(Code::tooMuch,
+                      "this server evaluates " + std::to_string(mostEvaluators) + " experiments already");
+      oldest = least->second;
+      evaluators_.erase(least);
+    }
+    auto fresh = std::make_shared<Evaluator>();
+    fresh->child = nursery_.start('e');
+    found = evaluators_.emplace(key, std::move(fresh)).first;
+  }
+  evaluator = found->second;
+  ++evaluator->callers;
+  return evaluator;
 }
 
-Answer Switchboard::records(const std::string& call) {
-  std::shared_ptr<Child> records;
-  {
+Answer Switchboard::evaluate(const std::string& key, const std::string& call, double patience_s,
+                             const Cancelled& cancelled) {
+  // Further rounds begin with an evaluator that somebody else's call has ended, one with a process that has died.
+  bool mayDie = true;
+  while (true) {
+    const std::shared_ptr<Evaluator> evaluator = evaluatorOf(key);
+    const Answer answer = evaluator->child->ask(call, {patience_s, cancelled});
     const std::lock_guard lock(mutex_);
-    if (!records_ || !records_->alive()) records_ = nursery_.start('d');
-    records = records_;
+    --evaluator->callers;
+    evaluator->used_s = now_s();
+    if (answer.code == Code::unavailable && answer.begun && std::exchange(mayDie, false)) continue;
+    if (answer.begun || answer.code == Code::cancelled) return answer;
   }
-  return records->ask(call, options_.patience_s);
+}
+
+Answer Switchboard::records(const std::string& call, const Cancelled& cancelled) {
+  while (true) {
+    std::shared_ptr<Child> records;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!records_ || !records_->alive()) records_ = nursery_.start('d');
+      records = records_;
+    }
+    const Answer answer = records->ask(call, {options_.patience_s, cancelled, true});
+    if (answer.begun || answer.code == Code::cancelled) return answer;
+  }
 }
 
 }  // namespace btr::remote

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/live/camera_eye.h"
 #include "core/plugin/plugin_host.h"
-#include "core/remote/camera_eye.h"
 #include "core/remote/games_folder.h"
 #include "core/remote/nursery.h"
 #include "core/remote/run_keeper.h"
@@ -27,7 +27,7 @@ class Switchboard {
     std::string database{};  ///< "" for none
     int jobs = 0;            ///< worker processes of an evaluator, a run; 0: as many as processors
     int mostWorlds = 16;
-    double patience_s = 60;  ///< for one call to a world
+    double patience_s = 60;  ///< of a call to a world, since it last said that it is at work
     CameraMaker cameras{};   ///< called in a world's process
     double idle_s = 600;     ///< a world that nobody has called for so long is closed
   };
@@ -45,12 +45,15 @@ class Switchboard {
 
   /// `request` and answers are bytes of messages.
   Answer open(const std::string& request, const Cancelled& cancelled);
-  Answer world(const std::string& name, const std::string& call);
-  Answer close(const std::string& name);
+  /// What was begun is done, whether or not its caller still waits; `leaves`: a long step ends at its next period.
+  Answer world(const std::string& name, const std::string& call, const Cancelled& cancelled = {},
+               const Cancelled& leaves = {});
+  Answer close(const std::string& name, const Cancelled& cancelled = {});
   std::vector<std::string> worlds() const;
-  /// `key` is equal for calls that the same workers may answer.
+  /// `key` is equal for calls that the same workers may answer. A call that is cancelled ends its evaluator's process;
+  /// those that waited for it are answered by another.
   Answer evaluate(const std::string& key, const std::string& call, double patience_s, const Cancelled& cancelled);
-  Answer records(const std::string& call);
+  Answer records(const std::string& call, const Cancelled& cancelled = {});
 
  private:
   struct World {
@@ -66,6 +69,8 @@ class Switchboard {
   static constexpr std::size_t mostEvaluators = 4;
 
   void closeIdle();
+  /// The evaluator of this key, with its callers counted. Throws Refusal.
+  std::shared_ptr<Evaluator> evaluatorOf(const std::string& key);
 
   const Options options_;
   const PluginHost& host_;

@@ -92,12 +92,16 @@ std::string WorldDesk::open(const v1::OpenRequest& request) {
 // Files are written only for a game that can be played.
 void WorldDesk::begin() {
   end();
-  session_ = std::make_unique<Session>(*game_, host_);
+  session_ = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
   ++episode_;
   speed_ = 0;
-  channels_ = session_->channels();
-  chosen_.clear();
-  chosenAt_.clear();
+  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}};
+  if (channels_.empty()) {
+    channels_ = session_->channels();
+    channelsTold_ = ++channelsVersion_;  // by what opens the world
+  } else {
+    refreshChannels();
+  }
   if (!logged_) return;
   const std::string name = GamesFolder::sessions + ("/" + name_) + "-" + std::to_string(episode_);
   gameFile_ = folder_.toWrite(name + ".json", "log");
@@ -121,7 +125,7 @@ void WorldDesk::refreshChannels() {
   std::vector<std::string> now = session().channels();
   if (now == channels_) return;
   channels_ = std::move(now);
-  channelsChanged_ = true;
+  ++channelsVersion_;
   chosen_.clear();
   chosenAt_.clear();
 }
@@ -140,7 +144,8 @@ void WorldDesk::apply(const Act& act) {
     refuseStick("act /controller");
   session().apply(act);
   const bool samePlaces = std::holds_alternative<HoldAct>(act) || std::holds_alternative<PlaceAct>(act) ||
-                          std::holds_alternative<ThrowAct>(act) || std::holds_alternative<PullAct>(act);
+                          std::holds_alternative<ThrowAct>(act) || std::holds_alternative<PullAct>(act) ||
+                          std::holds_alternative<OrdersAct>(act);
   if (!samePlaces) refreshChannels();
 }
 
@@ -172,9 +177,13 @@ void WorldDesk::step(const v1::StepRequest& request) {
     for (const double position : targets.positions())
       if (!std::isfinite(position)) throw InputError("targets of " + targets.robot(), "no number", "finite numbers");
   Session& world = session();
-  for (const v1::Act& act : request.acts()) apply(actOf(act));
+  for (const v1::Act& act : request.acts()) {
+    betweenPieces();
+    apply(actOf(act));
+  }
   const int rows = std::max(1, request.periods());
   for (int i = 0; i < rows && world.fault().empty(); ++i) {
+    if (i > 0) betweenPieces();
     for (const v1::Targets& targets : request.targets()) apply(targets, i, rows);
     if (request.periods() > 0) onePeriod();
   }
@@ -209,7 +218,6 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       session();
       if (request.has_seed()) game_->seed = request.seed();
       begin();
-      cameras_.clear();
       for (const v1::Act& act : request.acts()) apply(actOf(act));
       return state(request.wanted());
     }
@@ -256,6 +264,8 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
     }
     case Method::picture:
       return picture(messageOf<v1::PictureRequest>(message));
+    case Method::robot:
+      return robot(messageOf<v1::RobotRequest>(message).robot());
     case Method::logFiles:
       if (!log_) throw Refusal(Code::notNow, "this world is not logged");
       return gameFile_ + '\n' + logFile_;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/live/camera_eye.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
-#include "core/remote/camera_eye.h"
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
 
@@ -56,6 +56,7 @@ class WorldDesk final : public Desk {
   void step(const uchilsim::v1::StepRequest& request);
   void onePeriod();
   void look(const std::string& robot);
+  std::string robot(const std::string& name);
   std::string picture(const uchilsim::v1::PictureRequest& request);
   void describe(uchilsim::v1::World& world);
   std::string state(const uchilsim::v1::Wanted& wanted);
@@ -71,13 +72,13 @@ class WorldDesk final : public Desk {
   std::unique_ptr<Session> session_;
   std::unique_ptr<SessionLogWriter> log_;
   std::vector<std::string> channels_;
-  bool channelsChanged_ = false;
-  std::vector<std::string> chosen_;    ///< the channels that were wanted last …
-  std::vector<std::size_t> chosenAt_;  ///< … and where they are
+  long channelsVersion_ = 0, channelsTold_ = 0;  ///< which they are; which whoever does not say was told last
+  std::vector<std::string> chosen_;              ///< the channels that were wanted last …
+  std::vector<std::size_t> chosenAt_;            ///< … and where they are
   std::vector<double> row_;
   struct Camera {
-    std::unique_ptr<CameraEye> eye;
-    CameraPicture picture{};  ///< the last one
+    std::unique_ptr<CameraEye> eye;  ///< none: it begins to look with the next call
+    CameraPicture picture{};         ///< the last one, of this episode
     long number = 0, period = 0;
     std::string why{};  ///< it looks no longer
   };

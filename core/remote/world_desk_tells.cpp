@@ -1,6 +1,10 @@
 // What a world tells its clients.
 #include <algorithm>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "core/model/model_json.h"
 #include "core/remote/act_messages.h"
 #include "core/remote/world_desk.h"
 #include "core/spec/error.h"
@@ -64,6 +68,7 @@ void WorldDesk::describe(v1::World& out) {
   out.set_world(name_);
   out.set_control_period_s(world.scene().controlPeriod_s);
   out.set_episode(episode_);
+  out.set_channels_version(channelsVersion_);
   for (const std::string& channel : channels_) out.add_channels(channel);
   for (const SceneRobot& robot : world.scene().robots) describeRobot(world, robot, host_, *out.add_robots());
   for (const BallSpec& ball : world.game().scene.balls) out.add_balls(ball.name);
@@ -78,6 +83,9 @@ void WorldDesk::fillRow(const v1::Wanted& wanted, v1::State& out) {
     out.mutable_row()->Add(row_.begin(), row_.end());
     return;
   }
+  if (static_cast<std::size_t>(wanted.channels_size()) > channels_.size())
+    throw InputError("wanted channels", std::to_string(wanted.channels_size()),
+                     "at most " + std::to_string(channels_.size()) + ", those of this world");
   if (!std::ranges::equal(wanted.channels(), chosen_)) {
     std::vector<std::size_t> at;
     for (const std::string& channel : wanted.channels()) {
@@ -102,9 +110,11 @@ std::string WorldDesk::state(const v1::Wanted& wanted) {
   out.set_fault(world.fault());
   out.set_playing(speed_ > 0);
   fillRow(wanted, out);
-  if (channelsChanged_)
+  out.set_channels_version(channelsVersion_);
+  const long known = wanted.has_channels_known() ? static_cast<long>(wanted.channels_known()) : channelsTold_;
+  if (known != channelsVersion_)
     for (const std::string& channel : channels_) out.add_channels(channel);
-  channelsChanged_ = false;
+  if (!wanted.has_channels_known()) channelsTold_ = channelsVersion_;
   if (wanted.links())
     for (std::size_t i = 0; i < world.scene().robots.size(); ++i) {
       v1::LinkPoses& poses = *out.add_links();
@@ -136,6 +146,22 @@ std::string WorldDesk::state(const v1::Wanted& wanted) {
   return out.SerializeAsString();
 }
 
+std::string WorldDesk::robot(const std::string& name) {
+  const Session& world = session();
+  const auto& robots = world.scene().robots;
+  const auto found = std::ranges::find_if(robots, [&](const SceneRobot& r) { return r.name == name; });
+  if (found == robots.end()) throw InputError("robot", "\"" + name + "\"", "a robot of this game");
+  v1::RobotReply reply;
+  reply.set_model_json(toJson(found->model).dump());
+  reply.mutable_start()->Add(found->jointStart.begin(), found->jointStart.end());
+  for (const JointInput& input : world.inputs()[static_cast<std::size_t>(found - robots.begin())])
+    reply.add_commands(input.command);
+  reply.set_seed(world.game().seed);
+  if (const auto player = world.game().robots.find(name); player != world.game().robots.end())
+    for (const SenseSpec& sense : player->second.senses) reply.add_senses(sense.sense);
+  return reply.SerializeAsString();
+}
+
 // A camera that fails ends alone: the world goes on, and who asks for a picture is told why.
 void WorldDesk::look(const std::string& robot) {
   Camera& camera = cameras_.at(robot);
@@ -157,25 +183,28 @@ std::string WorldDesk::picture(const v1::PictureRequest& request) {
   const auto& robots = session().scene().robots;
   if (std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == request.robot(); }))
     throw InputError("robot", "\"" + request.robot() + "\"", "a robot of this game");
-  if (!cameras_.contains(request.robot())) {
+  if (!cameras_.contains(request.robot()) && cameras_.size() >= mostCameras) {
+    // Those of robots that went.
+    std::erase_if(cameras_, [&](const auto& each) {
+      return std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == each.first; });
+    });
     if (cameras_.size() >= mostCameras)
       throw Refusal(Code::tooMuch, "more than " + std::to_string(mostCameras) + " cameras of a world");
-    cameras_[request.robot()].eye = makeCamera_(request.robot());
+  }
+  Camera& camera = cameras_[request.robot()];
+  if (!camera.eye && camera.why.empty()) {
+    camera.eye = makeCamera_(request.robot());
     look(request.robot());
   }
-  const Camera& camera = cameras_.at(request.robot());
-  if (!camera.eye) {
-    const std::string why = camera.why;
-    cameras_.erase(request.robot());  // the next call tries again
-    throw Refusal(Code::notNow, why);
-  }
+  if (!camera.eye) throw Refusal(Code::notNow, std::exchange(camera.why, ""));  // the next call tries again
   v1::PictureReply reply;
-  if (camera.number > request.after()) {
+  if (camera.number > request.after() && !camera.picture.rgb.empty()) {
     reply.set_number(camera.number);
     reply.set_period(camera.period);
     reply.set_width(camera.picture.width);
     reply.set_height(camera.picture.height);
     reply.set_rgb(camera.picture.rgb.data(), camera.picture.rgb.size());
+    reply.set_classes(camera.picture.classes.data(), camera.picture.classes.size());
   }
   return reply.SerializeAsString();
 }

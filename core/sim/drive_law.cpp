@@ -156,13 +156,27 @@ double largestTorque(const Drive& drive, double rate) {
   return drive.maxTorque * std::clamp(1 - rate / drive.noLoadSpeed_rad_s, -1.0, 1.0);
 }
 
+double ownDamping(const Drive& drive, const JointInput& input) {
+  if (drive.kind == Drive::Kind::dcMotor) return backEmfDamping(drive, input);
+  return drive.kind == Drive::Kind::servo && input.enabled ? drive.d : 0;
+}
+
+namespace {
+
+/// A servo's torque before its limits.
+double askedTorque(const Drive& drive, const JointState& state, double integral) {
+  return drive.p * (state.command - state.position) + drive.i * integral - drive.d * state.rate;
+}
+
+}  // namespace
+
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input) {
   if (!input.enabled) return drive.kind == Drive::Kind::dcMotor ? -backEmfDamping(drive, input) * state.rate : 0;
   const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
   switch (drive.kind) {
     case Drive::Kind::servo:
-      return std::clamp(drive.p * (state.command - state.position) + drive.i * integral - drive.d * state.rate,
-                        -largestTorque(drive, -state.rate), largestTorque(drive, state.rate));
+      return std::clamp(askedTorque(drive, state, integral), -largestTorque(drive, -state.rate),
+                        largestTorque(drive, state.rate));
     case Drive::Kind::dcMotor:
       return perVolt * (motorVolts(drive, state, input).given - drive.torqueConstant_nm_a * state.rate);
     case Drive::Kind::torque:
@@ -210,20 +224,22 @@ CommandAround JointEffects::command(CommandAround command, const JointState& sta
   return command;
 }
 
-double JointEffects::throughEffects(Torques torques, const JointState& state, double h, bool keepState) {
+double JointEffects::throughEffects(Torques torques, const JointState& given, double h, bool keepState) {
+  JointState state = given;
   for (const std::size_t i : chain_) {
     Placed& placed = placed_[i];
     if (!placed.effect->changesDrive()) continue;
     if (!keepState) scratch_ = placed.state;
     std::vector<double>& memory = keepState ? placed.state : scratch_;
-    const auto through = [&](double torque) {
+    const auto through = [&](double torque, double beyond) {
+      state.beyond = beyond;
       return placed.effect->driveTorque(torque, state, *placed.values, memory, h);
     };
     if (!memory.empty() || torques.before == torques.after) {
-      const double torque = through(torques.mean());
-      torques = {torque, torque};
+      torques.before = torques.after = through(torques.mean(), (torques.beyondBefore + torques.beyondAfter) / 2);
     } else {
-      torques = {through(torques.before), through(torques.after)};
+      torques.before = through(torques.before, torques.beyondBefore);
+      torques.after = through(torques.after, torques.beyondAfter);
     }
   }
   return torques.mean();
@@ -232,19 +248,25 @@ double JointEffects::throughEffects(Torques torques, const JointState& state, do
 DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const JointState& state,
                              const CommandAround& command, double integral, const JointInput& input,
                              const StepOf& step) {
+  const double damps = ownDamping(drive, input);
   // Torque of law and effects as a function of position and rate, the effects' states held; and of the law alone.
   const auto at = [&](double position, double rate) {
     JointState moved = state;
     moved.position += position;
     moved.rate += rate;
+    moved.damping = damps;
     return moved;
+  };
+  const auto beyondOf = [&](const JointState& moved, double given) {
+    return drive.kind == Drive::Kind::servo && input.enabled ? askedTorque(drive, moved, integral) - given : 0;
   };
   const auto lawAt = [&](JointState moved) {
     moved.command = command.before;
-    const double earlier = driveTorque(drive, moved, integral, input);
-    if (command.before == command.after) return Torques{earlier, earlier};
+    const double earlier = driveTorque(drive, moved, integral, input), more = beyondOf(moved, earlier);
+    if (command.before == command.after) return Torques{earlier, earlier, more, more};
     moved.command = command.after;
-    return Torques{earlier, driveTorque(drive, moved, integral, input)};
+    const double later = driveTorque(drive, moved, integral, input);
+    return Torques{earlier, later, more, beyondOf(moved, later)};
   };
   struct Slopes {
     double all, law;
@@ -261,7 +283,7 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
   const auto [byPosition, lawByPosition] = slopesAlong(1, 0);
 
   const Torques given = lawAt(state);
-  const double torque = throughEffects(given, state, step.h, true);
+  const double torque = throughEffects(given, at(0, 0), step.h, true);
   // Effects that leave the torque alone leave the exact law alone.
   if (torque == given.mean() && byRate == lawByRate && byPosition == lawByPosition) return law;
   const double damping = std::max(0.0, -byRate);

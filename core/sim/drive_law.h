@@ -67,6 +67,9 @@ double largestTorque(const Drive& drive, double rate);
 /// What a DC motor's own voltage brakes [N·m·s/rad or N·s/m]: kt²/R, times offBraking when it is switched off.
 double backEmfDamping(const Drive& drive, const JointInput& input);
 
+/// What the law loses per rate while it is within its limits [N·m·s/rad or N·s/m].
+double ownDamping(const Drive& drive, const JointInput& input);
+
 /// The same law at this instant, as a number.
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input);
 
@@ -105,6 +108,7 @@ class JointEffects {
   /// Torques before and after a jump of the command. Effects with a memory see their mean.
   struct Torques {
     double before, after;
+    double beyondBefore = 0, beyondAfter = 0;  ///< JointState::beyond
     double mean() const { return (before + after) / 2; }
   };
   double throughEffects(Torques torques, const JointState& state, double h, bool keepState);

@@ -23,6 +23,8 @@ struct JointState {
   double load = 0;  ///< moment of the weight of all that the joint carries, about its axis [N·m or N]; contacts and
                     ///< accelerations are not in it
   double allDrives = 0;  ///< sum of |torque| of all drives of the robot in the last step
+  double damping = 0;    ///< torque that the drive's own law loses per rate [N·m·s/rad or N·s/m]
+  double beyond = 0;     ///< what that law asks for beyond its limit: all of it less what it gives [N·m or N]
 };
 
 /// A ball at one instant, world frame.

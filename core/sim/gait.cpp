@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 LegAngles bent(const FourLegs::Leg& leg) { return {0, 0, leg.front ? 1.2 : 1.4}; }
 
 /// The feet of the stance in their hips' frames: as the start gait of the walk stands.
-Vector3d stanceOf(const FourLegs::Leg& leg) {
+Vector3d standingFoot(const FourLegs::Leg& leg) {
   return leg.front ? Vector3d(0.055, 0.007, -0.105) : Vector3d(-0.050, 0.005, -0.115);
 }
 
@@ -104,37 +104,43 @@ Vector3d FootPlaces::at(const FourLegs::Leg& leg, const Vector3d& away) const {
   return middle(leg) + away.x() * forward_ + leg.turned(Vector3d(0, away.y(), 0)) + away.z() * up_;
 }
 
+std::vector<double> stanceOf(const RobotModel& model, const std::string& who) {
+  const FourLegs dog = FourLegs::of(model, who);
+  std::vector<double> stance = restPositions(model);
+  for (const FourLegs::Leg& leg : dog.legs) {
+    const LegAngles angles = solveContact(leg, standingFoot(leg), bent(leg)).angles;
+    for (std::size_t j = 0; j < 3; ++j) stance[leg.joints[j]] = angles[j];
+  }
+  return stance;
+}
+
 void arrangeStance(Scene& scene, const std::string& who) {
   SceneRobot& robot = firstRobot(scene, who);
-  const FourLegs dog = FourLegs::of(robot.model, who);
-  robot.jointStart = restPositions(robot.model);
-  for (const FourLegs::Leg& leg : dog.legs) {
-    const LegAngles angles = solveContact(leg, stanceOf(leg), bent(leg)).angles;
-    for (std::size_t j = 0; j < 3; ++j) robot.jointStart[leg.joints[j]] = angles[j];
-  }
+  robot.jointStart = stanceOf(robot.model, who);
   robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
   robot.start = standing(robot.model, robot.jointStart, who);
 }
 
-GaitMotion::GaitMotion(const Scene& scene, const FourLegs& dog, const GaitTask& task, Gait gait)
-    : period_s_(scene.controlPeriod_s),
-      start_(scene.robots.front().jointStart),
+GaitSteps::GaitSteps(double controlPeriod_s, std::vector<double> start, const FourLegs& dog, const GaitTask& task,
+                     Gait gait)
+    : period_s_(controlPeriod_s),
+      start_(std::move(start)),
       gait_(std::move(gait)),
       leadIn_(std::max(1L, std::lround(task.leadIn_s / period_s_))),
       end_(std::lround(task.duration_s / period_s_)) {
   for (std::size_t i = 0; i < 4; ++i) joints_[i] = dog.legs[i].joints;
 }
 
-void GaitMotion::command(double time, const RobotReadings&, std::span<JointInput> inputs) {
-  for (std::size_t j = 0; j < inputs.size(); ++j) inputs[j].command = start_[j];
-  // The command is held for the period, so it is the position to be reached at its end.
+void GaitSteps::targets(double time, std::span<double> targets) const {
+  std::ranges::copy(start_, targets.begin());
+  // A target is held for the period, so it is the position to be reached at its end.
   const long frame = std::lround(time / period_s_) + 1 - leadIn_;
   const double share = std::min(1.0, 1 + static_cast<double>(frame) / static_cast<double>(leadIn_));
   const auto& wanted = gait_.angles(frame > 0 ? frame % gait_.period() : 0);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      double& command = inputs[joints_[i][j]].command;
-      command = share < 1 ? command + (wanted[i][j] - command) * share : wanted[i][j];
+      double& target = targets[joints_[i][j]];
+      target = share < 1 ? target + (wanted[i][j] - target) * share : wanted[i][j];
     }
 }
 
@@ -148,6 +154,6 @@ double withInfeasiblePenalty(double speed, double penalty, const Values& remarks
   return speed > 0 ? speed * std::max(0.0, 1 - penalty * infeasibleShare(remarks)) : speed;
 }
 
-Values GaitMotion::remarks() const { return {{"points", gait_.points()}, {"infeasible_points", gait_.infeasible()}}; }
+Values GaitSteps::remarks() const { return {{"points", gait_.points()}, {"infeasible_points", gait_.infeasible()}}; }
 
 }  // namespace btr

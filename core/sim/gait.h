@@ -1,6 +1,8 @@
 #pragma once
+#include <span>
+
 #include "core/model/four_legs.h"
-#include "core/sim/controller.h"
+#include "core/sim/scene.h"
 
 namespace btr {
 
@@ -66,17 +68,22 @@ class FootPlaces {
   Eigen::Vector3d front_, rear_, forward_, up_;  ///< forward and up: the ground's axes in the root's frame
 };
 
-/// Puts the scene's first robot over the origin, looking along x, its feet under it where walking begins, and its other
-/// joints at rest. Throws InputError, beginning with `who`, for a scene without a robot or a robot without such legs.
+/// The posture in which walking begins, by joint of the model: the feet under the body, other joints at rest. Throws
+/// InputError, beginning with `who`, for a robot without such legs.
+std::vector<double> stanceOf(const RobotModel& model, const std::string& who);
+/// Puts the scene's first robot over the origin in that stance, looking along x. Throws InputError, beginning with
+/// `who`, for a scene without a robot too.
 void arrangeStance(Scene& scene, const std::string& who);
 
-/// Goes from the stance to the gait's first frame and through its cycles. Remarks: infeasible_points, points.
-class GaitMotion final : public Motion {
+/// Goes from the stance to the gait's first frame and through its cycles.
+class GaitSteps {
  public:
-  GaitMotion(const Scene& scene, const FourLegs& dog, const GaitTask& task, Gait gait);
-  void command(double time, const RobotReadings& readings, std::span<JointInput> inputs) override;
-  double duration() const override { return static_cast<double>(end_) * period_s_; }
-  Values remarks() const override;
+  /// `start`: the stance, by joint of the model.
+  GaitSteps(double controlPeriod_s, std::vector<double> start, const FourLegs& dog, const GaitTask& task, Gait gait);
+  /// What each joint of the model is told for the control period that begins at `time` [s].
+  void targets(double time, std::span<double> targets) const;
+  double duration() const { return static_cast<double>(end_) * period_s_; }  ///< [s]
+  Values remarks() const;                                                    ///< infeasible_points, points
 
  private:
   double period_s_;  ///< control period

@@ -1,7 +1,9 @@
 #include "core/sim/trial.h"
 
 #include <cmath>
+#include <optional>
 
+#include "core/sim/senses.h"
 #include "core/sim/world.h"
 #include "core/spec/error.h"
 
@@ -19,7 +21,7 @@ Vector3d horizontal(const Vector3d& v) { return {v.x(), v.y(), 0}; }
 class Trial {
  public:
   Trial(const Scene& scene, std::uint64_t seed, const TrialOptions& options)
-      : scene_(scene), options_(options), world_(scene, seed), inputs_(scene.robots.size()) {
+      : scene_(scene), options_(options), seed_(seed), world_(scene, seed), inputs_(scene.robots.size()) {
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
       const SceneRobot& robot = scene.robots[i];
       inputs_[i].resize(robot.model.joints.size());
@@ -34,6 +36,10 @@ class Trial {
     if (options_.recordTrace) result.trace.channels = world_.channels();
     std::unique_ptr<Motion> motion;
     if (!scene_.robots.empty()) {
+      if (controller.looks())
+        throw InputError("controller", "one that looks through the robot's camera",
+                         "one without a camera: trials have no pictures, games and the open interface have");
+      senseFor(controller);
       motion = controller.begin(scene_, settings, parameters);
       result.baseStart_m = world_.robot(0).base.translation();
     }
@@ -61,8 +67,12 @@ class Trial {
         break;
       }
       // After its end a motion's last commands are held.
-      if (moving) motion->command(world_.time(), readings_, inputs_[0]);
+      if (moving) {
+        if (senses_) motion->sense(sensed());
+        motion->command(world_.time(), readings_, inputs_[0]);
+      }
       world_.advance(inputs_, scene_.controlPeriod_s);
+      ++period_;
       record(result);
     }
     if (motion) result.remarks = motion->remarks();
@@ -71,6 +81,22 @@ class Trial {
   }
 
  private:
+  /// What the controller asks for is sensed from the start on; nothing else is.
+  void senseFor(const Controller& controller) {
+    const std::vector<SenseSpec> wanted = controller.senses();
+    if (wanted.empty()) return;
+    senses_.emplace(wanted, scene_.robots.front(), seed_, "the controller's senses");
+    world_.measureAcceleration(0);
+  }
+
+  /// Nobody's hand is in a trial.
+  MotionSenses sensed() {
+    senses_->sense(world_, 0, {}, period_, scene_.controlPeriod_s);
+    row_.clear();
+    senses_->sample(row_);
+    return {seed_, period_, senses_->channels(), row_};
+  }
+
   /// Reads the first robot, too.
   void record(TrialResult& result) {
     if (options_.recordTrace) world_.sample(result.trace.values);
@@ -155,9 +181,13 @@ class Trial {
 
   const Scene& scene_;
   const TrialOptions& options_;
+  std::uint64_t seed_;
   World world_;
   std::vector<std::vector<JointInput>> inputs_;
   RobotReadings readings_;  ///< of the first robot, as last recorded
+  std::optional<Senses> senses_;
+  std::vector<double> row_;  ///< of the senses, as last sampled
+  long period_ = 0;
 };
 
 }  // namespace

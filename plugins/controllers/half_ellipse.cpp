@@ -12,16 +12,16 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <memory>
+#include <optional>
 
-#include "core/plugin/plugin.h"
+#include "core/robot/robot.h"
 
 namespace {
 
 using Eigen::Vector3d;
 
-class HalfEllipse final : public btr::Controller {
-  std::vector<btr::Parameter> genotype() const override {
+class HalfEllipse final : public uchilsim::Behaviour {
+  std::vector<btr::Parameter> parameters() const override {
     return {{"front_height_m", "m", "front locus: height", 0.005, 0.070, 0.025},
             {"front_x_m", "m", "front locus: x offset, ahead of the hip", -0.020, 0.080, 0.055},
             {"front_y_m", "m", "front locus: y offset, outward of the hip", -0.030, 0.060, 0.007},
@@ -38,17 +38,17 @@ class HalfEllipse final : public btr::Controller {
 
   std::vector<btr::Parameter> settings() const override { return btr::gaitSettings(); }
 
-  void arrange(btr::Scene& scene, const btr::Values& settings) const override {
-    btr::gaitTask(settings, "half_ellipse");
-    btr::arrangeStance(scene, "half_ellipse");
+  std::vector<double> posture(const btr::RobotModel& model) const override {
+    return btr::stanceOf(model, "half_ellipse");
   }
 
-  std::unique_ptr<btr::Motion> begin(const btr::Scene& scene, const btr::Values& settings,
-                                     std::span<const double> p) const override {
+  void setTask(btr::Scene&, const btr::Values& settings) const override { btr::gaitTask(settings, "half_ellipse"); }
+
+  void start(const uchilsim::Robot& robot, const btr::Values& settings, std::span<const double> p) override {
     assert(p.size() == 12);
     const btr::GaitTask task = btr::gaitTask(settings, "half_ellipse");
-    const btr::FourLegs dog = btr::FourLegs::of(scene.robots.front().model, "half_ellipse");
-    const double period_s = scene.controlPeriod_s;
+    const btr::FourLegs dog = btr::FourLegs::of(robot.model, "half_ellipse");
+    const double period_s = robot.period_s;
     const long cycle = std::max(4L, 2 * std::lround(p[10] / period_s / 2));
     const long ground = std::clamp(std::lround(p[11] * static_cast<double>(cycle)), 2L, cycle - 2);
     const double groundTime = static_cast<double>(ground) * period_s;
@@ -70,10 +70,20 @@ class HalfEllipse final : public btr::Controller {
       }
     }
     const long half = cycle / 2;
-    return std::make_unique<btr::GaitMotion>(scene, dog, task, btr::Gait(dog, paths, {0, half, half, 0}, cycle));
+    steps_.emplace(robot.period_s, std::vector<double>(robot.start.begin(), robot.start.end()), dog, task,
+                   btr::Gait(dog, paths, {0, half, half, 0}, cycle));
   }
+
+  void act(const uchilsim::Senses& senses, uchilsim::Orders& orders) override {
+    steps_->targets(senses.time_s, orders.targets);
+  }
+
+  double duration_s() const override { return steps_->duration(); }
+  btr::Values remarks() const override { return steps_->remarks(); }
+
+  std::optional<btr::GaitSteps> steps_;
 };
 
 }  // namespace
 
-BTR_CONTROLLER(HalfEllipse, "half_ellipse")
+UCHILSIM_ROBOT_CONTROLLER(HalfEllipse, "half_ellipse")

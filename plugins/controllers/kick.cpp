@@ -18,9 +18,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <memory>
+#include <optional>
 
-#include "core/plugin/plugin.h"
+#include "core/robot/robot.h"
 
 namespace {
 
@@ -47,11 +47,6 @@ std::size_t jointIndex(const btr::RobotModel& model, const std::string& name) {
   return static_cast<std::size_t>(index);
 }
 
-const btr::SceneRobot& firstRobot(const btr::Scene& scene) {
-  if (scene.robots.empty()) throw btr::InputError("kick: the scene has no robot");
-  return scene.robots.front();
-}
-
 /// The stance, by joint of the model.
 std::vector<double> stanceOf(const btr::RobotModel& model) {
   std::vector<double> stance = btr::restPositions(model);
@@ -62,12 +57,15 @@ std::vector<double> stanceOf(const btr::RobotModel& model) {
   return stance;
 }
 
-class KickMotion final : public btr::Motion {
+class KickPhases {
  public:
-  KickMotion(const btr::Scene& scene, double accumulate_s, double hold_s, double return_s,
+  KickPhases(const uchilsim::Robot& robot, double accumulate_s, double hold_s, double return_s,
              std::span<const double> parameters)
-      : period_(scene.controlPeriod_s), start_(firstRobot(scene).jointStart), accumulation_(start_), release_(start_) {
-    const btr::RobotModel& model = scene.robots.front().model;
+      : period_(robot.period_s),
+        start_(robot.start.begin(), robot.start.end()),
+        accumulation_(start_),
+        release_(start_) {
+    const btr::RobotModel& model = robot.model;
     for (std::size_t i = 0; i < legJoints; ++i) {
       const std::size_t j = jointIndex(model, jointName(i));
       const btr::Joint& joint = model.joints[j];
@@ -82,13 +80,13 @@ class KickMotion final : public btr::Motion {
     ends_[3] = ends_[2] + frames(return_s);
   }
 
-  void command(double time, const btr::RobotReadings&, std::span<btr::JointInput> inputs) override {
-    // The command is held for the period, so it is the position to be reached at its end.
+  void targets(double time, std::span<double> targets) const {
+    // A target is held for the period, so it is the position to be reached at its end.
     const long frame = std::lround(time / period_) + 1;
-    for (std::size_t j = 0; j < inputs.size(); ++j) inputs[j].command = position(frame, j);
+    for (std::size_t j = 0; j < targets.size(); ++j) targets[j] = position(frame, j);
   }
 
-  double duration() const override { return static_cast<double>(ends_[3]) * period_; }
+  double duration() const { return static_cast<double>(ends_[3]) * period_; }
 
  private:
   double position(long frame, std::size_t joint) const {
@@ -109,17 +107,17 @@ class KickMotion final : public btr::Motion {
   std::array<long, 4> ends_{};                          ///< of the four phases, in control periods from the start
 };
 
-class Kick final : public btr::Controller {
-  std::vector<btr::Parameter> genotype() const override {
-    std::vector<btr::Parameter> parameters;
+class Kick final : public uchilsim::Behaviour {
+  std::vector<btr::Parameter> parameters() const override {
+    std::vector<btr::Parameter> all;
     for (const std::string phase : {"accumulation", "release"})
       for (std::size_t i = 0; i < legJoints; ++i) {
         const Range& range = rangeOf(i);
-        parameters.push_back({phase + "_" + jointName(i) + "_rad", "rad", phase + " angle of " + jointName(i),
-                              range.lowest, range.highest, range.stance});
+        all.push_back({phase + "_" + jointName(i) + "_rad", "rad", phase + " angle of " + jointName(i), range.lowest,
+                       range.highest, range.stance});
       }
-    parameters.push_back({"points", "", "control periods from accumulation to release", 2, 20, 6, {}, true});
-    return parameters;
+    all.push_back({"points", "", "control periods from accumulation to release", 2, 20, 6, {}, true});
+    return all;
   }
 
   std::vector<btr::Parameter> settings() const override {
@@ -131,15 +129,12 @@ class Kick final : public btr::Controller {
             {"return_s", "s", "time from the release back to the stance", 0.1, 5, 0.5}};
   }
 
-  void arrange(btr::Scene& scene, const btr::Values& settings) const override {
-    firstRobot(scene);
+  std::vector<double> posture(const btr::RobotModel& model) const override { return stanceOf(model); }
+
+  void setTask(btr::Scene& scene, const btr::Values& settings) const override {
     if (scene.balls.empty()) throw btr::InputError("kick: the scene has no ball");
     const auto task = btr::resolve(this->settings(), settings, "kick");
-    btr::SceneRobot& robot = scene.robots.front();
-    robot.jointStart = stanceOf(robot.model);
-    robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
-    robot.start = btr::standing(robot.model, robot.jointStart, "kick");
-
+    const btr::SceneRobot& robot = scene.robots.front();
     const auto poses = btr::forwardKinematics(robot.model, robot.start, robot.jointStart);
     const Eigen::Vector3d neck = poses[jointIndex(robot.model, "NECK_TILT") + 1].translation();
     btr::BallSpec& ball = scene.balls.front();
@@ -147,14 +142,21 @@ class Kick final : public btr::Controller {
     ball.velocity_m_s = {0, 0, 0};
   }
 
-  std::unique_ptr<btr::Motion> begin(const btr::Scene& scene, const btr::Values& settings,
-                                     std::span<const double> parameters) const override {
-    assert(parameters.size() == 2 * legJoints + 1);
+  void start(const uchilsim::Robot& robot, const btr::Values& settings, std::span<const double> p) override {
+    assert(p.size() == 2 * legJoints + 1);
     const auto task = btr::resolve(this->settings(), settings, "kick");
-    return std::make_unique<KickMotion>(scene, task[3], task[4], task[5], parameters);
+    phases_.emplace(robot, task[3], task[4], task[5], p);
   }
+
+  void act(const uchilsim::Senses& senses, uchilsim::Orders& orders) override {
+    phases_->targets(senses.time_s, orders.targets);
+  }
+
+  double duration_s() const override { return phases_->duration(); }
+
+  std::optional<KickPhases> phases_;
 };
 
 }  // namespace
 
-BTR_CONTROLLER(Kick, "kick")
+UCHILSIM_ROBOT_CONTROLLER(Kick, "kick")

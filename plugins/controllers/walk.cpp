@@ -19,9 +19,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <memory>
+#include <optional>
 
-#include "core/plugin/plugin.h"
+#include "core/robot/robot.h"
 
 namespace {
 
@@ -102,8 +102,8 @@ std::vector<btr::FootPoint> pathOf(const btr::FourLegs::Leg& leg, const Locus& l
   return path;
 }
 
-class Walk final : public btr::Controller {
-  std::vector<btr::Parameter> genotype() const override {
+class Walk final : public uchilsim::Behaviour {
+  std::vector<btr::Parameter> parameters() const override {
     return {{"length_m", "m", "locus length: way of a foot on the ground", 0.030, 0.110, 0.070},
             {"shape", "", "locus shape: 1 triangle, 2 half ellipse, large a box", 1, 6, 2},
             {"lift_factor", "", "times the heights of all loci", 0.3, 2, 1},
@@ -128,28 +128,34 @@ class Walk final : public btr::Controller {
 
   std::vector<btr::Parameter> settings() const override { return btr::gaitSettings(); }
 
-  void arrange(btr::Scene& scene, const btr::Values& settings) const override {
-    btr::gaitTask(settings, "walk");
-    btr::arrangeStance(scene, "walk");
-  }
+  std::vector<double> posture(const btr::RobotModel& model) const override { return btr::stanceOf(model, "walk"); }
 
-  std::unique_ptr<btr::Motion> begin(const btr::Scene& scene, const btr::Values& settings,
-                                     std::span<const double> parameters) const override {
+  void setTask(btr::Scene&, const btr::Values& settings) const override { btr::gaitTask(settings, "walk"); }
+
+  void start(const uchilsim::Robot& robot, const btr::Values& settings, std::span<const double> parameters) override {
     assert(parameters.size() == 20);
     const btr::GaitTask task = btr::gaitTask(settings, "walk");
-    const btr::FourLegs dog = btr::FourLegs::of(scene.robots.front().model, "walk");
+    const btr::FourLegs dog = btr::FourLegs::of(robot.model, "walk");
     const Locus locus(parameters);
-    const Timing timing(locus, scene.controlPeriod_s);
+    const Timing timing(locus, robot.period_s);
     const btr::FootPlaces places(dog, locus.front, locus.rear);
     std::array<std::vector<btr::FootPoint>, 4> paths;
-    for (std::size_t i = 0; i < 4; ++i)
-      paths[i] = pathOf(dog.legs[i], locus, timing, places, task, scene.controlPeriod_s);
+    for (std::size_t i = 0; i < 4; ++i) paths[i] = pathOf(dog.legs[i], locus, timing, places, task, robot.period_s);
     const long half = timing.cycle() / 2;
-    return std::make_unique<btr::GaitMotion>(scene, dog, task,
-                                             btr::Gait(dog, paths, {0, half, half, 0}, timing.cycle()));
+    steps_.emplace(robot.period_s, std::vector<double>(robot.start.begin(), robot.start.end()), dog, task,
+                   btr::Gait(dog, paths, {0, half, half, 0}, timing.cycle()));
   }
+
+  void act(const uchilsim::Senses& senses, uchilsim::Orders& orders) override {
+    steps_->targets(senses.time_s, orders.targets);
+  }
+
+  double duration_s() const override { return steps_->duration(); }
+  btr::Values remarks() const override { return steps_->remarks(); }
+
+  std::optional<btr::GaitSteps> steps_;
 };
 
 }  // namespace
 
-BTR_CONTROLLER(Walk, "walk")
+UCHILSIM_ROBOT_CONTROLLER(Walk, "walk")

@@ -1,6 +1,7 @@
 /// A servo's firmware that adds up its error, which the scene does not know:
 ///   z' = k·(c − q), |z| ≤ Z;   τ' = clamp(τ + z, ±limit)      k in N·m/(rad·s), Z in N·m: clamp against wind-up
-/// z is zero when a trial begins. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
+/// z is zero when a trial begins; with `settled` 1 it holds the weight of a joint that rests then, since its servo was
+/// on long before. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
 /// Drives that follow a position only. Neutral: k = 0. State: z.
 #include <algorithm>
 #include <memory>
@@ -11,8 +12,11 @@ namespace {
 
 class IntegralAction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
+    btr::Parameter settled{"settled", "", "at the start: 0 nothing is added up, 1 the weight is held", 0, 1, 0};
+    settled.integer = true;
     return {{"gain_nm_rad_s", "N·m/(rad·s)", "torque per error and second, N/(m·s) on a slide joint", 0, 1000, 2, 0.0},
-            {"clamp_nm", "N·m", "largest torque that it adds up to, N on a slide joint", 1e-3, 100, 0.3}};
+            {"clamp_nm", "N·m", "largest torque that it adds up to, N on a slide joint", 1e-3, 100, 0.3},
+            settled};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::drive, "a servo that adds up its error", "ż = k·(c − q),  |z| ≤ Z,  τ’ = τ + z",
@@ -22,6 +26,10 @@ class IntegralAction final : public btr::Effect {
   /// Part of the servo's law: before what the output stage and the motor make of the torque.
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 1; }
+
+  void rest(const btr::JointState& joint, std::span<const double> values, std::span<double> state) const override {
+    if (values[0] != 0 && values[2] != 0) state[0] = std::clamp(-joint.load, -values[1], values[1]);
+  }
 
   bool changesDrive() const override { return true; }
   double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,

@@ -65,6 +65,20 @@ TEST(NoiseSharing, TakesTheMedianOfTheTrialsThatShowTheNoiseHoweverManyStandStil
   for (const FitTrial& trial : trials) EXPECT_EQ(trial.noiseFloor[0], resolution(noisy(0.001)));
 }
 
+// Sampled too slowly for a joint that rings after each step of its command.
+TEST(NoiseSharing, LeavesOutTrialsWhoseFastMotionPassesForNoise) {
+  std::vector<double> ringing = noisy(0.001);
+  for (std::size_t i = 0; i < ringing.size(); ++i) {
+    const double since = static_cast<double>(i % 25);
+    ringing[i] += 0.6 * std::exp(-0.1 * since) * std::cos(0.8 * since);
+  }
+  std::vector<FitTrial> trials;
+  for (int i = 0; i < 4; ++i) trials.push_back(trialOf({{"leg.knee.position_rad", ringing}}));
+  trials.push_back(trialOf({{"leg.knee.position_rad", noisy(0.001)}}));
+  EXPECT_THAT(shared(trials), IsEmpty());
+  for (const FitTrial& trial : trials) EXPECT_NEAR(trial.noiseFloor[0], 0.001, 1e-4);
+}
+
 TEST(NoiseSharing, TakesThatOfAnotherJointWhereAJointStandsStillInAllTrials) {
   std::vector<FitTrial> trials{trialOf({{"leg.knee.position_rad", still(0)},
                                         {"leg.hip.position_rad", quantised()},

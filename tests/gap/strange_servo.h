@@ -21,11 +21,15 @@ struct Plant {
   double stiffness = 4000, damping = 3;        ///< of the gear, or of the flanks of its gap
   double motorFriction = 0, linkFriction = 0;  ///< dry [N·m], sign(ω) smoothed over 0.005 rad/s
   double lossPerSecond = 0, lossTime = 1e9;    ///< strength = 1 − loss·T·(1 − e^(−t/T))
+  bool lossOfSupply = false;                   ///< of p and the limit, the damping stays
   double deadBand = 0;                         ///< torque that is lost [N·m]
   bool leastPulse = false;                     ///< the rest passes whole
   double integral = 0, integralClamp = 0;      ///< N·m/(rad·s), N·m
   double filterTime = 0;                       ///< first-order filter of the command [s]
   double profileSpeed = 0;                     ///< slew rate of the command [rad/s]
+  double profileAcceleration = 0;              ///< with it a trapezoid of speed [rad/s²]
+  double bias = 0;                             ///< of the commands [rad]
+  double before = 0;                           ///< time on at the first command, not recorded [s]
   double loopPeriod = 0;                       ///< torque held for so long [s]
 };
 
@@ -46,20 +50,25 @@ class Servo {
     constexpr double h = 2e-5;
     std::normal_distribution<double> normal(0, noise);
     State x{};
-    double integral = 0, followed = command(0), held = 0, nextLook = 0;
+    double integral = 0, followed = command(0), speed = 0, held = 0, nextLook = 0;
+    x[0] = x[2] = followed;
     const long per = std::lround(sample / h), rows = std::lround(duration / sample);
     Trial trial;
-    for (long row = 0; row < rows; ++row) {
+    for (long row = -std::lround(plant_.before / sample); row < rows; ++row) {
       const double at = plant_.recordedAtMotor ? x[0] : x[2];
       const double now = static_cast<double>(row) * sample;
-      trial.time.push_back(now);
-      trial.command.push_back(command(now));
-      trial.position.push_back(at + normal(random));
+      if (row >= 0) {
+        trial.time.push_back(now);
+        trial.command.push_back(command(now));
+        trial.position.push_back(at + normal(random));
+      }
       for (long k = 0; k < per; ++k) {
-        const double t = now + static_cast<double>(k) * h;
-        const double wanted = trial.command.back();
+        const double t = std::max(0.0, now + static_cast<double>(k) * h);
+        const double wanted = row < 0 ? command(0) : trial.command.back();
         if (plant_.filterTime > 0)
           followed += h / plant_.filterTime * (wanted - followed);
+        else if (plant_.profileAcceleration > 0)
+          lead(followed, speed, wanted, h);
         else if (plant_.profileSpeed > 0)
           followed += std::clamp(wanted - followed, -plant_.profileSpeed * h, plant_.profileSpeed * h);
         else
@@ -85,11 +94,21 @@ class Servo {
     for (std::size_t i = 0; i < 4; ++i) sum[i] += by * slope[i];
     return sum;
   }
+  /// As fast as it may be and still stop there, and no faster there than a step allows.
+  void lead(double& followed, double& speed, double wanted, double h) const {
+    const double most = plant_.profileAcceleration, left = wanted - followed;
+    const double may = std::min(plant_.profileSpeed, std::sqrt(2 * most * std::abs(left)));
+    speed = std::clamp(std::copysign(may, left), speed - most * h, speed + most * h);
+    followed += speed * h;
+    if (std::abs(wanted - followed) < most * h * h && std::abs(speed) < 4 * most * h) followed = wanted, speed = 0;
+  }
   double torque(const State& x, double command, double integral, double t) const {
     const std::size_t at = plant_.loopAtMotor ? 0 : 2;
     const double strength = 1 - plant_.lossPerSecond * plant_.lossTime * -std::expm1(-t / plant_.lossTime);
-    double torque = plant_.p * (command - x[at]) - plant_.d * x[at + 1] + integral;
-    torque = std::clamp(torque, -plant_.maxTorque, plant_.maxTorque) * strength;
+    double torque = plant_.p * (command - x[at]) + integral, most = plant_.maxTorque;
+    if (plant_.lossOfSupply) torque *= strength, most *= strength;
+    torque = std::clamp(torque - plant_.d * x[at + 1], -most, most);
+    if (!plant_.lossOfSupply) torque *= strength;
     if (plant_.leastPulse) return std::abs(torque) < plant_.deadBand ? 0 : torque;
     return torque - std::clamp(torque, -plant_.deadBand, plant_.deadBand);
   }

@@ -33,7 +33,8 @@ GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int t
   problem.models = loadModels(problem.scene);
   std::mt19937_64 random(seed);
   for (int trial = 0; trial < trials; ++trial) {
-    const auto command = strange::excitation(trial, random);
+    const auto around = strange::excitation(trial, random);
+    const auto command = [&](double time) { return plant.bias + around(time); };
     const strange::Trial made = strange::Servo(plant).run(command, 4, 0.005, 5e-4, random);
     Recording recording;
     recording.source = "trial_" + std::to_string(trial) + ".csv";
@@ -109,6 +110,63 @@ TEST(StrangeServo, WithAnIntegralTermIsSaidToHaveIt) {
   plant.integralClamp = 0.4;
   const GapReport report = reportOn(plant, 5, {"integral_action", "joint_spring", "coulomb_friction", "force_offset"});
   EXPECT_TRUE(names(report, "integral_action")) << toPlainText(report);
+}
+
+/// The accepted effect's numbers.
+Values sizesOf(const GapReport& report, const std::string& effect) {
+  Values sizes;
+  for (const GapReport::Effect& each : report.tried)
+    if (each.accepted && each.effect == effect)
+      for (const GapReport::Number& number : each.parameters) sizes[number.name] = number.value;
+  return sizes;
+}
+
+// Servos are on for long before somebody records them.
+TEST(StrangeServo, WhoseIntegralHasSettledBeforeIsSaidToHaveIt) {
+  strange::Plant plant;
+  plant.integral = 9;
+  plant.integralClamp = 0.5;
+  plant.bias = 0.4;
+  plant.before = 4;
+  const GapReport report = reportOn(plant, 6, {"integral_action", "gear_elasticity", "command_filter", "joint_spring"});
+  const Values found = sizesOf(report, "integral_action");
+  ASSERT_TRUE(found.contains("gain_nm_rad_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("gain_nm_rad_s"), 9, 0.9);
+  EXPECT_EQ(found.at("settled"), 1);
+}
+
+TEST(StrangeServo, WhoseSupplyFallsKeepsItsDamping) {
+  strange::Plant plant;
+  plant.p = 8;
+  plant.lossPerSecond = 0.1;
+  plant.lossTime = 4;
+  plant.lossOfSupply = true;
+  const GapReport report = reportOn(plant, 7, {"strength_decline", "voltage_sag", "torque_speed_limit", "payload"});
+  const Values found = sizesOf(report, "strength_decline");
+  ASSERT_TRUE(found.contains("damping_stays")) << toPlainText(report);
+  EXPECT_EQ(found.at("damping_stays"), 1);
+  EXPECT_NEAR(found.at("loss_1_s"), 0.1, 0.02);
+}
+
+TEST(StrangeServo, WhoseFirmwareLeadsItAlongATrapezoidIsSaidTo) {
+  strange::Plant plant;
+  plant.profileSpeed = 2.5;
+  plant.profileAcceleration = 30;
+  const GapReport report =
+      reportOn(plant, 8, {"command_profile", "command_filter", "torque_speed_limit", "viscous_friction"});
+  const Values found = sizesOf(report, "command_profile");
+  ASSERT_TRUE(found.contains("inverse_speed_s_rad")) << toPlainText(report);
+  EXPECT_NEAR(1 / found.at("inverse_speed_s_rad"), 2.5, 0.1);
+  EXPECT_NEAR(1 / found.at("inverse_acceleration_s2_rad"), 30, 5);
+}
+
+TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
+  strange::Plant plant;
+  plant.stiffness = 9;
+  plant.damping = 0.01;
+  plant.loopAtMotor = true;
+  const GapReport report = reportOn(plant, 9, {"gear_elasticity", "command_filter", "gravity_tilt", "payload"});
+  EXPECT_TRUE(names(report, "gear_elasticity")) << toPlainText(report);
 }
 
 }  // namespace

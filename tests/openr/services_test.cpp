@@ -1,12 +1,22 @@
 // The robot's services, each by a program of our own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
+#include "core/openr/sdk/OPEN_R/include/btr_openr_version.h"
 #include "tests/openr/run_program.h"
 
 namespace btr::openr {
@@ -259,6 +269,131 @@ TEST(Process, KilledFromOutsideItSaysSo) {
   EXPECT_FALSE(program.exchange(robot.sense()).ended);
   program.kill();
   EXPECT_TRUE(program.exchange(robot.sense()).ended);
+}
+
+/// A robot's program that is this shell script; 3 is its link.
+RobotProcess::Options script(const std::string& name, const std::string& text) {
+  RobotProcess::Options options;
+  options.stick = stickOf("names");
+  options.program = emptyFolder(name) + "/program";
+  writeText(options.program, "#!/bin/sh\n" + text + "\n");
+  std::filesystem::permissions(options.program, std::filesystem::perms::owner_all);
+  return options;
+}
+
+TEST(Process, IsWaitedForAsLongAsItMayTakeWhateverItHasDone) {
+  SensorFrame large;
+  large.image = CameraImage{1000, 1000, std::vector<std::uint8_t>(3000000)};
+  // It takes nothing; it begins an answer of 100 bytes.
+  for (const char* text : {"exec sleep 1000", "printf '\\144\\000\\000\\000' >&3; exec sleep 1000"}) {
+    RobotProcess program(script("late", text));
+    const OrderFrame orders = program.exchange(large, 0.2);
+    ASSERT_TRUE(orders.ended);
+    EXPECT_EQ(Ended::Why::endlessLoop, orders.ended->why);
+  }
+}
+
+TEST(Process, ThatHangsUpAndLivesOnIsEnded) {
+  RobotProcess program(script("hangs_up", "exec 3>&-; exec sleep 1000"));
+  const OrderFrame orders = program.exchange(SensorFrame());
+  ASSERT_TRUE(orders.ended);
+  EXPECT_THAT(orders.ended->what, HasSubstr("closed the link"));
+}
+
+TEST(Process, EndsWithItsSimulatorEvenWhileItWaitsForSomethingElse) {
+  int line[2];
+  ASSERT_EQ(0, pipe(line));
+  const std::string stick = stickOf("faulty");
+  const pid_t simulator = fork();
+  if (simulator == 0) {
+    RobotProcess::Options options;
+    options.stick = stick;
+    RobotProcess program(options);
+    TrivialRobot robot(robotDesign("ERS-7"));
+    for (int frame = 1; frame < 10; ++frame) {
+      if (frame == 5) {
+        const pid_t self = getpid();
+        pid_t robotProcess = 0;
+        std::ifstream("/proc/" + std::to_string(self) + "/task/" + std::to_string(self) + "/children") >> robotProcess;
+        [[maybe_unused]] const ssize_t n = write(line[1], &robotProcess, sizeof robotProcess);
+        robot.typed = "sleep\n";
+      }
+      robot.obey(program.exchange(robot.sense()));
+    }
+    _exit(1);  // not reached: it sleeps
+  }
+  pid_t robotProcess = 0;
+  ASSERT_EQ(static_cast<ssize_t>(sizeof robotProcess), read(line[0], &robotProcess, sizeof robotProcess));
+  const int watched = static_cast<int>(syscall(SYS_pidfd_open, robotProcess, 0));
+  ASSERT_GE(watched, 0);
+  // Asleep in the call that it never comes back from.
+  const std::string file = "/proc/" + std::to_string(robotProcess) + "/syscall";
+  for (std::string number; number != std::to_string(SYS_pause);)
+    if (!(std::ifstream(file) >> number)) break;
+  kill(simulator, SIGKILL);
+  waitpid(simulator, nullptr, 0);
+  pollfd one{watched, POLLIN, 0};
+  constexpr int patience_ms = 30000;
+  EXPECT_EQ(1, poll(&one, 1, patience_ms));
+  kill(robotProcess, SIGKILL);
+  close(watched);
+  close(line[0]);
+  close(line[1]);
+}
+
+TEST(Process, AModuleOfOlderHeadersIsRefusedBeforeItRuns) {
+  const std::string stick = stickOf("names"), folder = stick + "/OPEN-R/MW/OBJS/";
+  const std::string packed = std::filesystem::directory_iterator(folder)->path().string(), plain = folder + "PLAIN";
+  ASSERT_EQ(0, std::system(("gzip -dc '" + packed + "' > '" + plain + "'").c_str()));
+  std::ifstream in(plain, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string mark = BTR_OPENR_MARK;
+  const auto run = [&](const std::string& version) {
+    std::string other = bytes;
+    for (std::size_t at = 0; (at = other.find(mark, at)) != std::string::npos; ++at)
+      other.replace(at + mark.size(), version.size(), version);
+    std::ofstream(packed, std::ios::binary) << other;
+    return runStick(stick, 3);
+  };
+  EXPECT_THAT(run(BTR_OPENR_VERSION).all(), HasSubstr("named 1"));
+  for (const char* version : {"0", "2", "9"}) {
+    const StickRun refused = run(version);
+    EXPECT_EQ(Ended::Why::refused, refused.ended.why);
+    EXPECT_THAT(refused.ended.what, HasSubstr("build the stick again with btr openr build"));
+    EXPECT_TRUE(refused.lines.empty()) << refused.all();
+  }
+  // One from before there were versions.
+  const StickRun refused = run("x");
+  EXPECT_EQ(Ended::Why::refused, refused.ended.why);
+}
+
+/// From now on the kernel says of this process and its children that it has no Landlock.
+void withoutLandlock() {
+  sock_filter rules[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_landlock_create_ruleset, 0, 1),
+                         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+                         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  const sock_fprog program{std::size(rules), rules};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+    _exit(2);
+}
+
+TEST(Process, SaysWhereTheKernelDoesNotKeepItOnItsStick) {
+  const std::string stick = stickOf("names");
+  EXPECT_THAT(runStick(stick, 3).all(), Not(HasSubstr("Landlock")));
+  const pid_t child = fork();
+  if (child == 0) {
+    withoutLandlock();
+    const std::string said = runStick(stick, 3).all();
+    _exit(said.find("this kernel does not keep programs on their stick") != std::string::npos &&
+                  said.find("named 1") != std::string::npos
+              ? 0
+              : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(0, WEXITSTATUS(status));
 }
 
 }  // namespace

@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <iterator>
 
 #include "core/sim/trial.h"
 #include "core/spec/json_reader.h"
@@ -109,6 +113,68 @@ TEST_F(OpenrTrial, EveryTrialHasAStickOfItsOwnThatGoesAway) {
   EXPECT_FALSE(fs::exists(controller.folder_));
   EXPECT_FALSE(fs::exists(stick_ + "/PARAMS.TXT"));
   EXPECT_EQ(readFile(stick_ + "/OPEN-R/MW/DATA.TXT"), "data");
+}
+
+/// Copies a stick in a process that is killed then; the copy's folder.
+std::string copiedAndKilled(const openr::StickShelf& shelf, const std::string& stick) {
+  int line[2];
+  EXPECT_EQ(0, pipe(line));
+  const pid_t worker = fork();
+  if (worker == 0) {
+    const openr::PrivateStick copy(shelf, stick, "");
+    [[maybe_unused]] const ssize_t n = write(line[1], copy.folder().data(), copy.folder().size());
+    close(line[1]);
+    raise(SIGKILL);
+  }
+  close(line[1]);
+  std::string folder(4096, '\0');
+  folder.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(line[0], folder.data(), folder.size()))));
+  close(line[0]);
+  int status = 0;
+  waitpid(worker, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  return folder;
+}
+
+TEST_F(OpenrTrial, AKilledWorkersStickGoesWithTheNextTrialOrTheExperiment) {
+  std::string first, second, shelfFolder;
+  {
+    const openr::StickShelf shelf;
+    shelfFolder = shelf.folder();
+    first = copiedAndKilled(shelf, stick_);
+    EXPECT_TRUE(fs::exists(first + "/OPEN-R/MW/DATA.TXT"));
+    second = copiedAndKilled(shelf, stick_);
+    EXPECT_FALSE(fs::exists(first));
+    EXPECT_TRUE(fs::exists(second));
+  }
+  EXPECT_FALSE(fs::exists(shelfFolder));
+}
+
+TEST_F(OpenrTrial, TheSticksOfAKilledExperimentGoWhenTheNextOneBegins) {
+  const TemporaryFolder temporary;
+  const char* before = getenv("TMPDIR");
+  const std::string old = before ? before : "";
+  setenv("TMPDIR", temporary.path().c_str(), 1);
+  const pid_t owner = fork();
+  if (owner == 0) {
+    const openr::StickShelf shelf;
+    const openr::PrivateStick copy(shelf, stick_, "");
+    raise(SIGKILL);
+  }
+  waitpid(owner, nullptr, 0);
+  const auto entries = [&] {
+    return std::distance(fs::directory_iterator(temporary.path()), fs::directory_iterator());
+  };
+  EXPECT_EQ(1, entries());
+  {
+    const openr::StickShelf living;  // and is not taken for an abandoned one by the next
+    const openr::PrivateStick copy(living, stick_, "");
+    const openr::StickShelf another;
+    EXPECT_EQ(2, entries());
+    EXPECT_TRUE(fs::exists(copy.folder() + "/OPEN-R/MW/DATA.TXT"));
+  }
+  EXPECT_EQ(0, entries());
+  before ? setenv("TMPDIR", old.c_str(), 1) : unsetenv("TMPDIR");
 }
 
 TEST_F(OpenrTrial, AProgramMovesTheJointsThatItEnables) {

@@ -1,7 +1,9 @@
 // What a servo's firmware, supply and gear add, each against its own equation.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tests/plugin/effect_worlds.h"
 
@@ -17,10 +19,48 @@ TEST(StrengthDecline, FallsExponentiallyAndLinearlyWhereItsTimeIsLong) {
   const auto at = [&](double time, const Numbers& values) {
     return decline->driveTorque(2, {.time = time}, values, {}, 1e-3);
   };
-  EXPECT_DOUBLE_EQ(2, at(0, {0.1, 3}));
-  EXPECT_NEAR(2 * (1 - 0.3 * (1 - std::exp(-2.0 / 3))), at(2, {0.1, 3}), 1e-15);
-  EXPECT_NEAR(2 * (1 - 0.05 * 4), at(4, {0.05, 1000}), 1e-3);
-  EXPECT_EQ(0, at(20, {1, 1000}));
+  EXPECT_DOUBLE_EQ(2, at(0, {0.1, 3, 0}));
+  EXPECT_NEAR(2 * (1 - 0.3 * (1 - std::exp(-2.0 / 3))), at(2, {0.1, 3, 0}), 1e-15);
+  EXPECT_NEAR(2 * (1 - 0.05 * 4), at(4, {0.05, 1000, 0}), 1e-3);
+  EXPECT_EQ(0, at(20, {1, 1000, 0}));
+}
+
+TEST(StrengthDecline, OfAVoltageLeavesTheDrivesOwnDamping) {
+  // Long after, seven tenths are left of the supply: a servo whose gain and limit are seven tenths, with all of its
+  // damping, within its limits and beyond them.
+  test::Trial trial{test::armScene(), 3};
+  Scene weak = trial.scene;
+  for (Drive& drive : weak.robots[0].drives) {
+    drive.p *= 0.7;
+    drive.maxTorque *= 0.7;
+  }
+  Scene declined = trial.scene;
+  for (const char* at : {"rig.hinge", "rig.wrist"})
+    declined = test::withEffect(declined, effect("strength_decline"), "strength_decline", {1, 0.3, 1}, at);
+  double most = 0;
+  const auto positionsOf = [&](const Scene& scene) {
+    World world(scene, 1);
+    world.startAt(100);
+    std::vector<double> positions;
+    for (int i = 0; i < 300; ++i) {
+      world.advance(test::commands(scene, test::signal(0.01 * i)), 0.01);
+      for (std::size_t j = 0; j < 2; ++j) {
+        positions.push_back(world.jointPositions(0)[j]);
+        most = std::max(most, std::abs(world.robot(0).torque[j]));
+      }
+    }
+    return positions;
+  };
+  const auto expected = positionsOf(weak), found = positionsOf(declined);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(expected[i], found[i], 2e-3) << i;
+  EXPECT_GT(most, 0.99 * 0.7 * 0.6);
+}
+
+TEST(StrengthDecline, WithoutDampingIsTheSameOfBothKinds) {
+  const auto decline = effect("strength_decline");
+  const JointState joint{.time = 2, .rate = 3, .limit = 0.9};
+  EXPECT_EQ(decline->driveTorque(0.4, joint, Numbers{0.1, 3, 0}, {}, 1e-3),
+            decline->driveTorque(0.4, joint, Numbers{0.1, 3, 1}, {}, 1e-3));
 }
 
 TEST(DriveDeadBand, TakesFromAllTorquesOrSwallowsTheSmallOnes) {
@@ -40,17 +80,85 @@ TEST(IntegralAction, AddsUpTheErrorUntilItsClampAndStaysWithinTheDrivesLimit) {
   Numbers state{0};
   const JointState joint{.position = 0.1, .command = 0.3, .limit = 0.9};
   double torque = 0;
-  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15}, state, 1e-3);
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
   EXPECT_NEAR(0.6 + 2 * 0.2 * 0.25, torque, 1e-12);
-  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15}, state, 1e-3);
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
   EXPECT_NEAR(0.75, torque, 1e-12);
-  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15}, state, 1e-3));
+  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15, 0}, state, 1e-3));
+}
+
+TEST(IntegralAction, HoldsTheWeightFromTheStartWhereItHasSettled) {
+  const auto integral = effect("integral_action");
+  Numbers state{0};
+  integral->rest({.load = 0.1}, Numbers{2, 0.15, 0}, state);
+  EXPECT_EQ(0, state[0]);
+  integral->rest({.load = 0.1}, Numbers{2, 0.15, 1}, state);
+  EXPECT_EQ(-0.1, state[0]);
+  integral->rest({.load = -0.4}, Numbers{2, 0.15, 1}, state);
+  EXPECT_EQ(0.15, state[0]);
 }
 
 TEST(IntegralAction, LeavesATorqueCommandAlone) {
   Numbers state{0};
   EXPECT_EQ(0.6, effect("integral_action")
-                     ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15}, state, 1e-3));
+                     ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15, 0}, state, 1e-3));
+}
+
+/// The profile's place after each step, as the means over the half steps say it; `told` is what is commanded then.
+std::vector<double> profileOf(const Numbers& values, double step, int steps,
+                              const std::function<double(double)>& told) {
+  const auto profile = effect("command_profile");
+  Numbers state(3);
+  std::vector<double> places;
+  double before = told(0);
+  for (int i = 0; i < steps; ++i) {
+    const double now = told(step * i);
+    profile->command({before, now}, {}, values, state, step);
+    before = now;
+    places.push_back(state[1]);
+  }
+  return places;
+}
+
+TEST(CommandProfile, AnswersAStepWithATrapezoidOfSpeedWhateverTheStep) {
+  constexpr double fastest = 2, steepest = 10, far = 1;
+  for (const double step : {1e-3, 4e-3, 8e-3}) {
+    // The command jumps in the middle of the first step.
+    const auto places = profileOf({1 / fastest, 1 / steepest}, step, static_cast<int>(1 / step),
+                                  [](double time) { return time > 0 ? far : 0.0; });
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double t = step * (static_cast<double>(i) - 0.5), whole = far / fastest + fastest / steepest;
+      double expected = far;
+      if (t < fastest / steepest)
+        expected = steepest * t * std::abs(t) / 2;
+      else if (t < whole - fastest / steepest)
+        expected = fastest * (t - fastest / steepest / 2);
+      else if (t < whole)
+        expected = far - steepest * (whole - t) * (whole - t) / 2;
+      EXPECT_NEAR(std::max(0.0, expected), places[i], 1e-12) << step << " s, step " << i;
+    }
+  }
+}
+
+TEST(CommandProfile, KeepsItsLimitsWhereCommandsTurnOnTheWayAndArrives) {
+  constexpr double fastest = 3, steepest = 20, step = 2e-3;
+  const auto places = profileOf({1 / fastest, 1 / steepest}, step, 2000, [](double time) {
+    return time > 2 ? 0.3 : std::fmod(time, 0.3) < 0.17 ? 0.9 : -0.7;
+  });
+  double speed = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double now = (places[i] - places[i - 1]) / step;
+    EXPECT_LE(std::abs(now), fastest * (1 + 1e-9));
+    EXPECT_LE(std::abs(now - speed), steepest * step * (1 + 1e-9));
+    speed = now;
+  }
+  EXPECT_EQ(0.3, places.back());
+}
+
+TEST(CommandProfile, WithoutALimitOfAccelerationIsALimitOfSpeed) {
+  const auto places = profileOf({0.5, 0}, 0.01, 100, [](double time) { return time > 0 ? 1.0 : 0.0; });
+  for (std::size_t i = 1; i < places.size(); ++i)
+    EXPECT_NEAR(std::min(1.0, 2 * 0.01 * (static_cast<double>(i) - 0.5)), places[i], 1e-12);
 }
 
 TEST(CommandFilter, AnswersAStepAsAFirstOrderLowPass) {

@@ -77,14 +77,14 @@ TEST(TorqueSpeedLimit, FallsAlongTheLineInTheDrivingQuadrantOnly) {
 }
 
 TEST(VoltageSag, WeakensADriveByTheTorqueOfAll) {
-  EXPECT_DOUBLE_EQ(0.3 / 1.4, effect("voltage_sag")->driveTorque(0.3, {.allDrives = 2}, Numbers{0.2}, {}, 1e-3));
+  EXPECT_DOUBLE_EQ(0.3 / 1.4, effect("voltage_sag")->driveTorque(0.3, {.allDrives = 2}, Numbers{0.2, 0}, {}, 1e-3));
 }
 
 TEST(VoltageSag, SettlesWhereTorqueAndVoltageAgree) {
   // A torque drive of 0.6 N·m: τ = 0.6/(1 + s·τ), so s·τ² + τ − 0.6 = 0.
   Scene scene = test::sceneOf(test::robot(test::wheelModel(1), false, {.kind = Drive::Kind::torque}), 0.001);
   const double s = 0.8;
-  World world(test::withEffect(scene, effect("voltage_sag"), "voltage_sag", {s}), 1);
+  World world(test::withEffect(scene, effect("voltage_sag"), "voltage_sag", {s, 0}), 1);
   world.advance(test::commands(scene, 0.6), 0.2);
   EXPECT_NEAR((-1 + std::sqrt(1 + 4 * s * 0.6)) / (2 * s), world.robot(0).torque[0], 1e-9);
 }
@@ -193,6 +193,16 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
   const double expected = 0.5 * 1.2 * 0.5 * std::numbers::pi * 0.01 * 25;
   EXPECT_NEAR(expected, force.norm(), 1e-15);
   EXPECT_NEAR(-expected * 5, force.dot(ball.velocity_m_s), 1e-14);
+}
+
+TEST(FluidDrag, StopsAWheelAsOneOverTime) {
+  // J·ω̇ = −c·ω²: ω = ω0/(1 + c·ω0·t/J), an angle of J/c·ln(1 + c·ω0·t/J).
+  constexpr double inertia = 0.02, c = 0.004, speed = 12, time_s = 1.5;
+  Scene scene = test::sceneOf(test::robot(test::wheelModel(inertia), false, {.kind = Drive::Kind::none}), 0.001);
+  World world(test::withEffect(scene, effect("fluid_drag"), "fluid_drag", {c}), 1);
+  world.setRobot(0, scene.robots[0].start, {0, 0, 0}, {0, 0, 0}, std::vector{0.0}, std::vector{speed});
+  world.advance(test::commands(scene, 0), time_s);
+  EXPECT_NEAR(inertia / c * std::log(1 + c * speed * time_s / inertia), world.jointPositions(0)[0], 1e-3);
 }
 
 TEST(ViscousDrag, TakesItsShareOfTheSpeedInFlightAndLessOfItRolling) {

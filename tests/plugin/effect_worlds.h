@@ -78,11 +78,11 @@ inline std::vector<Trial> trialsFor(Effect::Place place, const std::string& name
 
 /// `values` in the order of the effect's parameters; those after the last that is given are what they usually are.
 inline Scene withEffect(Scene scene, std::shared_ptr<const Effect> effect, const std::string& name,
-                        std::vector<double> values) {
+                        std::vector<double> values, std::string at = "") {
   const auto parameters = effect->parameters();
   if (values.size() > parameters.size()) throw std::invalid_argument(name + " has fewer parameters");
   for (std::size_t i = values.size(); i < parameters.size(); ++i) values.push_back(parameters[i].byDefault);
-  const std::string at = placeFor(effect->place(), "rig.hinge", "rig.arm");
+  if (at.empty()) at = placeFor(effect->place(), "rig.hinge", "rig.arm");
   effect->changeScene(scene, at, values);
   scene.effects.push_back({std::move(effect), name, at, values});
   return scene;

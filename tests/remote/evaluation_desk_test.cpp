@@ -66,6 +66,36 @@ TEST_F(EvaluationDeskTest, GivesTheBitsThatARunOfTheSameSeedHas) {
   }
 }
 
+TEST_F(EvaluationDeskTest, SeesThatAFileBehindTheSamePathIsAnotherOne) {
+  const auto changed = [&](const std::string& name, const std::string& what, const std::string& with) {
+    std::string text = readFile((files.server() / name).string());
+    const std::size_t at = text.find(what);
+    EXPECT_NE(std::string::npos, at) << name << ": " << what;
+    files.write(name, text.replace(at, what.size(), with));
+  };
+  v1::ExperimentRequest asked;
+  asked.mutable_experiment()->set_file("experiments/kick-short.json");
+  const auto described = answered<v1::ExperimentReply>(desk, Method::describeExperiment, asked);
+  std::vector<double> vector;
+  for (const v1::NumberParts& p : described.genotype()) vector.push_back(p.by_default());
+  const auto bits = [&](EvaluationDesk& by) {
+    return answered<v1::EvaluateReply>(by, Method::evaluate, request({vector})).trials(0).trace_sha256();
+  };
+  std::vector<std::string> seen{bits(desk)};
+  EXPECT_EQ(seen.back(), bits(desk));
+  const auto expectOther = [&] {
+    const std::string now = bits(desk);
+    EXPECT_EQ(0, std::ranges::count(seen, now));
+    EvaluationDesk fresh(plugins(), folder, "", 1);
+    EXPECT_EQ(bits(fresh), now);
+    seen.push_back(now);
+  };
+  changed("scenes/kick.json", "\"radius_m\": 0.0425", "\"radius_m\": 0.05");
+  expectOther();
+  changed("robots/ers7.wrl", "centerOfMass -0.002", "centerOfMass 0.01");
+  expectOther();
+}
+
 TEST_F(EvaluationDeskTest, SaysWhatAVectorIs) {
   v1::ExperimentRequest asked;
   asked.mutable_experiment()->set_file("experiments/kick-short.json");

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/run/back_to_reality.h"
+#include "core/run/run_lock.h"
+#include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"
 #include "tests/remote/server_fixture.h"
@@ -318,6 +322,36 @@ TEST_F(RemoteRun, ALearnerOutsideLearnsInRealityToo) {
   measureAll();
   EXPECT_EQ(v1::Question::FITNESS, ask(caller, run).what());  // of the next stage
   EXPECT_EQ(2, tasksOf(caller, run).front().stage());
+}
+
+TEST_F(RemoteRun, ARunThatAnotherProcessWorksOnIsAskedForAsLongAsAnyOther) {
+  begin();
+  const std::string path = files.file("a.db");
+  btr::Id run = 0;
+  {
+    btr::Database db = btr::Database::open(path, btr::Database::Mode::create);
+    const std::string spec = (files.server() / "experiments/kick-short.json").string();
+    run = btr::startRun(db, plugins(), btr::loadExperiment(spec), 1);
+  }
+  const Caller caller(address);
+  v1::AskRequest request;
+  request.set_run(run);
+  request.set_wait_s(0.7);
+  v1::Question question;
+  const auto asked = [&] {
+    const auto context = caller.context();
+    const grpc::Status status = caller.learning->Ask(context.get(), request, &question);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    return question.what();
+  };
+  {
+    const btr::RunLock other(path, run);
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(v1::Question::WORKING, asked());
+    // Who asks again at once does not do so as often as he can.
+    EXPECT_GE(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds(700));
+  }
+  EXPECT_EQ(v1::Question::STOPPED, asked());
 }
 
 TEST_F(RemoteRun, WithoutADatabaseRunsAreSaidNotToBeThere) {

@@ -7,12 +7,13 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <iterator>
 #include <random>
-#include <ranges>
 #include <thread>
 
+#include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/spec/json_reader.h"
 #include "tests/refusal.h"
@@ -253,9 +254,9 @@ TEST_F(ServerTest, BodiesThatAreMovedFromOutsideStandInTheLog) {
   std::string text;
   for (v1::LogPart part; log->Read(&part);) text += part.text();
   EXPECT_TRUE(log->Finish().ok());
-  EXPECT_EQ(5u, static_cast<std::size_t>(std::ranges::count_if(
-                    std::views::iota(std::size_t{0}, text.size()),
-                    [&](std::size_t i) { return text.compare(i, 15, "\"act\":\"place\",\"") == 0; })));
+  std::size_t places = 0;
+  for (std::size_t at = 0; (at = text.find("\"act\":\"place\",\"", at)) != std::string::npos; ++at) ++places;
+  EXPECT_EQ(5u, places);
 }
 
 TEST_F(ServerTest, AWorldThatPlaysGoesOnByItselfAndIsWatched) {
@@ -375,6 +376,155 @@ TEST_F(ServerTest, StreamsAreBounded) {
   for (auto& each : streams) each->Finish();
 }
 
+TEST_F(ServerTest, OneClientMayStepAllWorldsThatThereMayBe) {
+  constexpr int worlds = 40;  // more than half of any fixed number of streams that there was
+  begin([](auto&, auto& passing) { passing.mostWorlds = worlds; });
+  const Caller caller(address);
+  v1::InfoReply info;
+  ASSERT_TRUE(caller.info(&info).ok());
+  EXPECT_GE(info.most_streams(), worlds);
+  v1::StepRequest request;
+  request.set_world(caller.open("ball.json").world());
+  v1::State state;
+  std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+  std::vector<std::unique_ptr<grpc::ClientReaderWriter<v1::StepRequest, v1::State>>> streams;
+  for (int i = 0; i < worlds; ++i) {
+    contexts.push_back(caller.context());
+    streams.push_back(caller.worlds->Steps(contexts.back().get()));
+    ASSERT_TRUE(streams.back()->Write(request));
+    ASSERT_TRUE(streams.back()->Read(&state)) << i;
+  }
+  for (auto& each : contexts) each->TryCancel();
+  for (auto& each : streams) each->Finish();
+}
+
+TEST_F(ServerTest, AStreamTellsItsChannelsAndWhatBecameOfThem) {
+  begin();
+  const Caller caller(address);
+  v1::StepRequest request;
+  request.set_world(caller.open("ball.json").world());
+  const auto context = caller.context(), watching = caller.context();
+  const auto steps = caller.worlds->Steps(context.get());
+  v1::WatchRequest watch;
+  watch.set_world(request.world());
+  watch.set_rate_hz(1000);
+  const auto watched = caller.worlds->Watch(watching.get(), watch);
+  v1::State state, seen;
+  const auto stepped = [&] {
+    EXPECT_TRUE(steps->Write(request));
+    EXPECT_TRUE(steps->Read(&state));
+    return state.channels_size();
+  };
+  const int before = stepped();
+  ASSERT_TRUE(watched->Read(&seen));
+  EXPECT_GT(before, 0);
+  EXPECT_EQ(before, seen.channels_size());
+  EXPECT_EQ(0, stepped());
+  // Somebody else adds an object: both are told, though nothing moves.
+  v1::StepRequest add = request;
+  add.add_acts()->set_json(R"({"act": "add", "ball": {"name": "b2"}})");
+  v1::State added;
+  {
+    const auto made = caller.context();
+    ASSERT_TRUE(caller.worlds->Step(made.get(), add, &added).ok());
+  }
+  ASSERT_TRUE(watched->Read(&seen));
+  EXPECT_EQ(added.row_size(), seen.channels_size());
+  EXPECT_EQ(added.row_size(), stepped());
+  context->TryCancel();
+  watching->TryCancel();
+  steps->Finish();
+  watched->Finish();
+}
+
+/// More trials than any test waits for.
+v1::EvaluateRequest longEvaluation(const Caller& caller) {
+  v1::ExperimentRequest asked;
+  asked.mutable_experiment()->set_file("experiments/kick-short.json");
+  v1::ExperimentReply described;
+  const auto context = caller.context();
+  EXPECT_TRUE(caller.learning->Describe(context.get(), asked, &described).ok());
+  v1::EvaluateRequest request;
+  *request.mutable_experiment() = asked.experiment();
+  request.set_vectors(10000);
+  for (int i = 0; i < request.vectors(); ++i)
+    for (const v1::NumberParts& p : described.genotype()) request.add_parameters(p.by_default());
+  return request;
+}
+
+TEST_F(ServerTest, EvaluationsAreBoundedAndSaySo) {
+  begin([](auto& options, auto&) { options.mostEvaluations = 2; });  // 1 of one client
+  const Caller caller(address);
+  const v1::EvaluateRequest request = longEvaluation(caller);
+  const auto one = caller.context(300), two = caller.context(300);
+  grpc::Status statuses[2];
+  const auto evaluate = [&](int i) {
+    v1::EvaluateReply reply;
+    statuses[i] = caller.learning->Evaluate((i == 0 ? one : two).get(), request, &reply);
+    // Whichever came too late has its refusal; the other one computes no longer.
+    (i == 0 ? two : one)->TryCancel();
+  };
+  std::thread other(evaluate, 0);
+  evaluate(1);
+  other.join();
+  const auto& refused = statuses[0].error_code() == grpc::StatusCode::CANCELLED ? statuses[1] : statuses[0];
+  EXPECT_EQ(grpc::StatusCode::RESOURCE_EXHAUSTED, refused.error_code());
+  EXPECT_EQ("too many evaluations at once; 1 of one client, 2 of all", refused.error_message());
+  EXPECT_TRUE(caller.info().ok());
+}
+
+TEST_F(ServerTest, WhoCancelsAnEvaluationSpoilsNobodyElses) {
+  begin();
+  const Caller caller(address);
+  v1::EvaluateRequest large = longEvaluation(caller), small = large;
+  small.set_vectors(1);
+  small.mutable_parameters()->Truncate(small.parameters_size() / large.vectors());
+  const auto call = [](const v1::EvaluateRequest& request) {
+    return callOf(btr::remote::Method::evaluate, request.SerializeAsString());
+  };
+  constexpr double patience_s = 300;
+  std::atomic<bool> computing{false}, cancelled{false};
+  std::thread first([&] {
+    const auto answer = switchboard->evaluate("same", call(large), patience_s, [&] {
+      computing = true;
+      return cancelled.load();
+    });
+    EXPECT_EQ(btr::remote::Code::cancelled, answer.code);
+  });
+  while (!computing) std::this_thread::yield();
+  const auto answer = switchboard->evaluate("same", call(small), patience_s, [&] {
+    cancelled = true;  // this one waits for its turn: now the first one goes
+    return false;
+  });
+  first.join();
+  EXPECT_EQ(btr::remote::Code::ok, answer.code) << answer.bytes;
+}
+
+TEST_F(ServerTest, AServerThatEndsDoesNotWaitForALongStep) {
+  begin();
+  v1::World world;
+  {
+    const Caller caller(address);
+    world = caller.open("dog.json");
+    // Longer than anybody waits: a stream of the longest steps that there may be.
+    const auto context = caller.context(300);
+    const auto stream = caller.worlds->Steps(context.get());
+    v1::StepRequest request;
+    request.set_world(world.world());
+    v1::State state;
+    ASSERT_TRUE(stream->Write(request));
+    ASSERT_TRUE(stream->Read(&state));
+    request.set_periods(10000);
+    for (int i = 0; i < 1000; ++i) ASSERT_TRUE(stream->Write(request));
+    server.reset();
+    switchboard.reset();
+    stream->Finish();
+  }
+  // It is ended as any other, and its log is whole.
+  const btr::SessionLog log = btr::loadSessionLog((files.server() / world.log()).string());
+  EXPECT_FALSE(log.traceSha256.empty());
+}
+
 TEST_F(ServerTest, AWorldWhoseProcessDiesIsSaidAndTheOthersGoOn) {
   begin();
   const Caller caller(address);
@@ -472,12 +622,12 @@ TEST_F(ServerTest, PicturesOfAServerWithoutCamerasAreSaidNotToBeThere) {
 }
 
 /// A picture of the period's number, every fourth period.
-class NumberEye final : public btr::remote::CameraEye {
+class NumberEye final : public btr::CameraEye {
  public:
-  std::optional<btr::remote::CameraPicture> look(const btr::Session& session) override {
+  std::optional<btr::CameraPicture> look(const btr::Session& session) override {
     if (session.periods() % 4 != 0 || session.periods() == 0) return std::nullopt;
     const auto shade = static_cast<std::uint8_t>(session.periods());
-    return btr::remote::CameraPicture{2, 1, {shade, shade, shade, 0, 0, 0}};
+    return btr::CameraPicture{2, 1, {shade, shade, shade, 0, 0, 0}};
   }
 };
 
@@ -513,6 +663,38 @@ TEST_F(ServerTest, PicturesComeAsTheWorldGoesOnEachOnce) {
   pictures->Finish();
   request.set_robot("red2");
   EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, ask().error_code());
+}
+
+TEST_F(ServerTest, PicturesGoOnAfterAReset) {
+  begin(
+      [](auto&, auto& passing) { passing.cameras = [](const std::string&) { return std::make_unique<NumberEye>(); }; });
+  const Caller caller(address);
+  v1::PictureRequest request;
+  request.set_world(caller.open("dog.json").world());
+  request.set_robot("red1");
+  v1::PictureReply reply;
+  const auto ask = [&] {
+    const auto context = caller.context();
+    EXPECT_TRUE(caller.worlds->Picture(context.get(), request, &reply).ok());
+    return reply.number();
+  };
+  EXPECT_EQ(0, ask());
+  ASSERT_TRUE(caller.step(request.world(), 9).ok());
+  EXPECT_EQ(2, ask());
+  v1::ResetRequest reset;
+  reset.set_world(request.world());
+  v1::State state;
+  {
+    const auto context = caller.context();
+    ASSERT_TRUE(caller.worlds->Reset(context.get(), reset, &state).ok());
+  }
+  // None of the last episode is shown, and whoever waits for the third one gets it.
+  EXPECT_EQ(0, ask());
+  request.set_after(2);
+  EXPECT_EQ(0, ask());
+  ASSERT_TRUE(caller.step(request.world(), 4).ok());
+  EXPECT_EQ(3, ask());
+  EXPECT_EQ(4, reply.period());
 }
 
 }  // namespace

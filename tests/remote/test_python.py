@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import resource
 import shutil
 import subprocess
 import sys
@@ -67,6 +68,11 @@ class Worlds(WithServer):
         self.assertEqual(("uchilsim.v1", "drive"), (info.schema, info.role))
         self.assertIn("walk", info.controllers)
         self.assertTrue(info.has_database and info.keeps_logs)
+
+    def test_connections_that_say_nothing_keep_nobody_out(self):
+        # btr starts btr-serve in its place: the process is the same.
+        soft, hard = resource.prlimit(self.server.process.pid, resource.RLIMIT_NOFILE)
+        self.assertGreaterEqual(soft, min(hard, 65536))
 
     def test_a_walking_dog_moves_and_its_parameters_are_there(self):
         with self.client.open("games/two-dogs-and-a-ball.json") as world:
@@ -262,6 +268,69 @@ class Environments(WithServer):
                 env.reset(seed=5 + i)
                 for step in range(4):
                     self.assertTrue(np.array_equal(together[step][i], env.step(actions[step][i])[0]))
+
+    def test_after_ctrl_c_an_environment_goes_on_where_its_world_is(self):
+        def interrupted(env, act):
+            """Ctrl-C while the answer to a step is on its way."""
+            receive = env.world._steps.receive
+
+            def press():
+                receive()  # it was made
+                raise KeyboardInterrupt
+            env.world._steps.receive = press
+            with self.assertRaises(KeyboardInterrupt):
+                act()
+
+        actions = np.random.default_rng(1).uniform(-0.2, 0.2, (4, 2, 18))
+        with uchilsim.Env(self.client, DOG, max_steps=3) as env, uchilsim.Env(self.client, DOG) as whole:
+            env.reset(seed=2)
+            whole.reset(seed=2)
+            env.step(actions[0][0])
+            interrupted(env, lambda: env.step(actions[1][0]))
+            observation, _, _, truncated, info = env.step(actions[2][0])
+            for i in range(3):
+                expected = whole.step(actions[i][0])
+            self.assertTrue(np.array_equal(expected[0], observation))
+            self.assertEqual(expected[4]["time_s"], info["time_s"])
+            self.assertTrue(truncated)  # the interrupted one counts
+        vector = uchilsim.VectorEnv(2, self.client, DOG)
+        vector.reset(seed=2)
+        vector.step(actions[0])
+        interrupted(vector.envs[0], lambda: vector.step(actions[1]))
+        vector.step(actions[2])
+        for env in vector.envs:
+            self.assertEqual(env.world.state().period, env.state.period)
+        vector.close()
+
+    def test_what_cannot_be_made_leaves_no_world_behind(self):
+        before = self.client.worlds()
+        for make in (lambda: uchilsim.Env(self.client, DOG, joints=["WING"]),
+                     lambda: uchilsim.Env(self.server.address, DOG, robot="cat"),
+                     lambda: uchilsim.VectorEnv(3, self.client, DOG, observation=["robot.mood"])):
+            with self.assertRaises(uchilsim.NotFound):
+                make()
+        self.assertEqual(before, self.client.worlds())
+
+    def test_a_server_says_how_many_environments_step_side_by_side(self):
+        self.assertGreaterEqual(self.client.info().most_streams, self.client.info().most_worlds)
+
+    def test_everybody_knows_the_channels_of_a_world(self):
+        with self.client.open(DOG) as world:
+            other = self.client.world(world.name)
+            world.send_step(1, {})
+            world.receive_step()
+            third = self.client.world(world.name)
+            third.add(ball={"name": "b2", "position_m": [1, 0, 0.5]})
+            third.add(ball={"name": "b3", "position_m": [1, 1, 0.5]})
+            other.remove("b3")
+            # The same number of channels as before would not be told by the row's length.
+            other.add(ball={"name": "b4", "position_m": [1, 1, 0.25]})
+            self.assertEqual(0.25, world.state()["b4.z_m"])
+            world.send_step(1, {})
+            self.assertLess(world.receive_step()["b4.z_m"], 0.25)
+            self.assertGreater(third.reset(seed=1)["robot.base.qw"], 0.99)
+            for each in (world, third, other):
+                self.assertNotIn("b4.z_m", each.state().channels)
 
     def test_a_box_is_a_box(self):
         from uchilsim.spaces import _Box

@@ -262,8 +262,56 @@ TEST_F(WorldDeskTest, ChannelsComeAndGoWithObjects) {
   const auto state = answered<v1::State>(desk, Method::get, get);
   EXPECT_EQ(1, state.row_size());
   EXPECT_EQ(7 * world.robots(0).links_size(), state.links(0).pose_size());
+  v1::GetRequest many;
+  for (int i = 0; i <= world.channels_size(); ++i) many.mutable_wanted()->add_channels("ball.z_m");
+  EXPECT_THAT(refused(desk, Method::get, many), HasSubstr("at most " + std::to_string(world.channels_size())));
   get.mutable_wanted()->add_channels("ball.temperature");
   EXPECT_THAT(refused(desk, Method::get, get), HasSubstr("a channel of this world"));
+}
+
+TEST_F(WorldDeskTest, EverybodyIsToldWhichChannelsThereAre) {
+  world = open("dog.json");
+  v1::GetRequest first, second;
+  first.mutable_wanted()->set_channels_known(world.channels_version());
+  second = first;
+  const auto got = [&](v1::GetRequest& request) {
+    const auto state = answered<v1::State>(desk, Method::get, request);
+    EXPECT_TRUE(state.channels_size() == 0 || state.channels_size() == state.row_size());
+    request.mutable_wanted()->set_channels_known(state.channels_version());
+    return state.channels_size();
+  };
+  EXPECT_EQ(0, got(first));
+  // A third one, who does not say what he knows, adds an object and is told.
+  const v1::State more = step(0, [](auto& r) { r.add_acts()->set_json(R"({"act": "add", "ball": {"name": "b2"}})"); });
+  EXPECT_GT(more.channels_size(), world.channels_size());
+  EXPECT_EQ(more.channels_size(), got(first));
+  EXPECT_EQ(more.channels_size(), got(second));
+  EXPECT_EQ(0, got(first));
+  // A new beginning takes it away again.
+  answered<v1::State>(desk, Method::reset, v1::ResetRequest());
+  EXPECT_EQ(world.channels_size(), got(first));
+  EXPECT_EQ(world.channels_size(), got(second));
+  EXPECT_EQ(0, got(second));
+}
+
+TEST_F(WorldDeskTest, ALongStepThatIsToBeLeftEndsWithAWholePeriod) {
+  world = open("ball.json");
+  int pieces = 0;
+  desk.betweenPieces = [&] {
+    if (++pieces == 5) throw Refusal(Code::cancelled, "the server ends");
+  };
+  EXPECT_EQ("the server ends", stepRefused([](auto& r) { r.set_periods(10000); }));
+  EXPECT_EQ(5, pieces);
+  EXPECT_EQ(5, answered<v1::State>(desk, Method::get, v1::GetRequest()).period());
+  // Many acts are a long answer too.
+  step(0, [](auto& r) {
+    for (int i = 0; i < 3; ++i)
+      r.add_acts()->set_json(R"({"act": "throw", "object": "ball", "velocity_m_s": [0, 0, 0]})");
+  });
+  EXPECT_EQ(8, pieces);
+  answered<v1::CloseReply>(desk, Method::close, v1::CloseRequest());
+  const fs::path log = files.server() / world.log();
+  replayed(fs::path(log).replace_extension(".json"), log);
 }
 
 /// Every call answers, whatever its bytes, and no file appears where none may.

@@ -351,6 +351,41 @@ class TestExperimentForm : public QObject {
     QVERIFY2(form.problems().join('\n').contains("stick"), qPrintable(form.problems().join('\n')));
   }
 
+  /// What evolves of such a controller stands in the file: a search may begin around it, whatever the form offers
+  /// without.
+  void aSearchBeginsAroundParametersThatStandInAFile() {
+    ExperimentOffers offers = someOffers();
+    offers.controllers.push_back({"openr", {{"duration_s", "s", "how long", 0.1, 600, 10}}, {}, {"stick"}});
+    offers.startsOf["openr"] = startOffers({});
+    std::vector<std::string> read;
+    bool isThere = true;
+    offers.genotypeOf = [&](const std::string&, const std::map<std::string, std::string>& paths) {
+      read.push_back(paths.at("stick"));
+      if (!isThere) throw InputError("no such stick");
+      return std::vector<Parameter>{{"pan_p", "", "gain", 1, 64, 8, {}, true}};
+    };
+    ExperimentSpec spec = aSpec();
+    spec.directory = "/experiments";
+    spec.controller = {"openr", {{"duration_s", 4}}, {{"stick", "../openr/MS"}}};
+    spec.start = SearchStart{};
+    spec.start->parameters = {{"pan_p", 12}};
+    const auto expectKept = [&](ExperimentForm& form) {
+      form.setSpec(spec);
+      QCOMPARE(QString::fromStdString(toJsonText(form.spec())), QString::fromStdString(toJsonText(spec)));
+    };
+    ExperimentForm form(offers);
+    expectKept(form);
+    QCOMPARE(QString::fromStdString(read.front()), QString("/openr/MS"));
+    // The file's bounds hold.
+    ExperimentSpec wrong = spec;
+    wrong.start->parameters["pan_p"] = 100;
+    QVERIFY_THROWS_EXCEPTION(InputError, form.setSpec(wrong));
+    // A stick that is not there does not keep the experiment from being looked at and mended.
+    isThere = false;
+    ExperimentForm without(offers);
+    expectKept(without);
+  }
+
   void aReadOnlyFormOffersACopyInsteadOfAStart() {
     ExperimentForm form(someOffers());
     form.setSpec(aSpec());

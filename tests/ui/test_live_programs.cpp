@@ -11,12 +11,15 @@
 
 #include <cmath>
 
+#include "core/spec/error.h"
+#include "core/spec/experiment_spec.h"
 #include "tests/ui/open_live_page.h"
 #include "ui/live/console_panel.h"
 #include "ui/live/lamp_places.h"
 #include "ui/live/live_desk.h"
 #include "ui/live/live_lines.h"
 #include "ui/live/selection_panel.h"
+#include "ui/live/stored_controller.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -122,6 +125,38 @@ class TestLivePrograms : public QObject {
     QVERIFY(open.page.row().orders.at("dog").motorPower.value_or(false));
     open.page.world().act(ControllerAct{"dog", std::nullopt});
     QVERIFY(QTest::qWaitFor([&] { return open.page.row().orders.empty(); }, 10000));
+  }
+
+  /// An individual of a run of such programs plays with the numbers that it had in its trials.
+  void aStoredIndividualIsItsStickWithItsNumbers() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    const QString stick = open.folder.filePath("MS"), sticks = open.folder.filePath("sticks");
+    QProcess build;
+    build.start(BTR_PROGRAM, {"openr", "build", SOURCE_DIR "/resources/openr/PanPath", "--out", stick});
+    QVERIFY(build.waitForFinished(60000));
+    QVERIFY2(build.exitCode() == 0, build.readAllStandardError());
+    ExperimentSpec spec = loadExperiment(SOURCE_DIR "/resources/experiments/pan-gains.json");
+    spec.controller.words["stick"] = stick.toStdString();
+    RunRecord run;
+    run.id = 7;
+    run.specJson = toJsonText(spec);
+    IndividualRecord individual;
+    individual.id = 3;
+    for (const Parameter& p : plugins().controller("openr")->with({{"stick", stick.toStdString()}})->genotype())
+      individual.parameters.push_back(p.name == "pan_p" ? 12 : p.byDefault);
+    const GameController controller = storedController(run, individual, plugins(), sticks.toStdString());
+    QVERIFY(controller.openr);
+    QVERIFY(controller.openr->motorPower);
+    QVERIFY(QString::fromStdString(controller.openr->folder).startsWith(sticks + "/run-7-individual-3-"));
+    QCOMPARE(storedController(run, individual, plugins(), sticks.toStdString()), controller);
+    open.page.world().act(ControllerAct{"dog", controller});
+    open.page.process().play(true);
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.findChild<ConsolePanel*>() &&
+                                 open.page.findChild<ConsolePanel*>()->text()->toPlainText().contains("pan gains 12 "),
+                             20000);
+    individual.parameters.push_back(1);
+    QVERIFY_THROWS_EXCEPTION(InputError, storedController(run, individual, plugins(), sticks.toStdString()));
   }
 
   /// A program or controller that hangs is named; that is no end of the session.

@@ -10,6 +10,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "core/spec/error.h"
@@ -79,6 +80,15 @@ ExperimentOffers offersOf(const PluginHost& host) {
       offers.learnersOf[QString::fromStdString(controller)].push_back(
           {shown, learner->settingsFor(host.controller(controller)->genotype()), {}});
   }
+  offers.genotypeOf = [&host](const std::string& controller, const std::map<std::string, std::string>& paths) {
+    return host.controller(controller)->with(paths)->genotype();
+  };
+  offers.learnersFor = [&host](const std::vector<Parameter>& genotype) {
+    std::vector<PluginForm::Offer> learners;
+    for (const auto& name : host.learners())
+      learners.push_back({QString::fromStdString(name), host.learner(name)->settingsFor(genotype), {}});
+    return learners;
+  };
   for (const auto& name : host.realities()) {
     const auto reality = host.reality(name);
     offers.realities.push_back({QString::fromStdString(name), QString::fromStdString(reality->meaning()),
@@ -204,7 +214,7 @@ void ExperimentForm::offerRealities() {
 void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.controller, offers_.controllers, "controller/settings");
   checkSettings(spec.fitness, offers_.fitnesses, "fitness/settings");
-  const QString controller = QString::fromStdString(spec.controller.name);
+  const QString controller = genotypeFor(spec.controller, spec);
   const auto& learners = learner_->offersFor(controller);
   checkSettings(spec.learner, learners, "learner/settings");
   checkSettings(spec.realityLearner, learners, "reality_learning/learner/settings");
@@ -267,6 +277,43 @@ void ExperimentForm::fill(const ExperimentSpec& spec) {
   effects_->setVisible(!effects.isEmpty());
 }
 
+QString ExperimentForm::genotypeFor(const PluginChoice& controller, const ExperimentSpec& spec) {
+  QString name = QString::fromStdString(controller.name);
+  const auto offer = std::ranges::find(offers_.controllers, name, &PluginForm::Offer::name);
+  if (offer == offers_.controllers.end() || offer->paths.empty() || !offers_.genotypeOf) return name;
+  std::vector<Parameter> genotype;
+  try {
+    std::map<std::string, std::string> paths;
+    for (const std::string& path : offer->paths) {
+      const auto given = controller.words.find(path);
+      if (given == controller.words.end() || given->second.empty()) throw InputError("a path is missing");
+      paths[path] = (std::filesystem::path(spec.directory) / given->second).lexically_normal().string();
+    }
+    genotype = offers_.genotypeOf(controller.name, paths);
+  } catch (const InputError&) {
+    // Whoever starts the run is told what is wrong with the file; until then the form shows what the experiment says.
+    if (!spec.start) return name;
+    constexpr double most = 1e12;
+    for (const auto& [parameter, value] : spec.start->parameters)
+      genotype.push_back({parameter, "", "", -most, most, value});
+  }
+  for (const Parameter& p : genotype)
+    name += QStringLiteral("\n%1 %2 %3 %4 %5")
+                .arg(QString::fromStdString(p.name))
+                .arg(p.minimum, 0, 'g', 17)
+                .arg(p.maximum, 0, 'g', 17)
+                .arg(p.byDefault, 0, 'g', 17)
+                .arg(p.integer);
+  if (!offers_.startsOf.contains(name)) {
+    offers_.startsOf[name] = startOffers(genotype);
+    offers_.learnersOf[name] = offers_.learnersFor ? offers_.learnersFor(genotype) : offers_.learners;
+    learner_->setOffers(offers_.learnersOf, offers_.learners);
+    realityLearner_->setOffers(withNone(offers_.learnersOf), withNone(offers_.learners));
+    searchStart_->setOffers(offers_.startsOf, startOffers({}));
+  }
+  return name;
+}
+
 ExperimentSpec ExperimentForm::spec() const {
   ExperimentSpec spec = shown_;
   spec.name = name_->text().trimmed().toStdString();
@@ -279,7 +326,7 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.controller = controller_->choice();
   spec.fitness = fitness_->choice();
   spec.learner = learner_->choice();
-  spec.start = startFrom(searchStart_->choice(), searchStart_->offersFor(controller_->choice().name.c_str()));
+  spec.start = startFrom(searchStart_->choice(), searchStart_->offersFor(genotype_));
   spec.realityLearner = realityLearner_->choice();
   if (spec.realityLearner.name == noLearner) spec.realityLearner = {};
   spec.realitySettings = spec.realityLearner.name.empty() ? Values{} : realitySettings_->values();

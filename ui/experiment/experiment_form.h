@@ -1,6 +1,7 @@
 #pragma once
 #include <QUndoStack>
 #include <QWidget>
+#include <functional>
 #include <map>
 
 #include "core/plugin/plugin_host.h"
@@ -26,7 +27,12 @@ struct ExperimentOffers {
   std::vector<PluginForm::Offer> adapters = {};                       ///< learners for the simulator's parameters
   std::map<QString, std::vector<PluginForm::Offer>> startsOf = {};    ///< where a controller's search begins
   std::vector<RealityForm::Offer> realities = {};  ///< who may measure, besides the two that always can
+  /// Of a controller whose parameters stand in files: what they are for these full paths. Throws InputError.
+  std::function<std::vector<Parameter>(const std::string& controller, const std::map<std::string, std::string>& paths)>
+      genotypeOf = {};
+  std::function<std::vector<PluginForm::Offer>(const std::vector<Parameter>& genotype)> learnersFor = {};
 };
+/// The host must outlive them.
 ExperimentOffers offersOf(const PluginHost& host);
 
 /// A whole ExperimentSpec as a form with folding sections and undo: spec in, spec out, nothing lost on the way.
@@ -69,6 +75,9 @@ class ExperimentForm : public QWidget {
   QWidget* makeRealityLearning();
   /// Learners' pages follow the controller: its parameters may have settings of their own.
   void followController();
+  /// Under which name the offers for a controller's parameters are: its own, or, where they stand in files, one for
+  /// each that was read. Where they cannot be read, what `spec` begins around is taken for them.
+  QString genotypeFor(const PluginChoice& controller, const ExperimentSpec& spec);
   QWidget* makeRecordings();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
@@ -92,7 +101,7 @@ class ExperimentForm : public QWidget {
   QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
   QWidget *editBar_ = nullptr, *inside_ = nullptr;
-  QString followed_;  ///< the controller that the learners' pages belong to
+  QString followed_, genotype_;  ///< the controller that the learners' pages belong to, and its parameters
   PluginForm *controller_, *fitness_, *adaptation_;
   LearnerForm *learner_, *realityLearner_, *searchStart_;
   ParameterForm *seed_ = nullptr, *stages_, *realitySettings_, *adaptationSettings_, *simulator_, *standIn_ = nullptr,

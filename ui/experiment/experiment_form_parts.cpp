@@ -144,8 +144,10 @@ QWidget* ExperimentForm::makeRealityLearning() {
 }
 
 void ExperimentForm::followController() {
-  const QString controller = QString::fromStdString(controller_->choice().name);
-  for (auto* form : {learner_, realityLearner_, searchStart_}) form->setGenotype(controller);
+  const PluginChoice choice = controller_->choice();
+  const QString controller = QString::fromStdString(choice.name);
+  genotype_ = genotypeFor(choice, shown_);
+  for (auto* form : {learner_, realityLearner_, searchStart_}) form->setGenotype(genotype_);
   // Another controller brings pages that are made only now.
   if (std::exchange(followed_, controller) != controller) orderTabs(*inside_);
 }

@@ -5,6 +5,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QStandardPaths>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <map>
@@ -124,7 +125,8 @@ void IndividualDialog::choose() {
   const int row = table_->currentRow(), run = run_->currentIndex();
   if (row < 0 || std::size_t(row) >= individuals_.size() || run < 0) return;
   try {
-    emit chosen(storedController(runs_[std::size_t(run)], individuals_[std::size_t(row)], host_));
+    const QString sticks = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/sticks";
+    emit chosen(storedController(runs_[std::size_t(run)], individuals_[std::size_t(row)], host_, sticks.toStdString()));
     accept();
   } catch (const InputError& error) {
     say(QString::fromUtf8(error.what()));

@@ -36,6 +36,8 @@ class Info:
     workers: int
     controllers: tuple[str, ...]
     effects: tuple[str, ...]
+    most_streams: int = 0        #: at once, of this client: worlds that step side by side, and whoever watches
+    most_evaluations: int = 0    #: at once, of this client, those that wait for their turn too
 
 
 @dataclass(frozen=True)
@@ -109,12 +111,14 @@ class Client:
     address: "127.0.0.1:50051", or "unix:/path" of a Unix socket.
     token: the caller's token, where the server wants one; sent only over TLS, loopback or a Unix socket.
     certificate: file with the certificate (PEM) that the server's is signed by; then the connection is TLS.
-    timeout: the longest time for one call [s]; evaluations take as long as they take.
+    timeout: the longest time for one call [s]; a step of many periods has more, evaluations as long as they take.
     """
 
     def __init__(self, address: str = "127.0.0.1:50051", token: str | None = None,
                  certificate: str | pathlib.Path | None = None, timeout: float = 60.0):
-        options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0)]
+        options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0),
+                   # A server that vanishes without a word is noticed, however long a call may take.
+                   ("grpc.keepalive_time_ms", 60000), ("grpc.keepalive_timeout_ms", 20000)]
         if certificate is None:
             self._channel = grpc.insecure_channel(address, options)
         else:
@@ -126,6 +130,10 @@ class Client:
         self._learning = services.LearningStub(self._channel)
         self.address = address
 
+    @property
+    def timeout(self) -> float:
+        return self._timeout
+
     def _call(self, method, request, timeout: float | None = ...):
         with sentences():
             return method(request, timeout=self._timeout if timeout is ... else timeout, metadata=self._metadata)
@@ -134,7 +142,8 @@ class Client:
     def info(self) -> Info:
         m = self._call(self._worlds.Info, pb.InfoRequest())
         return Info(m.version, m.schema, m.role, m.largest_message_bytes, m.calls_per_second, m.most_worlds,
-                    m.most_periods, m.has_database, m.keeps_logs, m.workers, tuple(m.controllers), tuple(m.effects))
+                    m.most_periods, m.has_database, m.keeps_logs, m.workers, tuple(m.controllers), tuple(m.effects),
+                    m.most_streams, m.most_evaluations)
 
     def wait(self, timeout: float = 10.0) -> Info:
         """Waits until the server is there."""

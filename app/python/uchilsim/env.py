@@ -117,8 +117,13 @@ class Env(EnvBase):
                  reward: Reward | None = None, terminated: Terminated | None = None, logged: bool = False):
         self._own = isinstance(client, str)
         self.client = Client(client) if isinstance(client, str) else client
-        self.world = self.client.open(game, logged=logged)
-        self._task = _Task(self.world, robot, joints, observation, reward, terminated)
+        self.world: World | None = None
+        try:
+            self.world = self.client.open(game, logged=logged)
+            self._task = _Task(self.world, robot, joints, observation, reward, terminated)
+        except BaseException:  # nobody else could close it
+            self.close()
+            raise
         self.observation_space = self._task.observation_space
         self.action_space = self._task.action_space
         self.frame_skip, self.max_steps = int(frame_skip), int(max_steps)
@@ -126,6 +131,8 @@ class Env(EnvBase):
         self._np_random_seed: int | None = None
         self._state: State | None = None
         self._steps = 0
+        self._begun = 0      # the period in which the episode began
+        self._lost = False   # a step was interrupted: the world may have made it or not
 
     @property
     def unwrapped(self) -> "Env":
@@ -158,17 +165,33 @@ class Env(EnvBase):
         acts = (options or {}).get("acts", ())
         self._state = self.world.reset(seed=_random_seed(self._np_random), acts=acts)
         self._task.begin(self._state)
-        self._steps = 0
+        self._steps, self._begun, self._lost = 0, self._state.period, False
         return self._task.observe(self._state), {"time_s": self._state.time_s}
 
-    def step(self, action) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
-        """observation (channels,), reward, terminated, truncated, info with time_s, and fault where the world stopped."""
+    def _before(self) -> State:
+        """Where the next step begins. After one that was interrupted the world is asked."""
         if self._state is None:
             raise Refused("step() before reset()")
-        before = self._state
-        self.world.send_step(self.frame_skip, self._task.targets(action))
-        now = self._state = self.world.receive_step()
-        self._steps += 1
+        if self._lost:
+            self._state = self.world.state()
+            self._steps, self._lost = (self._state.period - self._begun) // self.frame_skip, False
+        return self._state
+
+    def _interrupted(self) -> None:
+        self._lost = True
+        self.world.forget_steps()
+
+    def step(self, action) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+        """observation (channels,), reward, terminated, truncated, info with time_s, and fault where the world stopped.
+        After one that Ctrl-C interrupted the next one begins where the world is."""
+        before, targets = self._before(), self._task.targets(action)
+        try:
+            self.world.send_step(self.frame_skip, targets)
+            now = self._state = self.world.receive_step()
+            self._steps += 1
+        except BaseException:
+            self._interrupted()
+            raise
         info: dict[str, Any] = {"time_s": now.time_s}
         if now.fault:
             info["fault"] = now.fault
@@ -181,10 +204,9 @@ class Env(EnvBase):
         return None
 
     def close(self) -> None:
-        if self.world is None:
-            return
-        self.world.__exit__()
-        self.world = None
+        if self.world is not None:
+            self.world.__exit__()
+            self.world = None
         if self._own:
             self.client.close()
 
@@ -214,14 +236,14 @@ class VectorEnv(VectorEnvBase):
 
     def __init__(self, num_envs: int, client: Client | str = "127.0.0.1:50051",
                  game: str | Mapping = "games/dog.json", **arguments: Any):
+        self.envs: list[Env] = []
         self._own = isinstance(client, str)
         self.client = Client(client) if isinstance(client, str) else client
         self.num_envs = int(num_envs)
-        self.envs: list[Env] = []
         try:
             for _ in range(self.num_envs):
                 self.envs.append(Env(self.client, game, **arguments))
-        except Exception:
+        except BaseException:
             self.close()
             raise
         first = self.envs[0]
@@ -267,11 +289,18 @@ class VectorEnv(VectorEnvBase):
         if len(actions) != self.num_envs:
             raise Refused(f"actions: {len(actions)} rows is not allowed; one for each of {self.num_envs} environments")
         going = [i for i in range(self.num_envs) if not self._over[i]]
-        if any(self.envs[i].state is None for i in going):
-            raise Refused("step() before reset()")
+        before = {i: self.envs[i]._before() for i in going}
         targets = {i: self.envs[i]._task.targets(actions[i]) for i in going}
-        for i in going:
-            self.envs[i].world.send_step(self.envs[i].frame_skip, targets[i])
+        try:
+            for i in going:
+                self.envs[i].world.send_step(self.envs[i].frame_skip, targets[i])
+            for i in going:
+                self.envs[i]._state = self.envs[i].world.receive_step()
+                self.envs[i]._steps += 1
+        except BaseException:
+            for i in going:
+                self.envs[i]._interrupted()
+            raise
         observations: list[Any] = [None] * self.num_envs
         infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         rewards, terminated = np.zeros(self.num_envs), np.zeros(self.num_envs, dtype=bool)
@@ -281,12 +310,10 @@ class VectorEnv(VectorEnvBase):
             if self._over[i]:
                 observations[i], infos[i] = env.reset()
                 continue
-            before, env._state = env._state, env.world.receive_step()
-            env._steps += 1
             now = env._state
             infos[i] = {"time_s": now.time_s, **({"fault": now.fault} if now.fault else {})}
             observations[i] = env._task.observe(now)
-            rewards[i] = env._task.rewarding(before, now)
+            rewards[i] = env._task.rewarding(before[i], now)
             terminated[i] = bool(now.fault) or bool(env._task.ending(now))
             truncated[i] = env._steps >= env.max_steps
         self._over = terminated | truncated

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .client import Client
 
 Vector = Sequence[float] | np.ndarray
+_LONGEST_PERIOD = 0.1  # s of real time that a large world may take for one
 
 
 @dataclass(frozen=True)
@@ -161,15 +162,16 @@ class World:
             r.name, tuple(j.name for j in r.joints), np.array([j.minimum for j in r.joints]),
             np.array([j.maximum for j in r.joints]), tuple(j.drive for j in r.joints), tuple(r.links), r.controller,
             tuple(Number.of(p, True) for p in r.parameters)) for r in message.robots}
-        self._know(list(message.channels))
+        self._know(list(message.channels), message.channels_version)
 
-    def _know(self, channels: list[str]) -> None:
+    def _know(self, channels: list[str], version: int) -> None:
         self.channels = channels
+        self._version = version
         self._index = {channel: i for i, channel in enumerate(channels)}
 
     def _state(self, message, channels: Sequence[str] | None = None) -> State:
         if message.channels:
-            self._know(list(message.channels))
+            self._know(list(message.channels), message.channels_version)
         if channels:
             return State(message, channels, {channel: i for i, channel in enumerate(channels)}, self.name)
         if len(message.row) != len(self.channels):  # somebody else added or removed something
@@ -181,9 +183,8 @@ class World:
         self._take(self._client._call(self._client._worlds.Describe, pb.DescribeRequest(world=self.name)))
 
     # ---- what it is
-    @staticmethod
-    def _wanted(channels, links, contacts):
-        return pb.Wanted(channels=channels or (), links=links, contacts=contacts)
+    def _wanted(self, channels=None, links=False, contacts=False):
+        return pb.Wanted(channels=channels or (), links=links, contacts=contacts, channels_known=self._version)
 
     def state(self, channels: Sequence[str] | None = None, links: bool = False, contacts: bool = False) -> State:
         """The state now; `channels`: only these."""
@@ -248,8 +249,7 @@ class World:
         request = pb.StepRequest(world=self.name, periods=periods, acts=acts)
         for robot, positions in (targets or {}).items():
             request.targets.add(robot=robot, positions=np.ravel(positions))
-        if channels or links or contacts:
-            request.wanted.CopyFrom(self._wanted(channels, links, contacts))
+        request.wanted.CopyFrom(self._wanted(channels, links, contacts))
         return request
 
     def step(self, periods: int = 1, targets: Mapping[str, Vector] | None = None, acts: Sequence[Any] = (),
@@ -260,7 +260,8 @@ class World:
         acts: what reaches into the world before the first period, see act().
         """
         request = self._request(periods, targets, [self.act(a) for a in acts], channels, links, contacts)
-        return self._state(self._client._call(self._client._worlds.Step, request), channels)
+        longest = self._client.timeout + _LONGEST_PERIOD * periods
+        return self._state(self._client._call(self._client._worlds.Step, request, timeout=longest), channels)
 
     def send_step(self, periods: int, targets: Mapping[str, Vector]) -> None:
         """The same on a stream, without waiting: receive_step() has the answer. Several worlds step side by side."""
@@ -273,15 +274,21 @@ class World:
             raise Error("receive_step() without a send_step()")
         try:
             return self._state(self._steps.receive())
-        except Error:
-            self._steps = None
+        except BaseException:  # Ctrl-C too: an answer that nobody took would be the next one's
+            self.forget_steps()
             raise
+
+    def forget_steps(self) -> None:
+        """Nothing that send_step() sent is answered any more; state() says what became of it."""
+        if self._steps is not None:
+            self._steps.close()
+            self._steps = None
 
     def reset(self, seed: int | None = None, acts: Sequence[Any] = ()) -> State:
         """The game from its beginning, with another seed if one is given; a log of its own begins."""
-        request = pb.ResetRequest(world=self.name, seed=seed, acts=[self.act(a) for a in acts])
+        request = pb.ResetRequest(world=self.name, seed=seed, acts=[self.act(a) for a in acts], wanted=self._wanted())
         state = self._client._call(self._client._worlds.Reset, request)
-        if len(state.row) != len(self.channels):
+        if state.channels:
             self.refresh()
         return self._state(state)
 
@@ -362,9 +369,7 @@ class World:
 
     def close(self) -> str:
         """Ends it. The hash of the trace of its last episode: equal means bit-identical."""
-        if self._steps is not None:
-            self._steps.close()
-            self._steps = None
+        self.forget_steps()
         return self._client._call(self._client._worlds.Close, pb.CloseRequest(world=self.name)).trace_sha256
 
     def __enter__(self) -> "World":

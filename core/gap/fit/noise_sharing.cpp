@@ -43,10 +43,13 @@ Extent extentOf(const std::vector<double>& values) {
 /// What is known of a channel in all trials.
 struct Known {
   std::vector<double> levels;  ///< of the trials that show its noise
+  std::vector<double> calm;    ///< those of them without fast motion in it
   double least = 1e-9;         ///< a millionth of what it moves
   double lastDigit = 0;
   bool few = false;  ///< numbers in a trial
 };
+
+double levelOf(const Known& known) { return median(known.calm.empty() ? known.levels : known.calm); }
 
 class NoiseFloors {
  public:
@@ -61,7 +64,7 @@ class NoiseFloors {
     const auto found = known_.find(channel);
     if (found == known_.end()) return 0;
     const Known& own = found->second;
-    if (!own.levels.empty()) return median(own.levels);
+    if (!own.levels.empty()) return levelOf(own);
     const auto [level, from] = borrowed(channel, own);
     const double floor = std::max(level, own.least);
     const std::string text =
@@ -82,6 +85,7 @@ class NoiseFloors {
     known.least = std::max(known.least, least);
     const ChannelFloor floor = channelFloor(recording, column);
     if (floor.shown) known.levels.push_back(std::max(floor.level, least));
+    if (floor.shown && !floor.moves) known.calm.push_back(known.levels.back());
     known.few = known.few || floor.few;
     if (column < recording.places.lastDigit.size())
       known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);
@@ -98,7 +102,7 @@ class NoiseFloors {
       if (name == channel || sensorOf(name) != sensorOf(channel)) continue;
       if (own.lastDigit == 0) digit = std::max(digit, known.lastDigit);
       if (known.levels.empty()) continue;
-      others.push_back(median(known.levels));
+      others.push_back(levelOf(known));
       names += (names.empty() ? "" : ", ") + name;
     }
     if (!others.empty()) return {median(others), "that of " + names};

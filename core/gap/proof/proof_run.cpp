@@ -183,7 +183,8 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
   const auto verdictOf = [&](std::size_t number) { return (folderOf(request, number) / "verdict.json").string(); };
   std::vector<std::string> open;
   for (std::size_t number = 1; number <= request.cases; ++number)
-    if (!fs::exists(verdictOf(number))) open.push_back(std::to_string(number));
+    if (!fs::exists(verdictOf(number)) && (request.only == 0 || request.only == number))
+      open.push_back(std::to_string(number));
   const std::size_t before = request.cases - open.size();
   if (progress) progress(before, request.cases);
 

@@ -20,6 +20,7 @@ struct ProofRequest {
   std::string out;        ///< folder; finished cases in it are kept, those of another trial refused
   std::uint64_t seed = 1;
   std::size_t cases = 20;
+  std::size_t only = 0;  ///< of these only one; 0: all
   std::string engine, scene, kind, dirt;
   std::size_t spoiled = 0;  ///< trials of each case that are not what their files say
   int jobs = 1;             ///< worker processes, one case each

@@ -10,6 +10,7 @@ struct ChannelFloor {
   double level = 0;     ///< [the channel's unit]; 0 only for a column without a number
   bool shown = false;   ///< by the numbers themselves; else `level` is the rounding of the digits written, or a guess
   bool few = false;     ///< not shown, as it has too few numbers, not as it stands still
+  bool moves = false;   ///< fast motion is part of `level`
   double byRows = 0;    ///< noise over the rows, as if they were even samples
   double byStamps = 0;  ///< noise over the time stamps
   double ofTime = 0;    ///< part of `level`: what the motion makes of stamps that jitter, speed × jitter

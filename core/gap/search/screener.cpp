@@ -12,8 +12,29 @@
 namespace btr {
 namespace {
 
+/// The best start of each kind first. What screening did not promise begins where another kind does.
+void putKindsFirst(Promise& promise, const std::vector<Parameter>& declared, double most) {
+  const auto kind = std::ranges::find_if(
+      declared, [&](const Parameter& p) { return p.integer && !p.neutral && p.maximum - p.minimum <= most; });
+  if (kind == declared.end() || promise.starts.empty()) return;
+  const auto kindOf = [&](const FitStart& start) { return start.from.effect.at(kind->name); };
+  std::vector<FitStart> first{promise.starts[0]}, missing;
+  for (double value = kind->minimum; value <= kind->maximum; ++value) {
+    if (value == kindOf(first[0])) continue;
+    const auto of = std::ranges::find(promise.starts, value, kindOf);
+    FitStart start = of != promise.starts.end() ? *of : first[0];
+    start.from.effect[kind->name] = value;
+    (of != promise.starts.end() ? first : missing).push_back(start);
+  }
+  std::stable_sort(first.begin() + 1, first.end(),
+                   [](const FitStart& a, const FitStart& b) { return a.left < b.left; });
+  first.insert(first.end(), missing.begin(), missing.end());
+  promise.kinds = first.size();
+  promise.starts.insert(promise.starts.begin(), first.begin(), first.end());
+}
+
 Promise promiseOf(const EffectCandidate& candidate, std::size_t c, const std::vector<std::vector<Screened>>& screened,
-                  const std::vector<double>& totals) {
+                  const std::vector<double>& totals, double mostKinds) {
   Promise promise;
   std::vector<FitStart> later;
   for (std::size_t b = 0; b < screened.size(); ++b) {
@@ -35,6 +56,7 @@ Promise promiseOf(const EffectCandidate& candidate, std::size_t c, const std::ve
     });
   });
   if (other != promise.starts.end()) std::rotate(promise.starts.begin() + 1, other, other + 1);
+  putKindsFirst(promise, candidate.declared, mostKinds);
   return promise;
 }
 
@@ -71,7 +93,8 @@ Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearise
     totals.push_back(base.linear.profiled.squaredNorm());
   }
   for (std::size_t c = 0; c < candidates.size(); ++c)
-    screening.promises.push_back(promiseOf(candidates[c], c, screened, totals));
+    screening.promises.push_back(
+        promiseOf(candidates[c], c, screened, totals, service_.thresholds().candidates.mostKinds));
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -120,6 +143,18 @@ void Screener::fitFrom(Screening& screening, const std::vector<std::size_t>& whi
   }
 }
 
+void Screener::fitKinds(Screening& screening, const std::vector<std::size_t>& all,
+                        const std::vector<std::size_t>& twice, const std::string& stage, double at) const {
+  for (std::size_t start = 1; true; ++start) {
+    std::vector<std::size_t> left;
+    for (const std::size_t k : all)
+      if (start < screening.promiseOf(screening.tried[k]).kinds && (start > 1 || !std::ranges::count(twice, k)))
+        left.push_back(k);
+    if (start > 1 && left.empty()) return;
+    fitFrom(screening, left, start, stage, at, at);
+  }
+}
+
 bool Screener::isContained(const Screening& screening, std::size_t k, const std::vector<std::size_t>& in) const {
   const std::vector<TriedCandidate>& tried = screening.tried;
   return std::any_of(in.begin(), in.end(), [&](std::size_t of) {
@@ -148,6 +183,7 @@ void Screener::fitPromising(Screening& screening, std::size_t toFit, const std::
   for (std::size_t k = again.size(); k < promising.size(); ++k)
     if (isContained(screening, promising[k], again)) again.push_back(promising[k]);
   fitFrom(screening, again, 1, stage, middle, to);
+  fitKinds(screening, promising, again, stage, to);
   std::erase_if(promising, [&](std::size_t k) { return !tried[k].attempt.fitted; });
 
   const auto leastCost = [&] {
@@ -181,6 +217,7 @@ std::vector<std::size_t> Screener::fitRest(Screening& screening, const std::stri
         tried[k].attempt.share >= limits.lastChancePromise)
       rest.push_back(k);
   for (const std::size_t start : {0, 1}) fitFrom(screening, rest, start, stage, at, at);
+  fitKinds(screening, rest, rest, stage, at);
   std::erase_if(rest, [&](std::size_t k) { return !tried[k].attempt.fitted; });
   std::stable_sort(rest.begin(), rest.end(),
                    [&](std::size_t a, std::size_t b) { return isBetter(tried[a], tried[b]); });

@@ -30,6 +30,7 @@ struct Promise {
   bool excited = false, refused = false;
   double share = 0;              ///< of the first base's squared error
   std::vector<FitStart> starts;  ///< the best first; with whole numbers the second has another one
+  std::size_t kinds = 0;         ///< so many of the first are one of each kind that a whole number can be
 };
 
 /// All candidates beside a model.
@@ -61,6 +62,9 @@ class Screener {
   bool isContained(const Screening& screening, std::size_t k, const std::vector<std::size_t>& in) const;
 
  private:
+  /// From the best start of each kind that was not fitted yet; those of `twice` were fitted from two starts.
+  void fitKinds(Screening& screening, const std::vector<std::size_t>& all, const std::vector<std::size_t>& twice,
+                const std::string& stage, double at) const;
   /// From start number `start` of each, where it has so many.
   void fitFrom(Screening& screening, const std::vector<std::size_t>& which, std::size_t start, const std::string& stage,
                double from, double to) const;

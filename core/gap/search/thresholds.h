@@ -123,6 +123,7 @@ struct SearchThresholds {
     double typicalOfRange = 0.1;  ///< a size without a default [hand]
     double smallSize = 0.2;       ///< of a typical size, tried too [hand]
     std::array<double, 2> largeSizes{4, 16};  ///< the same [case: play and limits are not linear]
+    double mostKinds = 5;                     ///< whole numbers that are kinds and not counts, each fitted [hand]
     double leastPeriods = 2;                  ///< that a motion must pass for them to be counted [case]
   };
 

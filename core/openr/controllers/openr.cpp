@@ -14,7 +14,10 @@ namespace {
 class OpenrController final : public btr::Controller {
  public:
   OpenrController() = default;
-  explicit OpenrController(const std::string& stick) : stick_(stick), genotype_(btr::openr::stickParameters(stick)) {}
+  explicit OpenrController(const std::string& stick)
+      : stick_(stick),
+        genotype_(btr::openr::stickParameters(stick)),
+        shelf_(std::make_shared<btr::openr::StickShelf>()) {}
 
   std::vector<btr::Parameter> genotype() const override { return genotype_; }
 
@@ -41,13 +44,14 @@ class OpenrController final : public btr::Controller {
     return std::make_unique<btr::openr::TrialMotion>(
         scene,
         btr::openr::TrialMotion::Task{stick_, btr::openr::parametersText(genotype_, parameters), value[0],
-                                      value[1] == 0},
+                                      value[1] == 0, shelf_},
         btr::openr::startRobot);
   }
 
  private:
   std::string stick_;
   std::vector<btr::Parameter> genotype_;
+  std::shared_ptr<const btr::openr::StickShelf> shelf_;  ///< of the process that prepares, above its workers
 };
 
 }  // namespace

@@ -1,11 +1,16 @@
 // Modules become objects.
 #include <OPENR/OPENRMessages.h>
 #include <ObjectEntryTable.h>
+#include <btr_openr_version.h>
 #include <dlfcn.h>
+#include <elf.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <sstream>
+#include <string_view>
 
 #include "core/openr/runtime/console.h"
 #include "core/openr/runtime/faults.h"
@@ -28,6 +33,26 @@ void* openCopy(const std::vector<char>& bytes, std::string& error) {
   // It stays open: the loader would take another file of this number for the same module.
   if (handle == nullptr) error = dlerror();
   return handle;
+}
+
+/// Whether all that was compiled into the module had the headers that this run-time has. Looked at before any of its
+/// code runs. What is no module of this computer is judged by the loader.
+bool hasOurHeaders(const std::vector<char>& bytes) {
+  constexpr std::size_t machineAt = 18;
+  constexpr char elf[] = "\177ELF";
+  if (bytes.size() <= machineAt || !std::equal(elf, elf + 4, bytes.begin()) || bytes[machineAt] != EM_X86_64)
+    return true;
+  constexpr std::string_view mark = BTR_OPENR_MARK, ours(BTR_OPENR_VERSION, sizeof BTR_OPENR_VERSION);
+  bool found = false;
+  for (auto at = bytes.begin(); (at = std::search(at, bytes.end(), mark.begin(), mark.end())) != bytes.end(); ++at) {
+    const auto version = at + static_cast<std::ptrdiff_t>(mark.size());
+    if (version == bytes.end() || std::isdigit(static_cast<unsigned char>(*version)) == 0) continue;  // no version
+    found = true;
+    // With the 0 at its end: 12 is not 1.
+    const std::string_view rest(&*version, static_cast<std::size_t>(bytes.end() - version));
+    if (!rest.starts_with(ours)) return false;
+  }
+  return found;
 }
 
 std::string nameOf(void* handle, const std::string& path) {
@@ -76,6 +101,11 @@ void System::loadObject(const std::string& path) {
   object.name = path.substr(path.rfind('/') + 1);
   objects_.push_back(std::move(added));
   addStack(object);
+  if (!hasOurHeaders(bytes)) {
+    end(Ended::Why::refused, "", "",
+        path + " was built by another version of this program; build the stick again with btr openr build");
+    return;
+  }
 
   FaultState& fault = faultState();
   fault.object = &object;

@@ -1,4 +1,5 @@
-/* Instructions that only the robot's processor has stop the program here. Included before every source. */
+/* Included before every source: instructions that only the robot's processor has stop the program here, and what was
+   compiled says with which headers. */
 #ifndef BTR_OPENR_ROBOT_CPU_H
 #define BTR_OPENR_ROBOT_CPU_H
 
@@ -13,5 +14,15 @@ BTR_OPENR_NO_INSTRUCTION(tlbr);
 BTR_OPENR_NO_INSTRUCTION(tlbwi);
 BTR_OPENR_NO_INSTRUCTION(tlbwr);
 #undef BTR_OPENR_NO_INSTRUCTION
+
+#include "btr_openr_version.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+__attribute__((weak, used)) char btr_openr_headers[] = BTR_OPENR_MARK BTR_OPENR_VERSION;
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -99,6 +99,7 @@ void Faulty::Notify(const ONotifyEvent& event) {
     OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
   }
   if (strcmp(line, "vanish") == 0) syscall(SYS_kill, syscall(SYS_getpid), 9);
+  if (strcmp(line, "sleep") == 0) syscall(SYS_pause);
   if (strcmp(line, "escape") == 0) {
     char path[200];
     FILE* in = fopen("/MS/ESCAPE.TXT", "r");

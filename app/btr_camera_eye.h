@@ -1,9 +1,9 @@
 #pragma once
-#include "core/remote/camera_eye.h"
+#include "core/live/camera_eye.h"
 
 namespace btr::cli {
 
 /// Cameras of robots by btr-camera, beside this program; none where it was not built.
-remote::CameraMaker cameraMaker();
+CameraMaker cameraMaker();
 
 }  // namespace btr::cli

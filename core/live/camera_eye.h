@@ -1,19 +1,14 @@
 #pragma once
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "core/live/session.h"
+#include "core/sim/controller.h"
 
-namespace btr::remote {
+namespace btr {
 
-struct CameraPicture {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  ///< height × width × 3
-};
+class Session;
 
 /// What a robot's camera sees of a running world. Whoever renders stands behind it: nothing here knows how.
 class CameraEye {
@@ -27,4 +22,4 @@ class CameraEye {
 /// Empty where there are no cameras.
 using CameraMaker = std::function<std::unique_ptr<CameraEye>(const std::string& robot)>;
 
-}  // namespace btr::remote
+}  // namespace btr

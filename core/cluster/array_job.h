@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/cluster/parts.h"
+
+namespace btr {
+
+/// One part of an array job, which a machine works on for itself.
+struct ArrayElement {
+  std::string name;                    ///< "worn knee, seed 3"
+  std::vector<std::string> arguments;  ///< of btr; "{db}" is its database, "{out}" its folder
+};
+
+/// Runs of a comparison, grids or blind cases for a batch queue or for other machines over ssh, in a folder: job.json
+/// ("format": "uchilsim-array-1"), for element N = 1, 2, … what it begins with and comes to (N.db or N.tar), how it is
+/// (N.json) and what it said (N.log). A database holds all that a run needs (experiment, scene, robots), so that an
+/// element needs no other file.
+struct ArrayJob {
+  std::string what;     ///< "compare", "grid" or "gap prove"
+  std::string into;     ///< the database or folder that collects the results; absolute
+  std::string program;  ///< btr, absolute
+  int workers = 1;      ///< worker processes of each element
+  std::vector<ArrayElement> elements;
+  Parts build;                        ///< buildIdentity() of who wrote it
+  std::vector<std::string> queueIds;  ///< of the queue's jobs that work on it, in their order
+};
+
+/// Throws InputError: the folder must not be there, or be empty.
+void claimArrayFolder(const std::string& folder);
+void saveArrayJob(const std::string& folder, const ArrayJob& job);
+/// Throws InputError for a folder that holds none.
+ArrayJob loadArrayJob(const std::string& folder);
+
+/// How an element is, as it says itself.
+struct ElementState {
+  std::string state;  ///< "" (not begun), "running", "done", "waiting" (for a person), "stopped", "failed"
+  std::string host;
+  std::string note;  ///< why it failed or what it waits for
+  double share = 0;  ///< of what is to be done, as far as it is known
+};
+void saveElementState(const std::string& folder, std::size_t number, const ElementState& state);
+ElementState loadElementState(const std::string& folder, std::size_t number);
+
+/// A file of the folder: "FOLDER/7.db".
+std::string elementFile(const std::string& folder, std::size_t number, const std::string& ending);
+
+/// The element's database in the job's folder, for startRun() and others to begin.
+std::string elementDatabase(const std::string& folder, std::size_t number);
+
+/// What came of collecting.
+struct Collected {
+  std::size_t fresh = 0, before = 0;  ///< elements taken now; those that had been taken
+  std::vector<std::size_t> missing;   ///< elements that are not done
+};
+/// Takes the results of all elements that are done, once each: runs and grids into the database, cases into the folder.
+Collected collectArray(const std::string& folder);
+
+}  // namespace btr

@@ -1,0 +1,26 @@
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace btr {
+
+/// How a program ended.
+struct ChildEnd {
+  int exitCode = 0;  ///< 128 + the signal's number where it was killed
+  std::string out, err;
+};
+
+/// Runs a program, looked for on the path, to its end. Throws InputError if it cannot be started.
+ChildEnd runChild(const std::vector<std::string>& words);
+/// Its standard output. Throws InputError with the last line of its errors if it did not end well.
+std::string outputOfChild(const std::vector<std::string>& words);
+
+/// Starts a program; standard output and error go to the end of a file. Throws InputError if it cannot be started.
+pid_t startChild(const std::vector<std::string>& words, const std::string& log);
+
+/// The last line that is not empty.
+std::string lastLine(const std::string& text);
+
+}  // namespace btr

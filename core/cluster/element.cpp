@@ -1,0 +1,190 @@
+#include "core/cluster/element.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+
+#include "core/cluster/array_job.h"
+#include "core/cluster/build_identity.h"
+#include "core/cluster/child.h"
+#include "core/cluster/coordinator.h"
+#include "core/run/back_to_reality.h"
+#include "core/spec/error.h"
+#include "core/spec/json_reader.h"
+#include "core/store/database.h"
+
+namespace btr {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds betweenStates(5);
+constexpr std::chrono::minutes betweenCopies(5);
+constexpr int exitDone = 0, exitStopped = 3, exitWaits = 10;
+
+/// A folder on this machine's disk, removed in the end.
+class LocalFolder {
+ public:
+  LocalFolder() {
+    std::string pattern = (fs::temp_directory_path() / "uchilsim-element-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw InputError(pattern + ": the folder cannot be made: " + std::strerror(errno));
+    path_ = pattern;
+  }
+  ~LocalFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  LocalFolder(const LocalFolder&) = delete;
+  LocalFolder& operator=(const LocalFolder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+class Element {
+ public:
+  Element(std::string folder, std::size_t number)
+      : folder_(std::move(folder)), number_(number), job_(loadArrayJob(folder_)) {
+    if (number_ < 1 || number_ > job_.elements.size())
+      throw InputError(folder_, "element " + std::to_string(number_),
+                       "elements 1 to " + std::to_string(job_.elements.size()));
+    state_.host = hostName();
+  }
+
+  void requireSameBuild(const PluginHost& host) {
+    const auto what = difference(job_.build, buildIdentity(host));
+    if (!what) return;
+    fail("host " + state_.host + ": " + *what + "; install the same build on every machine");
+    throw InputError(folder_ + ": element " + std::to_string(number_) + ": " + state_.note);
+  }
+
+  bool work(const std::atomic<bool>& stop) try {
+    tell("running", "");
+    const LocalFolder local;
+    const bool hasDatabase = fs::exists(elementDatabase(folder_, number_));
+    if (hasDatabase) copyFile(elementDatabase(folder_, number_), local.file("element.db"));
+    const std::string log = elementFile(folder_, number_, ".log");
+    fs::remove(log);
+    const pid_t child = startChild(words(local), log);
+    const int code = waitFor(child, stop, hasDatabase ? local.file("element.db") : "");
+    const std::string said = readFile(log);
+    if (hasDatabase)
+      bringBack(local.file("element.db"));
+    else
+      outputOfChild({"tar", "-cf", elementFile(folder_, number_, ".tar"), "-C", local.file("out"), "."});
+    return conclude(code, stop, lastLine(said));
+  } catch (const std::exception& error) {
+    fail("host " + state_.host + ": " + error.what());
+    return false;
+  }
+
+ private:
+  void tell(const std::string& state, const std::string& note) {
+    state_.state = state;
+    state_.note = note;
+    saveElementState(folder_, number_, state_);
+  }
+  void fail(const std::string& why) { tell("failed", why); }
+
+  std::vector<std::string> words(const LocalFolder& local) const {
+    std::vector<std::string> all{fs::read_symlink("/proc/self/exe").string()};
+    for (const std::string& word : job_.elements[number_ - 1].arguments)
+      all.push_back(word == "{db}" ? local.file("element.db") : word == "{out}" ? local.file("out") : word);
+    return all;
+  }
+
+  static void copyFile(const std::string& from, const std::string& to) {
+    std::error_code error;
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    if (error) throw InputError(to + ": cannot be written: " + error.message());
+  }
+
+  /// The database comes back under another name first: whole or not at all.
+  void bringBack(const std::string& from) const {
+    const std::string to = elementDatabase(folder_, number_), part = to + ".part";
+    Database::open(from, Database::Mode::readOnly).backUp(part, true);
+    std::error_code error;
+    fs::rename(part, to, error);
+    if (error) throw InputError(to + ": cannot be written: " + error.message());
+  }
+
+  /// Which part of the generations is done.
+  void look(const std::string& database) {
+    const Database db = Database::open(database, Database::Mode::readOnly);
+    double done = 0, all = 0;
+    for (const RunRecord& run : db.runs()) {
+      const RunProgress progress = progressFromJson(run.progressJson);
+      done += run.generation;
+      all += std::max(progress.totalGenerations, run.generation);
+    }
+    state_.share = all > 0 ? done / all : 0;
+    saveElementState(folder_, number_, state_);
+  }
+
+  int waitFor(pid_t child, const std::atomic<bool>& stop, const std::string& database) {
+    bool asked = false;
+    auto told = Clock::now(), copied = told;
+    while (true) {
+      int status = 0;
+      const pid_t ended = waitpid(child, &status, WNOHANG);
+      if (ended == child || (ended < 0 && errno != EINTR)) {
+        constexpr int killed = 128;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
+      }
+      if (stop && !asked) {
+        kill(child, SIGTERM);
+        asked = true;
+      }
+      if (!database.empty() && Clock::now() - told > betweenStates) {
+        told = Clock::now();
+        look(database);
+      }
+      if (!database.empty() && Clock::now() - copied > betweenCopies) {
+        copied = Clock::now();
+        bringBack(database);
+      }
+      constexpr useconds_t moment_us = 50'000;
+      usleep(moment_us);
+    }
+  }
+
+  bool conclude(int code, const std::atomic<bool>& stop, const std::string& said) {
+    if (code == exitDone || code == exitWaits) {
+      state_.share = 1;
+      tell(code == exitDone ? "done" : "waiting", code == exitDone ? "" : said);
+      return true;
+    }
+    if (stop)
+      tell("stopped", "");
+    else if (code == exitStopped && said.find(": ") == std::string::npos)
+      tell("stopped", said);
+    else
+      fail("host " + state_.host + ": " + (said.empty() ? "exit code " + std::to_string(code) : said));
+    return false;
+  }
+
+  std::string folder_;
+  std::size_t number_;
+  ArrayJob job_;
+  ElementState state_;
+};
+
+}  // namespace
+
+bool workOnElement(const std::string& folder, std::size_t number, const PluginHost& host,
+                   const std::atomic<bool>& stop) {
+  Element element(folder, number);
+  element.requireSameBuild(host);
+  return element.work(stop);
+}
+
+}  // namespace btr

@@ -1,0 +1,17 @@
+#pragma once
+#include <atomic>
+#include <string>
+
+#include "core/plugin/plugin_host.h"
+
+namespace btr {
+
+/// Works on one element of an array job: its database is copied to a folder on this machine's own disk ($TMPDIR, else
+/// /tmp), a btr works on it there, and the database comes back into the job's folder every few minutes and in the end,
+/// whole or not at all. So an element that is killed goes on from what came back last. `stop`: the btr is asked to
+/// stop, and what it has done comes back. Returns true if the element is done or waits for a person. What fails stands
+/// in its state; throws InputError only where not even that can be written, and for a build that differs.
+bool workOnElement(const std::string& folder, std::size_t number, const PluginHost& host,
+                   const std::atomic<bool>& stop);
+
+}  // namespace btr

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace btr {
+
+/// The machines of a file, one a line as GNU parallel reads them ("2/lab7", "ada@lab8"); empty lines and what follows a
+/// "#" play no part. Throws InputError for a file that cannot be read or names none.
+std::vector<std::string> requireHosts(const std::string& file);
+
+/// Works on elements of the job in `folder` on these machines, one at a time on each unless the file says more, by GNU
+/// parallel over ssh: each element's database goes there and comes back, nothing else is shared. Machines must have btr
+/// where this one has it. A machine that does not answer is named on stderr and left out. Returns when all are done.
+/// Throws InputError if GNU parallel is not there or no machine answers.
+void runOverSsh(const std::string& folder, const std::string& hostsFile, const std::vector<std::size_t>& numbers);
+
+}  // namespace btr

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Array jobs over ssh: an sshd of our own on this machine plays two of them, a third is not there.
+. "$(dirname "$0")/../cli/common.sh"
+for program in parallel rsync ssh sshd ssh-keygen; do
+  PATH=$PATH:/usr/sbin command -v $program > /dev/null || { echo "skipped: $program is not installed (parallel, rsync, openssh-server)"; exit 77; }
+done
+at=$folder/ssh
+mkdir -m 700 "$at"
+ssh-keygen -q -t ed25519 -N "" -f "$at/host"
+ssh-keygen -q -t ed25519 -N "" -f "$at/key"
+cp "$at/key.pub" "$at/authorized"
+port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+cat > "$at/sshd_config" <<CONF
+ListenAddress 127.0.0.1
+Port $port
+HostKey $at/host
+AuthorizedKeysFile $at/authorized
+PidFile none
+UsePAM no
+PasswordAuthentication no
+StrictModes no
+PermitRootLogin yes
+CONF
+[ "$(id -u)" = 0 ] && mkdir -p /run/sshd
+$(PATH=$PATH:/usr/sbin command -v sshd) -D -e -f "$at/sshd_config" 2> "$at/log" &
+server=$!
+trap 'kill $server 2> /dev/null; rm -rf "$folder"' EXIT
+until grep -q "Server listening" "$at/log"; do
+  kill -0 $server 2> /dev/null || { echo "skipped: sshd does not start here: $(tail -1 "$at/log")"; exit 77; }
+  sleep 0.05
+done
+# Machines are named as a user would; what ssh needs to reach them stands in its configuration.
+cat > "$at/config" <<CONF
+Host lab1 lab2
+  HostName 127.0.0.1
+Host lab3
+  HostName 127.0.0.1
+  Port 1
+Host lab1 lab2 lab3
+  Port $port
+  IdentityFile $at/key
+  UserKnownHostsFile $at/known
+  StrictHostKeyChecking no
+  LogLevel ERROR
+CONF
+export PARALLEL_SSH="ssh -F $at/config" PARALLEL_HOME=$folder/parallel
+mkdir "$PARALLEL_HOME"
+
+python3 -c '
+import json, os, sys
+root, folder = sys.argv[1:]
+source = os.path.join(root, "resources/experiments/kick-short.json")
+spec = json.load(open(source))
+spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+spec["learner"]["settings"]["population"] = 6
+spec["adaptation"]["learner"]["settings"]["population"] = 4
+spec["adaptation"]["settings"]["generations"] = 1
+spec["stages"].update(first_generations=2, next_generations=1, total_generations=2, measured_individuals=2)
+json.dump(spec, open(folder + "/kick.json", "w"))
+json.dump({"format": "uchilsim-comparison-1", "name": "c", "seeds": [1, 2, 3],
+           "arms": [{"name": "a", "experiment": "kick.json"}]}, open(folder + "/c.json", "w"))' "$root" "$folder"
+expect 0 "one process" "$btr" compare "$folder/c.json" --db "$folder/one.db" --jobs 1 --quiet --csv "$folder/one.csv"
+printf 'lab1\n# the next one is switched off\nlab3\nlab2\n' > "$folder/hosts"
+expect 0 "three machines, one of them not there" "$btr" compare "$folder/c.json" --db "$folder/all.db" --ssh "$folder/job" --hosts "$folder/hosts"
+says err "btr: host lab3 is left out: "
+one_line
+[ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; cat "$folder/job/parallel.log"; }
+expect 0 "collecting" "$btr" array collect "$folder/job"
+says out "3 elements collected"
+expect 0 "the collected comparison" "$btr" compare "$folder/c.json" --db "$folder/all.db" --quiet --csv "$folder/all.csv"
+cmp -s "$folder/one.csv" "$folder/all.csv" || fail "other results than of one process"
+
+echo lab3 > "$folder/none"
+expect 1 "no machine at all" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/none-job" --hosts "$folder/none"
+says err "no host that can be used"
+expect 3 "it is written, and machines may come" "$btr" array collect "$folder/none-job"
+expect 0 "with another machine" "$btr" array resume "$folder/none-job" --hosts "$folder/hosts"
+[ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; }
+echo "# nobody" > "$folder/nobody"
+expect 1 "no hosts" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y" --hosts "$folder/nobody"
+says err "machines that ssh reaches"
+expect 2 "hosts are needed" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y"
+finish

@@ -1,0 +1,131 @@
+#!/usr/bin/env bash
+# Array jobs in a real Slurm, started here: the results of one process, elements that fail, cancelled, killed, refused.
+. "$(dirname "$0")/../cli/common.sh"
+. "$(dirname "$0")/slurm_here.sh"
+slurm_begin || exit $?
+trap 'slurm_end; umount "$folder/tiny" 2> /dev/null; rm -rf "$folder"' EXIT
+
+# comparison FILE GENERATIONS SEEDS: two arms of short kicks
+comparison() {
+  python3 -c '
+import json, os, sys
+root, folder, out, generations, seeds = *sys.argv[1:4], int(sys.argv[4]), json.loads(sys.argv[5])
+source = os.path.join(root, "resources/experiments/kick-short.json")
+arms = []
+for name, mutation in (("little", 0.015), ("much", 0.2)):
+  spec = json.load(open(source))
+  spec["name"] = name + " " + str(generations)
+  spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+  spec["learner"]["settings"].update(population=6, mutation=mutation)
+  spec["adaptation"]["learner"]["settings"]["population"] = 4
+  spec["adaptation"]["settings"]["generations"] = 1
+  spec["stages"].update(first_generations=generations, next_generations=1, total_generations=generations,
+                        measured_individuals=2)
+  file = "%s/%s-%d.json" % (folder, name, generations)
+  json.dump(spec, open(file, "w"))
+  arms.append({"name": name, "experiment": file})
+json.dump({"format": "uchilsim-comparison-1", "name": "c", "arms": arms, "seeds": seeds}, open(out, "w"))' \
+    "$root" "$folder" "$1" "$2" "$3"
+}
+# states FOLDER: "done done failed …"
+states() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(*(e["state"].replace(" ", "_") for e in json.load(sys.stdin)))'; }
+# until_over FOLDER: nothing is queued or running any more
+until_over() { while states "$1" | grep -qE "queued|running|not_begun"; do sleep 0.2; done; }
+# release FOLDER: its newest job may begin
+release() { scontrol release "$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["queue_ids"][-1])' "$1/job.json")"; }
+same() { cmp -s "$1" "$2" || { fail "$3: other results than of one process"; diff "$1" "$2" | head -4; }; }
+
+# The results of one process.
+comparison "$folder/c.json" 2 "[1, 2]"
+expect 0 "one process" "$btr" compare "$folder/c.json" --db "$folder/one.db" --jobs 1 --quiet --csv "$folder/one.csv"
+expect 0 "submitting" "$btr" compare "$folder/c.json" --db "$folder/all.db" --slurm "$folder/job"
+says out "4 elements in"
+until_over "$folder/job"
+[ "$(states "$folder/job")" = "done done done done" ] || { fail "the elements are $(states "$folder/job")"; "$btr" array status "$folder/job"; }
+expect 0 "collecting" "$btr" array collect "$folder/job"
+says out "4 elements collected"
+expect 0 "collecting again" "$btr" array collect "$folder/job"
+says out "0 elements collected, 4 had been before"
+expect 0 "the collected comparison" "$btr" compare "$folder/c.json" --db "$folder/all.db" --quiet --csv "$folder/all.csv"
+same "$folder/one.csv" "$folder/all.csv" "the array"
+expect 1 "a folder that is in use" "$btr" compare "$folder/c.json" --db "$folder/all.db" --slurm "$folder/job"
+says err "btr array status"
+one_line
+
+# What Slurm refuses is one sentence, and can be given to it again.
+expect 1 "a partition that is not there" "$btr" compare "$folder/c.json" --db "$folder/x.db" --slurm "$folder/refused" \
+  --slurm-option=--partition=nowhere
+says err "sbatch: "
+says err "btr array resume"
+one_line
+
+# One element whose file was spoiled fails, is named and runs again alone.
+comparison "$folder/held.json" 1 "[1, 2]"
+expect 0 "submitting, held" "$btr" compare "$folder/held.json" --db "$folder/mended.db" --slurm "$folder/mended" \
+  --slurm-option=--hold
+cp "$folder/mended/3.db" "$folder/kept.db"
+head -c 5000 "$folder/kept.db" > "$folder/mended/3.db"
+release "$folder/mended"
+until_over "$folder/mended"
+[ "$(states "$folder/mended")" = "done done failed done" ] || fail "with a spoiled file the elements are $(states "$folder/mended")"
+expect 3 "collecting what is there" "$btr" array collect "$folder/mended"
+says out "1 of 4 are missing (3)"
+cp "$folder/kept.db" "$folder/mended/3.db"
+expect 0 "again" "$btr" array resume "$folder/mended"
+says out "elements 3 of"
+release "$folder/mended"
+until_over "$folder/mended"
+expect 0 "collecting the rest" "$btr" array collect "$folder/mended"
+says out "1 elements collected, 3 had been before"
+
+# A full disk where an element works: one sentence, and again with room.
+mkdir "$folder/tiny"
+if mount -t tmpfs -o size=400k none "$folder/tiny" 2> /dev/null; then
+  comparison "$folder/full.json" 30 "[1]"
+  TMPDIR=$folder/tiny expect 0 "submitting to a full disk" "$btr" compare "$folder/full.json" --db "$folder/full.db" --slurm "$folder/full"
+  until_over "$folder/full"
+  [ "$(states "$folder/full")" = "failed failed" ] || fail "on a full disk the elements are $(states "$folder/full")"
+  "$btr" array status "$folder/full" > "$folder/out"
+  says out "full"
+else
+  echo "not tested: a full disk (no tmpfs may be mounted here)"
+fi
+
+# Cancelled while it works, its btr killed, and the whole element killed: it goes on with the same bits.
+comparison "$folder/long.json" 60 "[3]"
+expect 0 "one process, longer" "$btr" compare "$folder/long.json" --db "$folder/long-one.db" --jobs 1 --quiet --csv "$folder/long-one.csv"
+expect 0 "submitting the longer one" "$btr" compare "$folder/long.json" --db "$folder/long.db" --slurm "$folder/long"
+until states "$folder/long" | grep -q running; do sleep 0.1; done
+expect 0 "cancelling" "$btr" array cancel "$folder/long"
+until_over "$folder/long"
+states "$folder/long" | grep -qE "stopped|failed" || fail "cancelled, the elements are $(states "$folder/long")"
+"$btr" check --db "$folder/long/1.db" --replays 0 > /dev/null || fail "what a cancelled element brought back is not whole"
+expect 0 "going on" "$btr" array resume "$folder/long"
+until states "$folder/long" | grep -q running; do sleep 0.1; done
+pkill -9 -f "element $folder/long 1"
+until_over "$folder/long"
+"$btr" array status "$folder/long" > "$folder/out"
+says out "it ended without a word"
+expect 0 "going on once more" "$btr" array resume "$folder/long"
+until_over "$folder/long"
+expect 0 "collecting the longer one" "$btr" array collect "$folder/long"
+expect 0 "its comparison" "$btr" compare "$folder/long.json" --db "$folder/long.db" --quiet --csv "$folder/long.csv"
+same "$folder/long-one.csv" "$folder/long.csv" "cancelled and killed"
+
+# Ranks under srun.
+if [ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] && srun --mpi=list 2>&1 | grep -q pmix; then
+  expect 0 "srun" srun --mpi=pmix -n 2 "$btr" run "$folder/little-2.json" --db "$folder/srun.db" --seed 1
+  says err "2 workers"
+  expect 0 "the same alone" "$btr" run "$folder/little-2.json" --db "$folder/alone.db" --seed 1 --jobs 1
+  for db in srun alone; do "$btr" export --db "$folder/$db.db" --run 1 --what individuals > "$folder/$db.csv"; done
+  same "$folder/alone.csv" "$folder/srun.csv" "srun"
+  expect 1 "srun without MPI" srun --mpi=none -n 2 "$btr" run "$folder/little-2.json" --db "$folder/none.db" --seed 1
+  says err "start it with srun --mpi=pmix"
+fi
+
+# A Slurm that does not answer.
+slurm_end
+expect 1 "no controller" "$btr" array status "$folder/job"
+says err "squeue: "
+one_line
+finish

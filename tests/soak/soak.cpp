@@ -1,6 +1,6 @@
 // Learning and measuring for a long time in one process: does anything grow that should not? `soak [--seconds S]
-// [--hours H] [--jobs N] [--analyse]`: 60 s unless told otherwise. Prints a table and what it has to complain of (exit
-// code 1).
+// [--hours H] [--runs N] [--jobs N] [--analyse]`: 60 s unless told otherwise. Prints a table and what it has to
+// complain of (exit code 1).
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,6 +32,7 @@ std::atomic<bool> stop = false;
 
 struct Options {
   double seconds = 60;
+  double runs = 1e18;  ///< no more than these
   int jobs = 1;
   bool analyse = false;  ///< also gap analyses, each a process of its own
 };
@@ -58,7 +59,8 @@ class Soak {
   std::vector<Held> go() {
     const double begin = now_s();
     std::vector<Held> looks;
-    for (std::uint64_t seed = 1; !stop && now_s() - begin < options_.seconds; ++seed) {
+    for (std::uint64_t seed = 1;
+         !stop && now_s() - begin < options_.seconds && static_cast<double>(seed) <= options_.runs; ++seed) {
       learn(seed);
       if (options_.analyse && seed % 4 == 0) analyse();
       Held held = lookAt(folder_.path().string());
@@ -165,6 +167,8 @@ bool read(int count, char** arguments, Options& options) {
       options.seconds = number, ++k;
     else if (word == "--hours")
       options.seconds = 3600 * number, ++k;
+    else if (word == "--runs")
+      options.seconds = 1e18, options.runs = number, ++k;
     else if (word == "--jobs")
       options.jobs = static_cast<int>(number), ++k;
     else
@@ -180,7 +184,7 @@ int main(int count, char** arguments) {
   using namespace btr::soak;
   Options options;
   if (!read(count, arguments, options)) {
-    std::fprintf(stderr, "soak [--seconds S] [--hours H] [--jobs N] [--analyse]\n");
+    std::fprintf(stderr, "soak [--seconds S] [--hours H] [--runs N] [--jobs N] [--analyse]\n");
     return 2;
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { stop = true; });

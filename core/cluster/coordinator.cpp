@@ -19,8 +19,6 @@ double secondsSince(Clock::time_point then) { return std::chrono::duration<doubl
 
 /// A job that was lost so often is at fault, or the machines are.
 constexpr int mostTries = 3;
-/// A foreman tries each job twice before it says so; this long it may take beyond that.
-constexpr double grace_s = 30;
 
 struct Piece {
   long number = 0;
@@ -256,7 +254,8 @@ struct Coordinator::Impl {
   void restartTheHanging() {
     for (Place& place : places) {
       if (place.pieces.empty()) continue;
-      const double most = grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      const double most =
+          options.grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
       if (secondsSince(place.since) < most) continue;
       place.since = Clock::now();
       restart(place);

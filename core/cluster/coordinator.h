@@ -20,6 +20,7 @@ struct PlaceReport {
 struct CoordinatorOptions {
   int foremen = 1;             ///< of this rank; 0: it only coordinates
   double secondsPerJob = 120;  ///< as WorkerPool
+  double grace_s = 30;         ///< a foreman that tries each job of its piece twice may take this long beyond that
   double patience_s = 120;     ///< how long ranks may take to begin
   ForemanCommand command = ownForeman();
 };

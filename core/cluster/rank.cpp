@@ -28,7 +28,7 @@ void serveRank(RankLink& link, int foremen, const ForemanCommand& command) {
   Crew crew(foremen, command);
   link.send(0, pack({"crew", hostName(), std::to_string(crew.size())}));
   // A rank that has had nothing to do for a while looks less often whether there is something.
-  constexpr int busy_ms = 1, idle_ms = 5;
+  constexpr int busy_ms = 2, idle_ms = 5;
   constexpr std::chrono::seconds soon(1);
   auto last = std::chrono::steady_clock::now();
   while (true) {

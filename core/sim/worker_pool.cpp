@@ -5,14 +5,19 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <optional>
 
 #include "core/spec/crash_report.h"
 #include "core/spec/error.h"
@@ -94,6 +99,16 @@ std::string howItEnded(int status) {
   return "the worker ended (exit code " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1) + ")";
 }
 
+/// Whether a child ends by itself by then; it is still to be waited for.
+bool endsWithin(pid_t process, int patience_ms) {
+  const int watched = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+  if (watched < 0) return false;
+  pollfd one{watched, POLLIN, 0};
+  const bool ended = poll(&one, 1, patience_ms) > 0;
+  close(watched);
+  return ended;
+}
+
 struct Worker {
   pid_t pid = -1;
   int socket = -1;
@@ -125,17 +140,26 @@ struct WorkerPool::Impl {
       serve(pair[1], work);
     }
     close(pair[1]);
+    // Who stops in the middle of a message is waited for no longer than who says nothing.
+    const double whole_s = std::floor(std::min(secondsPerJob, 1e6));
+    constexpr double perSecond = 1e6;
+    const timeval limit{static_cast<time_t>(whole_s),
+                        static_cast<suseconds_t>((std::min(secondsPerJob, 1e6) - whole_s) * perSecond)};
+    setsockopt(pair[0], SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+    setsockopt(pair[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
     worker = Worker{pid, pair[0], -1, Clock::now()};
   }
 
-  /// Ends a worker and says how it ended.
-  static int finish(Worker& worker, bool force) {
-    if (force) kill(worker.pid, SIGKILL);
+  /// Ends a worker and says how it ended; nothing of one that should have ended by itself and had to be killed.
+  static std::optional<int> finish(Worker& worker, bool force) {
     close(worker.socket);
+    constexpr int patience_ms = 2000;
+    const bool stuck = !force && !endsWithin(worker.pid, patience_ms);
+    if (force || stuck) kill(worker.pid, SIGKILL);
     int status = 0;
     while (waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
     }
-    return status;
+    return stuck ? std::nullopt : std::optional(status);
   }
 
   ~Impl() {
@@ -162,6 +186,8 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
   std::vector<int> tries(jobs.size(), 0);
   std::vector<std::size_t> again;  // jobs whose worker died once
   std::size_t next = 0, finished = 0;
+  const std::string noAnswer = "no answer within " + std::to_string(static_cast<int>(impl_->secondsPerJob)) + " s";
+  const auto isLate = [] { return errno == EAGAIN || errno == EWOULDBLOCK; };
 
   // Gives the job back, or fails it when it has had its second try.
   const auto lost = [&](std::size_t job, const std::string& why, bool killed) {
@@ -176,10 +202,10 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
   };
   const auto replace = [&](Worker& worker, bool force, const std::string& why) {
     const auto job = static_cast<std::size_t>(worker.job);
-    const int status = Impl::finish(worker, force);
+    const std::optional<int> status = Impl::finish(worker, force);
     impl_->start(worker);
-    const bool killed = why.empty() && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-    lost(job, why.empty() ? howItEnded(status) : why, killed);
+    const bool killed = why.empty() && status && WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL;
+    lost(job, !why.empty() ? why : status ? howItEnded(*status) : "the worker hung up and did not end", killed);
   };
 
   while (finished < jobs.size()) {
@@ -206,7 +232,8 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
       ++tries[job];
       worker.job = static_cast<long>(job);
       worker.since = Clock::now();
-      if (!sendMessage(worker.socket, jobs[job])) replace(worker, true, "");
+      errno = 0;
+      if (!sendMessage(worker.socket, jobs[job])) replace(worker, true, isLate() ? noAnswer : "");
     }
     // Wait for answers.
     std::vector<pollfd> waiting;
@@ -221,8 +248,9 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
       Worker& worker = *whose[i];
       if (waiting[i].revents != 0) {
         std::string bytes;
+        errno = 0;
         if (!receiveMessage(worker.socket, bytes) || bytes.empty()) {
-          replace(worker, false, "");
+          replace(worker, isLate(), isLate() ? noAnswer : "");
           continue;
         }
         if (bytes[0] == 'C') {
@@ -236,7 +264,7 @@ std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& j
         ++finished;
         if (done) done(finished);
       } else if (std::chrono::duration<double>(Clock::now() - worker.since).count() > impl_->secondsPerJob) {
-        replace(worker, true, "no answer within " + std::to_string(static_cast<int>(impl_->secondsPerJob)) + " s");
+        replace(worker, true, noAnswer);
       }
     }
   }

@@ -123,6 +123,25 @@ TEST(Coordinator, GivesTheSameBitsWhenItsProcessesAreKilled) {
   }
 }
 
+TEST(Coordinator, StartsAForemanAnewThatHangs) {
+  const Kicks kicks(12);
+  const std::vector<std::string> alone = kicks.shasWith(nullptr);
+  CoordinatorOptions options = withForemen(1);
+  options.secondsPerJob = options.grace_s = 1;
+  Coordinator coordinator(nullptr, kicks.host(), options);
+  Evaluator evaluator(kicks.prepared(), 1, &coordinator);
+  bool isStopped = false;
+  const auto replies = evaluator.evaluate(kicks.jobs(), goOn, [&](std::size_t) {
+    for (const pid_t process : isStopped ? std::vector<pid_t>{} : descendants()) kill(process, SIGSTOP);
+    isStopped = true;
+  });
+  ASSERT_TRUE(replies);
+  std::vector<std::string> shas;
+  for (const TrialReply& reply : *replies) shas.push_back(reply.traceSha256 + reply.detail);
+  EXPECT_EQ(alone, shas);
+  EXPECT_EQ(1, coordinator.report().front().losses);
+}
+
 TEST(Coordinator, LeavesNoProcessBehind) {
   const Kicks kicks(2);
   {

@@ -87,6 +87,16 @@ TEST(IntegralAction, AddsUpTheErrorUntilItsClampAndStaysWithinTheDrivesLimit) {
   EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15, 0}, state, 1e-3));
 }
 
+TEST(IntegralAction, IsPartOfTheSumThatTheDriveLimits) {
+  const auto integral = effect("integral_action");
+  Numbers state{-0.15};
+  // The law asks for 1.5 N·m of 0.9 N·m: with −0.15 N·m more it still does.
+  const JointState joint{.position = 0.1, .command = 0.1, .limit = 0.9, .beyond = 0.6};
+  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.9, joint, Numbers{2, 0.15, 0}, state, 1e-3));
+  const JointState nearer{.position = 0.1, .command = 0.1, .limit = 0.9, .beyond = 0.1};
+  EXPECT_DOUBLE_EQ(0.85, integral->driveTorque(0.9, nearer, Numbers{2, 0.15, 0}, state, 1e-3));
+}
+
 TEST(IntegralAction, HoldsTheWeightFromTheStartWhereItHasSettled) {
   const auto integral = effect("integral_action");
   Numbers state{0};

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdint>
 #include <stdexcept>
 
 namespace {
@@ -94,6 +95,24 @@ TEST(WorkerPool, EndsAWorkerThatNeverAnswers) {
   EXPECT_FALSE(replies[0].ok);
   EXPECT_NE(std::string::npos, replies[0].failure.find("no answer")) << replies[0].failure;
   EXPECT_EQ("1", replies[1].bytes);
+}
+
+TEST(WorkerPool, EndsAWorkerThatStopsInTheMiddleOfAnAnswerOrHangsUpAndLivesOn) {
+  constexpr int link = 3;  // a worker's end
+  WorkerPool pool(
+      1,
+      [](const std::string& job) -> std::string {
+        if (job == "hang up") {
+          close(link);
+        } else {
+          const std::uint64_t size = 100;
+          [[maybe_unused]] const ssize_t n = write(link, &size, sizeof size);
+        }
+        while (true) pause();
+      },
+      0.2);
+  EXPECT_EQ("no answer within 0 s", pool.run({"stop"}, goOn)[0].failure);
+  EXPECT_EQ("the worker hung up and did not end", pool.run({"hang up"}, goOn)[0].failure);
 }
 
 TEST(WorkerPool, GivesNothingWhenItIsStoppedAndCanBeUsedAgain) {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "app/btr_array.h"
+#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
 #include "core/run/comparison.h"
 
@@ -56,6 +57,8 @@ void compareElsewhere(const CompareArguments& a, const ComparisonSpec& spec, con
 }
 
 void compare(const CompareArguments& a, Shell& shell) {
+  const ClusterJob cluster(shell, a.database, a.jobs);
+  if (cluster.isDone()) return;
   const ComparisonSpec spec = loadComparison(a.file);
   const ComparedExperiments arms = loadArms(spec, shell.plugins());  // before a database is made for them
   if (a.array.isWanted()) return compareElsewhere(a, spec, arms, shell);
@@ -63,10 +66,12 @@ void compare(const CompareArguments& a, Shell& shell) {
   shell.goesOn = true;
   RunOptions options;
   options.jobs = a.jobs;
+  options.workforce = cluster.workforce();
   const Comparison all = runComparison(
       db, shell.plugins(), spec, arms, *shell.stop, options, [&](const std::string& arm, std::uint64_t seed) {
         if (!a.quiet) std::fprintf(stderr, "%s, seed %llu\n", arm.c_str(), static_cast<unsigned long long>(seed));
       });
+  if (!a.quiet) cluster.tell();
   if (!a.csv.empty()) writeOut(a.csv, toCsv(all));
   if (shell.json)
     std::cout << toJsonText(all) << '\n';

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_array.h"
+#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
 #include "core/run/grid/grid.h"
@@ -109,11 +110,13 @@ void report(const Database& db, const std::string& sha, const GridArguments& a, 
 }
 
 /// Goes on with the `k`-th of `grids` grids. False if it was stopped.
-bool goOn(Database& db, Id id, const GridArguments& a, Shell& shell, std::size_t k, std::size_t grids) {
+bool goOn(Database& db, Id id, const GridArguments& a, Workforce* workforce, Shell& shell, std::size_t k,
+          std::size_t grids) {
   const GridRecord record = db.grid(id);
   const bool show = isatty(STDERR_FILENO) && !a.quiet && !a.progress;
   GridOptions options;
   options.workers = a.workers;
+  options.workforce = workforce;
   if (show) options.progress = [&](const GridProgress& p) { showGridProgress(record, p); };
   if (a.progress)
     options.progress = [&](const GridProgress& p) {
@@ -149,6 +152,8 @@ void gridElsewhere(const GridArguments& a, const GridSpec& spec, Shell& shell) {
 }
 
 void runGrid(const GridArguments& a, Shell& shell) {
+  const ClusterJob cluster(shell, a.database, a.workers);
+  if (cluster.isDone()) return;
   GridSpec spec = loadGrid(a.file);
   if (!a.methods.empty()) {
     spec.methods.clear();
@@ -166,16 +171,19 @@ void runGrid(const GridArguments& a, Shell& shell) {
     for (const GridSpec::Method method : spec.methods) {
       const Id id = startGrid(db, shell.plugins(), spec, method, seed);
       sha = db.grid(id).specSha256;
-      if (!goOn(db, id, a, shell, k++, grids)) return;
+      if (!goOn(db, id, a, cluster.workforce(), shell, k++, grids)) return;
     }
+  if (!a.quiet) cluster.tell();
   report(db, sha, a, shell);
 }
 
 /// A stored grid needs its file no more.
 void continueStored(const GridArguments& a, Shell& shell) {
+  const ClusterJob cluster(shell, a.database, a.workers);
+  if (cluster.isDone()) return;
   Database db = Database::open(a.database, Database::Mode::readWrite, workingPatience_ms);
   shell.goesOn = true;
-  if (goOn(db, a.grid, a, shell, 0, 1)) report(db, db.grid(a.grid).specSha256, a, shell);
+  if (goOn(db, a.grid, a, cluster.workforce(), shell, 0, 1)) report(db, db.grid(a.grid).specSha256, a, shell);
 }
 
 void showTable(const GridArguments& a, Shell& shell) {

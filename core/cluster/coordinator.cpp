@@ -19,8 +19,6 @@ double secondsSince(Clock::time_point then) { return std::chrono::duration<doubl
 
 /// A job that was lost so often is at fault, or the machines are.
 constexpr int mostTries = 3;
-/// A foreman tries each job twice before it says so; this long it may take beyond that.
-constexpr double grace_s = 30;
 
 struct Piece {
   long number = 0;
@@ -108,7 +106,11 @@ struct Coordinator::Impl {
     while (link->receive(from, bytes)) {
       any = true;
       Parts parts = unpack(bytes);
-      if (parts.size() == 3 && parts[0] == "crew") {
+      if (parts.size() == 4 && parts[0] == "crew") {
+        if (parts[3] != options.words)
+          throw InputError("rank " + std::to_string(from) + " (host " + parts[1] +
+                           "): it was started with other words than rank 0; for a run of its own on each rank set "
+                           "UCHILSIM_ALONE=1");
         const int foremen = std::stoi(parts[2]);
         for (int k = 0; k < foremen; ++k) addPlace(from, k, parts[1]);
         arrived[static_cast<std::size_t>(from)] = true;
@@ -256,7 +258,8 @@ struct Coordinator::Impl {
   void restartTheHanging() {
     for (Place& place : places) {
       if (place.pieces.empty()) continue;
-      const double most = grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      const double most =
+          options.grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
       if (secondsSince(place.since) < most) continue;
       place.since = Clock::now();
       restart(place);

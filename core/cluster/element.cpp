@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "core/cluster/array_job.h"
 #include "core/cluster/build_identity.h"
@@ -103,9 +104,12 @@ class Element {
   }
 
   static void copyFile(const std::string& from, const std::string& to) {
-    std::error_code error;
-    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-    if (error) throw InputError(to + ": cannot be written: " + error.message());
+    std::ifstream in(from, std::ios::binary);
+    std::ofstream out(to, std::ios::binary);
+    errno = 0;
+    if (in && out) out << in.rdbuf() << std::flush;
+    if (!in || !out)
+      throw InputError((in ? to + ": cannot be written: " : from + ": cannot be read: ") + std::strerror(errno));
   }
 
   /// The database comes back under another name first: whole or not at all.

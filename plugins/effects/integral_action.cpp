@@ -1,9 +1,11 @@
 /// A servo's firmware that adds up its error, which the scene does not know:
-///   z' = k·(c − q), |z| ≤ Z;   τ' = clamp(τ + z, ±limit)      k in N·m/(rad·s), Z in N·m: clamp against wind-up
+///   z' = k·(c − q), |z| ≤ Z;   τ' = clamp(p·(c − q) − d·q̇ + z, ±limit)      k in N·m/(rad·s), Z in N·m: clamp against
+///   wind-up
 /// z is zero when a trial begins; with `settled` 1 it holds the weight of a joint that rests then, since its servo was
 /// on long before. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
 /// Drives that follow a position only. Neutral: k = 0. State: z.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "core/plugin/plugin.h"
@@ -36,7 +38,9 @@ class IntegralAction final : public btr::Effect {
                      std::span<double> state, double dt) const override {
     if (values[0] == 0 || !joint.followsPosition) return torque;
     state[0] = std::clamp(state[0] + values[0] * (joint.command - joint.position) * dt, -values[1], values[1]);
-    return std::clamp(torque + state[0], -joint.limit, joint.limit);
+    // The sum is limited, not its parts.
+    const double most = joint.beyond != 0 ? std::abs(torque) : joint.limit;
+    return std::clamp(torque + joint.beyond + state[0], -most, most);
   }
 };
 

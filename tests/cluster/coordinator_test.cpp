@@ -123,6 +123,25 @@ TEST(Coordinator, GivesTheSameBitsWhenItsProcessesAreKilled) {
   }
 }
 
+TEST(Coordinator, StartsAForemanAnewThatHangs) {
+  const Kicks kicks(12);
+  const std::vector<std::string> alone = kicks.shasWith(nullptr);
+  CoordinatorOptions options = withForemen(1);
+  options.secondsPerJob = options.grace_s = 1;
+  Coordinator coordinator(nullptr, kicks.host(), options);
+  Evaluator evaluator(kicks.prepared(), 1, &coordinator);
+  bool isStopped = false;
+  const auto replies = evaluator.evaluate(kicks.jobs(), goOn, [&](std::size_t) {
+    for (const pid_t process : isStopped ? std::vector<pid_t>{} : descendants()) kill(process, SIGSTOP);
+    isStopped = true;
+  });
+  ASSERT_TRUE(replies);
+  std::vector<std::string> shas;
+  for (const TrialReply& reply : *replies) shas.push_back(reply.traceSha256 + reply.detail);
+  EXPECT_EQ(alone, shas);
+  EXPECT_EQ(1, coordinator.report().front().losses);
+}
+
 TEST(Coordinator, LeavesNoProcessBehind) {
   const Kicks kicks(2);
   {
@@ -182,10 +201,22 @@ TEST(Coordinator, RefusesARankWithAnotherBuildByNameAndHost) {
     other.push_back(entry);
   }
   CoordinatorOptions options = withForemen(0);
-  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1"}, other}), kicks.host(),
-                          options);
+  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", ""}, other}),
+                          kicks.host(), options);
   EXPECT_EQ("rank 1 (host lab7): its library libbtr_core.so is another one; install the same build on every machine",
             test::refusal([&] { kicks.shasWith(&coordinator); }));
+}
+
+TEST(Coordinator, RefusesARankThatWasAskedForSomethingElse) {
+  const Kicks kicks(1);
+  CoordinatorOptions options = withForemen(0);
+  options.words = "run a.json";
+  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", "run b.json"}}),
+                          kicks.host(), options);
+  EXPECT_EQ(
+      "rank 1 (host lab7): it was started with other words than rank 0; for a run of its own on each rank set "
+      "UCHILSIM_ALONE=1",
+      test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 
 TEST(Coordinator, NamesARankThatNeverBegins) {

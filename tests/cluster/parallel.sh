@@ -25,7 +25,7 @@ CONF
 $(PATH=$PATH:/usr/sbin command -v sshd) -D -e -f "$at/sshd_config" 2> "$at/log" &
 server=$!
 trap 'kill $server 2> /dev/null; rm -rf "$folder"' EXIT
-until grep -q "Server listening" "$at/log"; do
+until grep -qs "Server listening" "$at/log"; do
   kill -0 $server 2> /dev/null || { echo "skipped: sshd does not start here: $(tail -1 "$at/log")"; exit 77; }
   sleep 0.05
 done
@@ -76,6 +76,18 @@ says err "no host that can be used"
 expect 3 "it is written, and machines may come" "$btr" array collect "$folder/none-job"
 expect 0 "with another machine" "$btr" array resume "$folder/none-job" --hosts "$folder/hosts"
 [ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; }
+# A blind trial, where its generator was built.
+if [ -x "$(dirname "$btr")/conceal" ]; then
+  trial=(gap prove --cases 3 --scene pendulum --kind nothing --seed 5)
+  expect 0 "a blind trial in one process" "$btr" "${trial[@]}" --out "$folder/trial-one"
+  expect 0 "a blind trial over ssh" "$btr" "${trial[@]}" --out "$folder/trial" --ssh "$folder/trial-job" --hosts "$folder/hosts"
+  expect 0 "collecting its cases" "$btr" array collect "$folder/trial-job"
+  says out "3 elements collected"
+  expect 0 "counting its cases" "$btr" "${trial[@]}" --out "$folder/trial"
+  verdicts() { grep -hv '"seconds"' "$1"/case_*/verdict.json; } # the time that an analysis took differs
+  cmp -s <(verdicts "$folder/trial-one") <(verdicts "$folder/trial") || fail "the blind trial has another result than in one process"
+fi
+
 echo "# nobody" > "$folder/nobody"
 expect 1 "no hosts" "$btr" compare "$folder/c.json" --db "$folder/x.db" --ssh "$folder/y" --hosts "$folder/nobody"
 says err "machines that ssh reaches"

@@ -175,6 +175,14 @@ TEST(Net, TcpAndUdpBetweenTwoObjects) {
   EXPECT_THAT(all, HasSubstr("client: over UDP from port 54322\n"));
 }
 
+TEST(Net, ClosingEndsAListenAndABoundPortIsKept) {
+  const std::string all = runStick(stickOf("closer"), 20).all();
+  EXPECT_THAT(all, HasSubstr("bind 0\n"));
+  EXPECT_THAT(all, HasSubstr("listen 2 port 45678\n"));  // closed while it waited
+  EXPECT_THAT(all, HasSubstr("connected 0\n"));
+  EXPECT_THAT(all, HasSubstr("listen 0 port 45678\n"));
+}
+
 StickRun faulty(const std::string& what) {
   return runStick(
       stickOf("faulty"), 60,

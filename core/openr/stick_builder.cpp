@@ -254,7 +254,8 @@ std::set<std::string> modulesOn(const fs::path& stick) {
 
 bool usesJpeg(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
-    if (isSource(entry.path()) && content(entry.path()).find("jpeglib.h") != std::string::npos) return true;
+    if ((isSource(entry.path()) || entry.path().extension() == ".h") && hasAny(content(entry.path()), {"jpeglib.h"}))
+      return true;
   return false;
 }
 
@@ -397,9 +398,36 @@ class StickBuilder {
     make(folder, stick, sdk, "install", object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
+    if (object.modules.empty() && hasAny(object.said, {"No rule to make target 'install'"}))
+      withoutInstall(folder, stick, sdk, object);
     // A Makefile that builds the JPEG library from its sources first: this computer has one.
     if (object.modules.empty() && usesJpeg(folder)) return byHand(folder, name, stick, sdk);
     result_.objects.push_back(std::move(object));
+  }
+
+  /// A Makefile makes modules and leaves it to its reader to copy them.
+  void withoutInstall(const fs::path& folder, const fs::path& stick, const fs::path& sdk, StickBuild::Object& object) {
+    object.said.clear();
+    make(folder, stick, sdk, "", object.said);
+    std::vector<fs::path> made;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (upper(entry.path().extension().string()) == ".BIN") made.push_back(entry.path());
+    std::sort(made.begin(), made.end());
+    for (const fs::path& each : made) {
+      const std::string module = moduleName(each.stem().string(), listedModules(stick));
+      if (run(folder,
+              "gzip -dcf " + shellWord(each.string()) + " | gzip -nc > " +
+                  shellWord((stick / modulesFolder / module).string()),
+              object.said) == 0)
+        object.modules.push_back(module);
+    }
+  }
+
+  /// Of the stick's OBJECT.CFG.
+  static std::vector<std::string> listedModules(const fs::path& stick) {
+    std::vector<std::string> listed;
+    for (const auto& line : configLines(content(stick / configFolder / "OBJECT.CFG"), "")) listed.push_back(line[0]);
+    return listed;
   }
 
   void byHand(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
@@ -422,10 +450,8 @@ class StickBuilder {
     for (const char* other : {"include", "../include", "../common", "../common/include"})
       if (fs::exists(folder / other)) includes += std::string(" -I") + other;
     std::string objects;
-    bool jpeg = false, whole = !sources.empty();
+    bool whole = !sources.empty();
     for (const fs::path& source : sources) {
-      const std::string text = content(folder / source);
-      jpeg = jpeg || text.find("jpeglib.h") != std::string::npos;
       const std::string made = source.stem().string() + ".o";
       const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
       whole = run(folder,
@@ -435,13 +461,11 @@ class StickBuilder {
               whole;
       objects += " " + shellWord(made);
     }
-    std::vector<std::string> listed;
-    for (const auto& line : configLines(content(stick / configFolder / "OBJECT.CFG"), "")) listed.push_back(line[0]);
-    const std::string module = moduleName(title, listed);
+    const std::string module = moduleName(title, listedModules(stick));
     const bool linked =
         whole && run(folder,
                      shellWord((sdk / "OPEN_R/bin/mkbin").string()) + " -o object.bin" + objects +
-                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (jpeg ? " -ljpeg" : "") +
+                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (usesJpeg(folder) ? " -ljpeg" : "") +
                          " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
                      object.said) == 0;
     if (linked) object.modules.push_back(module);

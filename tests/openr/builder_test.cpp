@@ -143,6 +143,10 @@ TEST(StickBuilder, FollowsMakefilesAndTheirLibraries) {
   EXPECT_THAT(runStick(stickOf("ruled"), 3).all(), HasSubstr("Ruled: the answer is 42, by rule 3\n"));
 }
 
+TEST(StickBuilder, AStubByHandAndAMakefileWithoutInstall) {
+  EXPECT_THAT(runStick(stickOf("hand"), 12).all(), HasSubstr("hand: by hand 2\n"));
+}
+
 TEST(StickBuilder, SaysWhatTheCompilerSays) {
   const std::string folder = emptyFolder("wrong");
   std::filesystem::create_directories(folder + "/Thing");

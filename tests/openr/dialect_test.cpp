@@ -89,6 +89,9 @@ TEST(Dialect, IdiomsOfThatTimeMeanWhatTheyMeant) {
   EXPECT_THAT(all, HasSubstr("42 1 5 3 0 5 9 34 7\n"));  // friends, members of templates, packed bytes
   EXPECT_THAT(all, HasSubstr("255 8 49 void Idiom::go()\n"));
   EXPECT_THAT(all, HasSubstr("i 2 ci 2 45\n"));  // a loop's variable behind the loop
+  // A long is as long as an int.
+  EXPECT_THAT(all, HasSubstr("-5|  -5|-6  |-5|fffffff0 4294967280 1.500000 1099511627776 -5%\n"));
+  EXPECT_THAT(all, HasSubstr("long -5 -5 end\n"));
   EXPECT_THAT(all, HasSubstr("undef\n"));
 }
 
@@ -101,6 +104,15 @@ TEST(Dialect, ATeamsProgramIsBuiltByItsMakefilesAndMoves) {
   const auto pan = run.targets(robotDesign("ERS-7"), "HEAD_PAN");
   ASSERT_FALSE(pan.empty());
   EXPECT_EQ(*std::max_element(pan.begin(), pan.end()), 300000);
+}
+
+TEST(Dialect, AMakefileThatBuildsTheJpegLibraryFirstIsGivenThisComputers) {
+  if (!std::filesystem::exists("/usr/include/jpeglib.h")) GTEST_SKIP() << "there is no JPEG library";
+  const CameraImage grey{416, 320, std::vector<std::uint8_t>(std::size_t{3} * 416 * 320, 128)};
+  const std::string stick = stickOf("web");
+  const StickRun run = runStick(stick, 12, [&](int, TrivialRobot& robot) { robot.image = grey; });
+  EXPECT_THAT(run.all(), HasSubstr("jpeg 1 ffd8\n"));  // by a jpeg_mem_dest() of its own
+  EXPECT_TRUE(std::filesystem::exists(stick + "/P.JPG"));
 }
 
 TEST(Dialect, CalendarTimesAndFoldersInOrder) {

@@ -57,6 +57,9 @@ void Idiom::go() {
   switch (ci) { case 2: string s = "in case"; printf("%s %d\n", s.c_str(), strcasecmp("A", "a")); break; }
   char* str = strdup("tok,en"); char* tk = strtok(str, ","); printf("%s\n", tk); bzero(str, 3);
   const char* const names[] = { "a", "b", 0 }; int k = 0; while (names[k]) k++; printf("k %d %s\n", k, k > 1 ? "more" : "less");
+  slongword neg = -5; longword big = 0xfffffff0; long robots = -6; char text[40];
+  sprintf(text, "%ld|%4ld|%-4ld|%+ld|%lx", neg, neg, robots, neg, big); printf("%s %lu %lf %lld %ld%%\n", text, big, 1.5, 1LL << 40, neg);
+  OSYSPRINT(("long %ld %d %s\n", neg, neg, "end"));
   longword lw = -1; if (lw == UNDEF) printf("undef\n"); 
   void (Idiom::*fp)() = &Idiom::go; 
 }

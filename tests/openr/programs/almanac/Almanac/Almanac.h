@@ -7,8 +7,8 @@
 #include <OPENR/OSubject.h>
 #include <Time_a.h>
 #include <dirent.h>
-#include <unistd.h>
 #include <fstream.h>
+#include <unistd.h>
 #include "def.h"
 class Almanac : public OObject {
  public:

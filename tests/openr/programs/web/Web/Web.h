@@ -10,16 +10,16 @@ extern "C" {
 }
 #include "def.h"
 class Web : public OObject {
-public:
+ public:
   Web();
   virtual ~Web() {}
-  OSubject *subject[numOfSubject];
-  OObserver *observer[numOfObserver];
-  virtual OStatus DoInit(const OSystemEvent &event);
-  virtual OStatus DoStart(const OSystemEvent &event);
-  virtual OStatus DoStop(const OSystemEvent &event);
-  virtual OStatus DoDestroy(const OSystemEvent &event);
-  void Img(const ONotifyEvent &e);
-  size_t Convert(OFbkImageVectorData *v, byte *out, size_t max);
+  OSubject* subject[numOfSubject];
+  OObserver* observer[numOfObserver];
+  virtual OStatus DoInit(const OSystemEvent& event);
+  virtual OStatus DoStart(const OSystemEvent& event);
+  virtual OStatus DoStop(const OSystemEvent& event);
+  virtual OStatus DoDestroy(const OSystemEvent& event);
+  void Img(const ONotifyEvent& e);
+  size_t Convert(OFbkImageVectorData* v, byte* out, size_t max);
 };
 #endif

@@ -119,7 +119,7 @@ TEST(RateFeedforward, PushesWithTheCommandsRate) {
   for (const double step : {1e-3, 4e-3}) {
     Numbers fresh(2);
     double push = step * feedforward->driveTorque(0, {.command = 0}, values, fresh, step);
-    for (int i = 0; i < 100; ++i) push += step * feedforward->driveTorque(0, {.command = 0.5}, values, fresh, step);
+    for (int i = 0; i < 400; ++i) push += step * feedforward->driveTorque(0, {.command = 0.5}, values, fresh, step);
     EXPECT_NEAR(0.2 * 0.5, push, 1e-9);
   }
 }

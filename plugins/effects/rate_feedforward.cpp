@@ -13,7 +13,7 @@ namespace {
 class RateFeedforward final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"gain_nm_s_rad", "N·m·s/rad", "torque per rate of the command, N·s/m on a slide joint", 0, 100, 0.1, 0.0},
-            {"filter_s", "s", "time constant of the rate's filter", 5e-4, 0.2, 0.005}};
+            {"filter_s", "s", "time constant of the rate's filter", 2e-3, 0.2, 0.005}};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::drive, "a servo that damps the rate of its error, not of the joint",

@@ -12,33 +12,33 @@
 namespace btr {
 namespace {
 
-double nothing(double, double, double) { return 0; }
+double noExtraTorque(double, double, double) { return 0; }
 
 /// Every n-th row alone has a position.
-Recording slowed(Recording recording, std::size_t every) {
+Recording everyNthRow(Recording recording, std::size_t every) {
   for (std::size_t row = 0; row < recording.rows(); ++row)
     if (row % every != 0) recording.columns[2][row] = NAN;
   return recording;
 }
 
 /// Without the positions between two rows, as where a camera lost its marker.
-Recording paused(Recording recording, std::size_t from, std::size_t to) {
+Recording withPause(Recording recording, std::size_t from, std::size_t to) {
   for (std::size_t row = from; row < to; ++row) recording.columns[2][row] = NAN;
   return recording;
 }
 
 /// The hinge's position and rate at a row, and what its rate may be off by.
-struct Estimate {
+struct EstimatedState {
   double position = 0, rate = 0, rateUnit = 0;
 };
 
-Estimate at(const Recording& recording, std::size_t row) {
-  GapProblem problem = test::pendulumProblem(nothing, 0);
+EstimatedState estimatedAt(const Recording& recording, std::size_t row) {
+  GapProblem problem = test::pendulumProblem(noExtraTorque, 0);
   problem.recordings = {recording};
   const FitProblem fit = makeFitProblem(problem, problem.recordings, library());
   std::vector<Nuisance> nuisances;
   const StartState state = stateAt(fit, 0, row, nuisances);
-  Estimate found{state.robots[0].positions[0], state.robots[0].rates[0], 0};
+  EstimatedState found{state.robots[0].positions[0], state.robots[0].rates[0], 0};
   for (const Nuisance& nuisance : nuisances)
     if (nuisance.what == Nuisance::What::jointRate) found.rateUnit = nuisance.unit;
   return found;
@@ -46,20 +46,20 @@ Estimate at(const Recording& recording, std::size_t row) {
 
 TEST(Segments, AStateBesideAPauseKnowsNothingFromBeyondIt) {
   constexpr std::size_t every = 5, before = 300, after = 500;
-  const Recording whole = slowed(test::recordedPendulum(nothing, 1), every);
+  const Recording whole = everyNthRow(test::recordedPendulum(noExtraTorque, 1), every);
   // Whatever is beyond the pause: the state on this side is the same.
-  Recording one = paused(whole, before + 1, after), other = one;
+  Recording one = withPause(whole, before + 1, after), other = one;
   for (std::size_t row = after; row < other.rows(); ++row) other.columns[2][row] += 0.3;
-  EXPECT_EQ(at(one, before).position, at(other, before).position);
-  EXPECT_EQ(at(one, before).rate, at(other, before).rate);
+  EXPECT_EQ(estimatedAt(one, before).position, estimatedAt(other, before).position);
+  EXPECT_EQ(estimatedAt(one, before).rate, estimatedAt(other, before).rate);
 }
 
 TEST(Segments, AStateBesideAPauseIsAsGoodAsItsErrorSays) {
   constexpr std::size_t every = 5;
-  const Recording fine = test::recordedPendulum(nothing, 1);
+  const Recording fine = test::recordedPendulum(noExtraTorque, 1);
   for (const std::size_t before : {200u, 300u, 400u}) {
-    const Recording broken = paused(slowed(fine, every), before + 1, before + 200);
-    const Estimate found = at(broken, before), truth = at(fine, before);
+    const Recording broken = withPause(everyNthRow(fine, every), before + 1, before + 200);
+    const EstimatedState found = estimatedAt(broken, before), truth = estimatedAt(fine, before);
     EXPECT_LT(std::abs(found.rate - truth.rate), 4 * std::hypot(found.rateUnit, truth.rateUnit)) << "row " << before;
   }
 }

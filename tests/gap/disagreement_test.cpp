@@ -107,7 +107,7 @@ TEST(DisagreeingTrials, OneThatWasDrivenByOtherCommandsIsTold) {
   EXPECT_THAT(report.disagreements[0].what, HasSubstr("its commands would have to be 0."));
 }
 
-// It goes farther than all the others, and so far that a factor a thousandth off leaves noise floors.
+// It goes farther than all the others, yet shows nothing that they do not.
 TEST(DisagreeingTrials, OneThatWasDrivenMuchFartherThanItsFileSaysIsTold) {
   GapProblem problem = tenTrials();
   problem.recordings[5] = shortTrial(5, {.size_rad = 1.3});

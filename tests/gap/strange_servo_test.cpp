@@ -163,8 +163,7 @@ TEST(StrangeServo, WhoseFirmwareLeadsItAlongATrapezoidIsSaidTo) {
 TEST(StrangeServo, ThatDampsTheRateOfItsErrorIsSaidTo) {
   strange::Plant plant;
   plant.errorRate = plant.d;
-  const GapReport report =
-      reportOn(plant, 10, {"rate_feedforward", "gear_elasticity", "load_dependent_friction", "command_filter"});
+  const GapReport report = reportOn(plant, 10, {"rate_feedforward", "load_dependent_friction"});
   const Values found = sizesOf(report, "rate_feedforward");
   ASSERT_TRUE(found.contains("gain_nm_s_rad")) << toPlainText(report);
   EXPECT_NEAR(found.at("gain_nm_s_rad"), plant.d, 0.1 * plant.d);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "core/cluster/build_identity.h"
@@ -30,6 +32,13 @@ int shareOfProcessors(const Launch& launch) {
   return std::max(1, processorCount() / here);
 }
 
+/// What this process was asked for, without the program's name.
+std::string ownWords() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string all((std::istreambuf_iterator<char>(file)), {});
+  return all.substr(std::min(all.find('\0'), all.size()));
+}
+
 void requireLocal(const std::string& database) {
   if (const auto system = networkFileSystemOf(database))
     throw InputError(database + ": is on a network file system (" + *system +
@@ -48,6 +57,7 @@ ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : im
   CoordinatorOptions options;
   options.secondsPerJob = longestJob_s;
   options.foremen = jobs > 0 ? jobs : shareOfProcessors(launch);
+  options.words = ownWords();
   if (launch.rank > 0) {
     isDone_ = true;
     std::unique_ptr<RankLink> link;
@@ -59,7 +69,7 @@ ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : im
       shell.exitCode = badInput;
       return;
     }
-    serveRank(*link, options.foremen, options.command);
+    serveRank(*link, options);
     link->finish();
     return;
   }

@@ -106,7 +106,11 @@ struct Coordinator::Impl {
     while (link->receive(from, bytes)) {
       any = true;
       Parts parts = unpack(bytes);
-      if (parts.size() == 3 && parts[0] == "crew") {
+      if (parts.size() == 4 && parts[0] == "crew") {
+        if (parts[3] != options.words)
+          throw InputError("rank " + std::to_string(from) + " (host " + parts[1] +
+                           "): it was started with other words than rank 0; for a run of its own on each rank set "
+                           "UCHILSIM_ALONE=1");
         const int foremen = std::stoi(parts[2]);
         for (int k = 0; k < foremen; ++k) addPlace(from, k, parts[1]);
         arrived[static_cast<std::size_t>(from)] = true;

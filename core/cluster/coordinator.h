@@ -23,6 +23,7 @@ struct CoordinatorOptions {
   double grace_s = 30;         ///< a foreman that tries each job of its piece twice may take this long beyond that
   double patience_s = 120;     ///< how long ranks may take to begin
   ForemanCommand command = ownForeman();
+  std::string words = {};  ///< what this process was asked for; every rank must have been asked for the same
 };
 
 /// The workforce of rank 0: its own foremen and those of the other ranks. Hands out pieces as Schedule says and puts
@@ -38,8 +39,8 @@ class Coordinator : public Workforce {
   ~Coordinator() override;
 
   int workers() const override;
-  /// Throws InputError, which names rank and host, if one of them has another build, cannot prepare the experiment or
-  /// never began; and if all places are gone or a job was lost three times with its process.
+  /// Throws InputError, which names rank and host, if one of them has another build or other words, cannot prepare the
+  /// experiment or never began; and if all places are gone or a job was lost three times with its process.
   std::vector<WorkerPool::Reply> run(const PreparedExperiment& experiment, const std::vector<std::string>& jobs,
                                      const std::atomic<bool>& stop,
                                      const std::function<void(std::size_t)>& done) override;
@@ -52,7 +53,7 @@ class Coordinator : public Workforce {
 
 /// The life of every other rank: starts its foremen and passes on what is said to them and what they say, until rank 0
 /// lets it end.
-void serveRank(RankLink& link, int foremen, const ForemanCommand& command);
+void serveRank(RankLink& link, const CoordinatorOptions& options);
 
 /// This machine's name.
 std::string hostName();

@@ -24,9 +24,9 @@ std::string hostName() {
   return name;
 }
 
-void serveRank(RankLink& link, int foremen, const ForemanCommand& command) {
-  Crew crew(foremen, command);
-  link.send(0, pack({"crew", hostName(), std::to_string(crew.size())}));
+void serveRank(RankLink& link, const CoordinatorOptions& options) {
+  Crew crew(options.foremen, options.command);
+  link.send(0, pack({"crew", hostName(), std::to_string(crew.size()), options.words}));
   // A rank that has had nothing to do for a while looks less often whether there is something.
   constexpr int busy_ms = 2, idle_ms = 5;
   constexpr std::chrono::seconds soon(1);

@@ -33,6 +33,7 @@ std::string moduleBesideCore() {
 }  // namespace
 
 Launch launchOfThisProcess() {
+  if (numberFrom("UCHILSIM_ALONE") == 1) return {};
   struct Names {
     const char *rank, *size, *by;
   };
@@ -50,7 +51,8 @@ std::unique_ptr<RankLink> openMpi(const Launch& launch) {
   // MPI itself would end the process with a page of text.
   if (launch.by == "srun" && !std::getenv("PMIX_RANK") && !std::getenv("PMI_RANK"))
     throw InputError("srun started " + std::to_string(launch.size) +
-                     " tasks that MPI cannot join; start it with srun --mpi=pmix");
+                     " tasks that MPI cannot join; start it with srun --mpi=pmix, or set UCHILSIM_ALONE=1 for a run of "
+                     "its own in each");
   const std::string path = moduleBesideCore();
   if (!std::filesystem::exists(path))
     throw InputError(launch.by + " started " + std::to_string(launch.size) +

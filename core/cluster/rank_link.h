@@ -24,7 +24,8 @@ struct Launch {
   int rank = 0, size = 1;
   std::string by;  ///< "mpirun" or "srun", "" alone
 };
-/// From the environment that mpirun and srun give to their processes; nothing is loaded for it.
+/// From the environment that mpirun and srun give to their processes; nothing is loaded for it. With UCHILSIM_ALONE=1
+/// every process is alone, whoever started it.
 Launch launchOfThisProcess();
 
 /// The link that MPI makes, from the module libbtr_mpi.so beside the library of this program. Throws InputError if the

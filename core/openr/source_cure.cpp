@@ -1,10 +1,12 @@
 #include "core/openr/source_cure.h"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace btr::openr {
 namespace {
@@ -44,7 +46,249 @@ std::size_t lastWord(const std::string& line, const std::string& name) {
   return std::string::npos;
 }
 
+/// What the compiler said about a place.
+struct Complaint {
+  std::string file, function, text;  ///< "In member function '…'" before it
+  int line, column;
+};
+
+std::vector<Complaint> complaintsOf(const std::string& errors) {
+  std::vector<Complaint> complaints;
+  std::istringstream in(errors);
+  std::string function;
+  const std::string mark = ": error: ", within = ": In ";
+  for (std::string line; std::getline(in, line);) {
+    if (const auto at = line.find(within); at != std::string::npos && line.find(mark) == std::string::npos)
+      function = line.substr(at);
+    const auto at = line.find(mark);
+    if (at == std::string::npos) continue;
+    const auto columnAt = line.rfind(':', at - 1);
+    const auto lineAt = columnAt == std::string::npos ? columnAt : line.rfind(':', columnAt - 1);
+    if (lineAt == std::string::npos) continue;
+    std::istringstream numbers(line.substr(lineAt + 1, columnAt - lineAt - 1) + " " +
+                               line.substr(columnAt + 1, at - columnAt - 1));
+    Complaint complaint{line.substr(0, lineAt), function, line.substr(at + mark.size()), 0, 0};
+    if (numbers >> complaint.line >> complaint.column && complaint.column > 0) complaints.push_back(complaint);
+  }
+  return complaints;
+}
+
+/// The word between `begin` and the next quote; empty if `text` does not start with `begin`.
+std::string quoted(const std::string& text, const std::string& begin) {
+  if (text.rfind(begin, 0) != 0) return "";
+  return text.substr(begin.size(), text.find('\'', begin.size()) - begin.size());
+}
+
+/// Where each line of each file begins in a preprocessed text. A line that stands there several times (a header without
+/// a guard) is its last one.
+std::map<Place, std::size_t> lineBegins(const std::string& preprocessed) {
+  std::map<Place, std::size_t> begins;
+  Place at{"", 1};
+  for (std::size_t begin = 0; begin < preprocessed.size();) {
+    auto end = preprocessed.find('\n', begin);
+    if (end == std::string::npos) end = preprocessed.size();
+    std::istringstream words(preprocessed.substr(begin, end - begin));
+    std::string hash, file;
+    int number = 0;
+    if (preprocessed[begin] == '#' && words >> hash >> number >> file && hash == "#" && file.size() > 1) {
+      at = {file.substr(1, file.rfind('"') - 1), number};
+    } else {
+      begins[at] = begin;
+      ++at.second;
+    }
+    begin = end + 1;
+  }
+  return begins;
+}
+
+/// The text with blanks for what stands in quotes and in lines that begin with #.
+std::string withoutLiterals(std::string text) {
+  char quote = 0;
+  bool lineBegin = true, skipped = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      lineBegin = true;
+      skipped = false;
+      quote = 0;
+      continue;
+    }
+    if (lineBegin && c == '#') skipped = true;
+    lineBegin = lineBegin && std::isspace(static_cast<unsigned char>(c)) != 0;
+    if (skipped) {
+      text[i] = ' ';
+    } else if (quote != 0) {
+      text[i] = ' ';
+      if (c == '\\' && i + 1 < text.size() && text[i + 1] != '\n')
+        text[++i] = ' ';
+      else if (c == quote)
+        quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+      text[i] = ' ';
+    }
+  }
+  return text;
+}
+
+bool wordAt(const std::string& text, std::size_t at, const std::string& word) {
+  return text.compare(at, word.size(), word) == 0 && (at == 0 || !isNameCharacter(text[at - 1])) &&
+         (at + word.size() == text.size() || !isNameCharacter(text[at + word.size()]));
+}
+
+/// The first place from `begin` on where `name` stands as a word; npos if it does not.
+std::size_t firstWord(const std::string& text, std::size_t begin, const std::string& name) {
+  auto found = text.find(name, begin);
+  while (found != std::string::npos && !wordAt(text, found, name)) found = text.find(name, found + 1);
+  return found;
+}
+
+/// What a `for` at `at` begins with, from behind its parenthesis to its first semicolon; empty if that declares no
+/// `name`.
+std::pair<std::size_t, std::size_t> declarationIn(const std::string& text, std::size_t at, const std::string& name) {
+  const std::pair<std::size_t, std::size_t> none{0, 0};
+  const auto open = text.find_first_not_of(" \t\n", at + 3);
+  if (open == std::string::npos || text[open] != '(') return none;
+  const auto end = text.find(';', open);
+  const auto begin = text.find_first_not_of(" \t\n", open + 1);
+  if (end == std::string::npos || begin >= end) return none;
+  const auto found = firstWord(text, begin, name);
+  // A declaration has its type before the name: "int i", "T* i", "a, i".
+  const bool typed = found < end && found > begin && isNameCharacter(text[begin]);
+  return typed ? std::pair{begin, end} : none;
+}
+
+/// The nearest `for` before `use` that declares `name` and whose variables were known at `use` before the standard;
+/// npos if there is none.
+std::size_t forBefore(const std::string& text, std::size_t use, const std::string& name) {
+  int depth = 0, outermost = 0;
+  for (std::size_t i = use; i-- > 0;) {
+    if (text[i] == '}') ++depth;
+    if (text[i] == '{') outermost = std::min(outermost, --depth);
+    if (depth == outermost && wordAt(text, i, "for") && declarationIn(text, i, name).second != 0) return i;
+  }
+  return std::string::npos;
+}
+
+/// Where the declaration that `at` stands in begins.
+std::size_t declarationBegin(const std::string& text, std::size_t at) {
+  const auto before = text.find_last_of(";{}", at);
+  const auto begin = before == std::string::npos || at == 0 ? 0 : before + 1;
+  return text.find_first_not_of(" \t\n", begin);
+}
+
+/// Where the class begins that names `name` its friend before `use`, which made that name known before the standard;
+/// npos if there is none.
+std::size_t befriendingClass(const std::string& text, std::size_t use, const std::string& name) {
+  const std::string words = "friend class " + name;
+  auto at = text.rfind(words, use);
+  while (at != std::string::npos && (at + words.size() > use || !wordAt(text, at, words)))
+    at = at == 0 ? std::string::npos : text.rfind(words, at - 1);
+  if (at == std::string::npos) return at;
+  int depth = 0;
+  while (at-- > 0) {
+    depth += text[at] == '}' ? 1 : text[at] == '{' ? -1 : 0;
+    if (depth < 0) return at == 0 ? std::string::npos : declarationBegin(text, at - 1);
+  }
+  return std::string::npos;
+}
+
+struct Change {
+  std::size_t length;  ///< of what it replaces
+  std::string text;
+};
+
+/// By place, so that two complaints about one place change it once.
+using Changes = std::map<std::size_t, Change>;
+
+/// Takes the declarations of the `for`s at `places` before them; one whose block already has that variable sets it.
+void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::string>>& places, Changes& changes) {
+  std::size_t last = std::string::npos;
+  std::string lastName;
+  for (const auto& [at, name] : places) {
+    const auto [begin, end] = declarationIn(text, at, name);
+    bool known = false;
+    if (last != std::string::npos && lastName == name) {
+      int depth = 0, least = 0;
+      for (std::size_t i = last; i < at; ++i) {
+        depth += text[i] == '{' ? 1 : text[i] == '}' ? -1 : 0;
+        least = std::min(least, depth);
+      }
+      known = depth == 0 && least == 0;
+    }
+    if (known) {
+      changes[begin] = {firstWord(text, begin, name) - begin, ""};
+    } else {
+      changes[at] = {0, text.substr(begin, end - begin) + "; "};
+      changes[begin] = {end - begin, ""};
+    }
+    last = at;
+    lastName = name;
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> missingHeaders(const std::string& errors) {
+  std::vector<std::string> headers;
+  std::istringstream in(errors);
+  const std::string mark = " is defined in header '<";
+  for (std::string line; std::getline(in, line);) {
+    const auto at = line.find(mark);
+    const auto end = at == std::string::npos ? at : line.find('>', at);
+    if (end == std::string::npos) continue;
+    const std::string header = line.substr(at + mark.size(), end - at - mark.size());
+    if (std::find(headers.begin(), headers.end(), header) == headers.end()) headers.push_back(header);
+  }
+  return headers;
+}
+
+std::string curedSource(const std::string& preprocessed, const std::string& errors) {
+  const std::string named = withoutRepeatedNames(preprocessed, errors);
+  if (named != preprocessed) return named;
+  const auto begins = lineBegins(preprocessed);
+  const std::string bare = withoutLiterals(preprocessed);
+  Changes changes;
+  std::set<std::pair<std::size_t, std::string>> loops;
+  const auto complaints = complaintsOf(errors);
+  const auto isTypename = [](const Complaint& each) { return each.text.rfind("need 'typename' before", 0) == 0; };
+  // Others may be no more than their consequences.
+  const bool typenamesOnly = std::any_of(complaints.begin(), complaints.end(), isTypename);
+  for (const Complaint& complaint : complaints) {
+    if (typenamesOnly && !isTypename(complaint)) continue;
+    const auto line = begins.find({complaint.file, complaint.line});
+    if (line == begins.end()) continue;
+    const std::size_t at = line->second + static_cast<std::size_t>(complaint.column - 1);
+    if (at >= preprocessed.size()) continue;
+    if (typenamesOnly) {
+      changes[at] = {0, "typename "};
+      continue;
+    }
+    if (complaint.text.find("requires 'template<>' syntax") != std::string::npos) {
+      changes[at == 0 ? 0 : declarationBegin(bare, at - 1)] = {0, "template<> "};
+      continue;
+    }
+    const std::string name = quoted(complaint.text, "'");
+    if (complaint.text == "'" + name + "' does not name a type") {
+      const auto friendly = befriendingClass(bare, at, name);
+      if (friendly != std::string::npos) changes[friendly] = {0, "class " + name + "; "};
+      continue;
+    }
+    if (complaint.text.find("was not declared in this scope") == std::string::npos || !wordAt(preprocessed, at, name))
+      continue;
+    if (const auto loop = forBefore(bare, at, name); loop != std::string::npos)
+      loops.insert({loop, name});
+    else if (complaint.function.find("member function") != std::string::npos &&
+             complaint.function.find('<') != std::string::npos)
+      changes[at] = {0, "this->"};
+  }
+  std::string cured = preprocessed;
+  // The text of a literal in a moved declaration is the source's own.
+  hoist(preprocessed, loops, changes);
+  for (auto change = changes.rbegin(); change != changes.rend(); ++change)
+    cured.replace(change->first, change->second.length, change->second.text);
+  return cured;
+}
 
 std::string withoutRepeatedNames(const std::string& preprocessed, const std::string& errors) {
   const auto places = placesOf(errors);

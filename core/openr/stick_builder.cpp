@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <sstream>
@@ -82,20 +83,70 @@ bool isMakefile(const fs::path& path) {
   return name == "Makefile" || name == "makefile" || name == "GNUmakefile";
 }
 
-/// Whether a Makefile, or what it includes, makes a module for the robot.
-bool makesModule(const fs::path& makefile) {
-  const std::string text = content(makefile);
-  if (text.find("/mkbin") != std::string::npos) return true;
-  std::istringstream in(text);
+/// `text` with $(NAME) and ${NAME} replaced by what is known of them, else by nothing.
+std::string expanded(std::string text, const std::map<std::string, std::string>& values) {
+  constexpr int mostReplaced = 50;  // variables may name each other in a circle
+  for (int i = 0; i < mostReplaced; ++i) {
+    const auto at = text.find('$');
+    if (at == std::string::npos || at + 1 == text.size()) break;
+    const char open = text[at + 1];
+    const auto end = open == '(' ? text.find(')', at) : open == '{' ? text.find('}', at) : std::string::npos;
+    if (end == std::string::npos) break;
+    const auto found = values.find(text.substr(at + 2, end - at - 2));
+    text.replace(at, end - at + 1, found == values.end() ? "" : found->second);
+  }
+  return text;
+}
+
+/// What a Makefile says together with the files that it includes, which are named from its folder.
+std::string withIncludes(const fs::path& folder, const fs::path& makefile, std::map<std::string, std::string>& values,
+                         int depth = 0) {
+  constexpr int deepest = 5;
+  const std::string own = content(makefile);
+  std::string all = own;
+  std::istringstream in(own);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
-    std::string word, file;
-    if (words >> word >> file && word == "include" && file.find('$') == std::string::npos &&
-        content(makefile.parent_path() / file).find("/mkbin") != std::string::npos &&
-        text.find(".bin") != std::string::npos)
-      return true;
+    std::string word, second, third;
+    words >> word >> second >> third;
+    if (second == "=" || second == ":=" || second == "?=")
+      values.emplace(word, third);
+    else if (const auto equals = word.find('='); equals != std::string::npos)
+      values.emplace(word.substr(0, word.find_first_of(":?=")), word.substr(equals + 1));
+    if ((word != "include" && word != "-include" && word != "sinclude") || depth == deepest) continue;
+    const fs::path file = folder / expanded(second, values);
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) all += "\n" + withIncludes(folder, file, values, depth + 1);
   }
+  return all;
+}
+
+std::string withIncludes(const fs::path& makefile) {
+  std::map<std::string, std::string> values;
+  return withIncludes(makefile.parent_path(), makefile, values);
+}
+
+bool hasAny(const std::string& text, std::initializer_list<const char*> parts) {
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const char* part) { return text.find(part) != std::string::npos; });
+}
+
+/// Whether the folder is an object's by its other files.
+bool looksLikeObject(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "stub.cfg", error)) return true;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().extension() == ".ocf") return true;
   return false;
+}
+
+/// Whether a Makefile, or what it includes, makes a module for the robot.
+bool makesModule(const fs::path& makefile) {
+  const std::string own = content(makefile);
+  if (hasAny(own, {"/mkbin"})) return true;
+  const std::string all = withIncludes(makefile);
+  return hasAny(all, {"/mkbin"}) && hasAny(all, {"$(MKBIN)", "${MKBIN}"}) &&
+         (hasAny(own, {".bin", ".BIN"}) || looksLikeObject(makefile.parent_path()));
 }
 
 bool isSource(const fs::path& path) {
@@ -105,31 +156,32 @@ bool isSource(const fs::path& path) {
 
 /// Whether a Makefile makes a library that objects are linked with.
 bool makesLibrary(const fs::path& makefile) {
-  const std::string text = content(makefile);
-  return text.find("mipsel-linux-ar") != std::string::npos && text.find(".a") != std::string::npos;
+  return hasAny(content(makefile), {".a"}) && hasAny(withIncludes(makefile), {"mipsel-linux-ar", "$(AR)", "${AR}"});
 }
 
 struct Found {
   std::vector<fs::path> libraries;             ///< folders whose Makefile makes one
   std::vector<fs::path> withMakefile, byHand;  ///< folders of objects
-  std::vector<fs::path> sticks;                ///< MS folders
+  std::vector<fs::path> sticks;                ///< MS folders; without any, those with OPEN-R/MW in them
 };
 
 Found findObjects(const fs::path& root) {
   Found found;
-  std::set<fs::path> sources;  // folders that look like an object's
+  std::set<fs::path> sources;         // folders that look like an object's
+  std::vector<fs::path> otherSticks;  // with names like MS_ERS7
   std::error_code error;
   for (fs::recursive_directory_iterator at(root, error), end; !error && at != end; at.increment(error)) {
     const fs::path path = at->path();
     const std::string name = path.filename().string();
     if (at->is_directory(error)) {
       if (name[0] == '.') at.disable_recursion_pending();
-      if (name == "MS") {
+      const bool isStick = name == "MS";
+      if (isStick || fs::exists(path / "OPEN-R" / "MW", error)) {
         at.disable_recursion_pending();
         // RP/… are set-ups of Sony's remote processing on a PC.
         bool remote = false;
         for (const fs::path& part : path.lexically_relative(root)) remote = remote || part == "RP";
-        if (!remote && fs::exists(path / "OPEN-R")) found.sticks.push_back(path);
+        if (!remote && fs::exists(path / "OPEN-R")) (isStick ? found.sticks : otherSticks).push_back(path);
       }
       continue;
     }
@@ -140,6 +192,7 @@ Found findObjects(const fs::path& root) {
     if (name == "stub.cfg" || path.extension() == ".ocf" || endsWith(name, "Stub.cc"))
       sources.insert(path.parent_path());
   }
+  if (found.sticks.empty()) found.sticks = std::move(otherSticks);
   std::sort(found.libraries.begin(), found.libraries.end());
   std::sort(found.withMakefile.begin(), found.withMakefile.end());
   std::sort(found.sticks.begin(), found.sticks.end());
@@ -201,7 +254,8 @@ std::set<std::string> modulesOn(const fs::path& stick) {
 
 bool usesJpeg(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
-    if (isSource(entry.path()) && content(entry.path()).find("jpeglib.h") != std::string::npos) return true;
+    if ((isSource(entry.path()) || entry.path().extension() == ".h") && hasAny(content(entry.path()), {"jpeglib.h"}))
+      return true;
   return false;
 }
 
@@ -344,9 +398,36 @@ class StickBuilder {
     make(folder, stick, sdk, "install", object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
+    if (object.modules.empty() && hasAny(object.said, {"No rule to make target 'install'"}))
+      withoutInstall(folder, stick, sdk, object);
     // A Makefile that builds the JPEG library from its sources first: this computer has one.
     if (object.modules.empty() && usesJpeg(folder)) return byHand(folder, name, stick, sdk);
     result_.objects.push_back(std::move(object));
+  }
+
+  /// A Makefile makes modules and leaves it to its reader to copy them.
+  void withoutInstall(const fs::path& folder, const fs::path& stick, const fs::path& sdk, StickBuild::Object& object) {
+    object.said.clear();
+    make(folder, stick, sdk, "", object.said);
+    std::vector<fs::path> made;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (upper(entry.path().extension().string()) == ".BIN") made.push_back(entry.path());
+    std::sort(made.begin(), made.end());
+    for (const fs::path& each : made) {
+      const std::string module = moduleName(each.stem().string(), listedModules(stick));
+      if (run(folder,
+              "gzip -dcf " + shellWord(each.string()) + " | gzip -nc > " +
+                  shellWord((stick / modulesFolder / module).string()),
+              object.said) == 0)
+        object.modules.push_back(module);
+    }
+  }
+
+  /// Of the stick's OBJECT.CFG.
+  static std::vector<std::string> listedModules(const fs::path& stick) {
+    std::vector<std::string> listed;
+    for (const auto& line : configLines(content(stick / configFolder / "OBJECT.CFG"), "")) listed.push_back(line[0]);
+    return listed;
   }
 
   void byHand(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
@@ -369,10 +450,8 @@ class StickBuilder {
     for (const char* other : {"include", "../include", "../common", "../common/include"})
       if (fs::exists(folder / other)) includes += std::string(" -I") + other;
     std::string objects;
-    bool jpeg = false, whole = !sources.empty();
+    bool whole = !sources.empty();
     for (const fs::path& source : sources) {
-      const std::string text = content(folder / source);
-      jpeg = jpeg || text.find("jpeglib.h") != std::string::npos;
       const std::string made = source.stem().string() + ".o";
       const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
       whole = run(folder,
@@ -382,13 +461,11 @@ class StickBuilder {
               whole;
       objects += " " + shellWord(made);
     }
-    std::vector<std::string> listed;
-    for (const auto& line : configLines(content(stick / configFolder / "OBJECT.CFG"), "")) listed.push_back(line[0]);
-    const std::string module = moduleName(title, listed);
+    const std::string module = moduleName(title, listedModules(stick));
     const bool linked =
         whole && run(folder,
                      shellWord((sdk / "OPEN_R/bin/mkbin").string()) + " -o object.bin" + objects +
-                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (jpeg ? " -ljpeg" : "") +
+                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (usesJpeg(folder) ? " -ljpeg" : "") +
                          " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
                      object.said) == 0;
     if (linked) object.modules.push_back(module);

@@ -233,7 +233,8 @@ std::string stub(const StubConfig& config) {
   for (const StubFunction& function : all)
     text += "extern \"C\" void _" + function.name + "(void* message) {\n" + function.body + "}\n\n";
   text += "ObjectEntry ObjectEntryTable[] = {\n";
-  for (std::size_t i = 0; i < all.size(); ++i) text += "  {" + std::to_string(i) + ", (Entry)_" + all[i].name + "},\n";
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += "  {" + std::to_string(i) + ", (Entry)::_" + all[i].name + "},\n";
   text += "  {UNDEF, (Entry)ENTRY_UNDEF}\n};\n\n";
   text += "// Who and where, for lines on the console and when something goes wrong.\nextern \"C\" {\n";
   text += "extern const char btr_openr_object[] = \"" + config.object + "\";\n";

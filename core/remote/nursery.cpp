@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <optional>
 
 #include "core/remote/frame.h"
 #include "core/spec/crash_report.h"
@@ -171,11 +172,21 @@ Answer Child::ask(const std::string& call, const Waiting& waiting) {
     return answer;
   }
   const auto unwanted = [&] { return cancelled && !waiting.outlivesCaller && cancelled(); };
+  // Who is told to leave gets a moment for it.
+  constexpr auto moment = std::chrono::seconds(5);
+  std::optional<std::chrono::steady_clock::time_point> leavesBy;
+  bool stays = false;
   const auto lookOn = [&] {
-    if (waiting.leaves && waiting.leaves()) syscall(SYS_pidfd_send_signal, process_, SIGUSR1, nullptr, 0);
-    return unwanted();
+    if (waiting.leaves && waiting.leaves()) {
+      syscall(SYS_pidfd_send_signal, process_, SIGUSR1, nullptr, 0);
+      const auto now = std::chrono::steady_clock::now();
+      if (!leavesBy) leavesBy = now + moment;
+      stays = now > *leavesBy;
+    }
+    return stays || unwanted();
   };
   const auto late = [&] {
+    if (stays) return ended(Code::cancelled, "the server ends, and it did not leave its work");
     return unwanted()
                ? ended(Code::cancelled, "the call was cancelled while it worked")
                : ended(Code::tooLate, "it has not answered for " +

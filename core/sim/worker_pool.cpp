@@ -153,7 +153,7 @@ struct WorkerPool::Impl {
   /// Ends a worker and says how it ended; nothing of one that should have ended by itself and had to be killed.
   static std::optional<int> finish(Worker& worker, bool force) {
     close(worker.socket);
-    constexpr int patience_ms = 2000;
+    constexpr int patience_ms = 1000;
     const bool stuck = !force && !endsWithin(worker.pid, patience_ms);
     if (force || stuck) kill(worker.pid, SIGKILL);
     int status = 0;

@@ -18,6 +18,7 @@
 #include "core/store/file_locks.h"
 #include "core/store/finished_file.h"
 #include "core/store/migrations.h"
+#include "core/store/soundness.h"
 
 namespace btr {
 namespace {
@@ -180,12 +181,8 @@ void giveBackRoom(SQLite::Database& database) {
 }
 
 void checkSound(const std::string& path, SQLite::Database& database) {
-  SQLite::Statement check(database, "PRAGMA quick_check(1)");
-  const std::string finding = check.executeStep() ? check.getColumn(0).getString() : "no answer";
-  if (finding == "ok") return;
-  // The last line says it; those before name the part of the file.
-  throw InputError(path + ": is damaged (" + finding.substr(finding.rfind('\n') + 1) +
-                   "); use a copy of it that is sound");
+  if (const std::string finding = whyNotSound(database); !finding.empty())
+    throw InputError(path + ": is damaged (" + finding + "); use a copy of it that is sound");
 }
 
 }  // namespace

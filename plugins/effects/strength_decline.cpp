@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 
-#include "core/plugin/joint_effect.h"
 #include "core/plugin/plugin.h"
 
 namespace {

@@ -7,7 +7,6 @@
 /// With `damping_stays` 1 the damping by the motors' own motion, which is no voltage of the battery's, does not fall.
 #include <memory>
 
-#include "core/plugin/joint_effect.h"
 #include "core/plugin/plugin.h"
 
 namespace {

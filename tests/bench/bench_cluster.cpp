@@ -1,6 +1,6 @@
 // How far many machines pay: measures trials and what rank 0 does for them here, then lets the scheduler that btr uses
 // hand out such trials to up to 1,000 simulated places. Never run by ctest.
-//   bench_cluster [--svg FILE] [--csv FILE] [--analysis-s SECONDS]
+//   bench_cluster [--svg FILE] [--csv FILE]
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 #include <queue>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -234,19 +235,20 @@ int main(int argc, char** argv) {
     return 0;
   }
   std::string svg, csv;
-  double analysis_s = 60;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string option = argv[i];
     (option == "--svg" ? svg : csv) = argv[i + 1];
-    if (option == "--analysis-s") analysis_s = std::atof(argv[i + 1]);
   }
   const Coordination cost = coordination(host);
   std::printf("rank 0: %.3f ms of CPU for each trial, %.2f ms for each generation\n", 1e3 * cost.job_s,
               1e3 * cost.generation_s);
   std::map<std::string, std::vector<double>> tasks{{"kick", trialTimes("kick-short.json", 60, host)},
                                                    {"walk", trialTimes("walk-short.json", 30, host)}};
-  // Cases of a blind trial: between a third and three times the middle one.
-  for (int i = 0; i < 31; ++i) tasks["analysis"].push_back(analysis_s * std::pow(3.0, (i - 15) / 15.0));
+  // Blind cases: what each of a whole trial took when it was made.
+  std::istringstream trial(readFile(SOURCE_DIR "/resources/trials/20261170.jsonl"));
+  for (std::string line; std::getline(trial, line);)
+    if (const double seconds = nlohmann::json::parse(line).value("seconds", 0.0); seconds > 0)
+      tasks["analysis"].push_back(seconds);
   for (const auto& [name, times] : tasks)
     std::printf("%s: %.1f ms each, %.1f to %.1f\n", name.c_str(),
                 1e3 * std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size()),

@@ -201,10 +201,22 @@ TEST(Coordinator, RefusesARankWithAnotherBuildByNameAndHost) {
     other.push_back(entry);
   }
   CoordinatorOptions options = withForemen(0);
-  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1"}, other}), kicks.host(),
-                          options);
+  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", ""}, other}),
+                          kicks.host(), options);
   EXPECT_EQ("rank 1 (host lab7): its library libbtr_core.so is another one; install the same build on every machine",
             test::refusal([&] { kicks.shasWith(&coordinator); }));
+}
+
+TEST(Coordinator, RefusesARankThatWasAskedForSomethingElse) {
+  const Kicks kicks(1);
+  CoordinatorOptions options = withForemen(0);
+  options.words = "run a.json";
+  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", "run b.json"}}),
+                          kicks.host(), options);
+  EXPECT_EQ(
+      "rank 1 (host lab7): it was started with other words than rank 0; for a run of its own on each rank set "
+      "UCHILSIM_ALONE=1",
+      test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 
 TEST(Coordinator, NamesARankThatNeverBegins) {

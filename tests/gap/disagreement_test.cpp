@@ -107,6 +107,17 @@ TEST(DisagreeingTrials, OneThatWasDrivenByOtherCommandsIsTold) {
   EXPECT_THAT(report.disagreements[0].what, HasSubstr("its commands would have to be 0."));
 }
 
+// It goes farther than all the others, yet shows nothing that they do not.
+TEST(DisagreeingTrials, OneThatWasDrivenMuchFartherThanItsFileSaysIsTold) {
+  GapProblem problem = tenTrials();
+  problem.recordings[5] = shortTrial(5, {.size_rad = 1.3});
+  for (double& command : problem.recordings[5].columns[1]) command /= 1.737;
+  const GapReport report = analysed(problem);
+  expectDryFriction(report);
+  ASSERT_THAT(setAside(report), ElementsAre("pendulum_5.csv")) << toPlainText(report);
+  EXPECT_THAT(report.disagreements[0].what, HasSubstr("its commands would have to be 1.7"));
+}
+
 TEST(DisagreeingTrials, ThreeOfTenAreFound) {
   GapProblem problem = tenTrials();
   problem.recordings[1] = shortTrial(1, {.offset_rad = -0.15});

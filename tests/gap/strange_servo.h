@@ -28,6 +28,7 @@ struct Plant {
   double filterTime = 0;                       ///< first-order filter of the command [s]
   double profileSpeed = 0;                     ///< slew rate of the command [rad/s]
   double profileAcceleration = 0;              ///< with it a trapezoid of speed [rad/s²]
+  double errorRate = 0;                        ///< damping of the command's rate, its change over 10 ms [N·m·s/rad]
   double bias = 0;                             ///< of the commands [rad]
   double before = 0;                           ///< time on at the first command, not recorded [s]
   double loopPeriod = 0;                       ///< torque held for so long [s]
@@ -75,7 +76,9 @@ class Servo {
           followed = wanted;
         integral = std::clamp(integral + plant_.integral * (followed - (plant_.loopAtMotor ? x[0] : x[2])) * h,
                               -plant_.integralClamp, plant_.integralClamp);
-        const auto law = [&](const State& s) { return torque(s, followed, integral, t); };
+        const double rate = t > 0 && plant_.errorRate > 0 ? (wanted - command(std::max(0.0, now - 0.01))) / 0.01 : 0;
+        const double added = integral + plant_.errorRate * rate;
+        const auto law = [&](const State& s) { return torque(s, followed, added, t); };
         if (plant_.loopPeriod > 0 && t >= nextLook - 1e-9) {
           held = law(x);
           nextLook += plant_.loopPeriod;
@@ -102,10 +105,10 @@ class Servo {
     followed += speed * h;
     if (std::abs(wanted - followed) < most * h * h && std::abs(speed) < 4 * most * h) followed = wanted, speed = 0;
   }
-  double torque(const State& x, double command, double integral, double t) const {
+  double torque(const State& x, double command, double added, double t) const {
     const std::size_t at = plant_.loopAtMotor ? 0 : 2;
     const double strength = 1 - plant_.lossPerSecond * plant_.lossTime * -std::expm1(-t / plant_.lossTime);
-    double torque = plant_.p * (command - x[at]) + integral, most = plant_.maxTorque;
+    double torque = plant_.p * (command - x[at]) + added, most = plant_.maxTorque;
     if (plant_.lossOfSupply) torque *= strength, most *= strength;
     torque = std::clamp(torque - plant_.d * x[at + 1], -most, most);
     if (!plant_.lossOfSupply) torque *= strength;

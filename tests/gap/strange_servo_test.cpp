@@ -160,6 +160,15 @@ TEST(StrangeServo, WhoseFirmwareLeadsItAlongATrapezoidIsSaidTo) {
   EXPECT_NEAR(1 / found.at("inverse_acceleration_s2_rad"), 30, 5);
 }
 
+TEST(StrangeServo, ThatDampsTheRateOfItsErrorIsSaidTo) {
+  strange::Plant plant;
+  plant.errorRate = plant.d;
+  const GapReport report = reportOn(plant, 10, {"rate_feedforward", "load_dependent_friction"});
+  const Values found = sizesOf(report, "rate_feedforward");
+  ASSERT_TRUE(found.contains("gain_nm_s_rad")) << toPlainText(report);
+  EXPECT_NEAR(found.at("gain_nm_s_rad"), plant.d, 0.1 * plant.d);
+}
+
 TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
   strange::Plant plant;
   plant.stiffness = 9;

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "core/openr/robot_design.h"
-#include "core/openr/source_cure.h"
 #include "core/openr/stick_builder.h"
 #include "core/openr/stick_config.h"
 #include "core/openr/stub_generator.h"
@@ -103,15 +102,6 @@ TEST(RobotDesigns, EveryPlaceOfTheSensorVectorIsAJointOrSensor) {
   EXPECT_THROW(robotDesign("ERS-8"), InputError);
 }
 
-TEST(SourceCure, DropsTheSecondNameOnly) {
-  const std::string source =
-      "# 1 \"a.cc\"\nint f(int one, int one);\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int two);\n";
-  const std::string errors =
-      "a.cc:1:18: error: redefinition of 'int one'\nb.h:9:5: error: redefinition of 'int two'\nb.h:2:1: error: other\n";
-  EXPECT_EQ(withoutRepeatedNames(source, errors),
-            "# 1 \"a.cc\"\nint f(int one, int );\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int );\n");
-}
-
 TEST(StickConfig, SectionsHoldForOneRobot) {
   const std::string text = "# list\n/MS/A.BIN # first\n[ERS-7]\n/MS/SEVEN.BIN\n[ERS-210]\n/MS/OTHER.BIN\n";
   EXPECT_THAT(configLines(text, "ERS-7"), ElementsAre(ElementsAre("/MS/A.BIN"), ElementsAre("/MS/SEVEN.BIN")));
@@ -141,20 +131,20 @@ TEST(StickPaths, StayOnTheStick) {
 
 TEST(StickBuilder, TwoFoldersOntoOneStick) {
   const std::string out = emptyFolder("two") + "/MS";
-  StickBuildOptions options;
-  options.folders = {SOURCE_DIR "/tests/openr/programs/talk", SOURCE_DIR "/tests/openr/programs/names"};
-  options.out = out;
-  const StickBuild build = buildStick(options);
+  const StickBuild build = buildOnto(out, {programFolder("talk"), programFolder("names")});
   EXPECT_TRUE(build.complete());
   EXPECT_TRUE(build.absent.empty());
   EXPECT_EQ(stickConfig(out, "ERS-7").objects.size(), 3u);
   EXPECT_EQ(stickConfig(out, "ERS-7").connections.size(), 2u);
-  EXPECT_FALSE(
-      std::filesystem::exists(SOURCE_DIR "/tests/openr/programs/talk/Sink/def.h"));  // sources stay as they are
+  EXPECT_FALSE(std::filesystem::exists(programFolder("talk") + "/Sink/def.h"));  // sources stay as they are
 }
 
 TEST(StickBuilder, FollowsMakefilesAndTheirLibraries) {
   EXPECT_THAT(runStick(stickOf("ruled"), 3).all(), HasSubstr("Ruled: the answer is 42, by rule 3\n"));
+}
+
+TEST(StickBuilder, AStubByHandAndAMakefileWithoutInstall) {
+  EXPECT_THAT(runStick(stickOf("hand"), 12).all(), HasSubstr("hand: by hand 2\n"));
 }
 
 TEST(StickBuilder, SaysWhatTheCompilerSays) {
@@ -164,20 +154,14 @@ TEST(StickBuilder, SaysWhatTheCompilerSays) {
             "ObjectName : Thing\nNumOfOSubject : 1\nNumOfOObserver : 1\nService : \"Thing.A.B.S\", null, null\n"
             "Service : \"Thing.A.B.O\", null, null\n");
   writeText(folder + "/Thing/Thing.h", "#include <OPENR/OObject.h>\nclass Thing : public OObject { this is wrong };\n");
-  StickBuildOptions options;
-  options.folders = {folder};
-  options.out = emptyFolder("wrong_out");
-  const StickBuild build = buildStick(options);
+  const StickBuild build = buildOnto(emptyFolder("wrong_out"), {folder});
   ASSERT_EQ(build.objects.size(), 1u);
   EXPECT_FALSE(build.complete());
   EXPECT_THAT(build.objects[0].said, HasSubstr("Thing.h:2:"));
 }
 
 TEST(StickBuilder, RefusesFoldersWithoutObjects) {
-  StickBuildOptions options;
-  options.folders = {emptyFolder("nothing")};
-  options.out = emptyFolder("nothing_out");
-  EXPECT_THROW(buildStick(options), InputError);
+  EXPECT_THROW(buildOnto(emptyFolder("nothing_out"), {emptyFolder("nothing")}), InputError);
 }
 
 }  // namespace

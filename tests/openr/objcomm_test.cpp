@@ -11,6 +11,8 @@
 namespace btr::openr {
 namespace {
 
+using testing::HasSubstr;
+
 std::string talk(const std::string& script, const std::string& parameters = "0 1 1") {
   const std::string stick = stickOf("talk");
   writeText(stick + "/SCRIPT.TXT", script);
@@ -89,6 +91,22 @@ TEST(Objects, ControlAndConnectBeforeAnyReady) {
   EXPECT_EQ(run.lines[0], "Source: Control Sink.Words.Text.O 1");
   EXPECT_EQ(run.lines[1], "Sink: Connect Source.Words.Text.S 1");
   EXPECT_EQ(run.lines[2], "Source: Ready assert");
+}
+
+TEST(Objects, ManyObserversOfOneSubject) {
+  const std::string all = runStick(stickOf("many"), 60).all();
+  // Who is refused by the subject hears nothing of it.
+  EXPECT_THAT(all, HasSubstr("a subject refuses Third.In.Msg.O (status 2): not connected\n"));
+  EXPECT_THAT(all, testing::Not(HasSubstr("Third: con")));
+  EXPECT_THAT(all, HasSubstr("Pub: reason 0 observers 2 2\n"));
+  // One takes each datum, the other two at once.
+  EXPECT_THAT(all, HasSubstr("Fast: got 1: m1(2)\n"));
+  EXPECT_THAT(all, HasSubstr("Slow: got 2: m3(1) m4(2)\n"));
+  EXPECT_THAT(all, HasSubstr("Fast: got 1: only first(1)\n"));
+  EXPECT_THAT(all, testing::Not(HasSubstr("Slow: got 1")));
+  // A shared region is held by both until they are ready again.
+  EXPECT_THAT(all, HasSubstr("Pub: reg refs 3\n"));
+  EXPECT_THAT(all, HasSubstr("Pub: reg ready refs 2\nPub: reg ready refs 1\n"));
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include <fstream>
 #include <map>
 
-#include "core/openr/stick_builder.h"
-
 namespace btr::openr {
 namespace {
 
@@ -40,17 +38,25 @@ std::string emptyFolder(const std::string& name) {
 
 void writeText(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
 
+StickBuild buildOnto(const std::string& out, const std::vector<std::string>& folders) {
+  fs::remove_all(out);
+  StickBuildOptions options;
+  options.folders = folders;
+  options.out = out;
+  return buildStick(options);
+}
+
+std::string programFolder(const std::string& program) { return SOURCE_DIR "/tests/openr/programs/" + program; }
+
 std::string stickOf(const std::string& program) {
   static std::map<std::string, std::string> built;
   if (built.count(program) == 0) {
-    StickBuildOptions options;
-    options.folders = {SOURCE_DIR "/tests/openr/programs/" + program};
-    options.out = emptyFolder("built_" + program);
-    const StickBuild build = buildStick(options);
+    const std::string out = emptyFolder("built_" + program);
+    const StickBuild build = buildOnto(out, {programFolder(program)});
     for (const auto& object : build.objects)
       EXPECT_EQ(object.modules.size(), 1u) << object.folder << "\n" << object.said;
     EXPECT_TRUE(build.absent.empty());
-    built[program] = options.out;
+    built[program] = out;
   }
   const std::string copy = emptyFolder("stick_" + program);
   fs::copy(built[program], copy, fs::copy_options::recursive);

@@ -4,10 +4,15 @@
 #include <vector>
 
 #include "core/openr/robot_process.h"
+#include "core/openr/stick_builder.h"
 #include "core/openr/trivial_robot.h"
 
 namespace btr::openr {
 
+/// Builds folders onto the stick `out`, which is emptied first.
+StickBuild buildOnto(const std::string& out, const std::vector<std::string>& folders);
+/// The tests' own program, a folder in tests/openr/programs.
+std::string programFolder(const std::string& program);
 /// A stick with one of the tests' own programs (a folder in tests/openr/programs): a new copy of what is built once.
 std::string stickOf(const std::string& program);
 /// A folder of this test's own, empty.

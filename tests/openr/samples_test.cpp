@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/openr/stick_builder.h"
 #include "tests/openr/run_program.h"
 
 namespace btr::openr {
@@ -20,11 +19,10 @@ class Samples : public testing::Test {
   }
   static std::string folder() { return SOURCE_DIR "/../shared/openr-samples"; }
   static std::string built(const std::string& sample) {
-    StickBuildOptions options;
-    options.folders = {folder() + "/" + sample};
-    options.out = emptyFolder("sample_" + sample);
-    for (const auto& object : buildStick(options).objects) EXPECT_EQ(object.modules.size(), 1u) << object.said;
-    return options.out;
+    const std::string out = emptyFolder("sample_" + sample);
+    for (const auto& object : buildOnto(out, {folder() + "/" + sample}).objects)
+      EXPECT_EQ(object.modules.size(), 1u) << object.said;
+    return out;
   }
   /// As an object of another folder would do it.
   static void motorsOn(int frame, TrivialRobot& robot) {

@@ -175,6 +175,14 @@ TEST(Net, TcpAndUdpBetweenTwoObjects) {
   EXPECT_THAT(all, HasSubstr("client: over UDP from port 54322\n"));
 }
 
+TEST(Net, ClosingEndsAListenAndABoundPortIsKept) {
+  const std::string all = runStick(stickOf("closer"), 20).all();
+  EXPECT_THAT(all, HasSubstr("bind 0\n"));
+  EXPECT_THAT(all, HasSubstr("listen 2 port 45678\n"));  // closed while it waited
+  EXPECT_THAT(all, HasSubstr("connected 0\n"));
+  EXPECT_THAT(all, HasSubstr("listen 0 port 45678\n"));
+}
+
 StickRun faulty(const std::string& what) {
   return runStick(
       stickOf("faulty"), 60,
@@ -356,7 +364,8 @@ TEST(Process, AModuleOfOlderHeadersIsRefusedBeforeItRuns) {
     return runStick(stick, 3);
   };
   EXPECT_THAT(run(BTR_OPENR_VERSION).all(), HasSubstr("named 1"));
-  for (const char* version : {"0", "2", "9"}) {
+  for (const std::string version : {"0", "1", "2", "3", "9"}) {
+    if (version == BTR_OPENR_VERSION) continue;
     const StickRun refused = run(version);
     EXPECT_EQ(Ended::Why::refused, refused.ended.why);
     EXPECT_THAT(refused.ended.what, HasSubstr("build the stick again with btr openr build"));

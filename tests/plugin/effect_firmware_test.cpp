@@ -108,6 +108,30 @@ TEST(IntegralAction, HoldsTheWeightFromTheStartWhereItHasSettled) {
   EXPECT_EQ(0.15, state[0]);
 }
 
+TEST(RateFeedforward, PushesWithTheCommandsRate) {
+  const auto feedforward = effect("rate_feedforward");
+  const Numbers values{0.2, 0.01};
+  Numbers state(2);
+  double torque = 0;
+  for (int i = 0; i <= 100; ++i) torque = feedforward->driveTorque(0.1, {.command = 3e-3 * i}, values, state, 1e-3);
+  EXPECT_NEAR(0.1 + 0.2 * 3, torque, 1e-4);
+  // A step's whole push is the gain times the step, however fine the steps are.
+  for (const double step : {1e-3, 4e-3}) {
+    Numbers fresh(2);
+    double push = step * feedforward->driveTorque(0, {.command = 0}, values, fresh, step);
+    for (int i = 0; i < 400; ++i) push += step * feedforward->driveTorque(0, {.command = 0.5}, values, fresh, step);
+    EXPECT_NEAR(0.2 * 0.5, push, 1e-9);
+  }
+}
+
+TEST(RateFeedforward, IsPartOfTheSumThatTheDriveLimits) {
+  const auto feedforward = effect("rate_feedforward");
+  Numbers state(2);
+  feedforward->driveTorque(0, {.command = 1}, Numbers{0.2, 1e-3}, state, 1e-3);
+  const JointState joint{.command = 0, .limit = 0.9, .beyond = 0.3};
+  EXPECT_DOUBLE_EQ(-0.9, feedforward->driveTorque(0.9, joint, Numbers{0.2, 1e-3}, state, 1e-3));
+}
+
 TEST(IntegralAction, LeavesATorqueCommandAlone) {
   Numbers state{0};
   EXPECT_EQ(0.6, effect("integral_action")

@@ -178,4 +178,15 @@ TEST(Desk, TellsThatItIsAtWorkAndLeavesWhenItIsTold) {
   EXPECT_TRUE(child->alive());
 }
 
+TEST(Child, ThatDoesNotLeaveWhenItIsToldIsEnded) {
+  Nursery nursery(afterACall([](int) {
+    while (true) pause();  // a plugin that hangs, so to speak
+  }));
+  const auto child = nursery.start('x');
+  const Answer answer = child->ask("call", {3600, {}, true, [] { return true; }});
+  EXPECT_EQ(Code::cancelled, answer.code);
+  EXPECT_THAT(answer.bytes, HasSubstr("did not leave"));
+  EXPECT_FALSE(child->alive());
+}
+
 }  // namespace

@@ -47,7 +47,9 @@ class SmallGrid : public testing::Test {
   Database open(const std::string& name) { return Database::open(folder_.file(name), Database::Mode::create); }
   Id run(Database& database, GridSpec::Method method, int workers = 2) {
     const Id grid = startGrid(database, host_, spec(), method, 3);
-    EXPECT_EQ(continueGrid(database, host_, grid, StopFlag{false}, {workers, {}}), RunEnd::finished);
+    EXPECT_EQ(continueGrid(database, host_, grid, StopFlag{false},
+                           {.workers = workers, .workforce = nullptr, .progress = {}}),
+              RunEnd::finished);
     return grid;
   }
   /// All results of a database's grids as text; times are none.

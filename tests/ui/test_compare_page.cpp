@@ -253,6 +253,26 @@ class TestComparePage : public QObject {
     QCOMPARE(page.plot().data().series.size(), curves);
   }
 
+  // While runs learn they are told four times a second: only those that went on are read again.
+  void aRunThatWentOnIsReadAgain() {
+    ComparePage page;
+    std::vector<Id> asked;
+    connect(&page, &ComparePage::wanted, &page, [&](const std::vector<Id>& runs) { asked = runs; });
+    std::vector<RunRecord> runs{run(1, 7, 30), run(3, 7, 60)};
+    page.setRuns(runs, {{1, "Kick"}});
+    page.setChosen({1, 3});
+    page.setHistories({{1, history(1)}, {3, history(3)}});
+    asked.clear();
+    page.setRuns(runs, {{1, "Kick"}});
+    page.readOn();
+    QVERIFY(asked.empty());
+    ++runs[1].generation;
+    page.setRuns(runs, {{1, "Kick"}});
+    page.readOn();
+    QCOMPARE(asked, std::vector<Id>{3});
+    QCOMPARE(page.chosen(), (std::vector<Id>{1, 3}));
+  }
+
   void aRunThatCannotBeReadSaysWhy() {
     ComparePage page;
     connect(&page, &ComparePage::wanted, &page, [&] { page.setHistories({}, "kick.db: the file is damaged"); });

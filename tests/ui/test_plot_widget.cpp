@@ -200,6 +200,24 @@ class TestPlotWidget : public QObject {
     QVERIFY(plot.legendNames().contains("measured"));
   }
 
+  // Of data that come faster than they can be drawn.
+  void onlyTheLastDataAreDrawn() {
+    PlotWidget plot;
+    plot.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&plot));
+    QSignalSpy drawn(&plot, &PlotWidget::rangeChanged);
+    PlotData data = example();
+    for (int count = 0; count < 20; ++count) {
+      data.series[0].points.emplace_back(50 + count, 3);
+      plot.setData(data);
+      QCOMPARE(plot.data().series[0].points.back(), QPointF(50 + count, 3));
+    }
+    QTRY_COMPARE(drawn.size(), 1);
+    QVERIFY(plot.visibleRange().right() >= 69);
+    plot.setData(example());
+    QVERIFY2(plot.visibleRange().right() < 50, "who asks sees the latest");
+  }
+
   void zoomStaysWhileNewDataArrive() {
     PlotWidget plot;
     plot.setData(example());

@@ -106,6 +106,22 @@ class TestRunLauncher : public QObject {
     QVERIFY2(failed.first().first().toString().contains("absent.csv"), qPrintable(failed.first().first().toString()));
   }
 
+  void whatLearnsLetsTheWindowGoFirst() {
+    const QTemporaryDir folder;
+    const QString program = folder.filePath("btr"), said = folder.filePath("nice");
+    QFile script(program);
+    QVERIFY(script.open(QIODevice::WriteOnly));
+    script.write("#!/bin/sh\nnice > " + said.toUtf8() + ".part\nmv " + said.toUtf8() + ".part " + said.toUtf8() + "\n");
+    script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
+    script.close();
+    RunLauncher launcher{std::make_shared<const PluginHost>(PLUGIN_DIR), program};
+    QVERIFY(launcher.work(folder.filePath("runs.db"), 1, 0));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(said), longest_ms);
+    QFile file(said);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QVERIFY(file.readAll().trimmed().toInt() >= 10);
+  }
+
   void theLogOfAStartedRunGoesWithTheLauncher() {
     const auto logs = [] {
       return QDir::temp().entryList({QStringLiteral("uchilsim-%1-run-*.log").arg(QCoreApplication::applicationPid())});

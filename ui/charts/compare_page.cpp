@@ -127,33 +127,59 @@ QWidget* ComparePage::makeOptions() {
 }
 
 void ComparePage::setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments) {
-  const std::vector<Id> before = chosen();
+  std::map<Id, const RunRecord*> before;
+  for (const RunRecord& run : runs_) before[run.id] = &run;
+  for (const RunRecord& run : runs)
+    if (const auto known = before.find(run.id);
+        known == before.end() || known->second->generation != run.generation || known->second->stage != run.stage ||
+        known->second->state != run.state || known->second->updatedAt != run.updatedAt)
+      fresh_.erase(run.id);
   runs_ = runs;
   experiments_ = experiments;
-  {
-    const QSignalBlocker quiet(tree_);
-    tree_->clear();
-    std::map<Id, QTreeWidgetItem*> parents;
-    for (const RunRecord& run : runs_) {
-      QTreeWidgetItem*& parent = parents[run.experiment];
-      if (!parent) {
-        parent = new QTreeWidgetItem(tree_, {experimentOf(run)});
-        parent->setFlags(parent->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsAutoTristate);
-        parent->setExpanded(true);
-      }
-      QString text = tr("Run %1").arg(run.id);
-      if (run.reality == "stand_in") text += tr(" (stand-in)");
-      auto* item = new QTreeWidgetItem(parent, {text, QString::number(run.seed), QString::number(run.generation)});
-      item->setData(0, runRole, static_cast<qlonglong>(run.id));
-      item->setCheckState(0, Qt::Unchecked);
-      item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
-      item->setTextAlignment(2, Qt::AlignRight | Qt::AlignVCenter);
-      item->setToolTip(0, run.note.empty() ? text : text + '\n' + QString::fromStdString(run.note));
-    }
-    tree_->resizeColumnToContents(1);
-    tree_->resizeColumnToContents(2);
+  QStringList list;
+  for (const RunRecord& run : runs_)
+    list << QString::number(run.id) << experimentOf(run) << QString::number(run.seed)
+         << QString::fromStdString(run.reality) << QString::fromStdString(run.note);
+  if (list == listed_) return showGenerations();
+  const std::vector<Id> ticked = chosen();
+  listed_ = list;
+  listRuns();
+  setChosen(ticked);
+}
+
+// While runs learn, four times a second.
+void ComparePage::showGenerations() {
+  std::map<Id, int> generations;
+  for (const RunRecord& run : runs_) generations[run.id] = run.generation;
+  const QSignalBlocker quiet(tree_);
+  for (QTreeWidgetItemIterator item(tree_, QTreeWidgetItemIterator::NoChildren); *item; ++item) {
+    const QString text = QString::number(generations[(*item)->data(0, runRole).toLongLong()]);
+    if ((*item)->text(2) != text) (*item)->setText(2, text);
   }
-  setChosen(before);
+}
+
+void ComparePage::listRuns() {
+  const QSignalBlocker quiet(tree_);
+  tree_->clear();
+  std::map<Id, QTreeWidgetItem*> parents;
+  for (const RunRecord& run : runs_) {
+    QTreeWidgetItem*& parent = parents[run.experiment];
+    if (!parent) {
+      parent = new QTreeWidgetItem(tree_, {experimentOf(run)});
+      parent->setFlags(parent->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsAutoTristate);
+      parent->setExpanded(true);
+    }
+    QString text = tr("Run %1").arg(run.id);
+    if (run.reality == "stand_in") text += tr(" (stand-in)");
+    auto* item = new QTreeWidgetItem(parent, {text, QString::number(run.seed), QString::number(run.generation)});
+    item->setData(0, runRole, static_cast<qlonglong>(run.id));
+    item->setCheckState(0, Qt::Unchecked);
+    item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
+    item->setTextAlignment(2, Qt::AlignRight | Qt::AlignVCenter);
+    item->setToolTip(0, run.note.empty() ? text : text + '\n' + QString::fromStdString(run.note));
+  }
+  tree_->resizeColumnToContents(1);
+  tree_->resizeColumnToContents(2);
 }
 
 void ComparePage::setChosen(const std::vector<Id>& runs) {
@@ -252,10 +278,7 @@ void ComparePage::draw() {
   fillDifferences(records);
   leftOut_->setText(tr("The charts show fitness in %1; another unit has %2.").arg(unit, leftOut.join(", ")));
   leftOut_->setVisible(!leftOut.isEmpty());
-  if (!trouble_.isEmpty())
-    summary_->setText(trouble_);
-  else if (isMissing)
-    summary_->setText(tr("Reading…"));
+  summary_->setText(!trouble_.isEmpty() ? trouble_ : isMissing ? tr("Reading…") : differ_);
 }
 
 // One row an arm, each at its last stage; differences are to the first arm, paired by seed.
@@ -291,6 +314,12 @@ void ComparePage::fillReached(const std::vector<ComparedArm>& arms, const QStrin
 }
 
 void ComparePage::fillDifferences(const std::vector<RunRecord>& runs) {
+  // A run's settings never change.
+  QStringList compared{onlyDifferent_->isChecked() ? "differences" : "all"};
+  for (const RunRecord& run : runs)
+    compared << nameOf(run) << QString::number(run.seed) << QString::fromStdString(run.specJson);
+  if (compared == compared_) return;
+  compared_ = compared;
   const std::vector<SpecRow> all = compareSpecs(runs);
   std::vector<const SpecRow*> shown;
   for (const SpecRow& row : all)
@@ -318,9 +347,9 @@ void ComparePage::fillDifferences(const std::vector<RunRecord>& runs) {
   differences_->resizeColumnsToContents();
 
   const auto different = std::count_if(all.begin(), all.end(), [](auto& row) { return row.differs; });
-  summary_->setText(runs.empty()       ? QString()
-                    : runs.size() == 1 ? tr("%1 settings").arg(all.size())
-                                       : tr("%1 of %2 settings differ").arg(different).arg(all.size()));
+  differ_ = runs.empty()       ? QString()
+            : runs.size() == 1 ? tr("%1 settings").arg(all.size())
+                               : tr("%1 of %2 settings differ").arg(different).arg(all.size());
 }
 
 }  // namespace btr::ui

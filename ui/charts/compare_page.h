@@ -36,12 +36,15 @@ class ComparePage : public QWidget {
 
   explicit ComparePage(QWidget* parent = nullptr);
 
-  /// All runs to choose from, with their specs; the names of their experiments by id. Ticks stay.
+  /// All runs to choose from, with their specs; the names of their experiments by id. Ticks stay. What is known of runs
+  /// that went on since is no longer taken for fresh.
   void setRuns(const std::vector<RunRecord>& runs, const std::map<Id, QString>& experiments);
   void setChosen(const std::vector<Id>& runs);
   std::vector<Id> chosen() const;
   /// Asks for the chosen runs again, for those that are still learning. What is there stays until it comes.
   void refresh();
+  /// The same of those that are not fresh.
+  void readOn() { ask(); }
   /// Answers to what was wanted; `trouble` is shown: why others cannot be read.
   void setHistories(std::map<Id, History> histories, const QString& trouble = {});
   /// Another database: numbers of runs mean others now.
@@ -63,6 +66,8 @@ class ComparePage : public QWidget {
   QWidget* makeOptions();
   void ask();
   QString experimentOf(const RunRecord& run) const;
+  void listRuns();
+  void showGenerations();
   QString nameOf(const RunRecord& run) const;
   void draw();
   void fillReached(const std::vector<ComparedArm>& arms, const QString& unit);
@@ -77,7 +82,10 @@ class ComparePage : public QWidget {
   std::vector<RunRecord> runs_;
   std::map<Id, QString> experiments_;
   std::map<Id, History> read_;
-  std::set<Id> fresh_;  ///< of these: read since the last refresh()
+  std::set<Id> fresh_;    ///< of these: read since the last refresh()
+  QStringList listed_;    ///< what the tree shows of the runs that does not change while they learn
+  QStringList compared_;  ///< what the table of settings shows
+  QString differ_;        ///< how many of them differ
   QString trouble_;
 };
 

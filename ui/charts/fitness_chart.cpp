@@ -33,7 +33,12 @@ void FitnessChart::setHidden(const std::set<double>& fitness) {
   redraw();
 }
 
-void FitnessChart::append(const GenerationRecord& generation) {
+void FitnessChart::append(const std::vector<GenerationRecord>& generations) {
+  for (const GenerationRecord& generation : generations) insert(generation);
+  redraw();
+}
+
+void FitnessChart::insert(const GenerationRecord& generation) {
   if (generation.run != run_.run) return;
   auto& all = run_.generations;
   const auto place = std::lower_bound(all.begin(), all.end(), generation.number,
@@ -47,7 +52,6 @@ void FitnessChart::append(const GenerationRecord& generation) {
     *place = std::move(kept);
   else
     all.insert(place, std::move(kept));
-  redraw();
 }
 
 void FitnessChart::setGenerations(const std::vector<GenerationRecord>& generations) {

@@ -19,7 +19,8 @@ class FitnessChart : public QWidget {
   const FitnessRun& run() const { return run_; }
 
   /// One more generation, or a newer record of one that is there; those of other runs are ignored.
-  void append(const GenerationRecord& generation);
+  void append(const GenerationRecord& generation) { append(std::vector{generation}); }
+  void append(const std::vector<GenerationRecord>& generations);
   void setGenerations(const std::vector<GenerationRecord>& generations);
   void setSimulators(const std::vector<SimulatorRecord>& simulators);
   /// `individuals` are those that the measurements name.
@@ -32,6 +33,7 @@ class FitnessChart : public QWidget {
   PlotWidget& plot() { return *plot_; }
 
  private:
+  void insert(const GenerationRecord& generation);
   void redraw();
 
   PlotWidget* plot_;

@@ -15,6 +15,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
+#include <optional>
 
 #include "core/spec/error.h"
 #include "ui/charts/chart_scene.h"
@@ -40,6 +41,7 @@ struct PlotWidget::Impl {
   QAction *reset = nullptr, *logarithmic = nullptr;
   bool zoomed = false;
   QPoint pressed, moved;
+  std::optional<PlotData> next;  ///< given, but not drawn yet
   enum class Drag { none, zoom, move } drag = Drag::none;
 
   /// For people; exported tables are exact.
@@ -176,50 +178,66 @@ PlotWidget::~PlotWidget() {
 }
 
 void PlotWidget::setData(PlotData data) {
+  const bool waiting = impl_->next.has_value();
+  impl_->next = std::move(data);
+  // One that is not seen is drawn when it is shown.
+  if (!waiting && isVisible())
+    QMetaObject::invokeMethod(
+        this, [this] { settled(); }, Qt::QueuedConnection);
+}
+
+PlotWidget::Impl& PlotWidget::settled() const {
+  if (!impl_->next) return *impl_;
+  PlotData data = std::move(*impl_->next);
+  impl_->next.reset();
   impl_->scene.setReadOut({});
   impl_->scene.setData(std::move(data));
   if (impl_->zoomed)
     impl_->scene.setRange(impl_->scene.range());
   else
     impl_->showAll();
-  setAccessibleDescription(impl_->scene.data().title + ". " + impl_->scene.data().note);
+  impl_->self.setAccessibleDescription(impl_->scene.data().title + ". " + impl_->scene.data().note);
+  return *impl_;
 }
 
-const PlotData& PlotWidget::data() const { return impl_->scene.data(); }
-std::vector<QPointF> PlotWidget::drawnPoints(const QString& series) const { return impl_->scene.drawnPoints(series); }
-bool PlotWidget::isSeriesShown(const QString& name) const { return impl_->scene.isShown(name); }
-QStringList PlotWidget::legendNames() const { return impl_->scene.legendNames(); }
-QRectF PlotWidget::visibleRange() const { return impl_->scene.range(); }
-void PlotWidget::zoomTo(const QRectF& values) { impl_->zoom(values); }
-void PlotWidget::resetZoom() { impl_->showAll(); }
+const PlotData& PlotWidget::data() const { return impl_->next ? *impl_->next : impl_->scene.data(); }
+std::vector<QPointF> PlotWidget::drawnPoints(const QString& series) const {
+  return settled().scene.drawnPoints(series);
+}
+bool PlotWidget::isSeriesShown(const QString& name) const { return settled().scene.isShown(name); }
+QStringList PlotWidget::legendNames() const { return settled().scene.legendNames(); }
+QRectF PlotWidget::visibleRange() const { return settled().scene.range(); }
+void PlotWidget::zoomTo(const QRectF& values) { settled().zoom(values); }
+void PlotWidget::resetZoom() { settled().showAll(); }
 bool PlotWidget::isZoomed() const { return impl_->zoomed; }
 bool PlotWidget::isLogarithmic() const { return impl_->scene.isLogarithmic(); }
 
 void PlotWidget::setSeriesShown(const QString& name, bool shown) {
-  impl_->scene.setShown(name, shown);
+  settled().scene.setShown(name, shown);
   if (!impl_->zoomed) impl_->showAll();
 }
 
 void PlotWidget::setLogarithmic(bool on) {
   impl_->logarithmic->setChecked(on);
-  impl_->scene.setLogarithmic(on);
+  settled().scene.setLogarithmic(on);
   impl_->showAll();
 }
 
 QString PlotWidget::readOutAt(const QPoint& place) const {
-  const auto found = impl_->nearest(impl_->view->viewport()->mapFrom(this, place));
+  const auto found = settled().nearest(impl_->view->viewport()->mapFrom(this, place));
   return found ? found->text : QString();
 }
 
 QPoint PlotWidget::placeOf(const QPointF& value) const {
-  const QPointF inScene = impl_->scene.chart()->mapToScene(impl_->scene.toPosition(value));
+  const ChartScene& scene = settled().scene;
+  const QPointF inScene = scene.chart()->mapToScene(scene.toPosition(value));
   return impl_->view->viewport()->mapTo(this, impl_->view->mapFromScene(inScene));
 }
 
-void PlotWidget::exportTo(const QString& path) { exportPlot(path, data(), impl_->picture()); }
+void PlotWidget::exportTo(const QString& path) { exportPlot(path, data(), settled().picture()); }
 
 void PlotWidget::copyToClipboard() {
-  const PlotPicture picture = impl_->picture();
+  const PlotPicture picture = settled().picture();
   QImage image((picture.size * 2).toSize(), QImage::Format_ARGB32_Premultiplied);
   image.setDevicePixelRatio(2);
   QPainter painter(&image);
@@ -244,6 +262,9 @@ void PlotWidget::exportWithDialog() {
 bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
   Impl& d = *impl_;
   if (watched != d.view->viewport()) return QWidget::eventFilter(watched, event);
+  // What is painted, and what the mouse is at, is the latest.
+  if (event->type() == QEvent::Paint || event->type() == QEvent::MouseButtonPress || event->type() == QEvent::Wheel)
+    settled();
   switch (event->type()) {
     case QEvent::MouseButtonPress: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
@@ -299,6 +320,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void PlotWidget::keyPressEvent(QKeyEvent* event) {
+  settled();
   const QRectF area = impl_->scene.chart()->plotArea();
   const QPointF centre = impl_->view->mapFromScene(impl_->scene.chart()->mapToScene(area.center()));
   switch (event->key()) {
@@ -339,6 +361,13 @@ void PlotWidget::resizeEvent(QResizeEvent* event) {
   const QSize size = impl_->button.sizeHint();
   impl_->button.setGeometry(QRect(QPoint(width() - size.width() - 4, 3), size));
   impl_->button.raise();
+}
+
+void PlotWidget::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (impl_->next)
+    QMetaObject::invokeMethod(
+        this, [this] { settled(); }, Qt::QueuedConnection);
 }
 
 void PlotWidget::contextMenuEvent(QContextMenuEvent* event) { impl_->menu.exec(event->globalPos()); }

@@ -19,7 +19,8 @@ class PlotWidget : public QWidget {
   explicit PlotWidget(QWidget* parent = nullptr);
   ~PlotWidget() override;
 
-  /// Replaces what is shown; zoom and hidden names stay.
+  /// Replaces what is shown; zoom and hidden names stay. Drawn when the event loop turns and the widget is seen, so
+  /// that of data that come faster only the last are drawn; whoever asks sees them at once.
   void setData(PlotData data);
   const PlotData& data() const;
   /// What is drawn of a series after thinning to the present zoom; empty if there is no such series.
@@ -63,10 +64,12 @@ class PlotWidget : public QWidget {
   void keyPressEvent(QKeyEvent* event) override;
   void changeEvent(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
 
  private:
   struct Impl;
+  Impl& settled() const;  ///< with what was given last
   std::unique_ptr<Impl> impl_;
 };
 

@@ -17,8 +17,12 @@ CompareController::CompareController(Workbench& bench, ComparePage& page)
             for (const ExperimentRecord& experiment : experiments)
               names[experiment.id] = QString::fromStdString(experiment.name);
             page_.setRuns(runs, names);
-            if (page_.isVisible()) page_.refresh();
+            if (page_.isVisible()) page_.readOn();
           });
+  // What was measured, or is void now, changes stages of a run that stands still.
+  connect(&bench_.watcher(), &DatabaseWatcher::tasksChanged, this, [this] {
+    if (page_.isVisible()) page_.refresh();
+  });
 }
 
 // What is damaged of one run hides no other.

@@ -11,7 +11,7 @@
 namespace btr::ui {
 namespace {
 
-constexpr std::size_t rowsAPage = 600;
+constexpr std::size_t rowsAPage = 250;
 
 /// Whole generations, so that the window takes in a bounded number of rows at once.
 IndividualsTable::Page pageOf(const Database& database, Id run, int first, int last) {
@@ -44,7 +44,7 @@ RunViews::RunViews(Workbench& bench, const Pages& pages) : QObject(&bench), benc
   });
   connect(&watcher, &DatabaseWatcher::generationsAdded, this, [this](Id, const std::vector<GenerationRecord>& added) {
     pages_.panel.addGenerations(added);
-    for (const GenerationRecord& generation : added) pages_.fitness.append(generation);
+    pages_.fitness.append(added);
     pages_.individuals.extend(added.back().number);
   });
   connect(&watcher, &DatabaseWatcher::simulatorsChanged, this,

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScopedValueRollback>
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "core/spec/error.h"
 #include "core/spec/file_kind.h"
 #include "ui/common/section.h"
+#include "ui/common/style_sheet.h"
 #include "ui/common/tab_order.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/learner_form.h"
@@ -219,6 +221,15 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
   checkSettings(spec.adaptation, offers_.adapters.empty() ? offers_.learners : offers_.adapters,
                 "adaptation/learner/settings");
   checkSettings(choiceOf(spec.start), searchStart_->offersFor(controller), "start");
+  {
+    const QScopedValueRollback filling(filling_, true);
+    fill(spec);
+  }
+  undo_.clear();
+  update();
+}
+
+void ExperimentForm::fill(const ExperimentSpec& spec) {
   shown_ = spec;
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
@@ -264,8 +275,6 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
     effects << QString::fromStdString(effect.effect + " at " + effect.at);
   effects_->setText(tr("Added effects: %1").arg(effects.join(", ")));
   effects_->setVisible(!effects.isEmpty());
-  undo_.clear();
-  update();
 }
 
 QString ExperimentForm::genotypeFor(const PluginChoice& controller, const ExperimentSpec& spec) {
@@ -418,7 +427,7 @@ Section* ExperimentForm::add(QVBoxLayout& column, const QString& title, QWidget*
 
 // Everything that depends on the fields: which parts are seen, what is wrong, what may be pressed.
 void ExperimentForm::update() {
-  if (!problem_) return;
+  if (!problem_ || filling_) return;
   const bool standIn = reality_->currentData().toString() == "stand_in";
   realityForm_->show(reality_->currentData().toString());
   standIn_->setVisible(standIn);
@@ -427,7 +436,7 @@ void ExperimentForm::update() {
   const double after = valueOf(recordingParameters(), recordings_->values(), "after_stage");
   recorded_->setVisible(after > 0);
   recordingsSection_->setSummary(after > 0 ? tr("after stage %1").arg(after) : tr("none"));
-  standInNote_->setStyleSheet(QStringLiteral("color: %1; font-weight: 600").arg(tonesOf(palette()).standIn.name()));
+  styleOnce(*standInNote_, QStringLiteral("color: %1; font-weight: 600").arg(tonesOf(palette()).standIn.name()));
   sections_[1]->setSummary(changes(controller_->changedCount()));
   sections_[2]->setSummary(changes(fitness_->changedCount()));
   sections_[3]->setSummary(changes(learner_->changedCount()));
@@ -443,7 +452,7 @@ void ExperimentForm::update() {
   problem_->setText(wrong.isEmpty()
                         ? QString()
                         : wrong.first() + (wrong.size() > 1 ? tr(" (and %1 more)").arg(wrong.size() - 1) : QString()));
-  problem_->setStyleSheet(QStringLiteral("color: %1").arg(tonesOf(palette()).bad.name()));
+  styleOnce(*problem_, QStringLiteral("color: %1").arg(tonesOf(palette()).bad.name()));
   problem_->setVisible(!wrong.isEmpty());
   start_->setEnabled(wrong.isEmpty());
   save_->setEnabled(wrong.isEmpty());

@@ -10,6 +10,7 @@
 #include <QTreeView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "core/run/adoption.h"
 #include "ui/common/theme.h"
@@ -170,24 +171,22 @@ void ExperimentTree::sort() {
   model_->sort(0);
 }
 
-void ExperimentTree::filter() {
-  const QString wanted = search_->text().trimmed();
-  const QStandardItem& root = *model_->invisibleRootItem();
-  filterChildren(root, wanted);
-  for (int row = 0; row < root.rowCount(); ++row)
-    if (archived_.count(idOf(root.child(row)->index())) && !archive_->isChecked()) view_->setRowHidden(row, {}, true);
-}
+void ExperimentTree::filter() { filterChildren(*model_->invisibleRootItem(), search_->text().trimmed()); }
 
 // True if something below is shown. What is below a hit is shown whole.
 bool ExperimentTree::filterChildren(const QStandardItem& parent, const QString& wanted) {
   bool any = false;
+  const bool atTop = &parent == model_->invisibleRootItem();
   for (int row = 0; row < parent.rowCount(); ++row) {
     const QStandardItem& item = *parent.child(row);
     const QString words = item.text() + ' ' + item.data(BadgeDelegate::DetailRole).toString() + ' ' +
                           item.data(BadgeDelegate::BadgeRole).toString() + ' ' + item.toolTip();
     const bool hit = words.contains(wanted, Qt::CaseInsensitive);
     const bool below = filterChildren(item, hit ? QString() : wanted);
-    view_->setRowHidden(row, parent.index(), !hit && !below);
+    // Setting it lays the whole tree out anew.
+    const bool away = atTop && archived_.count(idOf(item.index())) > 0 && !archive_->isChecked();
+    const bool hide = away || (!hit && !below);
+    if (view_->isRowHidden(row, parent.index()) != hide) view_->setRowHidden(row, parent.index(), hide);
     any = any || hit || below;
   }
   return any;
@@ -200,10 +199,11 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
   for (const auto& experiment : experiments) experimentIds.insert(experiment.id);
   keepOnly(root, experimentKind, experimentIds);
   for (const auto& experiment : experiments) {
-    const bool isNew = model_->match(model_->index(0, 0), IdRole, qint64(experiment.id), 1, Qt::MatchExactly).isEmpty();
+    const int before = root.rowCount();
     QStandardItem* item = child(root, experimentKind, experiment.id);
+    const bool isNew = root.rowCount() > before;
     item->setText(text(experiment.name));
-    item->setIcon(themeIcon("folder-open"));
+    if (isNew) item->setIcon(themeIcon("folder-open"));
     item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
                      (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
     if (isNew) view_->expand(item->index());
@@ -213,6 +213,7 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     runs_[run.id] = run;
     runIds.insert(run.id);
   }
+  std::erase_if(shown_, [&](const auto& shown) { return !runIds.count(shown.first); });
   cells_.clear();
   std::map<Id, const RunGroup*> groupOf;
   for (const RunGroup& group : groups) {
@@ -348,12 +349,22 @@ void ExperimentTree::keepOnly(QStandardItem& parent, Kind kind, const std::set<I
 }
 
 void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
+  const auto cell = cells_.find(run.id);
+  // Most runs of a large database have not changed since they were shown.
+  const QString all = QStringLiteral("%1 %2 %3 %4 %5 %6 %7 %8 %9")
+                          .arg(toText(run.state))
+                          .arg(run.stage)
+                          .arg(run.generation)
+                          .arg(run.stopRequested)
+                          .arg(active_.count(run.id))
+                          .arg(cell == cells_.end() ? -1 : cell->second)
+                          .arg(text(run.progressJson), text(run.message), text(run.note));
+  if (std::exchange(shown_[run.id], {&item, all}) == std::pair(&item, all)) return;
   const RunProgress progress = progressFromJson(run.progressJson);
   const RunFace face = faceOf(run, active_.count(run.id) > 0);
   const auto set = [](QStandardItem* cell, const QString& value) {
     if (cell->text() != value) cell->setText(value);
   };
-  const auto cell = cells_.find(run.id);
   set(&item, (cell == cells_.end() ? runName(run) : tr("Cell %1 · %2").arg(cell->second).arg(runName(run))) +
                  (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));
   item.setIcon(themeIcon(iconName(face)));

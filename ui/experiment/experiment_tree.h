@@ -93,6 +93,7 @@ class ExperimentTree : public QWidget {
   QStandardItemModel* model_;
   std::map<Id, RunRecord> runs_;
   std::map<Id, QStandardItem*> runItems_;
+  std::map<Id, std::pair<QStandardItem*, QString>> shown_;  ///< of each run, what its item shows
   std::set<Id> rigs_, archived_;
   std::map<Id, int> cells_;  ///< of grids, by their runs
   std::set<Id> active_;

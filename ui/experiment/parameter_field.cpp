@@ -10,6 +10,7 @@
 
 #include "ui/common/form_undo.h"
 #include "ui/common/number_edit.h"
+#include "ui/common/style_sheet.h"
 #include "ui/common/theme.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_text.h"
@@ -159,7 +160,7 @@ void ParameterField::show() {
   const QString wrong = problem();
   if (number_) number_->setMarked(!wrong.isEmpty());
   problem_->setText(wrong);
-  problem_->setStyleSheet(QStringLiteral("color: %1").arg(tonesOf(label_->palette()).bad.name()));
+  styleOnce(*problem_, QStringLiteral("color: %1").arg(tonesOf(label_->palette()).bad.name()));
   problem_->setVisible(visible_ && !wrong.isEmpty());
 }
 

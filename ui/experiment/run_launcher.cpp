@@ -11,6 +11,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/run/prepared_experiment.h"
 #include "core/store/database.h"
+#include "ui/common/give_way.h"
 
 namespace btr::ui {
 namespace {
@@ -98,6 +99,7 @@ bool RunLauncher::start(const QString& name, QStringList arguments, const QStrin
   process.log = QStringLiteral("%1/uchilsim-%2-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(name);
   QProcess starter;
   starter.setProgram(program_);
+  giveWay(starter);
   if (jobs > 0) arguments << jobsOption << QString::number(jobs);
   starter.setArguments(arguments);
   starter.setStandardInputFile(QProcess::nullDevice());

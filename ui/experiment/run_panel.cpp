@@ -9,8 +9,10 @@
 #include <QSpinBox>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "ui/common/format.h"
+#include "ui/common/style_sheet.h"
 #include "ui/common/theme.h"
 
 namespace btr::ui {
@@ -186,6 +188,7 @@ void RunPanel::refresh() {
     stage_->setText(tr("No run is selected"));
     next_->setText(tr("Choose a run in the tree, or describe a new experiment and start it."));
     icon_->clear();
+    shownIcon_.clear();
     name_->clear();
     message_->clear();
     for (QWidget* widget : std::initializer_list<QWidget*>{standIn_, message_, overall_, within_, go_, stop_})
@@ -195,13 +198,15 @@ void RunPanel::refresh() {
     return;
   }
   face_ = faceOf(run_, active_);
-  icon_->setPixmap(themeIcon(iconName(face_)).pixmap(22, 22));
+  // An icon is drawn from its file each time.
+  const QString icon = QString(iconName(face_)) + palette().windowText().color().name();
+  if (std::exchange(shownIcon_, icon) != icon) icon_->setPixmap(themeIcon(iconName(face_)).pixmap(22, 22));
   stage_->setText(stageText(face_, progress_));
   name_->setText(runName(run_));
   standIn_->setVisible(isStandIn(run_));
-  standIn_->setStyleSheet(QStringLiteral("color: %1; border: 1px solid %1; border-radius: 8px; padding: 1px 8px; "
-                                         "font-weight: 600;")
-                              .arg(tones.standIn.name()));
+  styleOnce(*standIn_, QStringLiteral("color: %1; border: 1px solid %1; border-radius: 8px; padding: 1px 8px; "
+                                      "font-weight: 600;")
+                           .arg(tones.standIn.name()));
   next_->setText(nextAction(face_, run_, progress_, measuring_, active_));
 
   const int total = std::max(progress_.totalGenerations, run_.generation);
@@ -251,8 +256,7 @@ void RunPanel::refresh() {
   if (face_ == RunFace::waiting || face_ == RunFace::stopped || face_ == RunFace::stopping) message.clear();
   message_->setText(message);
   message_->setVisible(!message.isEmpty());
-  message_->setStyleSheet(face_ == RunFace::failed ? QStringLiteral("color: %1").arg(tones.bad.name())
-                                                   : QStringLiteral("color: %1").arg(tones.muted.name()));
+  styleOnce(*message_, QStringLiteral("color: %1").arg((face_ == RunFace::failed ? tones.bad : tones.muted).name()));
   go_->setVisible(true);
   stop_->setVisible(true);
   go_->setText(face_ == RunFace::ready ? tr("Start") : tr("Continue"));

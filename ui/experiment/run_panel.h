@@ -52,6 +52,7 @@ class RunPanel : public QWidget {
   GenerationRecord best_;        ///< with the best fitness of all
   long trials_ = 0;              ///< of all stored generations
   bool active_ = false, empty_ = true, blind_ = false;
+  QString shownIcon_;  ///< and its colour
   RunFace face_ = RunFace::ready;
   QString unit_;
   QLabel *icon_, *stage_, *name_, *standIn_, *next_, *message_;

@@ -2,11 +2,14 @@
 
 #include <QCoreApplication>
 
+#include "ui/common/give_way.h"
+
 namespace btr::ui {
 
 ProgramProcess::ProgramProcess(const QString& program, QObject* parent)
     : QObject(parent), program_(program.isEmpty() ? QCoreApplication::applicationDirPath() + "/btr" : program) {
   process_.setStandardInputFile(QProcess::nullDevice());
+  giveWay(process_);
   connect(&process_, &QProcess::started, this, &ProgramProcess::started);
   connect(&process_, &QProcess::readyReadStandardError, this, &ProgramProcess::read);
   connect(&process_, &QProcess::finished, this, &ProgramProcess::end);

@@ -6,6 +6,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/even_grid.h"
 #include "core/gap/replay/initial_state.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/start_state.h"
@@ -21,15 +22,63 @@ struct Local {
   bool known = false;
 };
 
-/// Least-squares parabola through the samples within ±`reach` rows of `row`: value and slope there, with standard
-/// errors for the given noise.
-Local localParabola(std::span<const double> time, std::span<const double> values, std::size_t row, double reach_s,
-                    double noise) {
+/// What is longer than this between two samples of a channel is a pause, of which its samples say nothing [s].
+double pauseOf(std::span<const double> time, std::span<const double> values) {
+  constexpr double usually = 4;  // times the usual time between samples: lost rows make two or three of it
+  std::vector<double> between;
+  double last = NAN;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (std::isfinite(last)) between.push_back(time[i] - last);
+    last = time[i];
+  }
+  return usually * median(std::move(between));
+}
+
+/// Rows of a channel's samples around `row`: all within ±`reach_s` and, of a slow channel, the nearest ones until there
+/// are four. Never across a pause.
+std::vector<std::size_t> samplesAround(std::span<const double> time, std::span<const double> values, std::size_t row,
+                                       double reach_s, double pause_s) {
+  constexpr std::size_t least = 4;
   std::vector<std::size_t> rows;
-  for (std::size_t i = row; i-- > 0 && time[row] - time[i] <= reach_s;)
-    if (std::isfinite(values[i])) rows.push_back(i);
-  for (std::size_t i = row; i < time.size() && (time[i] - time[row] <= reach_s || rows.size() < 4); ++i)
-    if (std::isfinite(values[i])) rows.push_back(i);
+  if (std::isfinite(values[row])) rows.push_back(row);
+  std::size_t before = row, after = row;  // the last ones looked at, and the last samples' times on either side
+  double earliest = time[row], latest = time[row];
+  // The next sample on a side, or no row where a pause or the recording's end comes first.
+  const auto back = [&]() -> std::size_t {
+    for (std::size_t i = before; i-- > 0 && earliest - time[i] <= pause_s;)
+      if (std::isfinite(values[i])) return i;
+    return time.size();
+  };
+  const auto ahead = [&]() -> std::size_t {
+    for (std::size_t i = after + 1; i < time.size() && time[i] - latest <= pause_s; ++i)
+      if (std::isfinite(values[i])) return i;
+    return time.size();
+  };
+  for (std::size_t left = back(), right = ahead(); left < time.size() || right < time.size();) {
+    const double toLeft = left < time.size() ? time[row] - time[left] : INFINITY;
+    const double toRight = right < time.size() ? time[right] - time[row] : INFINITY;
+    if (std::min(toLeft, toRight) > reach_s && rows.size() >= least) break;
+    if (toRight <= toLeft) {
+      rows.push_back(right);
+      after = right;
+      latest = time[right];
+      right = ahead();
+    } else {
+      rows.push_back(left);
+      before = left;
+      earliest = time[left];
+      left = back();
+    }
+  }
+  return rows;
+}
+
+/// Least-squares parabola through the samples around `row` (samplesAround): value and slope there, with standard errors
+/// for the given noise.
+Local localParabola(std::span<const double> time, std::span<const double> values, std::size_t row, double reach_s,
+                    double noise, double pause_s) {
+  const std::vector<std::size_t> rows = samplesAround(time, values, row, reach_s, pause_s);
   if (rows.size() < 4) return {};
   Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), 3);
   Eigen::VectorXd b(a.rows());
@@ -49,7 +98,7 @@ Local localParabola(std::span<const double> time, std::span<const double> values
 constexpr double reach_s = 0.02;
 
 /// How far a free body's samples around a row are from smooth motion, in noise floors: large across an impact.
-double roughness(const FitTrial& trial, std::size_t row) {
+double roughness(const FitTrial& trial, const std::vector<double>& pauses, std::size_t row) {
   double sum = 0;
   for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
     const Measured& measured = trial.binding.measured[i];
@@ -57,7 +106,7 @@ double roughness(const FitTrial& trial, std::size_t row) {
         (measured.what != Measured::What::basePosition && measured.what != Measured::What::baseOrientation))
       continue;
     const Local local = localParabola(trial.recording.columns[0], trial.recording.columns[measured.column], row,
-                                      reach_s, trial.noiseFloor[i]);
+                                      reach_s, trial.noiseFloor[i], pauses[i]);
     if (local.known) sum += local.spread / trial.noiseFloor[i];
   }
   return sum;
@@ -66,12 +115,15 @@ double roughness(const FitTrial& trial, std::size_t row) {
 /// The smoothest row within a third of a window of `row`.
 std::size_t smoothestNear(const FitTrial& trial, std::size_t row, double window_s) {
   const std::vector<double>& time = trial.recording.columns[0];
+  std::vector<double> pauses;
+  for (const Measured& measured : trial.binding.measured)
+    pauses.push_back(pauseOf(time, trial.recording.columns[measured.column]));
   std::size_t best = row;
-  double least = roughness(trial, row);
+  double least = roughness(trial, pauses, row);
   for (const int way : {-1, 1})
     for (std::size_t k = row; k > 0 && k + 1 < time.size() && std::abs(time[k] - time[row]) < window_s / 3;) {
       k = way < 0 ? k - 1 : k + 1;
-      if (const double here = roughness(trial, k); here < least) {
+      if (const double here = roughness(trial, pauses, k); here < least) {
         best = k;
         least = here;
       }
@@ -181,7 +233,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
     };
     if (measured.what == Measured::What::position) {
       const Drive& drive = scene.robots[measured.object].drives[measured.part];
-      Local local = localParabola(time, values, row, reach_s, noise);
+      Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
       double& position = state.robots[measured.object].positions[measured.part];
       double& rate = state.robots[measured.object].rates[measured.part];
       if (row > 0 && local.known) {
@@ -196,32 +248,32 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
         add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
-      const Local local = localParabola(time, values, row, reach_s, noise);
-      if (!local.known) continue;
+      const Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
       const auto axis = static_cast<Eigen::Index>(measured.part);
-      if (row > 0) {
+      const double wide = local.known ? loose : 10;  // nearly alone beside a pause: the samples that follow must tell
+      if (row > 0 && local.known) {
         state.robots[measured.object].base.translation()[axis] = local.value;
         state.robots[measured.object].velocity_m_s[axis] = local.slope;
       }
-      add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError), loose * noise);
+      add(Nuisance::What::basePosition, measured.part, std::max(noise, local.valueError), wide * noise);
       add(Nuisance::What::baseVelocity, measured.part, std::max(noise / reach_s, local.slopeError),
-          loose * noise / reach_s);
+          wide * noise / reach_s);
     } else if (measured.what == Measured::What::baseOrientation && measured.part > 0 &&
                scene.robots[measured.object].freeBase) {
       // A quaternion's noise is half an angle's.
       add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise, 2 * loose * noise);
       add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s, 2 * loose * noise / reach_s);
     } else if (measured.what == Measured::What::ballPosition) {
-      const Local local = localParabola(time, values, row, reach_s, noise);
-      if (!local.known) continue;
+      const Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
       const auto axis = static_cast<Eigen::Index>(measured.part);
       BallState& ball = state.balls[measured.object];
-      if (row > 0) {
+      if (row > 0 && local.known) {
         ball.position_m[axis] = local.value;
         ball.velocity_m_s[axis] = local.slope;
       }
       if (ball.onFloor && axis == 2) continue;
-      const double speed = row == 0 ? fastest(trial, measured.object) : 0;
+      // Nearly alone beside a pause: the samples that follow must tell.
+      const double speed = row == 0 || !local.known ? fastest(trial, measured.object) : 0;
       add(Nuisance::What::ballPosition, measured.part, std::max(noise, local.valueError), speed * reach_s);
       add(Nuisance::What::ballVelocity, measured.part, std::max(noise / reach_s, local.slopeError), speed);
     }

@@ -59,7 +59,7 @@ ConcealedAnswer answerFromJson(const std::string& text, const std::string& place
   });
   answer.truth = reader.anyValues("truth");
   answer.noise = reader.anyValues("noise");
-  answer.dirt = reader.text("dirt");
+  answer.dirt = reader.text("dirt", "");  // trials that were made before there was any do not name it
   answer.spoiled = reader.texts("spoiled");
   answer.salt = reader.text("salt");
   reader.finish();

@@ -20,7 +20,7 @@ Round CandidateSearch::search(const Request& request) {
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
   // contain; if none of them will do, the next ones.
   std::vector<std::size_t> best, next;
-  for (std::size_t k = 0; k < tried.size() && tried[k].attempt.fitted; ++k)
+  for (std::size_t k = 0; k < tried.size() && tried[k].attempt.fitted && tried[k].fit.cost <= request.hopeless; ++k)
     // What fits far worse than the best after the first iterations is no rival.
     (best.size() < request.toFit / 2 && tried[k].fit.cost <= limits.hopeless * tried[0].fit.cost ? best : next)
         .push_back(k);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ class CandidateSearch {
     std::vector<Fit> models;            ///< fits begin from any of them; the first is that of `without`
     const Linearised* known = nullptr;  ///< sensitivities of the first, if they are known
     std::size_t toFit = 0;
-    std::string stage{};      ///< ends its name in the progress
-    double from = 0, to = 1;  ///< shares of the search
+    std::string stage{};                                        ///< ends its name in the progress
+    double from = 0, to = 1;                                    ///< shares of the search
+    double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
   };
   /// Where something passes that needs a finer step, that step stays.

@@ -299,9 +299,10 @@ std::optional<Explanation> OddTrial::byCommands(
       for (double& value : driven.columns[column]) value *= factor;
     return errorsByTrial(ready({std::move(driven)}), others_, limits_.iterations)[0];
   };
-  // Wide steps of the factor's logarithm, then ever closer ones.
+  // Wide steps of the factor's logarithm, then ever closer ones: the motion of a quiet sensor is thousands of its noise
+  // floors, so that a factor a thousandth off still leaves more than the others have.
   constexpr int farthest = 5;
-  constexpr double widest = 0.2, closest = 0.002;
+  constexpr double widest = 0.2, closest = 1e-5;
   double best = 0, least = errorBy(1);
   for (int k = -farthest; k <= farthest; ++k)
     if (const double error = errorBy(std::exp(widest * k)); error < least) {

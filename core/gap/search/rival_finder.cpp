@@ -156,8 +156,15 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
   if (model.effects.size() == 1) return {calibrated_, first_};
   const Scored without =
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
-  Round round = candidates_.search(
-      {without, {without.fit}, nullptr, service_.thresholds().screening.fittedAsRivals, ", rivals", 0.88, 0.95});
+  // What leaves many times what the effect leaves is not told from it by fitting it to the end.
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  Round round = candidates_.search({.without = without,
+                                    .models = {without.fit},
+                                    .toFit = limits.fittedAsRivals,
+                                    .stage = ", rivals",
+                                    .from = 0.88,
+                                    .to = 0.95,
+                                    .hopeless = limits.inReach * final.fit.cost});
   return {std::move(round.without), std::move(round.tried)};
 }
 

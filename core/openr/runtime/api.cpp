@@ -5,6 +5,7 @@
 #include <OPENR/OPENRAPI.h>
 #include <OPENR/OSyslog.h>
 #include <SystemTime.h>
+#include <Time_a.h>
 #include <apsys.h>
 
 #include <cstdarg>
@@ -304,39 +305,56 @@ sError GetSystemTime(SystemTime* time) { return GetSystemTime(static_cast<struct
 
 std::ostream& operator<<(std::ostream& out, const OTime& time) { return out << OCalendarTime(time); }
 
-OStatus OCalendarTime::Set(time_t seconds) {
+OStatus OCalendarTime::Set(const OTime& time) {
+  const time_t seconds = Services::startYear_s + time.GetLocalTime();
   struct tm parts {};
-  gmtime_r(&seconds, &parts);
-  year_ = parts.tm_year + 1900;
-  month_ = parts.tm_mon + 1;
-  day_ = parts.tm_mday;
-  hour_ = parts.tm_hour;
-  minute_ = parts.tm_min;
-  second_ = parts.tm_sec;
-  dayOfWeek_ = parts.tm_wday;
+  if (gmtime_r(&seconds, &parts) == nullptr || parts.tm_year < otimeSTART_YEAR - 1900 ||
+      parts.tm_year > otimeSTART_YEAR - 1900 + 255)
+    return oOUT_OF_RANGE;
+  year_ = static_cast<byte>(parts.tm_year + 1900 - otimeSTART_YEAR);
+  month_ = static_cast<byte>(parts.tm_mon + 1);
+  day_ = static_cast<byte>(parts.tm_mday);
+  hour_ = static_cast<byte>(parts.tm_hour);
+  min_ = static_cast<byte>(parts.tm_min);
+  sec_ = static_cast<byte>(parts.tm_sec);
+  dow_ = static_cast<byte>(parts.tm_wday);
+  timeDif_ = time.GetTimeDif();
   return oSUCCESS;
 }
 
 OStatus OCalendarTime::Set(int year, int month, int day, int hour, int minute, int second) {
   struct tm parts {};
-  parts.tm_year = year - 1900;
+  parts.tm_year = year < otimeSTART_YEAR ? year + otimeSTART_YEAR - 1900 : year - 1900;
   parts.tm_mon = month - 1;
   parts.tm_mday = day;
   parts.tm_hour = hour;
   parts.tm_min = minute;
   parts.tm_sec = second;
-  return Set(timegm(&parts));
+  const struct tm given = parts;
+  OTime time;
+  time.SetTimeDif(timeDif_);
+  time.SetLocalTime(timegm(&parts) - Services::startYear_s);
+  const bool same = given.tm_mon == parts.tm_mon && given.tm_mday == parts.tm_mday && given.tm_hour == parts.tm_hour &&
+                    given.tm_min == parts.tm_min && given.tm_sec == parts.tm_sec;
+  return same ? Set(time) : oINVALID_ARG;
 }
 
 time_t OCalendarTime::GetTime() const {
   struct tm parts {};
-  parts.tm_year = year_ - 1900;
+  parts.tm_year = otimeSTART_YEAR + year_ - 1900;
   parts.tm_mon = month_ - 1;
   parts.tm_mday = day_;
   parts.tm_hour = hour_;
-  parts.tm_min = minute_;
-  parts.tm_sec = second_;
-  return timegm(&parts);
+  parts.tm_min = min_;
+  parts.tm_sec = sec_;
+  OTime time;
+  time.SetTimeDif(timeDif_);
+  time.SetLocalTime(timegm(&parts) - Services::startYear_s);
+  return time.GetClock();
+}
+
+void OCalendarTime::Print() const {
+  OSysprint("%04d-%02d-%02d %02d:%02d:%02d\n", GetYear(), month_, day_, hour_, min_, sec_);
 }
 
 std::ostream& operator<<(std::ostream& out, const OCalendarTime& time) {
@@ -344,6 +362,21 @@ std::ostream& operator<<(std::ostream& out, const OCalendarTime& time) {
   std::snprintf(text, sizeof(text), "%04d-%02d-%02d %02d:%02d:%02d", time.GetYear(), time.GetMonth(), time.GetDay(),
                 time.GetHour(), time.GetMinute(), time.GetSecond());
   return out << text;
+}
+
+RelativeTime ConvertToRelativeTime(const SystemTime& time) {
+  SystemTime now;
+  GetSystemTime(&now);
+  const long long us = (static_cast<long long>(time.seconds) - now.seconds) * 1000000 + time.useconds - now.useconds;
+  return RelativeTime(static_cast<slongword>(us / 1000000), static_cast<slongword>(us % 1000000 / 1000));
+}
+
+SystemTime ConvertToSystemTime(const RelativeTime& time) {
+  SystemTime now;
+  GetSystemTime(&now);
+  const long long us = static_cast<long long>(now.seconds) * 1000000 + now.useconds +
+                       static_cast<long long>(time.sec) * 1000000 + time.msec * 1000LL;
+  return SystemTime(static_cast<longword>(us / 1000000), static_cast<longword>(us % 1000000));
 }
 
 // ---- memory and objects -----------------------------------------------------------------------------------------

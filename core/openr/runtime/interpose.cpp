@@ -1,7 +1,7 @@
 // The C library's functions that a robot has in another way: files are the stick's, time is simulated, exit() ends a
 // method, and there are no other programs. They serve methods only; everything else in this process gets the C
 // library's own.
-#include <dirent.h>
+#include <apsys.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -88,7 +88,6 @@ ON_STICK(int, remove, -1, (const char* path), path, (path))
 ON_STICK(int, truncate, -1, (const char* path, off_t size), path, (path, size))
 ON_STICK(int, truncate64, -1, (const char* path, off64_t size), path, (path, size))
 ON_STICK(int, chmod, -1, (const char* path, mode_t mode), path, (path, mode))
-ON_STICK(DIR*, opendir, nullptr, (const char* path), path, (path))
 
 int open(const char* path, int flags, ...) {
   static const auto real = own<int (*)(const char*, int, ...)>("open");
@@ -294,3 +293,9 @@ int nanosleep(const struct timespec* wanted, struct timespec* left) {
 }
 
 }  // extern "C"
+
+sError Wait(longlong nanoseconds) {
+  if (nanoseconds < 0) return sINVALID_ARG;
+  rest(nanoseconds / 1000);
+  return sSUCCESS;
+}

@@ -144,7 +144,7 @@ void IpStack::submit(antEnvMsg* message, std::function<void()> done) {
       static_cast<UDPEndpointBaseMsg*>(message)->error = UDP_CONNECTION_BUSY;
     return done();
   }
-  Operation operation{message, std::move(done), id, 0, 0, false};
+  Operation operation{message, std::move(done), id};
   if (isTcp ? tcp(operation, at->second) : udp(operation, at->second)) return operation.done();
   operations_.push_back(std::move(operation));
 }

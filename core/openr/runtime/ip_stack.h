@@ -32,6 +32,7 @@ class IpStack {
     int socket = -1;
     bool connected = false, closed = false;
     Port bound = 0;  ///< of the robot
+    int closes = 0;  ///< how often it was closed
   };
   struct Listener {
     int socket = -1;
@@ -43,6 +44,7 @@ class IpStack {
     uint32 endpoint;
     int received = 0, sent = 0;
     bool begun = false;
+    int closes = 0;  ///< of its endpoint when it began
   };
 
   bool stackOperation(antEnvMsg* message);

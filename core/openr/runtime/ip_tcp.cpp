@@ -26,6 +26,11 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
     case TCPEndpoint_Operation_BacklogListen: {
       auto* listen = static_cast<TCPEndpointListenMsg*>(base);
       if (endpoint.connected) return answer(TCP_CONNECTION_BUSY);
+      if (!operation.begun) operation.closes = endpoint.closes;
+      operation.begun = true;
+      if (operation.closes != endpoint.closes) return answer(TCP_CONNECTION_CLOSED);
+      // Without a port of its own it is the bound one's.
+      if (listen->lPort == 0) listen->lPort = endpoint.bound;
       Listener* at = listener(listen->lPort);
       if (at == nullptr) return answer(TCP_ADDRESSINUSE);
       const int accepted = ::accept4(at->socket, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
@@ -97,6 +102,7 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
       return answer(enough ? TCP_SUCCESS : error);
     }
     case TCPEndpoint_Operation_Close:
+      ++endpoint.closes;  // what waits on it ends
       closeEndpoint(endpoint);
       return answer(TCP_SUCCESS);
     case TCPEndpoint_Operation_ReadyForRead:
@@ -114,6 +120,8 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
       return answer(TCP_SUCCESS);
     }
     case TCPEndpoint_Operation_Bind:
+      endpoint.bound = static_cast<TCPEndpointBindMsg*>(base)->lPort;
+      return answer(TCP_SUCCESS);
     case TCPEndpoint_Operation_SetBlockingMode:
     case TCPEndpoint_Operation_BacklogQueues:
       return answer(TCP_SUCCESS);

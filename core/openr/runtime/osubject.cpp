@@ -265,6 +265,7 @@ OStatus OSubject::ControlHandler(const OControlMessage& msg, OStatus status) {
   if (status != oSUCCESS) {
     System::instance().say("", std::string("CONNECT.CFG: a subject refuses ") + msg.name + " (status " +
                                    std::to_string(status) + "): not connected");
+    System::instance().refuse(id_, msg.observer);
     return oREFUSED;
   }
   if (find(msg.observer) != nullptr) return oALREADY_EXIST;

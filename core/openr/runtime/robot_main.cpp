@@ -118,8 +118,8 @@ int main(int argc, char** argv) {
   fixAddresses(argv);
   quietPlace(arguments.link);
   fcntl(arguments.link, F_SETFD, FD_CLOEXEC);
-  endWithSimulator(arguments.link);
   const bool confined = confine(arguments.stick);
+  endWithSimulator(arguments.link);  // confined as this thread is
   System* system = nullptr;
   try {
     system = new System(robotDesign(arguments.design), arguments.stick);  // never deleted: modules live as long as we

@@ -71,7 +71,8 @@ class Services {
   OStatus findDesignData(const std::string& keyword, ODesignDataID* id, byte** data, std::size_t* size);
   OStatus deleteDesignData(ODesignDataID id);
 
-  static constexpr std::int64_t epoch_s = 1072915200;  ///< the robot is switched on at 2004-01-01 00:00:00 UTC
+  static constexpr std::int64_t epoch_s = 1072915200;     ///< the robot is switched on at 2004-01-01 00:00:00 UTC
+  static constexpr std::int64_t startYear_s = 946684800;  ///< 2000-01-01, from which OTime counts
 
  private:
   struct InVector {

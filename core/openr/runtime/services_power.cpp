@@ -78,10 +78,12 @@ void Services::watchPower() {
   }
 }
 
-OTime Services::time() const { return OTime(epoch_s + clockOffset_s_ + system_.time_us() / 1000000, timeDifference_); }
+OTime Services::time() const {
+  return OTime(epoch_s - startYear_s + clockOffset_s_ + system_.time_us() / 1000000, timeDifference_);
+}
 
 void Services::setTime(const OTime& time) {
-  clockOffset_s_ = time.GetClock() - epoch_s - system_.time_us() / 1000000;
+  clockOffset_s_ = time.GetClock() + startYear_s - epoch_s - system_.time_us() / 1000000;
   timeDifference_ = time.GetTimeDif();
 }
 

@@ -214,6 +214,10 @@ bool System::advance() {
       return true;
     case Phase::init:
       connect();
+      phase_ = Phase::control;
+      return true;
+    case Phase::control:
+      connectObservers();
       phase_ = Phase::connect;
       return true;
     case Phase::connect:

@@ -109,6 +109,8 @@ class System {
     std::size_t skip = 0, min = 1, max = 1;
   };
   std::map<ObserverID, BufferControl> bufferControl;
+  /// Of subjects: the observer is not told of them.
+  void refuse(const SubjectID& subject, const ObserverID& observer) { refused_.insert({subject, observer}); }
 
   static constexpr std::size_t stackBytes = 1u << 20;
 
@@ -125,11 +127,19 @@ class System {
   bool quiet() const;
   bool advance();
   void connect();
+  void connectObservers();
   void sendToAll(Selector selector, OReason reason);
   void flushLine(RunningObject& object);
 
-  enum class Phase { load, init, connect, start, running, stop, destroy, over };
+  enum class Phase { load, init, control, connect, start, running, stop, destroy, over };
   Phase phase_ = Phase::load;
+  struct Connection {
+    ObserverID observer;
+    OServiceEntry entry;  ///< the observer's Connect
+    std::shared_ptr<OConnectMessage> message;
+  };
+  std::vector<Connection> connections_;  ///< of which subjects were told
+  std::set<std::pair<SubjectID, ObserverID>> refused_;
   std::vector<std::unique_ptr<RunningObject>> objects_;
   std::unique_ptr<Services> services_;
   RunningObject* current_ = nullptr;

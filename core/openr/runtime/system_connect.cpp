@@ -47,8 +47,15 @@ void System::connect() {
     forObserver->command = objcommCONNECT;
     forObserver->subject = ready;
     std::snprintf(forObserver->name, sizeof(forObserver->name), "%s", subject.c_str());
-    send(connectTo, forObserver);
+    connections_.push_back({notify, connectTo, forObserver});
   }
+}
+
+/// Observers are told once their subjects have answered, and not of those that refuse them.
+void System::connectObservers() {
+  for (const Connection& each : connections_)
+    if (refused_.count({each.message->subject, each.observer}) == 0) send(each.entry, each.message);
+  connections_.clear();
 }
 
 }  // namespace btr::openr

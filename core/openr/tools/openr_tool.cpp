@@ -1,6 +1,7 @@
 // What the tools of the OPEN-R folder cannot do in a shell.
 //   openr_tool stub FILE FOLDER     makes the stub that a stub.cfg asks for
-//   openr_tool cure FILE.ii ERRORS  drops parameter names that the compiler's errors say stand twice
+//   openr_tool cure FILE.ii ERRORS  writes what the compiler's errors name as it wants it; 3 if there is nothing to do
+//   openr_tool headers ERRORS       says which headers are missing by the compiler's errors
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -12,6 +13,8 @@
 #include "core/spec/error.h"
 
 namespace {
+
+constexpr int nothingToDo = 3;
 
 std::string content(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -39,13 +42,20 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (what == "cure" && argc == 4) {
-      write(argv[2], btr::openr::withoutRepeatedNames(content(argv[2]), content(argv[3])));
+      const std::string source = content(argv[2]), cured = btr::openr::curedSource(source, content(argv[3]));
+      if (cured == source) return nothingToDo;
+      write(argv[2], cured);
+      return 0;
+    }
+    if (what == "headers" && argc == 3) {
+      for (const std::string& header : btr::openr::missingHeaders(content(argv[2])))
+        std::printf("%s\n", header.c_str());
       return 0;
     }
   } catch (const btr::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }
-  std::fprintf(stderr, "openr_tool stub FILE FOLDER | openr_tool cure FILE.ii ERRORS\n");
+  std::fprintf(stderr, "openr_tool stub FILE FOLDER | openr_tool cure FILE.ii ERRORS | openr_tool headers ERRORS\n");
   return 2;
 }

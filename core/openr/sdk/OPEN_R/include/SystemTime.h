@@ -1,4 +1,4 @@
-// Time since the robot was switched on.
+/* Time since the robot was switched on. */
 #ifndef BTR_OPENR_SYSTEM_TIME_H
 #define BTR_OPENR_SYSTEM_TIME_H
 
@@ -8,6 +8,8 @@ struct structSystemTime {
   longword seconds;
   longword useconds;
 };
+
+#ifdef __cplusplus
 
 class SystemTime : public structSystemTime {
  public:
@@ -39,5 +41,9 @@ inline bool operator<(const SystemTime& a, const SystemTime& b) {
 inline bool operator>(const SystemTime& a, const SystemTime& b) { return b < a; }
 inline bool operator<=(const SystemTime& a, const SystemTime& b) { return !(b < a); }
 inline bool operator>=(const SystemTime& a, const SystemTime& b) { return !(a < b); }
+
+#else
+typedef struct structSystemTime SystemTime;
+#endif
 
 #endif

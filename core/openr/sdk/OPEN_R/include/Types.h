@@ -1,4 +1,4 @@
-// Numbers as the robot's processor has them: a longword is 32 bits here too.
+/* Numbers as the robot's processor has them: a longword is 32 bits here too. */
 #ifndef BTR_OPENR_TYPES_H
 #define BTR_OPENR_TYPES_H
 
@@ -14,6 +14,9 @@ typedef unsigned int longword;
 typedef signed char sbyte;
 typedef short sword;
 typedef int slongword;
+typedef long long longlong;
+typedef unsigned long long ulonglong;
+typedef long long slonglong;
 
 typedef signed char int8;
 typedef short int16;
@@ -24,17 +27,29 @@ typedef unsigned int uint32;
 typedef long long int64;
 typedef unsigned long long uint64;
 
+#ifdef __cplusplus
 typedef bool Boolean;
-typedef int boolean;  // as the JPEG library has it
+#else
+typedef unsigned char Boolean;
+#endif
+typedef int boolean; /* as the JPEG library has it */
 
 typedef longword Selector;
 typedef unsigned int MemoryRegionID;
 typedef longword offset_t;
+#ifdef __cplusplus
 typedef void (*Entry)(...);
+#else
+typedef void (*Entry)();
+#endif
 
 #define UNDEF 0xffffffff
 
-// The C library has it no longer, old programs ask for it.
+/* The C library has it no longer, old programs ask for it. */
+#ifdef __cplusplus
 extern "C" char* gets(char* line);
+#else
+char* gets(char* line);
+#endif
 
 #endif

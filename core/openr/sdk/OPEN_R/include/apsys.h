@@ -16,6 +16,9 @@ const sError sNOT_FOUND = 4;
 sError GetSystemTime(SystemTime* time);
 sError GetSystemTime(structSystemTime* time);
 
+/// The object waits, and only it, in simulated time. The unit of the robot's own call is not known: nanoseconds here.
+sError Wait(longlong nanoseconds);
+
 /// Memory of the object's own.
 sError NewRegion(size_t size, void** address);
 /// Memory that objects share.

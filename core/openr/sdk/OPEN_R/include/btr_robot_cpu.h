@@ -13,7 +13,15 @@ BTR_OPENR_NO_INSTRUCTION(tlbp);
 BTR_OPENR_NO_INSTRUCTION(tlbr);
 BTR_OPENR_NO_INSTRUCTION(tlbwi);
 BTR_OPENR_NO_INSTRUCTION(tlbwr);
+BTR_OPENR_NO_INSTRUCTION(break);
 #undef BTR_OPENR_NO_INSTRUCTION
+/* What only orders or hints does nothing. */
+#define BTR_OPENR_NOTHING(name) __asm__(".macro " #name " operands:vararg\n.endm")
+BTR_OPENR_NOTHING(sync);
+BTR_OPENR_NOTHING(pref);
+BTR_OPENR_NOTHING(cache);
+BTR_OPENR_NOTHING(ssnop);
+#undef BTR_OPENR_NOTHING
 
 #include "btr_openr_version.h"
 

@@ -1,9 +1,9 @@
-// The name that this header had before the standard.
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
 #ifndef BTR_OPENR_OLD_MAP_H
 #define BTR_OPENR_OLD_MAP_H
 
 #include <map>
 
-using namespace std;
+using std::map;
 
 #endif

@@ -1,9 +1,9 @@
-// The name that this header had before the standard.
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
 #ifndef BTR_OPENR_OLD_STACK_H
 #define BTR_OPENR_OLD_STACK_H
 
 #include <stack>
 
-using namespace std;
+using std::stack;
 
 #endif

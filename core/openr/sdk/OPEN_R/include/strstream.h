@@ -1,9 +1,14 @@
-// The name that this header had before the standard.
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
 #ifndef BTR_OPENR_OLD_STRSTREAM_H
 #define BTR_OPENR_OLD_STRSTREAM_H
 
 #include <strstream>
 
-using namespace std;
+#include <iostream.h>
+
+using std::istrstream;
+using std::ostrstream;
+using std::strstream;
+using std::strstreambuf;
 
 #endif

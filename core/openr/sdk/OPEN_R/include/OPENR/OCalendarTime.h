@@ -3,43 +3,69 @@
 
 #include <OPENR/OTime.h>
 
-/// A time as year, month, day, hour, minute and second.
+/// A local time as year, month, day, hour, minute and second.
 class OCalendarTime {
  public:
+  // As they are kept: the year counts from otimeSTART_YEAR, the month from 1; Sunday is day 0 of the week.
+  byte year_, month_, day_, hour_, min_, sec_, dow_;
+  sbyte timeDif_;
+
   OCalendarTime() { Set(0); }
-  OCalendarTime(time_t seconds) { Set(seconds); }
-  OCalendarTime(const OTime& time) { Set(time.GetLocalTime()); }
-  OCalendarTime(int year, int month, int day, int hour, int minute, int second) {
+  OCalendarTime(time_t clock, sbyte timeDif = 0) { Set(OTime(clock, timeDif)); }
+  OCalendarTime(const OTime& time) { Set(time); }
+  /// `year` in full or from otimeSTART_YEAR.
+  OCalendarTime(int year, int month, int day, int hour, int minute, int second, sbyte timeDif = 0) : timeDif_(timeDif) {
     Set(year, month, day, hour, minute, second);
   }
 
-  OStatus Set(time_t seconds);
-  OStatus Set(const OTime& time) { return Set(time.GetLocalTime()); }
+  OStatus Set(time_t clock) { return Set(OTime(clock, 0)); }
+  OStatus Set(time_t clock, sbyte timeDif) { return Set(OTime(clock, timeDif)); }
+  OStatus Set(const OTime& time);
+  /// oINVALID_ARG, and nothing changed, for what no calendar has.
   OStatus Set(int year, int month, int day, int hour, int minute, int second);
+  OStatus SetTime(const OTime& time) { return Set(time); }
+  OStatus SetTimeDif(sbyte timeDif) {
+    timeDif_ = timeDif;
+    return oSUCCESS;
+  }
 
-  int GetYear() const { return year_; }
+  /// In full: 2004.
+  int GetYear() const { return otimeSTART_YEAR + year_; }
   int GetMonth() const { return month_; }  ///< 1 to 12
   int GetDay() const { return day_; }      ///< 1 to 31
   int GetHour() const { return hour_; }
-  int GetMinute() const { return minute_; }
-  int GetMin() const { return minute_; }
-  int GetSecond() const { return second_; }
-  int GetSec() const { return second_; }
-  int GetDayOfWeek() const { return dayOfWeek_; }  ///< 0 is Sunday
-  int Year() const { return year_; }
+  int GetMinute() const { return min_; }
+  int GetMin() const { return min_; }
+  int GetSecond() const { return sec_; }
+  int GetSec() const { return sec_; }
+  int GetDayOfWeek() const { return dow_; }  ///< 0 is Sunday
+  sbyte GetTimeDif() const { return timeDif_; }
+  int Year() const { return GetYear(); }
   int Month() const { return month_; }
   int Day() const { return day_; }
   int Hour() const { return hour_; }
-  int Minute() const { return minute_; }
-  int Second() const { return second_; }
-  int DayOfWeek() const { return dayOfWeek_; }
+  int Minute() const { return min_; }
+  int Second() const { return sec_; }
+  int DayOfWeek() const { return dow_; }
+
+  /// The same as an OTime has it.
   time_t GetTime() const;
   time_t GetClock() const { return GetTime(); }
-
- private:
-  int year_, month_, day_, hour_, minute_, second_, dayOfWeek_;
+  OStatus GetTime(time_t* clock, sbyte* timeDif) const {
+    *clock = GetTime();
+    *timeDif = timeDif_;
+    return oSUCCESS;
+  }
+  OStatus GetTime(OTime* time) const { return time->Set(GetTime(), timeDif_); }
+  void Print() const;
 };
 
+inline bool operator==(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() == b.GetTime(); }
+inline bool operator!=(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() != b.GetTime(); }
+inline bool operator<(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() < b.GetTime(); }
+inline bool operator>(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() > b.GetTime(); }
+inline bool operator<=(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() <= b.GetTime(); }
+inline bool operator>=(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() >= b.GetTime(); }
 std::ostream& operator<<(std::ostream& out, const OCalendarTime& time);
 
 #endif

@@ -5,6 +5,8 @@
 #include <OPENR/OPENRAPI.h>
 #include <OPENR/OPENREvent.h>
 #include <OPENR/OPENRMessages.h>
+#include <OPENR/OSyslog.h>
+#include <apsys.h>
 
 /// What a core class is derived from. There is one instance of it, the stub's.
 class OObject {

@@ -6,7 +6,9 @@
 
 #include <iosfwd>
 
-/// Seconds since 1970 in universal time, and how many hours the local time is ahead.
+const int otimeSTART_YEAR = 2000;  ///< its first second is an OTime's 0
+
+/// Seconds since 2000 in universal time, and how many hours the local time is ahead.
 class OTime {
  public:
   OTime() : clock_(0), timeDif_(0) {}
@@ -48,6 +50,8 @@ inline bool operator==(const OTime& a, const OTime& b) { return a.GetClock() == 
 inline bool operator!=(const OTime& a, const OTime& b) { return a.GetClock() != b.GetClock(); }
 inline bool operator<(const OTime& a, const OTime& b) { return a.GetClock() < b.GetClock(); }
 inline bool operator>(const OTime& a, const OTime& b) { return a.GetClock() > b.GetClock(); }
+inline bool operator<=(const OTime& a, const OTime& b) { return a.GetClock() <= b.GetClock(); }
+inline bool operator>=(const OTime& a, const OTime& b) { return a.GetClock() >= b.GetClock(); }
 std::ostream& operator<<(std::ostream& out, const OTime& time);
 
 #endif

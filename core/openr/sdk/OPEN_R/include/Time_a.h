@@ -1,0 +1,19 @@
+// Times from now on, in milliseconds, and the system's.
+#ifndef BTR_OPENR_TIME_A_H
+#define BTR_OPENR_TIME_A_H
+
+#include <SystemTime.h>
+#include <apsys.h>
+
+struct RelativeTime {
+  slongword sec;
+  slongword msec;
+
+  RelativeTime() : sec(0), msec(0) {}
+  RelativeTime(slongword s, slongword ms) : sec(s), msec(ms) {}
+};
+
+RelativeTime ConvertToRelativeTime(const SystemTime& time);
+SystemTime ConvertToSystemTime(const RelativeTime& time);
+
+#endif

@@ -1,0 +1,9 @@
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
+#ifndef BTR_OPENR_OLD_COMPLEX_H
+#define BTR_OPENR_OLD_COMPLEX_H
+
+#include <complex>
+
+using std::complex;
+
+#endif

@@ -1,0 +1,18 @@
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
+#ifndef BTR_OPENR_OLD_ISTREAM_H
+#define BTR_OPENR_OLD_ISTREAM_H
+
+#include <iostream>
+#include <istream>
+
+using std::endl;
+using std::ends;
+using std::flush;
+using std::ios;
+using std::iostream;
+using std::istream;
+using std::ostream;
+using std::streambuf;
+using std::ws;
+
+#endif

@@ -1,0 +1,15 @@
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
+#ifndef BTR_OPENR_OLD_OSTREAM_H
+#define BTR_OPENR_OLD_OSTREAM_H
+
+#include <iostream>
+#include <ostream>
+
+using std::endl;
+using std::ends;
+using std::flush;
+using std::ios;
+using std::ostream;
+using std::streambuf;
+
+#endif

@@ -1,0 +1,10 @@
+// The name that this header had before the standard: what it declares is known without std, as in 2003.
+#ifndef BTR_OPENR_OLD_PAIR_H
+#define BTR_OPENR_OLD_PAIR_H
+
+#include <utility>
+
+using std::make_pair;
+using std::pair;
+
+#endif

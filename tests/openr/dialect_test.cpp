@@ -1,0 +1,132 @@
+// What compilers, headers and Makefiles of 2003 let pass: sources that are read anew, and programs as teams wrote them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/openr/source_cure.h"
+#include "tests/openr/run_program.h"
+
+namespace btr::openr {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(SourceCure, DropsTheSecondNameOnly) {
+  const std::string source =
+      "# 1 \"a.cc\"\nint f(int one, int one);\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int two);\n";
+  const std::string errors =
+      "a.cc:1:18: error: redefinition of 'int one'\nb.h:9:5: error: redefinition of 'int two'\nb.h:2:1: error: other\n";
+  const std::string cured =
+      "# 1 \"a.cc\"\nint f(int one, int );\nint one;\n# 7 \"b.h\"\nint g(int\n two, int x,\n int );\n";
+  EXPECT_EQ(withoutRepeatedNames(source, errors), cured);
+  EXPECT_EQ(curedSource(source, errors), cured);
+}
+
+TEST(SourceCure, ATypeOfATemplatesArgumentIsCalledOne) {
+  EXPECT_EQ(curedSource("# 4 \"a.cc\"\nT t; vec::iterator i;\n",
+                        "a.cc:4:6: error: need 'typename' before 'vec::iterator' because 'vec' is a dependent scope\n"
+                        "a.cc:4:19: error: 'i' was not declared in this scope\n"),
+            "# 4 \"a.cc\"\nT t; typename vec::iterator i;\n");
+}
+
+TEST(SourceCure, AMemberOfADependentBaseIsSoughtInTheObject) {
+  const std::string source = "# 1 \"a.cc\"\nvoid go() { v = 3; }\n";
+  const std::string error = "a.cc:1:13: error: 'v' was not declared in this scope\n";
+  EXPECT_EQ(curedSource(source, "a.cc: In member function 'void D<T>::go()':\n" + error),
+            "# 1 \"a.cc\"\nvoid go() { this->v = 3; }\n");
+  EXPECT_EQ(curedSource(source, "a.cc: In function 'void go()':\n" + error), source);  // a mistake stays one
+}
+
+TEST(SourceCure, AVariableOfALoopIsKnownBehindIt) {
+  const auto cured = [](const std::string& line, const std::string& errors) {
+    return curedSource("# 1 \"a.cc\"\n" + line + "\n", errors).substr(std::string("# 1 \"a.cc\"\n").size());
+  };
+  const auto unknown = [](int column) {
+    return "a.cc:1:" + std::to_string(column) + ": error: 'i' was not declared in this scope\n";
+  };
+  EXPECT_EQ(cured("{ for (int i = 0; i < 3; i++) { say(\"}\"); } use(i); }", unknown(49)),
+            "{ int i = 0; for (; i < 3; i++) { say(\"}\"); } use(i); }\n");
+  // The nearest loop's; a block has a variable of a name once.
+  EXPECT_EQ(cured("{ for (int i = 0; a; ) f(); g(i); for (int i = 5; b; ) f(); g(i); }", unknown(31) + unknown(63)),
+            "{ int i = 0; for (; a; ) f(); g(i); for (i = 5; b; ) f(); g(i); }\n");
+  // Another function's or an inner block's loop is not meant.
+  const std::string other = "{ for (int i = 0; a; ) f(); } { g(i); }";
+  EXPECT_EQ(cured(other, unknown(35)), other + "\n");
+  const std::string inner = "{ if (x) { for (int i = 0; a; ) f(); } g(i); }";
+  EXPECT_EQ(cured(inner, unknown(42)), inner + "\n");
+}
+
+TEST(SourceCure, SpecialMembersOfTemplatesAndFriendsAreDeclared) {
+  EXPECT_EQ(curedSource("# 1 \"a.cc\"\nT x;\nint V<double>::n = 3;\n",
+                        "a.cc:2:5: error: specializing member 'V<double>::n' requires 'template<>' syntax\n"),
+            "# 1 \"a.cc\"\nT x;\ntemplate<> int V<double>::n = 3;\n");
+  EXPECT_EQ(curedSource("# 1 \"a.cc\"\nint x;\nclass Node { friend class Tree; Tree* owner; };\n",
+                        "a.cc:2:33: error: 'Tree' does not name a type\n"),
+            "# 1 \"a.cc\"\nint x;\nclass Tree; class Node { friend class Tree; Tree* owner; };\n");
+}
+
+TEST(SourceCure, NamesMissingHeadersOnce) {
+  EXPECT_THAT(missingHeaders("a.cc:1:1: note: 'strcmp' is defined in header '<cstring>'; did you forget\n"
+                             "a.cc:2:1: note: 'strlen' is defined in header '<cstring>'; did you forget\n"
+                             "a.cc:3:1: note: 'sort' is defined in header '<algorithm>'; did you\n"),
+              ElementsAre("cstring", "algorithm"));
+}
+
+TEST(Dialect, SourcesOf2003RunAsTheyAre) {
+  const std::string all = runStick(stickOf("dialect"), 3).all();
+  EXPECT_THAT(all, HasSubstr("old c: literal 0\n"));        // K&R C that includes Types.h
+  EXPECT_THAT(all, HasSubstr("one two three ff    3\n"));   // a global `messages`, with <iostream.h>
+  EXPECT_THAT(all, HasSubstr("stl x 9 12 1 3.5 3 1 3\n"));  // templates without typename and this->
+  EXPECT_THAT(all, HasSubstr("3 44 1 0.125000 7\n"));       // numbers that are cut
+  EXPECT_THAT(all, HasSubstr("assign in if 3 5\n"));
+}
+
+TEST(Dialect, IdiomsOfThatTimeMeanWhatTheyMeant) {
+  const std::string all = runStick(stickOf("idiom"), 3).all();
+  EXPECT_THAT(all, HasSubstr("42 1 5 3 0 5 9 34 7\n"));  // friends, members of templates, packed bytes
+  EXPECT_THAT(all, HasSubstr("255 8 49 void Idiom::go()\n"));
+  EXPECT_THAT(all, HasSubstr("i 2 ci 2 45\n"));  // a loop's variable behind the loop
+  // A long is as long as an int.
+  EXPECT_THAT(all, HasSubstr("-5|  -5|-6  |-5|fffffff0 4294967280 1.500000 1099511627776 -5%\n"));
+  EXPECT_THAT(all, HasSubstr("long -5 -5 end\n"));
+  EXPECT_THAT(all, HasSubstr("undef\n"));
+}
+
+TEST(Dialect, ATeamsProgramIsBuiltByItsMakefilesAndMoves) {
+  const std::string stick = stickOf("league");
+  EXPECT_TRUE(std::filesystem::exists(stick + "/OPEN-R/SYSTEM/CONF/WLANCONF.TXT"));
+  const StickRun run = runStick(stick, 125);
+  EXPECT_THAT(run.all(), HasSubstr("Brain: loaded 1 speed 12.5\n"));
+  EXPECT_THAT(run.all(), HasSubstr("Motion: connect 0 Brain.Orders.Order.S 1\n"));
+  const auto pan = run.targets(robotDesign("ERS-7"), "HEAD_PAN");
+  ASSERT_FALSE(pan.empty());
+  EXPECT_EQ(*std::max_element(pan.begin(), pan.end()), 300000);
+}
+
+TEST(Dialect, AMakefileThatBuildsTheJpegLibraryFirstIsGivenThisComputers) {
+  if (!std::filesystem::exists("/usr/include/jpeglib.h")) GTEST_SKIP() << "there is no JPEG library";
+  const CameraImage grey{416, 320, std::vector<std::uint8_t>(std::size_t{3} * 416 * 320, 128)};
+  const std::string stick = stickOf("web");
+  const StickRun run = runStick(stick, 12, [&](int, TrivialRobot& robot) { robot.image = grey; });
+  EXPECT_THAT(run.all(), HasSubstr("jpeg 1 ffd8\n"));  // by a jpeg_mem_dest() of its own
+  EXPECT_TRUE(std::filesystem::exists(stick + "/P.JPG"));
+}
+
+TEST(Dialect, CalendarTimesAndFoldersInOrder) {
+  const std::string all = runStick(stickOf("almanac"), 10).all();
+  EXPECT_THAT(all, HasSubstr("today 1/1/2004 00:00:00, weekday 4, kept 4\n"));
+  EXPECT_THAT(all, HasSubstr("Tokyo 9:00, 9 hours, same 1\n"));
+  EXPECT_THAT(all, HasSubstr("later 1, 30 February 4\n"));
+  EXPECT_THAT(all, HasSubstr("Almanac: 2000-01-01 00:00:00\n"));
+  EXPECT_THAT(all, HasSubstr("in 2.500 s\n"));
+  EXPECT_THAT(all, HasSubstr("waited 40000 us\n"));
+  EXPECT_THAT(all, HasSubstr("/MS: APE.TXT MOUSE.TXT OPEN-R ZEBRA.TXT, first again APE.TXT\n"));
+  EXPECT_THAT(all, HasSubstr("/MS/OPEN-R/MW: . .. CONF DATA OBJS, first again .\n"));
+  EXPECT_THAT(all, HasSubstr("stands in a folder 0\n"));
+}
+
+}  // namespace
+}  // namespace btr::openr

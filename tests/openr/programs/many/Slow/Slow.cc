@@ -1,0 +1,12 @@
+#include "Slow.h"
+#include <OPENR/OPENRAPI.h>
+#include <OPENR/core_macro.h>
+#include <string.h>
+OStatus Slow::DoInit(const OSystemEvent&) { NEW_ALL_SUBJECT_AND_OBSERVER; REGISTER_ALL_ENTRY; SET_ALL_READY_AND_NOTIFY_ENTRY;
+ n = 0; observer[0]->SetBufCtrlParam(0, 2, 3); return oSUCCESS; }
+OStatus Slow::DoStart(const OSystemEvent& e) {  ENABLE_ALL_SUBJECT; ASSERT_READY_TO_ALL_OBSERVER; return oSUCCESS; }
+OStatus Slow::DoStop(const OSystemEvent&) { DISABLE_ALL_SUBJECT; DEASSERT_READY_TO_ALL_OBSERVER; return oSUCCESS; }
+OStatus Slow::DoDestroy(const OSystemEvent&) { DELETE_ALL_SUBJECT_AND_OBSERVER; return oSUCCESS; }
+
+void Slow::Got(const ONotifyEvent& e) { OSYSPRINT(("got %d:", e.NumOfData())); for (int i = 0; i < e.NumOfData(); i++) OSYSPRINT((" %s(%d)", (const char*)e.Data(i), e.RCData(i)->NumberOfReference())); OSYSPRINT(("\n")); if (strcmp("Slow", "Fast") == 0 || n++ != 1) observer[e.ObsIndex()]->AssertReady(e.SenderID()); }
+void Slow::Reg(const ONotifyEvent& e) { OSYSPRINT(("reg %s refs %d size %d\n", e.RCData(0)->Base(), e.RCData(0)->NumberOfReference(), e.RCData(0)->Size())); observer[obsReg]->AssertReady(); }

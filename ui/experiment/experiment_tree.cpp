@@ -362,8 +362,8 @@ void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
   if (std::exchange(shown_[run.id], {&item, all}) == std::pair(&item, all)) return;
   const RunProgress progress = progressFromJson(run.progressJson);
   const RunFace face = faceOf(run, active_.count(run.id) > 0);
-  const auto set = [](QStandardItem* cell, const QString& value) {
-    if (cell->text() != value) cell->setText(value);
+  const auto set = [](QStandardItem* shownItem, const QString& value) {
+    if (shownItem->text() != value) shownItem->setText(value);
   };
   set(&item, (cell == cells_.end() ? runName(run) : tr("Cell %1 · %2").arg(cell->second).arg(runName(run))) +
                  (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));

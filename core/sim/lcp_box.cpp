@@ -3,78 +3,138 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sim/lcp_wide.h"
+
 namespace btr {
 namespace {
 
-double element(const LcpProblem& p, unsigned i, unsigned j) {
-  return i > j ? p.a[static_cast<std::size_t>(i) * p.skip + j] : p.a[static_cast<std::size_t>(j) * p.skip + i];
+// One row of a Cholesky factor, from a row of the matrix in `line` (0 … row): writes its entries into the factor's
+// columns above, `line` keeps the diagonal before its root. What stands left of an entry's own column in a line of four
+// is overwritten, and never read again.
+BTR_WIDE void factorLine(double* line, double* factor, const double* inverse, unsigned stride, unsigned row) {
+  for (unsigned k = 0; k < row; ++k) {
+    double* column = factor + static_cast<std::size_t>(k) * stride;
+    const double entry = line[k] * inverse[k];
+    column[row] = entry;
+    const unsigned last = row / wideLanes;
+    for (unsigned chunk = (k + 1) / wideLanes; chunk <= last; ++chunk)
+      *reinterpret_cast<Four*>(line + chunk * wideLanes) -=
+          entry * *reinterpret_cast<const Four*>(column + chunk * wideLanes);
+  }
+}
+
+// to −= factor · from
+BTR_WIDE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
+  for (unsigned chunk = first / wideLanes; chunk * wideLanes < count; ++chunk)
+    *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
+        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
+}
+
+BTR_WIDE void addTimes(double* to, double factor, const double* from, unsigned count) {
+  for (unsigned chunk = 0; chunk * wideLanes < count; ++chunk)
+    *reinterpret_cast<Four*>(to + chunk * wideLanes) +=
+        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
 }
 
 }  // namespace
 
-// Free rows by Cholesky, the others at their bounds.
-bool BoxSolver::solveFree(const LcpProblem& p) {
-  free_.clear();
-  for (unsigned i = 0; i < p.n; ++i) {
-    if (side_[i] == Side::free) free_.push_back(i);
-    if (side_[i] == Side::low) x_[i] = low_[i];
-    if (side_[i] == Side::high) x_[i] = high_[i];
-  }
+void BoxSolver::take(const LcpProblem& p) {
+  n_ = p.n;
+  stride_ = (n_ + wideLanes - 1) / wideLanes * wideLanes;
+  const std::size_t square = static_cast<std::size_t>(n_) * stride_;
+  a_.assign(square, 0);
+  factor_.assign(square, 0);
+  for (unsigned i = 0; i < n_; ++i)
+    for (unsigned j = 0; j <= i; ++j)
+      lineOf(a_, i)[j] = lineOf(a_, j)[i] = p.a[static_cast<std::size_t>(i) * p.skip + j];
+  b_.assign(stride_, 0);
+  for (unsigned i = 0; i < n_; ++i) b_[i] = p.bx[2 * i];
+  x_.assign(n_, 0);
+  low_.resize(n_);
+  high_.resize(n_);
+  side_.resize(n_);
+  inverse_.resize(n_);
+  right_.resize(stride_);
+  product_.resize(stride_);
+  line_.assign(stride_, 0);
+  factored_.clear();
+}
+
+// Rows of the factor that are of the same rows of A as before stay as they are.
+bool BoxSolver::factorFree() {
   const auto count = static_cast<unsigned>(free_.size());
-  factor_.resize(static_cast<std::size_t>(count) * count);
-  right_.resize(count);
-  for (unsigned i = 0; i < count; ++i) {
-    double sum = p.bx[2 * free_[i]];
-    for (unsigned j = 0; j < p.n; ++j)
-      if (side_[j] != Side::free && x_[j] != 0) sum -= element(p, free_[i], j) * x_[j];
-    double* row = factor_.data() + static_cast<std::size_t>(i) * count;
-    for (unsigned j = 0; j <= i; ++j) {
-      const double* other = factor_.data() + static_cast<std::size_t>(j) * count;
-      double value = p.a[static_cast<std::size_t>(free_[i]) * p.skip + free_[j]];
-      const double before = value;
-      for (unsigned k = 0; k < j; ++k) value -= row[k] * other[k];
-      if (i == j && !(value > 1e-14 * before)) return false;
-      row[j] = i == j ? 1 / std::sqrt(value) : value * other[j];
-    }
-    for (unsigned k = 0; k < i; ++k) sum -= row[k] * right_[k];
-    right_[i] = sum * row[i];
-  }
-  for (unsigned i = count; i-- > 0;) {
-    for (unsigned k = i + 1; k < count; ++k) right_[i] -= factor_[static_cast<std::size_t>(k) * count + i] * right_[k];
-    right_[i] *= factor_[static_cast<std::size_t>(i) * count + i];
-    x_[free_[i]] = right_[i];
+  const std::size_t same = static_cast<std::size_t>(
+      std::mismatch(free_.begin(), free_.end(), factored_.begin(), factored_.end()).first - free_.begin());
+  factored_.resize(same);
+  for (auto i = static_cast<unsigned>(same); i < count; ++i) {
+    const double* row = lineOf(a_, free_[i]);
+    for (unsigned j = 0; j <= i; ++j) line_[j] = row[free_[j]];
+    const double before = line_[i];
+    factorLine(line_.data(), factor_.data(), inverse_.data(), stride_, i);
+    if (!(line_[i] > 1e-14 * before)) return false;
+    inverse_[i] = 1 / std::sqrt(line_[i]);
+    factored_.push_back(free_[i]);
   }
   return true;
 }
 
-double BoxSolver::residual(const LcpProblem& p, unsigned row) const {
-  double w = -p.bx[2 * row];
-  for (unsigned j = 0; j < p.n; ++j) w += element(p, row, j) * x_[j];
-  return w;
+// Free rows by Cholesky, the others at their bounds.
+bool BoxSolver::solveFree() {
+  free_.clear();
+  for (unsigned i = 0; i < n_; ++i) {
+    if (side_[i] == Side::free) free_.push_back(i);
+    if (side_[i] == Side::low) x_[i] = low_[i];
+    if (side_[i] == Side::high) x_[i] = high_[i];
+  }
+  if (!factorFree()) return false;
+  product_ = b_;
+  for (unsigned j = 0; j < n_; ++j)
+    if (side_[j] != Side::free && x_[j] != 0) subtractTimes(product_.data(), x_[j], lineOf(a_, j), 0, n_);
+  const auto count = static_cast<unsigned>(free_.size());
+  for (unsigned i = 0; i < count; ++i) right_[i] = product_[free_[i]];
+  for (unsigned k = 0; k < count; ++k) {
+    const double solved = right_[k] * inverse_[k];
+    subtractTimes(right_.data(), solved, lineOf(factor_, k), k + 1, count);
+    right_[k] = solved;
+  }
+  for (unsigned i = count; i-- > 0;) {
+    const double* column = lineOf(factor_, i);
+    double sum = right_[i];
+    for (unsigned k = i + 1; k < count; ++k) sum -= column[k] * right_[k];
+    x_[free_[i]] = right_[i] = sum * inverse_[i];
+  }
+  return true;
 }
 
-bool BoxSolver::pivot(const LcpProblem& p) {
-  unsigned fewest = p.n + 1;
-  int patience = 10;
-  for (int iteration = 0; iteration < 200 + 10 * static_cast<int>(p.n); ++iteration) {
-    if (!solveFree(p)) return false;
-    double largest = 0;
-    for (unsigned i = 0; i < p.n; ++i) largest = std::max(largest, std::abs(x_[i]));
-    if (!std::isfinite(largest)) return false;
-    // Rows that contradict their side, and where they belong.
-    std::vector<std::pair<unsigned, Side>> wrong;
-    for (unsigned i = 0; i < p.n; ++i) {
-      if (side_[i] == Side::free) {
-        if (x_[i] < low_[i] - 1e-13 * largest) wrong.emplace_back(i, Side::low);
-        if (x_[i] > high_[i] + 1e-13 * largest) wrong.emplace_back(i, Side::high);
-        continue;
-      }
-      if (low_[i] == high_[i]) continue;
-      const double w = residual(p, i), rounding = 1e-13 * (std::abs(p.bx[2 * i]) + element(p, i, i) * largest);
-      if (side_[i] == Side::low ? w < -rounding : w > rounding) wrong.emplace_back(i, Side::free);
+// Rows that contradict their side.
+void BoxSolver::findWrong(double largest) {
+  for (unsigned i = 0; i < n_; ++i) product_[i] = -b_[i];
+  for (unsigned j = 0; j < n_; ++j)
+    if (x_[j] != 0) addTimes(product_.data(), x_[j], lineOf(a_, j), n_);
+  wrong_.clear();
+  for (unsigned i = 0; i < n_; ++i) {
+    if (side_[i] == Side::free) {
+      if (x_[i] < low_[i] - 1e-13 * largest) wrong_.push_back({i, Side::low});
+      if (x_[i] > high_[i] + 1e-13 * largest) wrong_.push_back({i, Side::high});
+      continue;
     }
-    if (wrong.empty()) return true;
-    const auto count = static_cast<unsigned>(wrong.size());
+    if (low_[i] == high_[i]) continue;
+    const double w = product_[i], rounding = 1e-13 * (std::abs(b_[i]) + lineOf(a_, i)[i] * largest);
+    if (side_[i] == Side::low ? w < -rounding : w > rounding) wrong_.push_back({i, Side::free});
+  }
+}
+
+bool BoxSolver::pivot() {
+  unsigned fewest = n_ + 1;
+  int patience = 10;
+  for (int iteration = 0; iteration < 200 + 10 * static_cast<int>(n_); ++iteration) {
+    if (!solveFree()) return false;
+    double largest = 0;
+    for (unsigned i = 0; i < n_; ++i) largest = std::max(largest, std::abs(x_[i]));
+    if (!std::isfinite(largest)) return false;
+    findWrong(largest);
+    if (wrong_.empty()) return true;
+    const auto count = static_cast<unsigned>(wrong_.size());
     if (count < fewest) {
       fewest = count;
       patience = 10;
@@ -82,9 +142,9 @@ bool BoxSolver::pivot(const LcpProblem& p) {
       --patience;
     }
     if (patience > 0)
-      for (const auto& [row, side] : wrong) side_[row] = side;
+      for (const auto& [row, side] : wrong_) side_[row] = side;
     else
-      side_[wrong.back().first] = wrong.back().second;
+      side_[wrong_.back().row] = wrong_.back().side;
   }
   return false;
 }
@@ -97,10 +157,7 @@ bool BoxSolver::solve(const LcpProblem& p, bool coulomb) {
     p.bx[1] = std::clamp(x, p.loHi[0], p.loHi[1]);
     return true;
   }
-  low_.resize(p.n);
-  high_.resize(p.n);
-  x_.assign(p.n, 0);
-  side_.resize(p.n);
+  take(p);
   // Without friction first.
   bool friction = false;
   for (unsigned i = 0; i < p.n; ++i) {
@@ -110,7 +167,7 @@ bool BoxSolver::solve(const LcpProblem& p, bool coulomb) {
     high_[i] = hangs ? 0 : p.loHi[2 * i + 1];
     side_[i] = hangs ? Side::low : Side::free;
   }
-  if (!pivot(p)) return false;
+  if (!pivot()) return false;
   for (int pass = 0; friction && pass < (coulomb ? mostPasses : 1); ++pass) {
     double largest = 0, change = 0;
     for (unsigned i = 0; i < p.n; ++i) largest = std::max(largest, std::abs(x_[i]));
@@ -124,7 +181,7 @@ bool BoxSolver::solve(const LcpProblem& p, bool coulomb) {
       if (pass == 0) side_[i] = Side::free;
     }
     if (pass > 0 && change <= agreed * largest) break;
-    if (!pivot(p)) return false;
+    if (!pivot()) return false;
   }
   for (unsigned i = 0; i < p.n; ++i) p.bx[2 * i + 1] = x_[i];
   return true;

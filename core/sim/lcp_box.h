@@ -15,6 +15,9 @@ namespace btr {
 /// all that ODE does: friction at most μ times the normal force that there would be WITHOUT friction. A foot that
 /// friction presses into the floor or lifts off it then slides too easily or too hardly, by an amount that does not
 /// vanish with the step. So the bounds follow the normal forces of each solution until both agree: Coulomb's law.
+///
+/// Every number is made by the same operations in the same order however many are worked on at once, and whether a
+/// row of the factor is new or still there from the pivot before: the same problem gives the same bits.
 class BoxSolver {
  public:
   static constexpr unsigned mostRows = 64;
@@ -27,13 +30,29 @@ class BoxSolver {
 
  private:
   enum class Side : char { free, low, high };
-  bool pivot(const LcpProblem& problem);
-  bool solveFree(const LcpProblem& problem);
-  double residual(const LcpProblem& problem, unsigned row) const;
+  struct Wrong {
+    unsigned row;
+    Side side;  ///< where it belongs
+  };
+  void take(const LcpProblem& problem);
+  bool pivot();
+  bool factorFree();
+  bool solveFree();
+  void findWrong(double largest);
+  double* lineOf(std::vector<double>& matrix, unsigned row) {
+    return matrix.data() + static_cast<std::size_t>(row) * stride_;
+  }
 
-  std::vector<double> low_, high_, x_, factor_, right_;
+  unsigned n_ = 0, stride_ = 0;  ///< rows, and of a stored line: a multiple of four, zeros behind the problem's
+  std::vector<double> a_, b_;    ///< of the problem, the whole square
+  std::vector<double> low_, high_, x_;
   std::vector<Side> side_;
-  std::vector<unsigned> free_;
+  std::vector<unsigned> free_;      ///< rows, ascending
+  std::vector<unsigned> factored_;  ///< rows that the factor was made of
+  std::vector<double> factor_;      ///< line i: column i of the Cholesky factor of the free rows, from i on
+  std::vector<double> inverse_;     ///< of the factor's diagonal
+  std::vector<double> right_, product_, line_;
+  std::vector<Wrong> wrong_;
 };
 
 }  // namespace btr

@@ -4,32 +4,34 @@
 #include <cmath>
 #include <limits>
 
+#include "core/sim/lcp_wide.h"
+
 namespace btr {
 namespace {
 
 constexpr unsigned N = LcpReducer::block, W = LcpReducer::width, lanes = LcpReducer::lanes;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Four numbers at once, whatever the processor makes of it: the same operations in the same order, so the same bits.
-typedef double Four __attribute__((vector_size(32), may_alias, aligned(8)));
-static_assert(sizeof(Four) == lanes * sizeof(double));
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BTR_WIDE [[gnu::target_clones("avx2", "default")]]
-#else
-#define BTR_WIDE
-#endif
+static_assert(wideLanes == lanes);
+
+// Small enough to be put where they are used, in each processor's version of the loops around them.
+#define BTR_INLINE [[gnu::always_inline]] inline
 
 // Cholesky factor of a 6×6 block in place, the diagonal inverted. False if it is not positive definite.
-bool factorBlock(double* a) {
+BTR_INLINE bool factorBlock(double* a) {
+  BTR_UNROLL
   for (unsigned j = 0; j < N; ++j) {
     double d = a[j * W + j];
     const double before = d;
+    BTR_UNROLL
     for (unsigned k = 0; k < j; ++k) d -= a[j * W + k] * a[j * W + k];
     if (!(d > 1e-13 * before)) return false;
     const double inverse = 1 / std::sqrt(d);
     a[j * W + j] = inverse;
+    BTR_UNROLL
     for (unsigned i = j + 1; i < N; ++i) {
       double sum = a[i * W + j];
+      BTR_UNROLL
       for (unsigned k = 0; k < j; ++k) sum -= a[i * W + k] * a[j * W + k];
       a[i * W + j] = sum * inverse;
     }
@@ -37,14 +39,13 @@ bool factorBlock(double* a) {
   return true;
 }
 
-// b := b · L⁻ᵀ for a 6×6 block b, and its transpose.
-BTR_WIDE void solveBlock(const double* l, double* b, double* transposed) {
-  for (unsigned i = 0; i < N; ++i)
-    for (unsigned j = 0; j < N; ++j) transposed[j * W + i] = b[i * W + j];
-  // Column j of b is row j of the transpose: a forward substitution of whole rows.
-  Four* rows = reinterpret_cast<Four*>(transposed);
+// b := L⁻¹ · b for a 6×6 block b: a forward substitution of whole rows.
+BTR_INLINE void solveBlock(const double* l, double* b) {
+  Four* rows = reinterpret_cast<Four*>(b);
+  BTR_UNROLL
   for (unsigned j = 0; j < N; ++j) {
     Four low = rows[2 * j], high = rows[2 * j + 1];
+    BTR_UNROLL
     for (unsigned k = 0; k < j; ++k) {
       low -= l[j * W + k] * rows[2 * k];
       high -= l[j * W + k] * rows[2 * k + 1];
@@ -52,37 +53,39 @@ BTR_WIDE void solveBlock(const double* l, double* b, double* transposed) {
     rows[2 * j] = low * l[j * W + j];
     rows[2 * j + 1] = high * l[j * W + j];
   }
-  for (unsigned i = 0; i < N; ++i)
-    for (unsigned j = 0; j < N; ++j) b[i * W + j] = transposed[j * W + i];
 }
 
-// c −= a · bᵀ, bᵀ given
-BTR_WIDE void subtractProduct(double* c, const double* a, const double* transposed) {
-  const Four* b = reinterpret_cast<const Four*>(transposed);
+// c −= bᵀ · a
+BTR_INLINE void subtractProduct(double* c, const double* a, const double* b) {
+  const Four* right = reinterpret_cast<const Four*>(a);
   Four* rows = reinterpret_cast<Four*>(c);
+  BTR_UNROLL
   for (unsigned i = 0; i < N; ++i) {
     Four low = rows[2 * i], high = rows[2 * i + 1];
+    BTR_UNROLL
     for (unsigned k = 0; k < N; ++k) {
-      low -= a[i * W + k] * b[2 * k];
-      high -= a[i * W + k] * b[2 * k + 1];
+      low -= b[k * W + i] * right[2 * k];
+      high -= b[k * W + i] * right[2 * k + 1];
     }
     rows[2 * i] = low;
     rows[2 * i + 1] = high;
   }
 }
 
-bool anyNotZero(const double* row, unsigned width) {
-  if (width == N)  // no branches: whether a sum of magnitudes is zero
-    return std::abs(row[0]) + std::abs(row[1]) + std::abs(row[2]) + std::abs(row[3]) + std::abs(row[4]) +
-               std::abs(row[5]) !=
-           0;
-  bool any = false;
-  for (unsigned i = 0; i < width; ++i) any = any || row[i] != 0;
-  return any;
+// Whether one of `count` numbers is not zero, of either sign; no branches.
+BTR_INLINE bool anyNotZero(const double* numbers, unsigned count) {
+  std::uint64_t all = 0;
+  for (unsigned i = 0; i < count; ++i) all |= std::bit_cast<std::uint64_t>(numbers[i]);
+  return (all << 1) != 0;
+}
+
+BTR_INLINE bool anySixNotZero(const double* numbers) {
+  const auto bits = [&](unsigned i) { return std::bit_cast<std::uint64_t>(numbers[i]); };
+  return ((bits(0) | bits(1) | bits(2) | bits(3) | bits(4) | bits(5)) << 1) != 0;
 }
 
 // right − row · x, the row in chunks of four that are `stride` apart
-BTR_WIDE double subtractDot(double right, const double* row, std::size_t stride, const double* x, unsigned chunks) {
+BTR_INLINE double subtractDot(double right, const double* row, std::size_t stride, const double* x, unsigned chunks) {
   Four sum{};
   for (unsigned chunk = 0; chunk < chunks; ++chunk)
     sum += *reinterpret_cast<const Four*>(row + chunk * stride) * *reinterpret_cast<const Four*>(x + chunk * lanes);
@@ -90,32 +93,36 @@ BTR_WIDE double subtractDot(double right, const double* row, std::size_t stride,
 }
 
 // x := L⁻¹ · x for six rows of four columns. False if they are all zero (then nothing is done).
-BTR_WIDE bool forwardBlock(const double* l, double* x) {
+BTR_INLINE bool forwardBlock(const double* l, double* x) {
   Four* rows = reinterpret_cast<Four*>(x);
-  bool any = false;
-  for (unsigned i = 0; i < N * lanes; ++i) any = any || x[i] != 0;
-  if (!any) return false;
+  const FourBits* bits = reinterpret_cast<const FourBits*>(x);
+  const FourBits all = ((bits[0] | bits[1]) | (bits[2] | bits[3])) | (bits[4] | bits[5]);
+  if (((all[0] | all[1] | all[2] | all[3]) << 1) == 0) return false;
+  BTR_UNROLL
   for (unsigned r = 0; r < N; ++r) {
     Four sum = rows[r];
+    BTR_UNROLL
     for (unsigned c = 0; c < r; ++c) sum -= l[r * W + c] * rows[c];
     rows[r] = sum * l[r * W + r];
   }
   return true;
 }
 
-// to −= l · from for six rows of four columns
-BTR_WIDE void subtractForward(const double* l, const double* from, double* to) {
+// to −= lᵀ · from for six rows of four columns
+BTR_INLINE void subtractForward(const double* l, const double* from, double* to) {
   const Four* x = reinterpret_cast<const Four*>(from);
   Four* rows = reinterpret_cast<Four*>(to);
+  BTR_UNROLL
   for (unsigned r = 0; r < N; ++r) {
     Four sum = rows[r];
-    for (unsigned c = 0; c < N; ++c) sum -= l[r * W + c] * x[c];
+    BTR_UNROLL
+    for (unsigned c = 0; c < N; ++c) sum -= l[c * W + r] * x[c];
     rows[r] = sum;
   }
 }
 
 // a −= rowᵀ·row, the lower triangle in chunks of four; the row stands in chunks that are `stride` apart.
-BTR_WIDE void subtractSquare(double* a, unsigned skip, const double* row, std::size_t stride, unsigned count) {
+BTR_INLINE void subtractSquare(double* a, unsigned skip, const double* row, std::size_t stride, unsigned count) {
   for (unsigned i = 0; i < count; ++i) {
     const double factor = row[(i / lanes) * stride + i % lanes];
     if (factor == 0) continue;
@@ -126,10 +133,6 @@ BTR_WIDE void subtractSquare(double* a, unsigned skip, const double* row, std::s
 }
 
 }  // namespace
-
-double* LcpReducer::blockAt(unsigned row, unsigned column) {
-  return storage_.data() + static_cast<std::size_t>(slot_[row * mostBlocks + column]) * N * W;
-}
 
 bool LcpReducer::sortRows(const LcpProblem& p) {
   bounded_.clear();
@@ -164,8 +167,10 @@ void LcpReducer::findBlocks(const LcpProblem& p) {
       // Whether they are coupled; a block's columns lie within six numbers.
       const unsigned first = blocks_[j].rows[0], span = blocks_[j].rows[blocks_[j].count - 1] - first + 1;
       bool coupled = false;
-      for (unsigned r = 0; r < blocks_[i].count && !coupled; ++r)
-        coupled = anyNotZero(p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip + first, span);
+      for (unsigned r = 0; r < blocks_[i].count && !coupled; ++r) {
+        const double* row = p.a + static_cast<std::size_t>(blocks_[i].rows[r]) * p.skip + first;
+        coupled = span == N ? anySixNotZero(row) : anyNotZero(row, span);
+      }
       if (!coupled) continue;
       blocks_[i].neighbours |= 1u << j;
       blocks_[j].neighbours |= 1u << i;
@@ -201,7 +206,7 @@ void LcpReducer::orderBlocks() {
 void LcpReducer::gather(const LcpProblem& p) {
   // Storage for the diagonal blocks and whatever the factor fills, (later, earlier) in the order of elimination.
   slot_.assign(mostBlocks * mostBlocks, -1);
-  int slots = 0;
+  std::int16_t slots = 0;
   for (const unsigned k : order_) {
     slot_[k * mostBlocks + k] = slots++;
     for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1)
@@ -226,7 +231,7 @@ void LcpReducer::gather(const LcpProblem& p) {
       double* to = blockAt(i, k);
       for (unsigned r = 0; r < row.count; ++r)
         for (unsigned c = 0; c < column.count; ++c)
-          to[r * W + c] = i > k ? lower(row.rows[r], column.rows[c]) : lower(column.rows[c], row.rows[r]);
+          to[c * W + r] = i > k ? lower(row.rows[r], column.rows[c]) : lower(column.rows[c], row.rows[r]);
     }
     for (unsigned r = 0; r < column.count; ++r) {
       const unsigned own = column.rows[r];
@@ -239,21 +244,20 @@ void LcpReducer::gather(const LcpProblem& p) {
   }
 }
 
-bool LcpReducer::factor() {
-  double transposed[mostBlocks][N * W] = {};
+BTR_WIDE bool LcpReducer::factor() {
   for (const unsigned k : order_) {
     const double* diagonal = blockAt(k, k);
     if (!factorBlock(blockAt(k, k))) return false;
     for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      solveBlock(diagonal, blockAt(i, k), transposed[i]);
+      solveBlock(diagonal, blockAt(i, k));
     }
     // Each pair of blocks once, where it is stored.
     for (std::uint32_t rows = below_[k]; rows; rows &= rows - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rows));
       for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
         const auto j = static_cast<unsigned>(std::countr_zero(rest));
-        if (slot_[i * mostBlocks + j] >= 0) subtractProduct(blockAt(i, j), blockAt(i, k), transposed[j]);
+        if (slot_[i * mostBlocks + j] >= 0) subtractProduct(blockAt(i, j), blockAt(i, k), blockAt(j, k));
       }
     }
   }
@@ -261,7 +265,7 @@ bool LcpReducer::factor() {
 }
 
 // right_ := L⁻¹ · right_
-void LcpReducer::forward() {
+BTR_WIDE void LcpReducer::forward() {
   for (const unsigned k : order_)
     for (unsigned chunk = 0; chunk < chunks_; ++chunk) {
       double* mine = chunkAt(k, chunk);
@@ -270,6 +274,18 @@ void LcpReducer::forward() {
         const auto i = static_cast<unsigned>(std::countr_zero(rest));
         subtractForward(blockAt(i, k), mine, chunkAt(i, chunk));
       }
+    }
+}
+
+// Schur complement, row of right_ by row of right_.
+BTR_WIDE void LcpReducer::subtractEliminated(unsigned count) {
+  const std::size_t stride = N * lanes;
+  for (unsigned k = 0; k < blocks_.size(); ++k)
+    for (unsigned r = 0; r < N; ++r) {
+      const double* row = chunkAt(k, 0) + r * lanes;
+      subtractSquare(smallA_.data(), small_.skip, row, stride, count);
+      const double b = row[(count / lanes) * stride + count % lanes];
+      for (unsigned i = 0; i < count; ++i) smallBx_[2 * i] -= row[(i / lanes) * stride + i % lanes] * b;
     }
 }
 
@@ -291,15 +307,7 @@ void LcpReducer::formSmall(const LcpProblem& p) {
     const int of = p.findex ? p.findex[bounded_[i]] : -1;
     smallFindex_[i] = of < 0 ? -1 : boundedIndex_[static_cast<std::size_t>(of)];
   }
-  // Schur complement, row of right_ by row of right_.
-  const std::size_t stride = N * lanes;
-  for (unsigned k = 0; k < blocks_.size(); ++k)
-    for (unsigned r = 0; r < N; ++r) {
-      const double* row = chunkAt(k, 0) + r * lanes;
-      subtractSquare(a.data(), small_.skip, row, stride, count);
-      const double b = row[(count / lanes) * stride + count % lanes];
-      for (unsigned i = 0; i < count; ++i) smallBx_[2 * i] -= row[(i / lanes) * stride + i % lanes] * b;
-    }
+  subtractEliminated(count);
   // The whole square, whichever half is read.
   for (unsigned i = 0; i < count; ++i)
     for (unsigned j = 0; j < i; ++j) a[j * small_.skip + i] = a[i * small_.skip + j];
@@ -320,7 +328,7 @@ bool LcpReducer::reduce(const LcpProblem& problem) {
   return true;
 }
 
-void LcpReducer::expand(const LcpProblem& problem) {
+BTR_WIDE void LcpReducer::expand(const LcpProblem& problem) {
   const auto count = static_cast<unsigned>(bounded_.size());
   smallX_.assign(chunks_ * lanes, 0);
   for (unsigned i = 0; i < count; ++i) problem.bx[2 * bounded_[i] + 1] = smallX_[i] = smallBx_[2 * i + 1];
@@ -336,8 +344,8 @@ void LcpReducer::expand(const LcpProblem& problem) {
     for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const double* between = blockAt(i, k);
-      for (unsigned r = 0; r < N; ++r)
-        for (unsigned c = 0; c < N; ++c) x[k][c] -= between[r * W + c] * x[i][r];
+      for (unsigned r = 0; r < N; ++r) BTR_UNROLL
+      for (unsigned c = 0; c < N; ++c) x[k][c] -= between[c * W + r] * x[i][r];
     }
     const double* l = blockAt(k, k);
     for (unsigned r = N; r-- > 0;) {

@@ -44,7 +44,10 @@ class LcpReducer {
   bool factor();
   void forward();
   void formSmall(const LcpProblem& problem);
-  double* blockAt(unsigned row, unsigned column);
+  void subtractEliminated(unsigned count);
+  double* blockAt(unsigned row, unsigned column) {
+    return storage_.data() + static_cast<std::size_t>(slot_[row * mostBlocks + column]) * block * width;
+  }
   double* chunkAt(unsigned blockIndex, unsigned chunk) {
     return right_.data() + (blockIndex * chunks_ + chunk) * block * lanes;
   }
@@ -59,9 +62,11 @@ class LcpReducer {
   std::vector<Block> blocks_;
   std::vector<unsigned> order_;       ///< of elimination
   std::vector<std::uint32_t> below_;  ///< by block: what its column of the factor fills
-  std::vector<double> storage_;       ///< blocks of matrix, then factor, rows of `width`
-  std::vector<int> slot_;             ///< of block pair in storage_, −1 empty
-  std::vector<double> right_;         ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
+  /// Blocks of matrix, then factor, rows of `width`; those beside the diagonal transposed, as their solver and all
+  /// products want them.
+  std::vector<double> storage_;
+  std::vector<std::int16_t> slot_;  ///< of block pair in storage_, −1 empty
+  std::vector<double> right_;       ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
   unsigned chunks_ = 0;
   LcpProblem small_;
   std::vector<double> smallA_, smallBx_, smallLoHi_, smallX_;

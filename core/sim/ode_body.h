@@ -2,6 +2,7 @@
 #include <ode/ode.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace btr {
 
@@ -17,8 +18,12 @@ inline void setPose(dBodyID body, const Eigen::Isometry3d& pose) {
 /// Mass and inertia about its centre of mass, which is ODE's origin of a body.
 inline void setMass(dBodyID body, double mass_kg, const Eigen::Matrix3d& inertia_kg_m2) {
   const Eigen::Matrix3d& i = inertia_kg_m2;
+  // As dMassSetParameters() writes it, which also tests twice that it is positive definite.
   dMass mass;
-  dMassSetParameters(&mass, mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+  mass.mass = mass_kg;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      mass.I[4 * row + column] = i(std::min(row, column), std::max(row, column));
   dBodySetMass(body, &mass);
 }
 

@@ -35,7 +35,7 @@ void World::Impl::touchFloor(WorldRobot& robot, RobotBody& body, double h) {
   for (const auto& collider : body.colliders) {
     floorContacts(collider, body.pose, margin, points);
     for (const auto& point : points) {
-      if (!contacts.add(point, body.id, nullptr, floorSurface(*scene.floor, scene.floor->restitution))) continue;
+      if (!contacts.add(point, body.id, nullptr, robotFloor)) continue;
       robot.contact[static_cast<std::size_t>(collider.link)] = 1;
       robot.touches = true;
     }
@@ -85,6 +85,7 @@ void World::Impl::touchOthers(std::size_t index, double h) {
 
 void World::Impl::makeContacts(double h) {
   contacts.begin(h, scene.gravity_m_s2.norm());
+  if (scene.floor) robotFloor = floorSurface(*scene.floor, scene.floor->restitution);
   for (auto& ball : balls) {
     ball.touched = false;
     ball.state.onFloor = false;

@@ -32,12 +32,20 @@ struct JointDrive {
   GearRow gear;             ///< of the last step
 };
 
+/// What hangs at a body, itself included.
+struct Carried {
+  double mass_kg = 0;
+  Eigen::Vector3d moment_kg_m = Eigen::Vector3d::Zero();  ///< mass times place
+  int by = -1;                                            ///< body that carries it
+};
+
 struct WorldRobot {
   const SceneRobot* scene = nullptr;
   std::unique_ptr<Articulation> body;
   std::unique_ptr<JointSpace> alone;  ///< moves it, where ODE does not
   std::vector<JointRows> rows;        ///< of this step, by moving joint; for `alone`
   std::vector<JointDrive> drives;     ///< by moving joint
+  std::vector<Carried> carried;       ///< by body, scratch of weighLoads()
   std::vector<char> contact;          ///< by link
   /// By body, colliders as they meet other solids; the last ones are the fixed base's. Empty where there are none.
   std::vector<std::vector<SolidGeom>> solids;
@@ -90,6 +98,7 @@ struct World::Impl {
   std::vector<Pull> pulls;
   std::vector<Eigen::Vector3d> pullForces_n;
   std::vector<ContactPoint> points;  ///< scratch
+  ContactSurface robotFloor;         ///< of this step, the floor under robots
   double start_s = 0;                ///< time at which `steps` was zero
   long steps = 0;
   double until = 0;  ///< end of the present advance [s]

@@ -85,26 +85,22 @@ void World::Impl::weighOwnLoads(WorldRobot& robot) const {
     for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].load = robot.alone->weight(j);
     return;
   }
-  struct Carried {
-    double mass_kg = 0;
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< mass times place
-    int by = -1;
-  };
   const auto& bodies = robot.body->bodies;
-  std::vector<Carried> carried(bodies.size());
+  std::vector<Carried>& carried = robot.carried;
+  carried.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
     carried[i] = {bodies[i].mass_kg, bodies[i].mass_kg * bodies[i].pose.translation(), -1};
   for (const RobotJoint& joint : robot.body->joints) carried[static_cast<std::size_t>(joint.child)].by = joint.parent;
   for (std::size_t i = bodies.size(); i-- > 0;)
     if (carried[i].by >= 0) {
       carried[static_cast<std::size_t>(carried[i].by)].mass_kg += carried[i].mass_kg;
-      carried[static_cast<std::size_t>(carried[i].by)].moment += carried[i].moment;
+      carried[static_cast<std::size_t>(carried[i].by)].moment_kg_m += carried[i].moment_kg_m;
     }
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     const RobotJoint& joint = robot.body->joints[j];
     const Carried& all = carried[static_cast<std::size_t>(joint.child)];
     const Eigen::Vector3d anchor = robot.body->poseOf(joint.child) * joint.anchorInChild;
-    const Eigen::Vector3d arm = all.moment - all.mass_kg * anchor;
+    const Eigen::Vector3d arm = all.moment_kg_m - all.mass_kg * anchor;
     robot.drives[j].load = joint.axis.dot(joint.slides ? Eigen::Vector3d(all.mass_kg * scene.gravity_m_s2)
                                                        : arm.cross(scene.gravity_m_s2));
   }

@@ -99,8 +99,7 @@ WorkerPool::Work trialWork(const PreparedExperiment& prepared) {
 
 Evaluator::Evaluator(const PreparedExperiment& prepared, int workers, Workforce* workforce)
     : prepared_(prepared), workforce_(workforce) {
-  if (!workforce_)
-    pool_ = std::make_unique<WorkerPool>(workers > 0 ? workers : processorCount(), trialWork(prepared));
+  if (!workforce_) pool_ = std::make_unique<WorkerPool>(workers > 0 ? workers : processorCount(), trialWork(prepared));
 }
 
 std::optional<std::vector<TrialReply>> Evaluator::evaluate(const std::vector<TrialJob>& jobs,

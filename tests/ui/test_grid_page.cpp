@@ -450,7 +450,8 @@ class TestGridPage : public QObject {
     {
       Database db = Database::open(folder.filePath("a.db").toStdString(), Database::Mode::create);
       const Id id = startGrid(db, *host, loadGrid(file), GridSpec::Method::independent, 1);
-      QCOMPARE(continueGrid(db, *host, id, StopFlag{false}, {1, {}}), RunEnd::finished);
+      QCOMPARE(continueGrid(db, *host, id, StopFlag{false}, {.workers = 1, .workforce = nullptr, .progress = {}}),
+               RunEnd::finished);
     }
     Theme theme(*qApp);
     MainWindow window(host, theme, {folder.filePath("settings.ini"), BTR_PROGRAM});

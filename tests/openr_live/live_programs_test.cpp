@@ -86,8 +86,8 @@ TEST_F(OpenrLive, OrdersThatCannotBeAreRefused) {
   EXPECT_THAT(why(R"({"act": "orders", "robot": "red1", "gains": {"LF_J1": [1, -1, 1]}})"), HasSubstr("LF_J1"));
   EXPECT_THAT(why(R"({"act": "orders", "robot": "red1", "lamps": {"face_1": {"brightness": 2}}})"),
               HasSubstr("brightness"));
-  session.apply(ControllerAct{"red1"});
-  EXPECT_THAT(why(R"({"act": "orders", "robot": "red1"})"), HasSubstr("stick"));
+  session.apply(ControllerAct{"red1", GameController{"walk", {}, {}, true, {}}});
+  EXPECT_THAT(why(R"({"act": "orders", "robot": "red1"})"), HasSubstr("no controller plugin moves"));
 }
 
 TEST_F(OpenrLive, AGameOfAnotherPeriodIsRefusedInOneSentence) {

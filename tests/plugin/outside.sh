@@ -67,7 +67,6 @@ expect 0 "build behaviours" "$cmake" --build "$robots/build"
 export UCHILSIM_PLUGINS=$robots/build/plugins
 expect 0 "a behaviour as a plugin" "$btr" --json live "$robots/wall.json" --seconds 2
 plugin=$(grep -o '"trace_sha256": *"[^"]*"' "$folder/out")
-unset UCHILSIM_PLUGINS
 "$btr" --json serve --port 0 > "$folder/serve" 2> "$folder/serve.err" &
 server=$!
 while ! grep -q '"port"' "$folder/serve" && kill -0 $server 2> /dev/null; do read -rt 0.05 < <(:) || true; done
@@ -78,6 +77,7 @@ program=$(grep -o '"trace_sha256": *"[^"]*"' "$folder/out")
 [ -n "$plugin" ] && [ "$plugin" = "$program" ] || fail "the plugin's $plugin, the program's $program"
 kill $server
 wait $server
+unset UCHILSIM_PLUGINS
 
 sed -i 's|"build/plugins"|"nowhere"|' "$examples/experiment.json"
 expect 1 "a folder that is not there" "$btr" run "$examples/experiment.json" --db "$folder/second.db"

@@ -198,7 +198,7 @@ TEST(AirDrag, IsNewtonsAtTheSpeedOfTheBall) {
 TEST(FluidDrag, StopsAWheelAsOneOverTime) {
   // J·ω̇ = −c·ω²: ω = ω0/(1 + c·ω0·t/J), an angle of J/c·ln(1 + c·ω0·t/J).
   constexpr double inertia = 0.02, c = 0.004, speed = 12, time_s = 1.5;
-  Scene scene = test::sceneOf(test::robot(test::wheelModel(inertia), false, {.kind = Drive::Kind::none}), 0.001);
+  Scene scene = test::sceneOf(test::robot(test::wheelModel(inertia), false, {.kind = Drive::Kind::none}), 2e-4);
   World world(test::withEffect(scene, effect("fluid_drag"), "fluid_drag", {c}), 1);
   world.setRobot(0, scene.robots[0].start, {0, 0, 0}, {0, 0, 0}, std::vector{0.0}, std::vector{speed});
   world.advance(test::commands(scene, 0), time_s);

@@ -123,27 +123,6 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
-/// All sizes at once, as they usually are: some do nothing alone, as a gear's spring without a rotor behind it.
-void addTogether(std::vector<Values>& variants, const Values& base, const std::vector<Parameter>& declared,
-                 const SearchThresholds::Candidates& limits) {
-  if (std::ranges::count_if(declared, [](const Parameter& p) { return p.neutral.has_value(); }) < 2) return;
-  Values together = base;
-  for (const Parameter& p : declared) {
-    if (!p.neutral) continue;
-    const double sign = *p.neutral < p.maximum ? 1 : -1;
-    together[p.name] = std::clamp(*p.neutral + sign * typicalOf(p, limits), p.minimum, p.maximum);
-  }
-  variants.push_back(together);
-  for (const Parameter& p : declared) {
-    if (!p.integer || p.neutral || p.maximum - p.minimum > limits.mostKinds) continue;
-    for (double kind = p.minimum; kind <= p.maximum; ++kind) {
-      if (kind == base.at(p.name)) continue;
-      variants.push_back(together);
-      variants.back()[p.name] = kind;
-    }
-  }
-}
-
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
@@ -153,7 +132,6 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
     if (values[p.name] != *p.neutral && std::find(variants.begin(), variants.end(), values) == variants.end())
       variants.push_back(values);
   };
-  addTogether(variants, base, declared, limits);
   for (const Parameter& p : declared) {
     if (!p.neutral) continue;
     const bool up = *p.neutral<p.maximum, down = *p.neutral> p.minimum;

@@ -64,6 +64,20 @@ bool isOnThePath(const std::string& program) {
   return false;
 }
 
+/// Why mpirun did not: it draws lines around what it says.
+std::string wordsOfMpirun(const std::string& errors) {
+  if (errors.find("allow-run-as-root") != std::string::npos)
+    return "mpirun does not work for root (OMPI_ALLOW_RUN_AS_ROOT=1, OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)";
+  std::string words;
+  for (std::size_t at = 0; at < errors.size();) {
+    const std::size_t end = std::min(errors.find('\n', at), errors.size());
+    const std::string line = errors.substr(at, end - at);
+    if (line.find_first_not_of(" -\t\r") != std::string::npos) words = line;
+    at = end + 1;
+  }
+  return words.empty() ? "mpirun failed without a word" : words;
+}
+
 /// A short kick of so many generations, its scene named by its whole path.
 std::string shortKick(const BenchWork& work, const BenchFolder& folder) {
   nlohmann::json document = nlohmann::json::parse(readFile(work.resources + "/experiments/kick-short.json"));
@@ -147,7 +161,7 @@ std::vector<BenchRow> mpiRows(const BenchWork& work) {
       const double begin = wallSeconds();
       const ChildEnd end = runChild({"mpirun", "-n", std::to_string(ranks), "--oversubscribe", "--bind-to", "none",
                                      work.program, "run", experiment, "--db", database, "--jobs", "1", "--quiet"});
-      if (end.exitCode != 0) return {{"MPI", what, NAN, "times", "", "", lastLine(end.err)}};
+      if (end.exitCode != 0) return {{"MPI", what, NAN, "times", "", "", wordsOfMpirun(end.err)}};
       best[ranks - 1] = std::min(best[ranks - 1], wallSeconds() - begin);
     }
   return {{"MPI", what, best[0] / best[1], "times", "", "1.9 is aimed at, on idle cores",

@@ -99,13 +99,12 @@ bool RunLauncher::start(const QString& name, QStringList arguments, const QStrin
   process.log = QStringLiteral("%1/uchilsim-%2-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(name);
   QProcess starter;
   starter.setProgram(program_);
-  giveWay(starter);
   if (jobs > 0) arguments << jobsOption << QString::number(jobs);
   starter.setArguments(arguments);
   starter.setStandardInputFile(QProcess::nullDevice());
   starter.setStandardOutputFile(QProcess::nullDevice());
   starter.setStandardErrorFile(process.log);
-  if (!starter.startDetached(&process.pid)) {
+  if (!startDetachedGivingWay(starter, &process.pid)) {
     emit failed(tr("%1 cannot be started: %2").arg(program_, starter.errorString()));
     return false;
   }

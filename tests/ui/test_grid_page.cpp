@@ -395,7 +395,7 @@ class TestGridPage : public QObject {
     for (const auto& [axis, text] : {std::pair("distances_m", "0.16"), {"bearings_rad", "0"}, {"directions_rad", "0"}})
       form->findChild<QLineEdit*>(axis)->setText(text);
     for (const char* method : {"contamination", "similarity"}) form->findChild<QCheckBox*>(method)->setChecked(false);
-    form->findChild<ParameterForm*>()->field("generations")->setText("60");
+    form->findChild<ParameterForm*>()->field("generations")->setText("300");
     form->findChild<ParameterForm*>()->field("points")->setText("1");
     QCOMPARE(form->problem(), QString());
     form->findChild<QPushButton*>("start")->click();
@@ -406,7 +406,7 @@ class TestGridPage : public QObject {
     go->click();
     QTRY_VERIFY_WITH_TIMEOUT(window.bench().watcher().activeGrids().empty(), 60'000);
     QVERIFY2(window.banner().text().isEmpty(), qPrintable(window.banner().text()));
-    QVERIFY(stored().runs().front().generation < 60);
+    QVERIFY(stored().runs().front().generation < 300);
     QTRY_COMPARE(go->text(), QString("Continue"));
     go->click();
     QTRY_VERIFY_WITH_TIMEOUT(isGridFinished(stored(), 1) && window.bench().watcher().activeGrids().empty(), 120'000);

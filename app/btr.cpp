@@ -1,7 +1,7 @@
 // Everything that UCHILSIM does, without a window.
-#include "app/btr_array.h"
-#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
+#include "app/cluster/btr_array.h"
+#include "app/cluster/btr_cluster.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Back to Reality without a window: run, measure, adapt, replay, compare with recordings", "btr"};

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <iostream>
 
-#include "app/btr_array.h"
-#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
+#include "app/cluster/btr_array.h"
+#include "app/cluster/btr_cluster.h"
 #include "core/run/comparison.h"
 
 namespace btr::cli {

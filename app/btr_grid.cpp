@@ -6,9 +6,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/btr_array.h"
-#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
+#include "app/cluster/btr_array.h"
+#include "app/cluster/btr_cluster.h"
 #include "app/progress_line.h"
 #include "core/run/grid/grid.h"
 #include "core/run/grid/grid_cells.h"

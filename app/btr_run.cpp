@@ -5,8 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/btr_cluster.h"
 #include "app/btr_commands.h"
+#include "app/cluster/btr_cluster.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/reality_gap.h"

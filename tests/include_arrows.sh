@@ -52,7 +52,9 @@ declare -A public=(
   [sim]="obstacle_shape scene trace trial"
   [live]="act game number_groups"
   [camera]="camera_pipeline camera_spec picture_file pinhole point_files truth_file twin video_file"
-  [gap/recordings]="channel_name doctor mapping objection recording recording_health table_preview"
+  [gap/recordings]="channel_name mapping recording"
+  [gap/recordings/doctor]="doctor objection recording_health"
+  [gap/recordings/table]="table_preview"
   [gap/replay]="number_table residual trial_scenes"
   [gap/search]="gap_report report_words"
   [gap/report]="report_figures report_files report_html report_json report_lead report_text"
@@ -71,7 +73,8 @@ while IFS=: read -r file target; do
 done < <(grep -rE '^[[:space:]]*#include "core/' ui --include=*.cpp --include=*.h |
            sed -nE 's/^([^:]+):[[:space:]]*#include "([^"]+)".*/\1:\2/p')
 # core never names a widget toolkit, and a plugin sees only plugin.h or robot.h.
-grep -rnE '#include <(Q|osg)' core app/btr*.cpp plugins --include=*.cpp --include=*.h && { echo "Qt or OSG outside ui/"; bad=1; }
+grep -rnE '#include <(Q|osg)' core app/btr*.cpp app/{bench,cluster,gap,live,openr,serve} plugins --include=*.cpp --include=*.h &&
+  { echo "Qt or OSG outside ui/"; bad=1; }
 grep -rnP '#include "core/(plugin/(?!plugin\.h)|robot/(?!robot\.h))' plugins --include=*.cpp &&
   { echo "a plugin may include only core/plugin/plugin.h or core/robot/robot.h"; bad=1; }
 exit $bad

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "app/btr_camera_eye.h"
 #include "app/btr_commands.h"
+#include "app/live/btr_camera_eye.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 

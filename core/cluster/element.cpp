@@ -19,6 +19,7 @@
 #include "core/run/back_to_reality.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/scratch_folder.h"
 #include "core/store/database.h"
 
 namespace btr {
@@ -30,26 +31,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds betweenStates(5);
 constexpr std::chrono::minutes betweenCopies(5);
 constexpr int exitDone = 0, exitStopped = 3, exitWaits = 10;
-
-/// A folder on this machine's disk, removed in the end.
-class LocalFolder {
- public:
-  LocalFolder() {
-    std::string pattern = (fs::temp_directory_path() / "uchilsim-element-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw InputError(pattern + ": the folder cannot be made: " + std::strerror(errno));
-    path_ = pattern;
-  }
-  ~LocalFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  LocalFolder(const LocalFolder&) = delete;
-  LocalFolder& operator=(const LocalFolder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 class Element {
  public:
@@ -70,7 +51,7 @@ class Element {
 
   bool work(const std::atomic<bool>& stop) try {
     tell("running", "");
-    const LocalFolder local;
+    const ScratchFolder local("uchilsim-element");
     const bool hasDatabase = fs::exists(elementDatabase(folder_, number_));
     if (hasDatabase) copyFile(elementDatabase(folder_, number_), local.file("element.db"));
     const std::string log = elementFile(folder_, number_, ".log");
@@ -96,7 +77,7 @@ class Element {
   }
   void fail(const std::string& why) { tell("failed", why); }
 
-  std::vector<std::string> words(const LocalFolder& local) const {
+  std::vector<std::string> words(const ScratchFolder& local) const {
     std::vector<std::string> all{fs::read_symlink("/proc/self/exe").string()};
     for (const std::string& word : job_.elements[number_ - 1].arguments)
       all.push_back(word == "{db}" ? local.file("element.db") : word == "{out}" ? local.file("out") : word);

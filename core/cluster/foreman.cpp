@@ -13,22 +13,12 @@
 #include "core/cluster/build_identity.h"
 #include "core/cluster/parts.h"
 #include "core/run/evaluator.h"
+#include "core/spec/child_process.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
 namespace {
-
-bool readAll(int file, char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t n = read(file, data, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    data += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
 
 /// Where messages come from and go to. Ends the process when nobody is there any more.
 struct Pipe {

@@ -15,6 +15,7 @@
 #include "core/openr/stick_config.h"
 #include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
+#include "core/spec/scratch_folder.h"
 
 namespace btr::openr {
 namespace {
@@ -58,21 +59,6 @@ int run(const fs::path& folder, const std::string& command, std::string& said) {
   const int status = pclose(out);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
-
-/// A folder that is gone with this.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "btr-openr-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw InputError(name + " cannot be made");
-    path = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-  }
-  fs::path path;
-};
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -318,10 +304,10 @@ class StickBuilder {
     if (fs::weakly_canonical(out_).string().rfind(fs::canonical(folder).string() + "/", 0) == 0 &&
         fs::weakly_canonical(out_) != fs::canonical(folder) / "MS")
       throw InputError(options_.out + " lies in " + folder + "; a folder outside of the sources is needed");
-    TemporaryFolder work;
-    const fs::path copy = copyOf(folder, work.path);
-    fs::create_directory_symlink(fs::canonical(sdk_), work.path / "sdk");
-    const fs::path stick = work.path / "MS";
+    const ScratchFolder work("btr-openr");
+    const fs::path copy = copyOf(folder, work.path());
+    fs::create_directory_symlink(fs::canonical(sdk_), work.path() / "sdk");
+    const fs::path stick = work.path() / "MS";
     for (const fs::path& each : {stick / modulesFolder, stick / configFolder, stick / dataFolder})
       fs::create_directories(each);
     Found found = findObjects(copy);
@@ -332,11 +318,11 @@ class StickBuilder {
       return (fs::path(folder) / path.lexically_relative(copy)).lexically_normal().string();
     };
     std::string said;  // of libraries: what is missing in the end is said where it is missing
-    for (const fs::path& each : found.libraries) make(each, stick, work.path / "sdk", "", said);
+    for (const fs::path& each : found.libraries) make(each, stick, work.path() / "sdk", "", said);
     const std::size_t firstObject = result_.objects.size();
-    for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), stick, work.path / "sdk");
-    for (const fs::path& each : found.byHand) byHand(each, name(each), stick, work.path / "sdk");
-    byWholeMakefile(copy, stick, work.path / "sdk", firstObject);
+    for (const fs::path& each : found.withMakefile) byMakefile(each, name(each), stick, work.path() / "sdk");
+    for (const fs::path& each : found.byHand) byHand(each, name(each), stick, work.path() / "sdk");
+    byWholeMakefile(copy, stick, work.path() / "sdk", firstObject);
     if (!fs::exists(stick / configFolder / "OBJECT.CFG")) {
       std::string list;
       for (const std::string& module : modulesOn(stick)) list += "/MS/" + modulesFolder + "/" + module + "\n";

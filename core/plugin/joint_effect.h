@@ -1,6 +1,4 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "core/sim/scene.h"
@@ -30,8 +28,7 @@ inline Parameter dampingStaysParameter() {
 inline double weakened(double torque, const JointState& joint, double share, bool dampingStays) {
   if (!dampingStays || joint.damping == 0) return share * torque;
   const double own = -joint.damping * joint.rate;
-  const double most = share * (joint.beyond != 0 ? std::abs(torque) : joint.limit);
-  return std::clamp(share * (torque + joint.beyond - own) + own, -most, most);
+  return withinLimits(share * (torque + joint.beyond - own) + own, torque, joint, share);
 }
 
 /// What a servo's loop follows and what is recorded, where motor and joint can part: a whole number that an analysis

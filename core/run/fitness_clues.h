@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gap/search/candidates.h"
+#include "core/gap/search/screening/candidates.h"
 #include "core/run/prepared_experiment.h"
 #include "core/store/database.h"
 

@@ -17,32 +17,12 @@
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/scratch_folder.h"
 
 namespace btr {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for files on their way from or to the database, gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "uchilsim-recordings-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw InputError(pattern + ": the folder cannot be made");
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
 
 /// Whom this stage records: the first in the order of measuring, without those whose trials all failed and without
 /// those held out: what is made of the recordings must not know them.
@@ -67,7 +47,7 @@ struct Recorded {
 
 /// The individuals' recordings in that pose, in their order; several of one in the order in which they came.
 std::vector<Recorded> recordingsOf(const RunContext& context, const std::vector<Id>& who, RobotPose pose) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch("uchilsim-recordings");
   const std::vector<RecordingRecord> all = context.database.recordings(context.record.experiment);
   const bool both = context.prepared.spec.recordings.poses().size() > 1;
   std::vector<Recorded> found;
@@ -92,7 +72,7 @@ std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<Recorded
 
 /// The robot records itself. False if stopped.
 bool recordRobot(RunContext& context, const std::vector<Id>& who, RobotPose pose) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch("uchilsim-recordings");
   const auto robot = openRobot(context);
   if (!robot)
     throw InputError("reality " + context.record.reality + ": the plugin says that it records, and opens no robot");

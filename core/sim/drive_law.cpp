@@ -231,12 +231,17 @@ double JointEffects::throughEffects(Torques torques, const JointState& given, do
     if (!placed.effect->changesDrive()) continue;
     if (!keepState) scratch_ = placed.state;
     std::vector<double>& memory = keepState ? placed.state : scratch_;
-    const auto through = [&](double torque, double beyond) {
+    const auto through = [&](double torque, double& beyond) {
       state.beyond = beyond;
-      return placed.effect->driveTorque(torque, state, *placed.values, memory, h);
+      if (!placed.effect->hasServoTerm()) return placed.effect->driveTorque(torque, state, *placed.values, memory, h);
+      const LimitedTorque sum = withTerm(torque, state, placed.effect->servoTerm(state, *placed.values, memory, h));
+      beyond = sum.beyond;
+      return sum.given;
     };
     if (!memory.empty() || torques.before == torques.after) {
-      torques.before = torques.after = through(torques.mean(), (torques.beyondBefore + torques.beyondAfter) / 2);
+      double beyond = (torques.beyondBefore + torques.beyondAfter) / 2;
+      torques.before = torques.after = through(torques.mean(), beyond);
+      torques.beyondBefore = torques.beyondAfter = beyond;
     } else {
       torques.before = through(torques.before, torques.beyondBefore);
       torques.after = through(torques.after, torques.beyondAfter);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,25 @@ struct JointState {
   double damping = 0;    ///< torque that the drive's own law loses per rate [N·m·s/rad or N·s/m]
   double beyond = 0;     ///< what that law asks for beyond its limit: all of it less what it gives [N·m or N]
 };
+
+/// What a drive's law gives within its limit, and what it asks for beyond.
+struct LimitedTorque {
+  double given = 0, beyond = 0;
+};
+
+/// `asked` within `share` (1: all) of what limits the drive: its largest torque and, on the side on which its law asks
+/// for more than `torque`, that.
+inline double withinLimits(double asked, double torque, const JointState& joint, double share = 1) {
+  const double least = joint.beyond < 0 ? torque : -joint.limit, most = joint.beyond > 0 ? torque : joint.limit;
+  return std::clamp(asked, share * least, share * most);
+}
+
+/// With `added` in the sum that is limited.
+inline LimitedTorque withTerm(double torque, const JointState& joint, double added) {
+  if (added == 0) return {torque, joint.beyond};
+  const double asked = torque + joint.beyond + added, given = withinLimits(asked, torque, joint);
+  return {given, asked - given};
+}
 
 /// A ball at one instant, world frame.
 struct BallState {
@@ -97,12 +117,19 @@ class Effect {
                                 std::span<double> /*state*/, double /*dt*/) const {
     return command;
   }
+  /// True if servoTerm() is part of the servo's law.
+  virtual bool hasServoTerm() const { return false; }
+  /// What is added to the sum of the servo's law before that is limited [N·m or N].
+  virtual double servoTerm(const JointState&, std::span<const double> /*values*/, std::span<double> /*state*/,
+                           double /*dt*/) const {
+    return 0;
+  }
   /// True if driveTorque() changes anything; else it is never called.
-  virtual bool changesDrive() const { return false; }
+  virtual bool changesDrive() const { return hasServoTerm(); }
   /// Drive torque after the servo law and its limit [N·m or N].
-  virtual double driveTorque(double torque, const JointState&, std::span<const double> /*values*/,
-                             std::span<double> /*state*/, double /*dt*/) const {
-    return torque;
+  virtual double driveTorque(double torque, const JointState& joint, std::span<const double> values,
+                             std::span<double> state, double dt) const {
+    return hasServoTerm() ? withTerm(torque, joint, servoTerm(joint, values, state, dt)).given : torque;
   }
   /// Torque added at the joint [N·m or N].
   virtual double torque(const JointState&, std::span<const double> /*values*/) const { return 0; }

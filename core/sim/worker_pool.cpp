@@ -19,6 +19,7 @@
 #include <exception>
 #include <optional>
 
+#include "core/spec/child_process.h"
 #include "core/spec/crash_report.h"
 #include "core/spec/error.h"
 
@@ -30,17 +31,6 @@ using Clock = std::chrono::steady_clock;
 bool writeAll(int fd, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t n = send(fd, data, size, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    data += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-bool readAll(int fd, char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t n = read(fd, data, size);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     data += n;
@@ -97,16 +87,6 @@ void tellParentOfCrash(const char* text, std::size_t size) {
 std::string howItEnded(int status) {
   if (WIFSIGNALED(status)) return "the worker died (signal " + std::to_string(WTERMSIG(status)) + ")";
   return "the worker ended (exit code " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1) + ")";
-}
-
-/// Whether a child ends by itself by then; it is still to be waited for.
-bool endsWithin(pid_t process, int patience_ms) {
-  const int watched = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
-  if (watched < 0) return false;
-  pollfd one{watched, POLLIN, 0};
-  const bool ended = poll(&one, 1, patience_ms) > 0;
-  close(watched);
-  return ended;
 }
 
 struct Worker {

@@ -5,7 +5,6 @@
 /// on long before. (Åström and Hägglund 1995, PID Controllers, ch. 3.5: conditional integration.)
 /// Drives that follow a position only. Neutral: k = 0. State: z.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "core/plugin/plugin.h"
@@ -33,14 +32,12 @@ class IntegralAction final : public btr::Effect {
     if (values[0] != 0 && values[2] != 0) state[0] = std::clamp(-joint.load, -values[1], values[1]);
   }
 
-  bool changesDrive() const override { return true; }
-  double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
-                     std::span<double> state, double dt) const override {
-    if (values[0] == 0 || !joint.followsPosition) return torque;
+  bool hasServoTerm() const override { return true; }
+  double servoTerm(const btr::JointState& joint, std::span<const double> values, std::span<double> state,
+                   double dt) const override {
+    if (values[0] == 0 || !joint.followsPosition) return 0;
     state[0] = std::clamp(state[0] + values[0] * (joint.command - joint.position) * dt, -values[1], values[1]);
-    // The sum is limited, not its parts.
-    const double most = joint.beyond != 0 ? std::abs(torque) : joint.limit;
-    return std::clamp(torque + joint.beyond + state[0], -most, most);
+    return state[0];
   }
 };
 

@@ -2,7 +2,6 @@
 ///   T·ẏ = c − y;   τ' = clamp(p·(c − q) − d·q̇ + k·ẏ, ±limit)      k in N·m·s/rad, T in s; with k = d it is d·(ċ − q̇)
 /// y begins at the first command. (Åström and Hägglund 1995, PID Controllers, ch. 3.4: the derivative acts on the
 /// error, filtered.) Drives that follow a position only. Neutral: k = 0. State: whether it has begun, y.
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -24,17 +23,15 @@ class RateFeedforward final : public btr::Effect {
   Stage stage() const override { return Stage::command; }
   int stateSize() const override { return 2; }
 
-  bool changesDrive() const override { return true; }
-  double driveTorque(double torque, const btr::JointState& joint, std::span<const double> values,
-                     std::span<double> state, double dt) const override {
-    if (values[0] == 0 || dt <= 0 || !joint.followsPosition) return torque;
+  bool hasServoTerm() const override { return true; }
+  double servoTerm(const btr::JointState& joint, std::span<const double> values, std::span<double> state,
+                   double dt) const override {
+    if (values[0] == 0 || dt <= 0 || !joint.followsPosition) return 0;
     if (state[0] == 0) state[1] = joint.command;
     state[0] = 1;
     const double change = (joint.command - state[1]) * -std::expm1(-dt / values[1]);
     state[1] += change;
-    // The sum is limited, not its parts.
-    const double most = joint.beyond != 0 ? std::abs(torque) : joint.limit;
-    return std::clamp(torque + joint.beyond + values[0] * change / dt, -most, most);
+    return values[0] * change / dt;
   }
 };
 

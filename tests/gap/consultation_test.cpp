@@ -1,5 +1,5 @@
 // The doctor comes before physics is blamed.
-#include "core/gap/search/consultation.h"
+#include "core/gap/search/trials/consultation.h"
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/report/report_html.h"

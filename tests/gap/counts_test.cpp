@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "core/gap/recordings/binding.h"
-#include "core/gap/recordings/counts.h"
+#include "core/gap/recordings/doctor/counts.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
 #include "core/spec/random.h"

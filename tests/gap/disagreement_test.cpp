@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/gap/report/report_plain.h"
-#include "core/gap/search/disagreement.h"
+#include "core/gap/search/trials/disagreement.h"
 #include "tests/gap/pendulum_world.h"
 
 namespace btr {

@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "core/gap/recordings/binding.h"
-#include "core/gap/recordings/doctor.h"
+#include "core/gap/recordings/doctor/doctor.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"

@@ -1,6 +1,6 @@
-#include "core/gap/recordings/doctor.h"
+#include "core/gap/recordings/doctor/doctor.h"
+#include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/recording_health.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

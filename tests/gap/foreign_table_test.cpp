@@ -6,8 +6,8 @@
 
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/table_preview.h"
-#include "core/gap/recordings/time_stamp.h"
+#include "core/gap/recordings/table/table_preview.h"
+#include "core/gap/recordings/table/time_stamp.h"
 #include "core/spec/sha256.h"
 #include "tests/gap/foreign_table.h"
 #include "tests/refusal.h"

@@ -1,5 +1,5 @@
 // Where an error lies is told by the names of what was looked at.
-#include "core/gap/search/locate.h"
+#include "core/gap/search/screening/locate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

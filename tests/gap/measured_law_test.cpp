@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/gap/report/report_plain.h"
-#include "core/gap/search/law_shape.h"
-#include "core/gap/search/law_terms.h"
+#include "core/gap/search/laws/law_shape.h"
+#include "core/gap/search/laws/law_terms.h"
 #include "tests/gap/pendulum_world.h"
 
 namespace btr {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/recording_health.h"
 #include "core/spec/parameter.h"
 #include "core/spec/random.h"
 #include "tests/refusal.h"

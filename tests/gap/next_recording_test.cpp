@@ -1,5 +1,5 @@
 // What to record next so that rivals part, for a joint that follows positions and for one that is pushed.
-#include "core/gap/search/next_recording.h"
+#include "core/gap/search/rivals/next_recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/gap/recordings/doctor/repeated.h"
 #include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/repeated.h"
 #include "core/spec/random.h"
 
 namespace btr {

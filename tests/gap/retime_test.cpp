@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/gap/recordings/channel_floor.h"
+#include "core/gap/recordings/doctor/retime.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/retime.h"
 #include "core/spec/parameter.h"
 #include "core/spec/random.h"
 #include "tests/refusal.h"

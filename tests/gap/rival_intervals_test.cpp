@@ -1,5 +1,5 @@
 // What rivals would make of a number, against intervals laid out by hand.
-#include "core/gap/search/rival_intervals.h"
+#include "core/gap/search/rivals/rival_intervals.h"
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/gap_report.h"

@@ -1,4 +1,4 @@
-#include "core/gap/search/search_discoveries.h"
+#include "core/gap/search/screening/search_discoveries.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // A servo that hunts, told from one that is shaken by its command, rings as the simulator does, or is only noisy.
-#include "core/gap/search/self_excited.h"
+#include "core/gap/search/trials/self_excited.h"
 
 #include <gtest/gtest.h>
 

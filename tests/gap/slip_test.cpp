@@ -1,5 +1,5 @@
 // Where and by how much one trial's measuring slipped. The pendulum is integrated in the test.
-#include "core/gap/search/slip.h"
+#include "core/gap/search/trials/slip.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a recording's times and leaps say of the file, before physics is asked.
-#include "core/gap/recordings/time_doctor.h"
+#include "core/gap/recordings/doctor/time_doctor.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "core/gap/recordings/binding.h"
-#include "core/gap/recordings/leaps.h"
+#include "core/gap/recordings/doctor/leaps.h"
 #include "core/gap/recordings/recording.h"
 #include "core/spec/random.h"
 

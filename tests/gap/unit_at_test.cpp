@@ -7,7 +7,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
-#include "core/gap/search/learned_force.h"
+#include "core/gap/search/laws/learned_force.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {

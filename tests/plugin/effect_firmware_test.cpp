@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/sim/drive_law.h"
 #include "tests/plugin/effect_worlds.h"
 
 namespace btr {
@@ -136,6 +137,25 @@ TEST(IntegralAction, LeavesATorqueCommandAlone) {
   Numbers state{0};
   EXPECT_EQ(0.6, effect("integral_action")
                      ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15, 0}, state, 1e-3));
+}
+
+// The law asks for 1.5 N·m, its integral for 0.3 more, the falling command for 1.2 less: 0.6 of them all, although each
+// sum on the way is above the limit.
+TEST(ServoTerms, OfSeveralEffectsAreOneSumThatIsLimitedOnce) {
+  constexpr double step = 1e-3, filter = 2e-3, gain = 1.2 * step / (1 - 0.60653065971263342);
+  const SceneEffect integral{effect("integral_action"), "integral_action", "rig.hinge", {1000, 0.3, 0}};
+  const SceneEffect feedforward{effect("rate_feedforward"), "rate_feedforward", "rig.hinge", {gain, filter}};
+  const Drive drive{.p = 5, .d = 0, .maxTorque = 0.9};
+  JointEffects effects;
+  effects.add(integral);
+  effects.add(feedforward);
+  DriveRow row;
+  for (const double at : {1.0, 0.0}) {
+    const CommandAround command{at + 0.3, at + 0.3};
+    const JointState joint{.position = at, .command = at + 0.3, .limit = 0.9};
+    row = effects.drive({}, drive, joint, command, 0, {}, {.h = step, .inertia = 1, .left = step});
+  }
+  EXPECT_NEAR(0.6, row.p, 1e-9);
 }
 
 /// The profile's place after each step, as the means over the half steps say it; `told` is what is commanded then.

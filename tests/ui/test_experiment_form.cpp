@@ -4,9 +4,12 @@
 #include <QLayout>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTest>
 
+#include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "ui/common/number_edit.h"
 #include "ui/experiment/experiment_form.h"
@@ -71,6 +74,55 @@ void type(QLineEdit* edit, const QString& text) {
 class TestExperimentForm : public QObject {
   Q_OBJECT
  private slots:
+  // A dock on a screen of 1280 × 720 is 330 pixels wide.
+  void nothingIsCutOffInANarrowDock() {
+    const PluginHost host(PLUGIN_DIR);
+    ExperimentForm form(offersOf(host));
+    ExperimentSpec spec;
+    spec.controller = {"kick", {}, {}};
+    spec.fitness = {"kick_distance", {}, {}};
+    spec.learner = spec.adaptation = {"ga", {}, {}};
+    form.setSpec(spec);
+    form.resize(330, 560);
+    form.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&form));
+    // Several controllers have a field of that name: the one that is seen.
+    const auto seen = [&](const QString& name) -> QWidget* {
+      for (QWidget* widget : form.findChildren<QWidget*>(name))
+        if (widget->isVisible()) return widget;
+      return nullptr;
+    };
+    QWidget* distance = seen("distance_m");
+    QVERIFY(distance);
+    type(distance->findChild<QLineEdit*>(), "99999");
+    const auto* area = form.findChild<QScrollArea*>();
+    QTRY_VERIFY(area->widget()->width() <= area->viewport()->width());
+    QCOMPARE(area->horizontalScrollBar()->maximum(), 0);
+    for (const char* name : {"distance_m.problem", "distance_m.reset", "reality"}) {
+      const QWidget* widget = seen(name);
+      QVERIFY2(widget, name);
+      QVERIFY2(widget->mapTo(area->widget(), QPoint(widget->width(), 0)).x() <= area->viewport()->width(), name);
+    }
+  }
+
+  // Narrower than any form can be, it is scrolled.
+  void whatDoesNotFitCanBeScrolledTo() {
+    ExperimentForm form(someOffers());
+    form.setSpec(aSpec());
+    form.resize(200, 400);
+    form.show();
+    const auto* area = form.findChild<QScrollArea*>();
+    QTRY_VERIFY(area->widget()->width() <= area->viewport()->width() + area->horizontalScrollBar()->maximum());
+  }
+
+  void aLongNameIsSeenFromItsBeginning() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.name = std::string(300, 'a');
+    form.setSpec(spec);
+    QCOMPARE(form.findChild<QLineEdit*>("name")->cursorPosition(), 0);
+  }
+
   void givesBackTheSameExperiment() {
     ExperimentForm form(someOffers());
     form.setSpec(aSpec());

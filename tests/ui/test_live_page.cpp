@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QMenu>
 #include <QProcess>
 #include <QPushButton>
@@ -30,6 +31,40 @@ QAction* entry(QMenu* menu, const QString& text) {
 class TestLivePage : public QObject {
   Q_OBJECT
  private slots:
+  // 1280 × 720 with a frame, menus and a title leaves this much.
+  void theWholePageFitsASmallScreen() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.select("dog");
+    constexpr int room = 540;
+    QTRY_VERIFY2(open.page.minimumSizeHint().height() <= room,
+                 qPrintable(QString::number(open.page.minimumSizeHint().height())));
+  }
+
+  void whoOpenedAWorldPlaysItByKey() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.page.activateWindow();
+    QTRY_VERIFY(QApplication::activeWindow() == open.page.window());
+    open.tree()->setFocus();
+    open.page.open(open.file);
+    QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(&open.page.view()));
+    QVERIFY(open.isThere());
+    QTRY_VERIFY(open.action("livePlay")->isEnabled());
+    QTest::keyClick(QApplication::focusWidget(), Qt::Key_Space);
+    QTRY_VERIFY(open.page.row().playing);
+  }
+
+  void buttonsStayWhereTheyAreWhileTheWorldPlays() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    const auto* clock = open.page.findChild<QLabel*>("liveClock");
+    const int width = clock->width();
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY(clock->text().contains(QChar(0xd7)));
+    QCOMPARE(clock->width(), width);
+  }
+
   void playsStepsAndWaits() {
     OpenPage open;
     QVERIFY2(open.isThere(), qPrintable(open.page.findChild<MessageBanner*>()->text()));

@@ -15,8 +15,13 @@ class Section : public QWidget {
   void setSummary(const QString& summary);
   QWidget* content() const { return content_; }
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
-  QString title_;
+  void showTitle();
+
+  QString title_, whole_;  // without and with the summary; a title that is too long for its line ends in "…"
   QToolButton* header_;
   QWidget* content_;
 };

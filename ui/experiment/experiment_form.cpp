@@ -162,7 +162,7 @@ ExperimentForm::ExperimentForm(const ExperimentOffers& offers, QWidget* parent)
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
   scroll->setWidget(inside);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -233,6 +233,7 @@ void ExperimentForm::fill(const ExperimentSpec& spec) {
   shown_ = spec;
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
+  for (QLineEdit* edit : {name_, scene_}) edit->setCursorPosition(0);  // a long text is seen from its beginning
   seed_->setValues({{"seed", double(spec.seed)}});
   controller_->setChoice(spec.controller);
   fitness_->setChoice(spec.fitness);

@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "ui/common/combo_width.h"
 #include "ui/common/edit_command.h"
 #include "ui/common/file_choice.h"
 #include "ui/common/form_undo.h"
@@ -88,6 +89,7 @@ QWidget* ExperimentForm::makeReality() {
   reality_ = new QComboBox(part);
   reality_->setObjectName("reality");
   reality_->setFocusPolicy(Qt::StrongFocus);
+  letShrink(*reality_);
   reality_->addItem(tr("a person, on the real robot"), "person");
   reality_->addItem(tr("a stand-in reality (demonstration)"), "stand_in");
   offerRealities();

@@ -8,6 +8,7 @@
 #include <QLineEdit>
 #include <QToolButton>
 
+#include "ui/common/combo_width.h"
 #include "ui/common/form_undo.h"
 #include "ui/common/number_edit.h"
 #include "ui/common/style_sheet.h"
@@ -45,6 +46,7 @@ ParameterField::ParameterField(const Parameter& parameter, bool checkable, QWidg
   } else {
     choice_ = new QComboBox(form);
     choice_->setFocusPolicy(Qt::StrongFocus);
+    letShrink(*choice_);
     for (const auto& word : parameter.choices) choice_->addItem(QString::fromStdString(word).replace('_', ' '));
     connect(choice_, &QComboBox::activated, this, [this](int index) {
       emit edited(QString::fromStdString(parameter_.choices[static_cast<std::size_t>(index)]));

@@ -7,6 +7,7 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 
+#include "ui/common/combo_width.h"
 #include "ui/common/edit_command.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_form.h"
@@ -19,6 +20,7 @@ PluginForm::PluginForm(const QString& what, const std::vector<Offer>& offers, QU
   names_->setAccessibleName(what);
   names_->setToolTip(tr("%1: one of the installed plugins").arg(what));
   names_->setFocusPolicy(Qt::StrongFocus);
+  letShrink(*names_);
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index == chosen_) return;
     undo_.push(new EditCommand(tr("choose %1").arg(names_->itemText(index)), {}, -1, chosen_, index,

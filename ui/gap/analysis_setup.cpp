@@ -16,8 +16,8 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include "core/gap/recordings/doctor/objection.h"
 #include "core/gap/recordings/mapping.h"
-#include "core/gap/recordings/objection.h"
 #include "core/gap/recordings/recording.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"

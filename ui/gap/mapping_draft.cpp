@@ -10,7 +10,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/table_preview.h"
+#include "core/gap/recordings/table/table_preview.h"
 #include "core/spec/error.h"
 #include "ui/common/number_entry.h"
 

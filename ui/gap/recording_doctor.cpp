@@ -2,8 +2,8 @@
 
 #include <QFileInfo>
 
+#include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/recording_health.h"
 #include "core/gap/replay/trial_scenes.h"
 #include "ui/common/file_state.h"
 

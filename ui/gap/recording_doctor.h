@@ -2,7 +2,7 @@
 #include <QMap>
 #include <QStringList>
 
-#include "core/gap/recordings/doctor.h"
+#include "core/gap/recordings/doctor/doctor.h"
 #include "core/sim/scene.h"
 
 namespace btr::ui {

@@ -32,6 +32,7 @@
 #include "ui/live/simulator_panel.h"
 #include "ui/live/thing_palette.h"
 #include "ui/live/things_to_add.h"
+#include "ui/window/scroll_page.h"
 
 namespace btr::ui {
 
@@ -173,9 +174,10 @@ QWidget* LivePage::makeSide() {
   selection_ = new SelectionPanel(*world_, panels);
   joints_ = new JointsPanel(*world_, panels);
   simulator_ = new SimulatorPanel(*world_, panels);
-  panels->addTab(selection_, tr("Selected"));
+  // Scrolled on their own: what they ask for would make the whole page higher than a small screen.
+  panels->addTab(new ScrollPage(selection_, panels), tr("Selected"));
   panels->addTab(joints_, tr("Joints"));
-  panels->addTab(simulator_, tr("Simulator"));
+  panels->addTab(new ScrollPage(simulator_, panels), tr("Simulator"));
   const auto warn = [this](const QString& why) { banner_->showMessage(MessageBanner::Kind::warning, why); };
   connect(selection_, &SelectionPanel::problem, this, warn);
   connect(desk_, &LiveDesk::problem, this, warn);
@@ -214,6 +216,7 @@ void LivePage::open(const QString& file) {
   tools_->setUndo({}, {});
   world_->forget();
   fresh_ = true;
+  if (isVisible()) view_->setFocus();  // whoever opens a world goes on with its keys: Space plays it
   process_->start(file, log_);
   showSelected();
   emit opened(file);

@@ -17,7 +17,14 @@
 namespace btr::ui {
 namespace {
 constexpr double speeds[] = {0.1, 0.25, 0.5, 1, 2, 5, 0};
+
+/// The world's time and, where `factor` > 0, how many of its seconds pass in one.
+QString clockText(double time_s, double factor) {
+  QString text = LiveTools::tr("%1 s").arg(time_s, 0, 'f', 2);
+  if (factor > 0) text += LiveTools::tr(" · %1 ×").arg(factor, 0, 'f', 2);
+  return text;
 }
+}  // namespace
 
 LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this)), views_(new QMenu(this)) {
   setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -39,14 +46,17 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   speed_ = new QComboBox(this);
   speed_->setObjectName("liveSpeed");
   speed_->setAccessibleName(tr("Speed"));
-  speed_->setToolTip(tr("Simulated seconds in a second"));
-  for (const double speed : speeds) speed_->addItem(speed > 0 ? tr("%1 ×").arg(speed) : tr("as fast as it can"), speed);
+  speed_->setToolTip(tr("Simulated seconds in a second; “fastest” is as fast as it can"));
+  for (const double speed : speeds) speed_->addItem(speed > 0 ? tr("%1 ×").arg(speed) : tr("fastest"), speed);
   speed_->setCurrentIndex(3);
   connect(speed_, &QComboBox::activated, this, [this] { emit speedChosen(speed()); });
   addWidget(speed_);
   clock_ = new QLabel(this);
   clock_->setObjectName("liveClock");
   clock_->setContentsMargins(6, 0, 6, 0);
+  clock_->setToolTip(tr("Time of the world; how many of its seconds really pass in a second"));
+  // As wide as it becomes: no button moves or goes away while the world plays.
+  clock_->setMinimumWidth(fontMetrics().horizontalAdvance(clockText(999.99, 9.99)) + 12);
   addWidget(clock_);
   addSeparator();
   undo_ = add("liveUndo", "edit-undo", tr("&Undo"), {});
@@ -111,9 +121,7 @@ void LiveTools::showRow(const LiveRow& row, double time_s) {
   play_->setChecked(row.playing);
   play_->setText(row.playing ? tr("&Pause") : tr("&Play"));
   play_->setIcon(themeIcon(row.playing ? "media-playback-pause" : "media-playback-start"));
-  QString text = tr("%1 s").arg(time_s, 0, 'f', 2);
-  if (row.playing && row.realTimeFactor > 0) text += tr(" · %1 × real time").arg(row.realTimeFactor, 0, 'f', 2);
-  clock_->setText(text);
+  clock_->setText(clockText(time_s, row.playing ? row.realTimeFactor : 0));
   kickOff_->setVisible(row.score.has_value());
   scoreAction_->setVisible(row.score.has_value());
   if (row.score) {

@@ -8,7 +8,7 @@
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"

@@ -6,7 +6,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/replay/initial_state.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/start_state.h"
@@ -98,7 +98,7 @@ Local localParabola(std::span<const double> time, std::span<const double> values
 constexpr double reach_s = 0.02;
 
 /// How far a free body's samples around a row are from smooth motion, in noise floors: large across an impact.
-double roughness(const FitTrial& trial, const std::vector<double>& pauses, std::size_t row) {
+double roughness(const FitTrial& trial, std::size_t row) {
   double sum = 0;
   for (std::size_t i = 0; i < trial.binding.measured.size(); ++i) {
     const Measured& measured = trial.binding.measured[i];
@@ -106,7 +106,7 @@ double roughness(const FitTrial& trial, const std::vector<double>& pauses, std::
         (measured.what != Measured::What::basePosition && measured.what != Measured::What::baseOrientation))
       continue;
     const Local local = localParabola(trial.recording.columns[0], trial.recording.columns[measured.column], row,
-                                      reach_s, trial.noiseFloor[i], pauses[i]);
+                                      reach_s, trial.noiseFloor[i], trial.pause_s[i]);
     if (local.known) sum += local.spread / trial.noiseFloor[i];
   }
   return sum;
@@ -115,15 +115,12 @@ double roughness(const FitTrial& trial, const std::vector<double>& pauses, std::
 /// The smoothest row within a third of a window of `row`.
 std::size_t smoothestNear(const FitTrial& trial, std::size_t row, double window_s) {
   const std::vector<double>& time = trial.recording.columns[0];
-  std::vector<double> pauses;
-  for (const Measured& measured : trial.binding.measured)
-    pauses.push_back(pauseOf(time, trial.recording.columns[measured.column]));
   std::size_t best = row;
-  double least = roughness(trial, pauses, row);
+  double least = roughness(trial, row);
   for (const int way : {-1, 1})
     for (std::size_t k = row; k > 0 && k + 1 < time.size() && std::abs(time[k] - time[row]) < window_s / 3;) {
       k = way < 0 ? k - 1 : k + 1;
-      if (const double here = roughness(trial, pauses, k); here < least) {
+      if (const double here = roughness(trial, k); here < least) {
         best = k;
         least = here;
       }
@@ -233,7 +230,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
     };
     if (measured.what == Measured::What::position) {
       const Drive& drive = scene.robots[measured.object].drives[measured.part];
-      Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
+      Local local = localParabola(time, values, row, reach_s, noise, trial.pause_s[i]);
       double& position = state.robots[measured.object].positions[measured.part];
       double& rate = state.robots[measured.object].rates[measured.part];
       if (row > 0 && local.known) {
@@ -248,7 +245,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
         add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
-      const Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
+      const Local local = localParabola(time, values, row, reach_s, noise, trial.pause_s[i]);
       const auto axis = static_cast<Eigen::Index>(measured.part);
       const double wide = local.known ? loose : 10;  // nearly alone beside a pause: the samples that follow must tell
       if (row > 0 && local.known) {
@@ -264,7 +261,7 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       add(Nuisance::What::baseTurn, measured.part - 1, 2 * noise, 2 * loose * noise);
       add(Nuisance::What::baseSpin, measured.part - 1, 2 * noise / reach_s, 2 * loose * noise / reach_s);
     } else if (measured.what == Measured::What::ballPosition) {
-      const Local local = localParabola(time, values, row, reach_s, noise, pauseOf(time, values));
+      const Local local = localParabola(time, values, row, reach_s, noise, trial.pause_s[i]);
       const auto axis = static_cast<Eigen::Index>(measured.part);
       BallState& ball = state.balls[measured.object];
       if (row > 0 && local.known) {
@@ -309,8 +306,11 @@ void cutSegments(FitProblem& problem, double window_s) {
   problem.window_s = window_s;
   problem.segments.clear();
   double total = 0, shortest = INFINITY;
-  for (const FitTrial& trial : problem.trials) {
+  for (FitTrial& trial : problem.trials) {
     const auto& time = trial.recording.columns[0];
+    trial.pause_s.clear();
+    for (const Measured& measured : trial.binding.measured)
+      trial.pause_s.push_back(pauseOf(time, trial.recording.columns[measured.column]));
     const double length_s = time[trial.rows() - 1] - time.front();
     total += length_s;
     shortest = std::min(shortest, length_s);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/gap/recordings/channel_name.h"
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/noise_floor.h"
 
@@ -49,7 +49,7 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   const Impacts impacts = name && name->part.empty() ? Impacts::some : Impacts::none;  // a ball bounces
   floor.byRows = noiseFloor(recording.columns[column], impacts);
   floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column], impacts);
-  floor.moves = impacts == Impacts::none && motionPasses(recording.columns[column]);
+  floor.moves = impacts == Impacts::none && motionPasses(recording.columns[column], floor.byRows);
   const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
   floor.level = std::max({floor.byStamps, rounding, filtered});
   // A constant's differences show the rounding of the arithmetic.

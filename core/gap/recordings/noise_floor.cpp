@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 
 namespace btr {
 namespace {
@@ -122,15 +122,15 @@ double commonMeasure(const std::vector<double>& differences, double negligible, 
 }  // namespace
 
 double noiseFloor(std::span<const double> all, Impacts impacts) {
-  const std::vector<double> values = finite(all);
   const double gain = std::sqrt(70.0);  // 1² + 4² + 6² + 4² + 1²
+  const std::vector<double> values = finite(all);
   std::vector<double> noise;
   for (std::size_t i = 4; i < values.size(); ++i)
     noise.push_back((values[i] - 4 * values[i - 1] + 6 * values[i - 2] - 4 * values[i - 3] + values[i - 4]) / gain);
   return levelOf(noise, blockOf(values.size(), all.size()), impacts);
 }
 
-bool motionPasses(std::span<const double> all) {
+bool motionPasses(std::span<const double> all, double level) {
   constexpr double clearly = 0.75;
   constexpr std::array sixth{1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0};
   const double gain = std::sqrt(924.0);  // the sum of their squares
@@ -141,7 +141,7 @@ bool motionPasses(std::span<const double> all) {
                                        values.begin() + static_cast<std::ptrdiff_t>(i - sixth.size()), 0.0) /
                     gain);
   const std::size_t block = blockOf(values.size(), all.size());
-  return noise.size() >= block && medianOfBlocks(noise, block) < clearly * noiseFloor(all);
+  return noise.size() >= block && medianOfBlocks(noise, block) < clearly * level;
 }
 
 double noiseFloor(std::span<const double> allTimes, std::span<const double> allValues, Impacts impacts) {

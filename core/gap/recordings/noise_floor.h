@@ -13,10 +13,10 @@ namespace btr {
 enum class Impacts { none, some };
 double noiseFloor(std::span<const double> values, Impacts impacts = Impacts::none);
 
-/// True where fast motion is part of that level: differences of a higher order, which make as much of white noise and
+/// True where fast motion is part of that `level`: differences of a higher order, which make as much of white noise and
 /// less of motion, say clearly less. Noise of other colours does not: it would have to end far below the rate at which
 /// it is sampled.
-bool motionPasses(std::span<const double> values);
+bool motionPasses(std::span<const double> values, double level);
 
 /// The same for samples at their own times, which increase: the fourth divided difference, scaled to what it makes of
 /// white noise. Free of slow motion however uneven the times are, so that stamps that jitter count where values follow

@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "core/gap/recordings/cell_reader.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
-#include "core/gap/recordings/table_reader.h"
+#include "core/gap/recordings/table/cell_reader.h"
+#include "core/gap/recordings/table/table_reader.h"
 #include "core/gap/recordings/trials.h"
 #include "core/spec/error.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/recording.h"
 #include "core/spec/error.h"

@@ -6,14 +6,14 @@
 #include <filesystem>
 
 #include "core/gap/recordings/channel_name.h"
-#include "core/gap/recordings/counts.h"
+#include "core/gap/recordings/doctor/counts.h"
+#include "core/gap/recordings/doctor/recording_health.h"
+#include "core/gap/recordings/doctor/repeated.h"
+#include "core/gap/recordings/doctor/retime.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/recording_health.h"
-#include "core/gap/recordings/repeated.h"
 #include "core/gap/recordings/resample.h"
-#include "core/gap/recordings/retime.h"
-#include "core/gap/recordings/row_order.h"
+#include "core/gap/recordings/table/row_order.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
 

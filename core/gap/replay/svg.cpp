@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/gap/recordings/even_grid.h"
+#include "core/gap/recordings/doctor/even_grid.h"
 #include "core/spec/nice_steps.h"
 #include "core/spec/thinning.h"
 

@@ -10,10 +10,10 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/uncertainty.h"
-#include "core/gap/search/drawn_starts.h"
 #include "core/gap/search/model_comparison.h"
-#include "core/gap/search/range_scan.h"
-#include "core/gap/search/restarts.h"
+#include "core/gap/search/starts/drawn_starts.h"
+#include "core/gap/search/starts/range_scan.h"
+#include "core/gap/search/starts/restarts.h"
 #include "core/spec/random.h"
 
 namespace btr {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/gap/fit/fit_problem.h"
-#include "core/gap/search/held_numbers.h"
-#include "core/gap/search/restarts.h"
-#include "core/gap/search/search_discoveries.h"
-#include "core/gap/search/whole_numbers.h"
+#include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/starts/held_numbers.h"
+#include "core/gap/search/starts/restarts.h"
+#include "core/gap/search/starts/whole_numbers.h"
 #include "core/spec/figures.h"
 
 namespace btr {

@@ -8,9 +8,9 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/score.h"
 #include "core/gap/search/fit_service.h"
+#include "core/gap/search/screening/tried_candidate.h"
 #include "core/gap/search/selection.h"
 #include "core/gap/search/thresholds.h"
-#include "core/gap/search/tried_candidate.h"
 
 namespace btr {
 

@@ -7,7 +7,7 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/fit/score.h"
-#include "core/gap/search/window_fits.h"
+#include "core/gap/search/starts/window_fits.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"

@@ -9,8 +9,8 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
-#include "core/gap/search/candidates.h"
 #include "core/gap/search/refused_jobs.h"
+#include "core/gap/search/screening/candidates.h"
 #include "core/gap/search/search.h"
 #include "core/gap/search/step_guard.h"
 

@@ -10,14 +10,14 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/calibrator.h"
-#include "core/gap/search/candidate_search.h"
 #include "core/gap/search/confirmer.h"
 #include "core/gap/search/fit_service.h"
 #include "core/gap/search/model_reduction.h"
-#include "core/gap/search/pair_search.h"
-#include "core/gap/search/rival_finder.h"
+#include "core/gap/search/rivals/rival_finder.h"
+#include "core/gap/search/rivals/unidentifiable.h"
+#include "core/gap/search/screening/candidate_search.h"
+#include "core/gap/search/screening/pair_search.h"
 #include "core/gap/search/selection.h"
-#include "core/gap/search/unidentifiable.h"
 
 namespace btr {
 namespace {

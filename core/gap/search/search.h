@@ -10,8 +10,8 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/score.h"
 #include "core/gap/fit/uncertainty.h"
-#include "core/gap/search/candidates.h"
 #include "core/gap/search/gap_report.h"
+#include "core/gap/search/screening/candidates.h"
 #include "core/gap/search/thresholds.h"
 
 namespace btr {

@@ -8,10 +8,10 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/replay/residual.h"
 #include "core/gap/search/gap_report.h"
-#include "core/gap/search/next_recording.h"
 #include "core/gap/search/report_words.h"
-#include "core/gap/search/self_excited.h"
+#include "core/gap/search/rivals/next_recording.h"
 #include "core/gap/search/thresholds.h"
+#include "core/gap/search/trials/self_excited.h"
 #include "core/spec/figures.h"
 
 namespace btr {

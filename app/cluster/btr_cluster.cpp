@@ -1,0 +1,115 @@
+// btr under mpirun and srun: several ranks, of which one works with the database.
+#include "app/cluster/btr_cluster.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "core/cluster/build_identity.h"
+#include "core/cluster/coordinator.h"
+#include "core/cluster/foreman.h"
+#include "core/spec/error.h"
+#include "core/store/network_file.h"
+
+namespace btr::cli {
+namespace {
+
+constexpr double longestJob_s = 120;
+/// With more ranks than this, rank 0 has enough to do without evaluating trials itself.
+constexpr int mostRanksWithAWorkingFirst = 8;
+
+/// This rank's share of its machine's processors. Launchers bind their ranks to processors, or say how many ranks are
+/// on the machine.
+int shareOfProcessors(const Launch& launch) {
+  int here = launch.size;
+  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"})
+    if (const char* text = std::getenv(variable)) here = std::max(1, std::atoi(text));
+  if (const char* text = std::getenv("SLURM_CPUS_PER_TASK")) return std::max(1, std::atoi(text));
+  if (launch.by == "srun") return 1;
+  return std::max(1, processorCount() / here);
+}
+
+/// What this process was asked for, without the program's name.
+std::string ownWords() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string all((std::istreambuf_iterator<char>(file)), {});
+  return all.substr(std::min(all.find('\0'), all.size()));
+}
+
+void requireLocal(const std::string& database) {
+  if (const auto system = networkFileSystemOf(database))
+    throw InputError(database + ": is on a network file system (" + *system +
+                     "), where rank 0 cannot keep a database safely; put it on rank 0's own disk");
+}
+
+}  // namespace
+
+struct ClusterJob::Impl {
+  std::unique_ptr<Coordinator> coordinator;
+};
+
+ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : impl_(new Impl) {
+  const Launch launch = launchOfThisProcess();
+  if (launch.size <= 1) return;
+  CoordinatorOptions options;
+  options.secondsPerJob = longestJob_s;
+  options.foremen = jobs > 0 ? jobs : shareOfProcessors(launch);
+  options.words = ownWords();
+  if (launch.rank > 0) {
+    isDone_ = true;
+    std::unique_ptr<RankLink> link;
+    try {
+      link = openMpi(launch);
+    } catch (const InputError&) {
+      // What keeps every rank from joining is said once, by rank 0.
+      if (launch.by != "srun") throw;
+      shell.exitCode = badInput;
+      return;
+    }
+    serveRank(*link, options);
+    link->finish();
+    return;
+  }
+  if (launch.size > mostRanksWithAWorkingFirst) options.foremen = 0;
+  buildIdentity(shell.plugins());  // before MPI's libraries are among those that are loaded
+  impl_->coordinator = std::make_unique<Coordinator>(openMpi(launch), shell.plugins(), options);
+  requireLocal(database);
+}
+
+ClusterJob::~ClusterJob() = default;
+
+Workforce* ClusterJob::workforce() const { return impl_->coordinator.get(); }
+
+void ClusterJob::tell() const {
+  if (!impl_->coordinator) return;
+  struct Sum {
+    int places = 0;
+    long pieces = 0, jobs = 0, losses = 0;
+    double worked_s = 0;
+  };
+  std::map<std::string, Sum> hosts;
+  for (const PlaceReport& place : impl_->coordinator->report()) {
+    Sum& sum = hosts[place.host];
+    ++sum.places;
+    sum.pieces += place.pieces;
+    sum.jobs += place.jobs;
+    sum.losses += place.losses;
+    sum.worked_s += place.worked_s;
+  }
+  for (const auto& [host, sum] : hosts)
+    std::fprintf(stderr, "btr: %s: %d workers, %ld trials in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
+                 sum.places, sum.jobs, sum.pieces, sum.worked_s, sum.losses);
+}
+
+void addPiecesCommand(CLI::App& app, Shell& shell) {
+  auto seconds = std::make_shared<double>(longestJob_s);
+  CLI::App* command = app.add_subcommand("pieces", "work for a rank of btr run under mpirun");
+  command->group("");
+  command->add_option("--seconds-per-trial", *seconds);
+  command->callback([seconds, &shell] { servePieces(shell.plugins(), *seconds); });
+}
+
+}  // namespace btr::cli

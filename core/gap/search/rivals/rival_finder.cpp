@@ -1,0 +1,206 @@
+#include "core/gap/search/rivals/rival_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/search/model_comparison.h"
+#include "core/gap/search/screening/search_discoveries.h"
+
+namespace btr {
+namespace {
+
+/// How many numbers an effect brings.
+std::size_t sizeOf(const FitModel& model, std::size_t effect) {
+  return static_cast<std::size_t>(std::count_if(model.parameters.begin(), model.parameters.end(),
+                                                [&](const auto& p) { return p.effect == static_cast<int>(effect); }));
+}
+
+bool contains(const FitModel& model, const EffectCandidate& candidate) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [&](const PlacedEffect& e) { return e.effect == candidate.effect && e.at == candidate.at; });
+}
+
+/// The p-value of an effect adjusted for all candidates of its place in the model.
+double rateAmong(const std::vector<TriedCandidate>& others, const Found& found) {
+  std::vector<double> pValues{found.comparison.pValue};
+  for (const TriedCandidate& other : others) {
+    const EffectCandidate& candidate = other.attempt.candidate;
+    if (candidate.effect != found.effect.effect || candidate.at != found.effect.at)
+      pValues.push_back(other.attempt.scored ? other.attempt.comparison.pValue : 1);
+  }
+  return falseDiscoveryRates(pValues)[0];
+}
+
+}  // namespace
+
+void RivalFinder::add(const HandedOver& arrived, std::vector<TriedCandidate>& others) const {
+  const EffectCandidate& candidate = arrived.candidate;
+  const Scored& scored = arrived.scored;
+  auto known =
+      std::ranges::find(others, candidate.text(), [](const TriedCandidate& t) { return t.attempt.candidate.text(); });
+  if (known == others.end()) {
+    others.push_back({});
+    known = others.end() - 1;
+    known->attempt.candidate = candidate;
+  } else if (known->attempt.scored && known->scored.mean() <= scored.mean()) {
+    return;
+  }
+  known->attempt.fitted = known->attempt.scored = true;
+  known->attempt.comparison = compare(calibrated_.blocks, scored.blocks);
+  known->scored = scored;
+  known->fit = scored.fit;
+  known->attempt.values = scored.fit.model.simulator(service_.problem()).effects.back().parameters;
+}
+
+bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {
+  const SearchThresholds& limits = service_.thresholds();
+  const FitModel& model = selection.final.fit.model;
+  const PlacedEffect own = model.effects[i];
+  const std::string ownText = own.text();
+  const auto numbersOf = [](const TriedCandidate& other) {
+    return sizeOf(other.fit.model, other.fit.model.effects.size() - 1);
+  };
+  const TriedCandidate* chosen = nullptr;
+  for (const TriedCandidate& other : others) {
+    if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
+    if (chosen) {
+      // A simpler one that does as well as the better one.
+      if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored, limits.rivals))
+        chosen = &other;
+      continue;
+    }
+    const PairedTest lost = compare(other.scored.blocks, selection.final.blocks);
+    const bool clearlyBetter = lost.t <= -limits.confirmation.leastT && lost.gain < -limits.rivals.clearlyBetterGain;
+    // Where much is unexplained, few blocks tell little: equals leave about the same.
+    const bool equal = !isRefuted(other.scored, selection.final, limits.rivals) &&
+                       other.scored.mean() <= limits.rivals.equals * selection.final.mean();
+    if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
+  }
+  if (!chosen) return false;
+  const std::string text = chosen->attempt.candidate.text();
+  const bool simpler = numbersOf(*chosen) < sizeOf(model, i);
+  conclude(selection.attempts, ownText, false, text + (simpler ? " is simpler and does as well" : " does better"));
+  conclude(selection.attempts, text, true,
+           simpler ? "simpler than " + ownText + " and not worse" : "better than " + ownText);
+  selection.take(chosen->scored, ownText + " → " + text);
+  return true;
+}
+
+void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vector<TriedCandidate>& others,
+                              Found& found) const {
+  const PlacedEffect& own = found.effect;
+  const std::vector<std::string> names = service_.problem().library.make(own.effect)->togetherWith();
+  if (names.empty()) return;
+  FitModel model = final.fit.model.without(i);
+  for (const EffectCandidate& candidate : service_.candidatesBeside(model, names)) {
+    if (candidate.at != own.at) continue;
+    Values from;
+    for (const TriedCandidate& other : others)
+      if (other.attempt.fitted && other.attempt.candidate.text() == candidate.text()) from = other.attempt.values;
+    model = model.with(service_.problem(), candidate.placed(from));
+  }
+  if (model.effects.size() + 1 != final.fit.model.effects.size() + names.size()) return;
+  const std::vector<Fit> fits = completed(service_.tryFits(
+      {{model, final.fit.shifts}}, service_.thresholds().rivals.togetherIterations, "rivals", 0.95, 0.95));
+  const auto scored = service_.tryScores(fits, "rivals", 0.95, 0.95);
+  if (scored.empty() || !scored[0] || isWorse(compare(scored[0]->blocks, final.blocks), service_.thresholds().rivals))
+    return;
+  const double ratio = std::sqrt(scored[0]->mean() / std::max(1e-12, final.mean()));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    found.rivals.push_back({names[k], own.at, ratio, names[(k + 1) % names.size()]});
+    found.rivalFits.push_back(fits[0]);
+  }
+}
+
+void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
+  const SearchThresholds& limits = service_.thresholds();
+  confirmer_.settle(selection, false, "rivals", 0.95);
+  for (TriedCandidate& other : others) {
+    if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
+    if (excessOf(selection.final) >= limits.calibration.leastToFitOn ||
+        isDistinguished(other.scored, selection.final, limits.rivals))
+      other.scored =
+          service_.scoreAll(service_.refit({other.scored.fit}, limits.calibration.toTheEnd, "rivals", 0.95, 0.95),
+                            "rivals", 0.95, 0.95)[0];
+    service_.bringToStep(other.scored, "rivals", 0.95);
+    other.fit = other.scored.fit;
+  }
+}
+
+Found RivalFinder::foundAt(std::size_t i, const Offered& offered, Selection& selection) const {
+  const FitModel& model = selection.final.fit.model;
+  const PlacedEffect own = model.effects[i];
+  Found found{own, compare(offered.without.blocks, selection.final.blocks), 1, {}, {}, {}};
+  found.qValue = rateAmong(offered.others, found);
+  for (const TriedCandidate& other : offered.others) {
+    const EffectCandidate& candidate = other.attempt.candidate;
+    if (!other.attempt.scored || contains(model, candidate) || isRicher(service_.problem().library, candidate, own))
+      continue;
+    if (isDistinguished(other.scored, selection.final, service_.thresholds().rivals)) continue;
+    found.rivals.push_back(
+        {candidate.effect, candidate.at, std::sqrt(other.scored.mean() / std::max(1e-12, selection.final.mean()))});
+    found.rivalFits.push_back(other.fit);
+    for (Attempt& attempt : selection.attempts)
+      if (attempt.candidate.text() == candidate.text() && !attempt.scored)
+        attempt.reason = "explains it as well, found from " + own.text();
+  }
+  addTogether(i, selection.final, offered.others, found);
+  return found;
+}
+
+RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) {
+  const FitModel& model = final.fit.model;
+  if (model.effects.size() == 1) return {calibrated_, first_};
+  const Scored without =
+      service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
+  // What leaves many times what the effect leaves is not told from it by fitting it to the end.
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  Round round = candidates_.search({.without = without,
+                                    .models = {without.fit},
+                                    .toFit = limits.fittedAsRivals,
+                                    .stage = ", rivals",
+                                    .from = 0.88,
+                                    .to = 0.95,
+                                    .hopeless = limits.inReach * final.fit.cost});
+  return {std::move(round.without), std::move(round.tried)};
+}
+
+RivalFinder::Offered& RivalFinder::offeredTo(std::size_t i, const Scored& final) {
+  std::set<std::string> beside;
+  const auto& effects = final.fit.model.effects;
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    if (k != i) beside.insert(effects[k].text());
+  const auto [place, isNew] = known_.try_emplace(beside);
+  Offered& offered = place->second;
+  if (isNew) {
+    offered = inPlaceOf(i, final);
+    for (const HandedOver& arrived : handover_.handOver(i, final)) add(arrived, offered.others);
+  }
+  return offered;
+}
+
+RivalSearch RivalFinder::find(Selection selection) {
+  std::vector<Found> effects;
+  int replaced = 0;
+  known_.clear();
+  for (std::size_t left = selection.final.fit.model.effects.size(); left > 0;) {
+    Offered& offered = offeredTo(left - 1, selection.final);
+    compareAtOneStep(selection, offered.others);
+    if (replaced < service_.thresholds().rivals.replaced && replace(left - 1, offered.others, selection)) {
+      confirmer_.settle(selection, true, "rivals", 0.95);
+      ++replaced;
+      left = selection.final.fit.model.effects.size();
+      effects.clear();
+    } else {
+      --left;
+      effects.push_back(foundAt(left, offered, selection));
+    }
+  }
+  std::ranges::reverse(effects);
+  return {std::move(selection), std::move(effects)};
+}
+
+}  // namespace btr

@@ -1,0 +1,107 @@
+#include "core/gap/search/rivals/unidentifiable.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/linearise.h"
+#include "core/gap/fit/uncertainty.h"
+#include "core/gap/search/model_comparison.h"
+
+namespace btr {
+namespace {
+
+std::size_t placeIn(const FitModel& model, const FitParameter& p) {
+  const auto same = [&](const FitParameter& other) { return other.effect == p.effect && other.name == p.name; };
+  return static_cast<std::size_t>(std::ranges::find_if(model.parameters, same) - model.parameters.begin());
+}
+
+/// The model with the other's values of what that fits, and all else as given.
+FitModel valuesFrom(const FitModel& fitted, FitModel model) {
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const std::size_t place = placeIn(fitted, model.parameters[i]);
+    model.values[i] = place < fitted.values.size() ? fitted.values[place] : model.parameters[i].given;
+  }
+  return model;
+}
+
+/// Numbers of the scene that went elsewhere and are not identifiable, the least so first.
+std::vector<std::size_t> strayed(const FitModel& model, const Uncertainty& uncertainty) {
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    const double half = uncertainty.half95(i);
+    if (p.effect < 0 && !isIdentifiable(p, half) && model.values[i] != p.given)
+      found.emplace_back(-half / (p.maximum - p.minimum), i);
+  }
+  std::ranges::sort(found);
+  std::vector<std::size_t> numbers;
+  for (const auto& [order, i] : found) numbers.push_back(i);
+  return numbers;
+}
+
+/// The model with `number` as given and out of the fit, others moved as they would follow it by their sensitivities:
+/// `linear` is of the model `whole`, which has all of these parameters.
+FitModel asGiven(const FitModel& model, std::size_t number, const FitModel& whole, const Linearised& linear) {
+  FitModel kept = model;
+  const auto at = static_cast<std::ptrdiff_t>(number);
+  const FitParameter gone = model.parameters[number];
+  kept.parameters.erase(kept.parameters.begin() + at);
+  kept.values.erase(kept.values.begin() + at);
+  if (kept.parameters.empty()) return kept;
+
+  const auto columnOf = [&](const FitParameter& p) { return static_cast<Eigen::Index>(placeIn(whole, p)); };
+  std::vector<Eigen::Index> columns;
+  for (const FitParameter& p : kept.parameters) columns.push_back(columnOf(p));
+  const Eigen::MatrixXd others = linear.columns(Eigen::all, columns);
+  const Eigen::VectorXd moved = (gone.given - model.values[number]) / gone.scale * linear.columns.col(columnOf(gone));
+  const Eigen::VectorXd follow = others.completeOrthogonalDecomposition().solve(-moved);
+  for (std::size_t i = 0; i < kept.values.size(); ++i) {
+    const FitParameter& p = kept.parameters[i];
+    kept.values[i] = std::clamp(kept.values[i] + follow[static_cast<Eigen::Index>(i)] * p.scale, p.minimum, p.maximum);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Measurement measure(const FitService& service, const Fit& fit) {
+  Measurement measured;
+  measured.stepChange = service.stepChange(fit);
+  measured.linear = linearise(service.problem(), fit);
+  measured.uncertainty = uncertaintyOf(service.problem(), fit, measured.linear);
+  measured.uncertainty.unsettled = unsettled(service.problem(), fit, measured.linear, measured.stepChange);
+  return measured;
+}
+
+Scored BackAsGiven::of(const FitModel& model) const {
+  Scored widened = scored;
+  widened.fit.model = valuesFrom(fitted, model);
+  return widened;
+}
+
+std::optional<BackAsGiven> backAsGiven(const FitService& service, const Scored& final, const Measurement& measured) {
+  const std::string stage = "unidentifiable numbers";
+  constexpr double at = 0.95;
+  const SearchThresholds::Calibration& limits = service.thresholds().calibration;
+  const FitModel& whole = final.fit.model;
+  Scored least = final;
+  double allowed = least.fit.cost;
+  for (const std::size_t number : strayed(whole, measured.uncertainty)) {
+    const FitModel model =
+        asGiven(least.fit.model, placeIn(least.fit.model, whole.parameters[number]), whole, measured.linear);
+    const std::vector<Fit> fits =
+        completed(service.tryFits({{model, least.fit.shifts}}, limits.toTheEnd, stage, at, at));
+    const double more = limits.chiSquared95 / 2 * std::max(1.0, final.mean());
+    if (fits.empty() || !(fits[0].cost <= allowed + more)) continue;
+    const std::optional<Scored> scored = service.tryScores(fits, stage, at, at)[0];
+    if (!scored || isMissed(*scored, final, service.thresholds().confirmation)) continue;
+    least = *scored;
+    allowed += more;
+  }
+  if (least.fit.model.parameters.size() == whole.parameters.size()) return std::nullopt;
+  return BackAsGiven{least, least.fit.model};
+}
+
+}  // namespace btr

@@ -143,9 +143,8 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
   const auto take = [&](std::size_t i) {
     constexpr double third = 1.0 / 3;
     const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
-    pictures[i] = moments.size() == 1
-                      ? look(moments[i])
-                      : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side), i != middle);
+    pictures[i] = moments.size() == 1 ? look(moments[i])
+                                      : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side), i != middle);
   };
   take(middle);
   for (std::size_t i = 0; i < moments.size(); ++i)

@@ -42,8 +42,8 @@ osg::ref_ptr<osg::Geometry> toGeometry(const TriangleMesh& mesh, float gloss) {
 
 osg::ref_ptr<osg::Node> toLevels(const TriangleMesh& mesh, float gloss) {
   constexpr double errors_mm[] = {0.3, 0.6, 1.2, 2.5, 5.0};
-  constexpr double worth = 0.8;             // of the corners, else a level is left out
-  constexpr std::size_t few = 3 * 24;       // corners of a mesh that is cheap as it is
+  constexpr double worth = 0.8;        // of the corners, else a level is left out
+  constexpr std::size_t few = 3 * 24;  // corners of a mesh that is cheap as it is
   osg::ref_ptr<osg::LOD> levels = new osg::LOD;
   TriangleMesh finer = mesh;
   double from = 0;  // size of a pixel [m], times the tolerance

@@ -1,6 +1,7 @@
 #include "ui/scene3d/mesh_simplify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <queue>
 
@@ -82,10 +83,14 @@ class Simplifier {
 
  private:
   void weld() {
-    std::map<std::array<float, 3>, Point> points;
+    // Rounding separates what is drawn as one.
+    constexpr double same_m = 1e-6;
+    std::map<std::array<long, 3>, Point> points;
+    const auto cell = [](float coordinate) { return std::lround(double(coordinate) / same_m); };
     std::vector<Point> pointOf;
     for (const Eigen::Vector3f& position : mesh_.positions) {
-      const auto [place, isNew] = points.try_emplace({position.x(), position.y(), position.z()}, places_.size());
+      const auto [place, isNew] =
+          points.try_emplace({cell(position.x()), cell(position.y()), cell(position.z())}, places_.size());
       if (isNew) places_.emplace_back(position.cast<double>());
       pointOf.push_back(place->second);
     }
@@ -214,9 +219,8 @@ class Simplifier {
 
   /// Of those at a point the one whose normal looks most as the face does.
   unsigned vertexOf(Point point, const Vector3d& across) const {
-    return *std::ranges::max_element(vertices_[point], {}, [&](unsigned vertex) {
-      return mesh_.normals[vertex].cast<double>().dot(across);
-    });
+    return *std::ranges::max_element(vertices_[point], {},
+                                     [&](unsigned vertex) { return mesh_.normals[vertex].cast<double>().dot(across); });
   }
 
   const TriangleMesh& mesh_;

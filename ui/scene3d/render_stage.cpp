@@ -72,7 +72,8 @@ RenderStage::~RenderStage() {
   context_->release();
 }
 
-/// The graph: root → sky, and either `plain` or `shadowed` → `lit` → light, scene. Shadows of a measurement are those of a SunMap.
+/// The graph: root → sky, and either `plain` or `shadowed` → `lit` → light, scene. Shadows of a measurement are those
+/// of a SunMap.
 void RenderStage::build() {
   osg::ref_ptr<osg::Light> light = new osg::Light;
   light->setLightNum(0);

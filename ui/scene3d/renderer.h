@@ -18,7 +18,7 @@ namespace btr::ui {
 struct RenderOptions {
   bool shadows = true;
   bool sameShadows = false;  ///< of a measurement: they may stay as in the one before, of nearly the same moment
-  int supersampling = 2;  ///< 1 or 2: pixels rendered per pixel of the picture, along each axis
+  int supersampling = 2;     ///< 1 or 2: pixels rendered per pixel of the picture, along each axis
   QColor skyTop{214, 223, 232};
   QColor skyHorizon{240, 242, 244};
 };

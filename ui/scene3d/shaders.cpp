@@ -19,10 +19,10 @@ void main() {
 }
 )";
 
-// MEASURED gives plain carpets (their grain costs half of the time of a software driver, which computes both sides of an
-// if), linear light, and in alpha the number of the object (`identity`; 0: translucent, alpha is opacity).
-// opacity: of surfaces, 1; gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the
-// world's z axis at which a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
+// MEASURED gives plain carpets (their grain costs half of the time of a software driver, which computes both sides of
+// an if), linear light, and in alpha the number of the object (`identity`; 0: translucent, alpha is opacity). opacity:
+// of surfaces, 1; gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the world's
+// z axis at which a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
 const char* const kMainFragment = R"(#version 120
 uniform vec3 skyTop;
 uniform vec3 skyHorizon;

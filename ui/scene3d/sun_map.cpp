@@ -29,10 +29,10 @@ osg::ref_ptr<osg::Texture2D> depthTexture(int size) {
   return texture;
 }
 
-
 }  // namespace
 
-SunMap::SunMap(osg::Node& drawn, int size) : size_(size), toMap_(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "toSunMap")) {
+SunMap::SunMap(osg::Node& drawn, int size)
+    : size_(size), toMap_(new osg::Uniform(osg::Uniform::FLOAT_MAT4, "toSunMap")) {
   osg::ref_ptr<osg::Texture2D> depth = depthTexture(size);
   camera_->setReferenceFrame(osg::Camera::ABSOLUTE_RF);
   camera_->setRenderOrder(osg::Camera::PRE_RENDER);
@@ -51,7 +51,7 @@ SunMap::SunMap(osg::Node& drawn, int size) : size_(size), toMap_(new osg::Unifor
   osg::ref_ptr<osg::Group> receivers = new osg::Group;
   osg::StateSet& receiving = *receivers->getOrCreateStateSet();
   receiving.setAttribute(shaderProgram({shaders::kMainVertex, shaders::kSunMapVertex},
-                                           {measuring(shaders::kMainFragment), shaders::kSunMapFragment}));
+                                       {measuring(shaders::kMainFragment), shaders::kSunMapFragment}));
   receiving.setTextureAttribute(textureUnit, depth);
   receiving.addUniform(new osg::Uniform("sunMap", textureUnit));
   receiving.addUniform(new osg::Uniform("sunTexel", 1.f / float(size)));
@@ -65,10 +65,11 @@ void SunMap::aim(const Eigen::Vector3d& middle, double radius_m) {
   const Eigen::Vector3d eye = middle + away_m * sunDirection();
   camera_->setViewMatrixAsLookAt(osg::Vec3d(eye.x(), eye.y(), eye.z()), osg::Vec3d(middle.x(), middle.y(), middle.z()),
                                  osg::Vec3d(0, 0, 1));
-  // What casts from further towards the sun is not smaller than the ball.
+  // So far towards the sun things still cast, and so far behind the middle they still receive.
   camera_->setProjectionMatrixAsOrtho(-radius_m, radius_m, -radius_m, radius_m, away_m - 2 * radius_m,
                                       away_m + 2 * radius_m);
-  camera_->setLODScale(float(2 * radius_m / size_ / away_m));
+  constexpr double coarser = 2;  // than a view would need whose pixels are the texels: edges are soft
+  camera_->setLODScale(float(coarser * 2 * radius_m / size_ / away_m));
   camera_->setNodeMask(~0u);
   drawn_ = true;
 }

@@ -41,6 +41,15 @@ TEST(ReportLead, GivesEachEffectItsShareOfTheSquaredError) {
   EXPECT_TRUE(std::isnan(leadOf(without).findings.at(0).share));
 }
 
+// A step's share of the fall and what all steps take together are different things, and are not said in the same words.
+TEST(ReportLead, TellsAStepFromAllOfThem) {
+  GapReport report = sampleReport();
+  report.explainedShare = 0.999;
+  const ReportLead lead = leadOf(report);
+  EXPECT_THAT(shareInWords(lead.findings.at(0)), HasSubstr("of the whole fall came with this step"));
+  EXPECT_THAT(lead.explained, HasSubstr("together take more than 99 % of the squared error that the simulator had"));
+}
+
 TEST(ReportLead, GivesErrorsInTheChannelsUnitOfRecordingsThatNoFitSaw) {
   const ReportLead lead = leadOf(sampleReport());
   EXPECT_TRUE(lead.heldOut);

@@ -227,6 +227,15 @@ TEST(Verdict, WhatMovesButFeelsNoNumberAndNoEffectTellsNothing) {
   EXPECT_EQ(judged(1.1, 1.1, 1.1, false, false, recorded(), found).verdict, Verdict::noMismatch);
 }
 
+// What calibration took is not said to be explained by the effect alone.
+TEST(Verdict, SaysThatOtherNumbersTookTheirPart) {
+  GapReport calibrated;
+  calibrated.calibrated.resize(1);
+  EXPECT_THAT(judged(15000, 1900, 1, true, false, recorded(), {}, calibrated).sentence,
+              HasSubstr("What was left out and other numbers explain more than 99 % of the squared error"));
+  EXPECT_THAT(judged(15000, 1900, 1, true).sentence, HasSubstr("What was left out explains more than 99 %"));
+}
+
 TEST(Verdict, FiveNoiseFloorsAreTooMuchWhateverTheirShare) {
   // 99.97 % of 1e12 are explained, 17 000 noise floors are left.
   const GapReport huge = judged(1e12, 1e12, 3e8, true);

@@ -55,6 +55,29 @@ class TestExperimentTree : public QObject {
     QCOMPARE(model.index(1, 2, first).data().toString(), QString("L3"));
   }
 
+  // A narrow pane: the badge leaves the run's name its place and stands below, beside the detail.
+  void theBadgeNeverHidesTheName() {
+    StoredRun stored;
+    const Id run = stored.addWaitingRun(stored.addExperiment("Kick"), 7, "stand_in");
+    ExperimentTree tree;
+    fill(tree, stored);
+    const QModelIndex shown = tree.view()->model()->index(0, 0, tree.view()->model()->index(0, 0));
+    QStyleOptionViewItem option;
+    option.font = tree.font();
+    option.decorationSize = {18, 18};
+    const int name = QFontMetrics(option.font).horizontalAdvance(shown.data().toString());
+    const int badge = QFontMetrics(option.font).horizontalAdvance("stand-in");
+    for (const int width : {name + 36, name + 40 + badge / 2, name + 2 * badge + 60}) {
+      option.rect = QRect(10, 20, width, 40);
+      const auto places = BadgeDelegate::placesOf(option, shown);
+      QCOMPARE(places.text, QString("Run %1 · seed 7").arg(run));
+      QVERIFY(option.rect.contains(places.badgeAt));
+      QRect text = places.textAt, detail = places.detailAt;
+      text.setWidth(name);
+      QVERIFY(!text.intersects(places.badgeAt) && !detail.intersects(places.badgeAt));
+    }
+  }
+
   void showsARigsVersionsBelowItself() {
     StoredRun stored;
     const Id run = stored.addRun(stored.addExperiment("Kick"));

@@ -496,6 +496,24 @@ class TestGapPage : public QObject {
     QVERIFY(!ghostTrial(report, 1, scene, {}));
   }
 
+  // Half of a range is none: a form too narrow for all columns is scrolled.
+  void whatAColumnGivesIsNeverCut() {
+    QTemporaryDir folder;
+    const QString csv = file(folder, "swing.csv", "t_ms,q\n0,-1.17525\n10,2.17525\n");
+    file(folder, "swing.mapping.json",
+         R"({"time_s": {"column": "t_ms", "scale": 0.001}, "leg.shoulder.position_rad": {"column": "q"}})");
+    MappingForm form;
+    form.open(csv);
+    for (const int width : {300, 640, 1400}) {
+      form.resize(width, 300);
+      form.setVisible(true);
+      QVERIFY(QTest::qWaitForWindowExposed(&form));
+      const QTableWidget& table = form.table();
+      const int text = table.fontMetrics().horizontalAdvance(table.item(1, MappingForm::range)->text());
+      QVERIFY2(table.columnWidth(MappingForm::range) > text, qPrintable(QString::number(width)));
+    }
+  }
+
   void aMappingSurvivesBeingReadAndWritten() {
     QTemporaryDir folder;
     const QString csv = file(folder, "swing.csv", "t_ms,q,extra\n0,10,1\n10,20,1\n");

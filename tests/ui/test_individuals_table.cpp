@@ -13,6 +13,7 @@
 
 #include "core/gap/report/report_plain.h"
 #include "core/spec/error.h"
+#include "ui/common/short_label.h"
 #include "ui/database/individual_details.h"
 #include "ui/database/individuals_table.h"
 
@@ -349,9 +350,22 @@ class TestIndividualsTable : public QObject {
                }));
     QVERIFY(loaded.wait(20000));
     QCOMPARE(table.model().rowCount(), 1);
-    bool said = false;
-    for (auto* label : table.findChildren<QLabel*>()) said |= label->text() == "kick.db: the file is damaged";
-    QVERIFY(said);
+    QCOMPARE(table.findChild<ShortLabel*>("individualsCount")->whole(), QString("kick.db: the file is damaged"));
+  }
+
+  // A narrow window leaves no room for the words: then the number stands alone, and the words are its tool tip.
+  void theCountIsNeverCut() {
+    IndividualsTable table;
+    table.model().append(example());
+    const auto* count = table.findChild<ShortLabel*>("individualsCount");
+    for (const int width : {690, 1200}) {
+      table.resize(width, 300);
+      table.show();
+      QVERIFY(QTest::qWaitForWindowExposed(&table));
+      QVERIFY2(count->width() >= count->fontMetrics().horizontalAdvance(count->text()), qPrintable(count->text()));
+      QVERIFY(count->text().contains(QString::number(table.model().rowCount())));
+      QVERIFY((count->text() + count->toolTip()).contains(tr("%1 individuals").arg(table.model().rowCount())));
+    }
   }
 };
 

@@ -1,6 +1,7 @@
 // The window on the screen: it never grows by itself, fits small screens, and its keys reach what can be seen only.
 #include <QAction>
 #include <QDockWidget>
+#include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
@@ -122,6 +123,46 @@ class TestWindowLayout : public QObject {
     const QList<int> wanted = widthsOf(plain), found = widthsOf(paged);
     for (int i = 0; i < wanted.size(); ++i)
       QVERIFY2(qAbs(wanted[i] - found[i]) <= 8, qPrintable(QString("%1, %2").arg(wanted[i]).arg(found[i])));
+  }
+
+  // A run says more than "No run is selected": its figures are in sight without a scroll bar as soon as it is read.
+  void theFirstLayoutHasRoomForARun_data() {
+    QTest::addColumn<bool>("startPage");
+    QTest::newRow("run chosen at once") << false;
+    QTest::newRow("after the start page") << true;
+  }
+  void theFirstLayoutHasRoomForARun() {
+    QFETCH(bool, startPage);
+    Desk desk;
+    MainWindow window(desk.host, desk.theme, desk.options);
+    window.resize(1264, 676);
+    window.show();
+    Desk::settle();
+    if (startPage) window.showPage("start");
+    window.openDatabase(desk.stored.qpath());
+    window.bench().reader().waitUntilIdle();
+    Desk::settle();
+    window.showPage({});
+    Desk::settle();
+    for (const char* name : {"best", "mean", "trials"}) {
+      const auto* figure = window.findChild<QLabel*>(name);
+      QVERIFY2(figure->isVisible() && figure->visibleRegion().boundingRect() == figure->rect(), name);
+    }
+  }
+
+  // Who wants the run's text low keeps it so.
+  void whatTheUserMadeLowerStaysLow() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    Desk::settle();
+    auto* run = window->findChild<QDockWidget*>("dock.run");
+    window->resizeDocks({run}, {90}, Qt::Vertical);
+    Desk::settle();
+    const int low = run->height();
+    window->findChild<QLabel*>("next")->updateGeometry();
+    Desk::settle();
+    QCOMPARE(run->height(), low);
   }
 
   void aGrownWindowIsPutBackByResetLayout() {

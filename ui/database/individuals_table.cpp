@@ -18,6 +18,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "ui/common/short_label.h"
 #include "ui/common/theme.h"
 #include "ui/database/individual_details.h"
 
@@ -121,8 +122,8 @@ QWidget* IndividualsTable::makeFilterBar() {
     filter_.setWords(text);
     showCount();
   });
-  count_ = new QLabel(bar);
-  count_->setMinimumWidth(1);  // the first to give way in a narrow window
+  count_ = new ShortLabel(bar);
+  count_->setObjectName("individualsCount");
   auto* save = new QToolButton(bar);
   save->setIcon(themeIcon("document-export"));
   save->setText(tr("CSV…"));
@@ -244,12 +245,17 @@ void IndividualsTable::showSelected() {
 }
 
 void IndividualsTable::showCount() {
-  QString text = filter_.rowCount() == model_.rowCount()
-                     ? tr("%1 individuals").arg(model_.rowCount())
-                     : tr("%1 of %2 individuals").arg(filter_.rowCount()).arg(model_.rowCount());
-  if (reading_) text += tr(", reading…");
-  if (!trouble_.isEmpty()) text = trouble_;
-  count_->setText(text);
+  const int shown = filter_.rowCount(), all = model_.rowCount();
+  QString brief = QString::number(shown);
+  QString whole = shown == all ? tr("%1 individuals").arg(all) : tr("%1 of %2 individuals").arg(shown).arg(all);
+  if (reading_) {
+    whole += tr(", reading…");
+    brief += QStringLiteral("…");
+  }
+  if (!trouble_.isEmpty())
+    count_->setTexts(trouble_, tr("Not read"));
+  else
+    count_->setTexts(whole, brief);
 }
 
 QString IndividualsTable::csv() const {

@@ -5,7 +5,6 @@
 #include "ui/database/individuals_filter.h"
 
 class QCheckBox;
-class QLabel;
 class QLineEdit;
 class QSpinBox;
 class QTableView;
@@ -13,6 +12,7 @@ class QTableView;
 namespace btr::ui {
 
 class IndividualDetails;
+class ShortLabel;
 
 /// The page with the individuals of a run: sortable, filterable, with everything about the selected one beside it.
 /// It takes values; a run comes page by page from a function that answers later, so that the window goes on meanwhile.
@@ -83,7 +83,7 @@ class IndividualsTable : public QWidget {
   IndividualsFilter filter_;
   QTableView* view_;
   IndividualDetails* details_;
-  QLabel* count_;
+  ShortLabel* count_;
   QSpinBox *from_, *to_;
   QCheckBox *measured_, *distinct_;
   QLineEdit* words_;

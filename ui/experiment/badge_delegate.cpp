@@ -8,7 +8,7 @@
 namespace btr::ui {
 namespace {
 
-constexpr int gap = 6;
+constexpr int gap = 6, margin = 3;
 
 QFont smaller(const QFont& font) {
   QFont small = font;
@@ -16,12 +16,40 @@ QFont smaller(const QFont& font) {
   return small;
 }
 
+int badgeWidthOf(const QString& badge, const QFontMetrics& metrics) { return metrics.horizontalAdvance(badge) + 12; }
+
 }  // namespace
+
+BadgeDelegate::Places BadgeDelegate::placesOf(const QStyleOptionViewItem& option, const QModelIndex& index) {
+  const QString text = index.data().toString(), badge = index.data(BadgeRole).toString(),
+                detail = index.data(DetailRole).toString();
+  const QFontMetrics metrics(option.font), smallMetrics(smaller(option.font));
+  const int left = option.rect.left() + margin + option.decorationSize.width() + gap;
+  const int room = qMax(0, option.rect.right() - margin + 1 - left);
+  const int lines = metrics.height() + (detail.isEmpty() ? 0 : smallMetrics.height());
+  const QRect first(left, option.rect.center().y() - lines / 2, room, metrics.height());
+  QRect second(left, first.bottom() + 1, room, smallMetrics.height());
+
+  const int badgeWidth = badge.isEmpty() ? 0 : badgeWidthOf(badge, smallMetrics), beside = badgeWidth + gap;
+  const bool isBelow = badgeWidth > 0 && !detail.isEmpty() && metrics.horizontalAdvance(text) > room - beside;
+  Places places;
+  places.text = metrics.elidedText(text, Qt::ElideRight, badgeWidth > 0 && !isBelow ? qMax(0, room - beside) : room);
+  places.textAt = first;
+  if (badgeWidth > 0)
+    places.badgeAt = isBelow ? QRect(left, second.top(), badgeWidth, smallMetrics.height())
+                             : QRect(left + metrics.horizontalAdvance(places.text) + gap,
+                                     first.top() + (metrics.height() - smallMetrics.height()) / 2, badgeWidth,
+                                     smallMetrics.height());
+  if (isBelow) second.setLeft(qMin(second.left() + beside, second.right() + 1));
+  places.detail = smallMetrics.elidedText(detail, Qt::ElideRight, second.width());
+  places.detailAt = second;
+  return places;
+}
 
 void BadgeDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const {
   QStyleOptionViewItem item = option;
   initStyleOption(&item, index);
-  const QString text = item.text;
+  const Places places = placesOf(item, index);
   const QIcon icon = item.icon;
   item.text.clear();
   item.icon = {};
@@ -31,48 +59,33 @@ void BadgeDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
   painter->save();
   const bool selected = option.state.testFlag(QStyle::State_Selected);
   const QColor pen = option.palette.color(selected ? QPalette::HighlightedText : QPalette::Text);
-  const QString badge = index.data(BadgeRole).toString(), detail = index.data(DetailRole).toString();
-  const QFont font = item.font, small = smaller(font);
-  const QFontMetrics metrics(font), smallMetrics(small);
-  QRect rect = option.rect.adjusted(3, 0, -3, 0);
   const int iconSize = option.decorationSize.width();
-  if (!icon.isNull()) icon.paint(painter, QRect(rect.left(), rect.center().y() - iconSize / 2, iconSize, iconSize));
-  rect.setLeft(rect.left() + iconSize + gap);
-
-  // First line: the text keeps what the badge leaves.
-  const int badgeWidth = badge.isEmpty() ? 0 : smallMetrics.horizontalAdvance(badge) + 12;
-  const int lines = metrics.height() + (detail.isEmpty() ? 0 : smallMetrics.height());
-  const int top = rect.center().y() - lines / 2;
-  const QString shown =
-      metrics.elidedText(text, Qt::ElideRight, qMax(0, rect.width() - badgeWidth - (badgeWidth ? gap : 0)));
-  painter->setFont(font);
+  if (!icon.isNull())
+    icon.paint(painter,
+               QRect(option.rect.left() + margin, option.rect.center().y() - iconSize / 2, iconSize, iconSize));
+  painter->setFont(item.font);
   painter->setPen(pen);
-  painter->drawText(QRect(rect.left(), top, rect.width(), metrics.height()), Qt::AlignLeft | Qt::AlignVCenter, shown);
-  painter->setFont(small);
-  if (!badge.isEmpty()) {
+  painter->drawText(places.textAt, Qt::AlignLeft | Qt::AlignVCenter, places.text);
+  painter->setFont(smaller(item.font));
+  if (!places.badgeAt.isEmpty()) {
     const QColor tone = selected ? pen : tonesOf(option.palette).standIn;
-    const QRectF pill(rect.left() + metrics.horizontalAdvance(shown) + gap + 0.5,
-                      top + (metrics.height() - smallMetrics.height()) / 2 + 0.5, badgeWidth - 1,
-                      smallMetrics.height() - 1);
+    const QRectF pill = QRectF(places.badgeAt).adjusted(0.5, 0.5, -0.5, -0.5);
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(tone);
     painter->setBrush(Qt::NoBrush);
     painter->drawRoundedRect(pill, pill.height() / 2, pill.height() / 2);
-    painter->drawText(pill, Qt::AlignCenter, badge);
+    painter->drawText(pill, Qt::AlignCenter, index.data(BadgeRole).toString());
   }
-  if (!detail.isEmpty()) {
-    painter->setPen(selected ? pen : tonesOf(option.palette).muted);
-    painter->drawText(QRect(rect.left(), top + metrics.height(), rect.width(), smallMetrics.height()),
-                      Qt::AlignLeft | Qt::AlignVCenter, smallMetrics.elidedText(detail, Qt::ElideRight, rect.width()));
-  }
+  painter->setPen(selected ? pen : tonesOf(option.palette).muted);
+  painter->drawText(places.detailAt, Qt::AlignLeft | Qt::AlignVCenter, places.detail);
   painter->restore();
 }
 
 QSize BadgeDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
   const QFontMetrics metrics(option.font), smallMetrics(smaller(option.font));
   const QString badge = index.data(BadgeRole).toString(), detail = index.data(DetailRole).toString();
-  int width = metrics.horizontalAdvance(index.data().toString()) + option.decorationSize.width() + 2 * gap + 6;
-  if (!badge.isEmpty()) width += smallMetrics.horizontalAdvance(badge) + 12 + gap;
+  int width = metrics.horizontalAdvance(index.data().toString()) + option.decorationSize.width() + 2 * gap + 2 * margin;
+  if (!badge.isEmpty()) width += badgeWidthOf(badge, smallMetrics) + gap;
   return {width, metrics.height() + 8 + (detail.isEmpty() ? 0 : smallMetrics.height())};
 }
 

@@ -114,7 +114,8 @@ MappingForm::MappingForm(QWidget* parent)
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 10);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setStretchLastSection(true);
+  // No stretched last column: it would be what the others leave, and in a narrow window half of a range is none.
+  table_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table_->setSelectionBehavior(QAbstractItemView::SelectItems);
   table_->setAlternatingRowColors(true);
   table_->setTabKeyNavigation(true);

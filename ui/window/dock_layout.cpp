@@ -1,8 +1,10 @@
 #include "ui/window/dock_layout.h"
 
 #include <QDockWidget>
+#include <QEvent>
 #include <QLayout>
 #include <QMainWindow>
+#include <limits>
 #include <utility>
 
 #include "ui/common/settings.h"
@@ -24,6 +26,7 @@ QDockWidget* DockLayout::add(const QString& name, const QString& title, const QS
   auto* dock = new QDockWidget(title, &window_);
   dock->setObjectName("dock." + name);
   dock->setWidget(new ScrollPage(content, dock));
+  if (name == "run") content->installEventFilter(this);
   dock->setWindowIcon(themeIcon(icon));
   dock->toggleViewAction()->setIcon(themeIcon(icon));
   return dock;
@@ -103,10 +106,7 @@ void DockLayout::size() {
   const int left = isCompact() ? width * 16 / 100 : width * 19 / 100;
   const int right = isCompact() ? width * 27 / 100 : width * 29 / 100, middle = width - left - right;
   window_.resizeDocks({dock("tree"), dock("run"), dock("spec")}, {left, middle, right}, Qt::Horizontal);
-  // As high as the run's text needs at that width, and the title of the dock.
-  const auto* page = qobject_cast<const ScrollPage*>(dock("run")->widget());
-  const int top = page->widget()->layout()->minimumHeightForWidth(middle) + window_.fontMetrics().height() * 2,
-            rest = height - top - 90;
+  const int top = runHeight_ = runHeight(middle), rest = height - top - 90;
   if (isCompact()) {
     window_.resizeDocks({dock("run"), dock("fitness")}, {top, rest}, Qt::Vertical);
     return;
@@ -116,6 +116,29 @@ void DockLayout::size() {
   window_.resizeDocks({dock("spec"), dock("replay")}, {(top + rest) * 50 / 100, (top + rest) * 50 / 100}, Qt::Vertical);
   // Sizes as they shall be: what both ask for together is what the middle gets.
   window_.resizeDocks({dock("fitness"), dock("gap")}, {middle * 54 / 100, middle * 46 / 100}, Qt::Horizontal);
+}
+
+/// As high as the run's text needs at that width, and the title of the dock.
+int DockLayout::runHeight(int width) const {
+  const auto* page = qobject_cast<const ScrollPage*>(dock("run")->widget());
+  return page->widget()->layout()->minimumHeightForWidth(width) + window_.fontMetrics().height() * 2;
+}
+
+// The first layout is made before a run has been read, and some runs have more to say than others. What the user made
+// lower stays so until there is more to say than ever before.
+bool DockLayout::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::LayoutRequest)
+    QMetaObject::invokeMethod(this, &DockLayout::growRun, Qt::QueuedConnection);
+  return QObject::eventFilter(watched, event);
+}
+
+void DockLayout::growRun() {
+  QDockWidget* run = dock("run");
+  if (!page_.isEmpty() || !sized_ || !run->isVisible() || run->isFloating()) return;
+  const int wanted = runHeight(run->width());
+  if (wanted <= runHeight_) return;
+  runHeight_ = wanted;
+  if (run->height() < wanted) window_.resizeDocks({run}, {wanted}, Qt::Vertical);
 }
 
 // The runs' docks get their sizes when they are seen: behind a page they have none.
@@ -151,6 +174,7 @@ void DockLayout::showPage(const QString& name) {
     for (QDockWidget* other : all())
       if (isPage(other)) other->hide();
     if (!sized_) size();
+    QMetaObject::invokeMethod(this, &DockLayout::growRun, Qt::QueuedConnection);
     emit pageChanged(name);
     return;
   }
@@ -184,6 +208,7 @@ QByteArray DockLayout::state() const {
 
 bool DockLayout::restore(const QByteArray& state) {
   sized_ = window_.restoreState(state, Settings::layoutVersion);
+  if (sized_) runHeight_ = std::numeric_limits<int>::max();  // as it was left
   for (QDockWidget* other : all())
     if (isPage(other)) other->hide();
   return sized_;

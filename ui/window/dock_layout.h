@@ -39,12 +39,17 @@ class DockLayout : public QObject {
  signals:
   void pageChanged(const QString& name);
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   QList<QDockWidget*> all() const;
   void place();
   void placeCompact();
   void size();
   void sizePage();
+  int runHeight(int width) const;
+  void growRun();
   QStringList shownWith(const QString& page) const;
   bool isCompact() const;
 
@@ -53,6 +58,7 @@ class DockLayout : public QObject {
   QString page_;
   QByteArray before_;   ///< the runs' docks while a page has the window
   bool sized_ = false;  ///< the docks have got their sizes
+  int runHeight_ = 0;   ///< the most that the run's text has asked for since then
 };
 
 }  // namespace btr::ui

@@ -138,9 +138,10 @@ std::string explainedText(const GapReport& report) {
   const double share = report.explainedShare;
   if (!std::isfinite(share) || share <= 0) return "";
   return std::string(std::ranges::any_of(report.tried, &GapReport::Effect::accepted)
-                         ? "Calibration and what was named take "
+                         ? "Calibration and what was named together take "
                          : "Calibration takes ") +
-         (share > 0.995 ? "more than 99 %" : wholePercent(share)) + " of the squared error.";
+         (share > 0.995 ? "more than 99 %" : wholePercent(share)) +
+         " of the squared error that the simulator had as given (all channels, cross-validated).";
 }
 
 std::string restText(const GapReport& report) {
@@ -236,7 +237,8 @@ ReportLead leadOf(const GapReport& report) {
 
 std::string shareInWords(const ReportLead::Finding& finding) {
   if (!std::isfinite(finding.share)) return "";
-  return "Of all squared error that calibration and effects took away, " + wholePercent(finding.share) + " fell to it.";
+  return "The squared error fell in steps, calibration first, then one effect after another: " +
+         wholePercent(finding.share) + " of the whole fall came with this step.";
 }
 
 std::string leadHtml(const GapReport& report, const ReportLead& lead) {

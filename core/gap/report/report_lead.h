@@ -45,7 +45,8 @@ ReportLead leadOf(const GapReport& report);
 
 /// Findings, errors and what to do as HTML without a style of its own, for a page and for Qt's rich text.
 std::string leadHtml(const GapReport& report, const ReportLead& lead);
-/// Its part of what all steps together took, as a sentence; "" where that is not known.
+/// Its part of what all steps together took, as a sentence; "" where that is not known. A small one is no doubt about
+/// the effect: calibration, which comes first, bends its numbers to take up what has no name yet.
 std::string shareInWords(const ReportLead::Finding& finding);
 
 }  // namespace btr

@@ -246,6 +246,12 @@ std::string ofGivenText(const GapReport& report) {
   return shareText(report.explainedShare) + " of the squared error of the simulator as given";
 }
 
+/// Other numbers took their part of it, too.
+std::string leftOutText(const GapReport& report) {
+  return (report.calibrated.empty() ? "What was left out explains " : "What was left out and other numbers explain ") +
+         ofGivenText(report);
+}
+
 struct Named {
   std::string list, rivals;
 };
@@ -269,18 +275,17 @@ std::string lawText(const GapReport& report) {
 void judgeNamed(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {
   report.verdict = Verdict::missingPhysics;
   const Named named = namedIn(report);
-  report.sentence = "What was left out explains " + ofGivenText(report) + ": " + named.list + ". " +
-                    caveatText(report, e, limits) + whereText(report) + errorText(e) + named.rivals +
-                    movedByRivalsText(report);
+  report.sentence = leftOutText(report) + ": " + named.list + ". " + caveatText(report, e, limits) + whereText(report) +
+                    errorText(e) + named.rivals + movedByRivalsText(report);
 }
 
 /// What is named stays when a learned law takes up the rest, or takes most where nothing was learned.
 void judgePartly(GapReport& report, const Findings& e) {
   report.verdict = Verdict::partlyExplained;
   const Named named = namedIn(report);
-  report.sentence = "What was left out explains " + ofGivenText(report) + ": " + named.list + ". Beside it " +
-                    inFloors(e.final) + " are left that have no name here. " + lawText(report) + whereText(report) +
-                    errorText(e) + named.rivals + movedByRivalsText(report);
+  report.sentence = leftOutText(report) + ": " + named.list + ". Beside it " + inFloors(e.final) +
+                    " are left that have no name here. " + lawText(report) + whereText(report) + errorText(e) +
+                    named.rivals + movedByRivalsText(report);
 }
 
 void judgeUnexplained(GapReport& report, const Findings& e, const SearchThresholds::Verdict& limits) {

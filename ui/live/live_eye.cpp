@@ -112,10 +112,10 @@ void LiveEye::catchUp() {
   while (isComplete(next_ + 1)) ++next_;
 }
 
-PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows) {
+void LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows,
+                   PinholePicture& picture) {
   const ScenePose pose = scene_.pose(row);
   builder_.setPose(pose);
-  PinholePicture picture;
   RenderOptions options = builder_.renderOptions();
   options.sameShadows = sameShadows;
   Pinhole pinhole = pipeline_.pinhole();
@@ -128,7 +128,6 @@ PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> 
     throw InputError("camera", "OpenGL: " + renderer_.problem().toStdString(),
                      "a machine with OpenGL; Mesa's software driver will do (libegl-mesa0, libgl1-mesa-dri)");
   picture.pinhole = pipeline_.pinhole();
-  return picture;
 }
 
 EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector<LiveRow>& moments,
@@ -136,20 +135,21 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
   EyeFrame frame;
   frame.number = number;
   frame.time_s = time_s;
-  std::vector<PinholePicture> pictures(moments.size());
+  pictures_.resize(moments.size());
   // The shutter averages over moments: each takes one sample a pixel, at another place in it. The middle one, which the
   // truth is read from, takes it in the middle; it is drawn first, and its shadows are those of all.
   const std::size_t middle = moments.size() / 2;
   const auto take = [&](std::size_t i) {
     constexpr double third = 1.0 / 3;
     const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
-    pictures[i] = moments.size() == 1 ? look(moments[i])
-                                      : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side), i != middle);
+    const auto aside =
+        moments.size() == 1 ? std::nullopt : std::optional<Eigen::Vector2d>({i < middle ? side : -side, side});
+    look(moments[i], aside, i != middle, pictures_[i]);
   };
   take(middle);
   for (std::size_t i = 0; i < moments.size(); ++i)
     if (i != middle) take(i);
-  frame.picture = pipeline_.process(pictures, number);
+  frame.picture = pipeline_.process(pictures_, number);
   for (const int joint : joints_) frame.joints.push_back(now.values.at(static_cast<std::size_t>(joint)));
   return frame;
 }

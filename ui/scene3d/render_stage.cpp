@@ -17,9 +17,13 @@ namespace {
 /// Of a picture for people, where the map is finer near the eye, and of a measurement.
 constexpr int kShadowMapSize = 2048, kSunMapSize = 1024;
 
+/// After the grounds of SceneBuilder, before what is translucent.
+constexpr int kSkyBin = 5;
+
 osg::ref_ptr<osg::Shader> shader(osg::Shader::Type type, const char* text) { return new osg::Shader(type, text); }
 
-/// A quad over the whole picture, drawn first; it has no extent that would move clipping planes or shadows.
+/// A quad behind the whole picture, drawn where nothing solid is; it has no extent that would move clipping planes or
+/// shadows.
 osg::ref_ptr<osg::Geometry> makeSky(const std::string& fragment) {
   struct NoBound final : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
@@ -36,8 +40,8 @@ osg::ref_ptr<osg::Geometry> makeSky(const std::string& fragment) {
   sky->setUseVertexBufferObjects(true);
   osg::StateSet& state = *sky->getOrCreateStateSet();
   state.setAttribute(shaderProgram({shaders::kSkyVertex}, {fragment}));
-  state.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
-  state.setRenderBinDetails(-10, "RenderBin");
+  state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  state.setRenderBinDetails(kSkyBin, "RenderBin");
   return sky;
 }
 

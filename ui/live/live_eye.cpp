@@ -41,6 +41,7 @@ LiveEye::LiveEye(const Game& game, const ModelSet& models, const std::vector<std
       link_(linkOf(*scene_.models()[robot_], camera)),
       pipeline_(std::move(camera)),
       moments_s_(pipeline_.moments_s()),
+      seen_(pipeline_.rows()),
       mount_(poseOf(pipeline_.spec().mount)),
       renderer_(std::move(factory)) {
   builder_.setGround(game.scene.floor ? Ground::plain : Ground::none);
@@ -70,6 +71,7 @@ void LiveEye::setCamera(CameraSpec camera) {
   link_ = link;
   pipeline_ = std::move(pipeline);
   moments_s_ = pipeline_.moments_s();
+  seen_ = pipeline_.rows();
   mount_ = poseOf(pipeline_.spec().mount);
   builder_.hideLink(std::pair{robot_, link_});
   if (rows_.empty()) return;
@@ -112,19 +114,20 @@ void LiveEye::catchUp() {
   while (isComplete(next_ + 1)) ++next_;
 }
 
-void LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows,
-                   PinholePicture& picture) {
+void LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, std::size_t moment) {
   const ScenePose pose = scene_.pose(row);
   builder_.setPose(pose);
+  PinholePicture& picture = pictures_[moment];
   RenderOptions options = builder_.renderOptions();
-  options.sameShadows = sameShadows;
+  options.sameShadows = moment != moments_s_.size() / 2;
   Pinhole pinhole = pipeline_.pinhole();
   if (aside) {
     options.supersampling = 1;
     pinhole.centreX_px -= aside->x();
     pinhole.centreY_px -= aside->y();
   }
-  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pinhole, options, picture))
+  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pinhole, options, picture,
+                      seen_[moment]))
     throw InputError("camera", "OpenGL: " + renderer_.problem().toStdString(),
                      "a machine with OpenGL; Mesa's software driver will do (libegl-mesa0, libgl1-mesa-dri)");
   picture.pinhole = pipeline_.pinhole();
@@ -144,7 +147,7 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
     const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
     const auto aside =
         moments.size() == 1 ? std::nullopt : std::optional<Eigen::Vector2d>({i < middle ? side : -side, side});
-    look(moments[i], aside, i != middle, pictures_[i]);
+    look(moments[i], aside, i);
   };
   take(middle);
   for (std::size_t i = 0; i < moments.size(); ++i)

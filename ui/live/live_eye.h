@@ -47,8 +47,8 @@ class LiveEye {
   bool isComplete(std::uint64_t number) const;
   LiveRow rowAt(double time_s) const;
   /// The world as the pinhole of the camera sees it in a row; `aside` is where in its pixels samples lie, from their
-  /// middle [pixels]: none takes four a pixel. With `sameShadows` those of the look before stay.
-  void look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows, PinholePicture& picture);
+  /// middle [pixels]: none takes four a pixel. The middle moment is the first; its shadows are those of all.
+  void look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, std::size_t moment);
   EyeFrame frameOf(std::uint64_t number, double time_s, const std::vector<LiveRow>& moments, const LiveRow& now);
 
   LiveScene scene_;
@@ -56,6 +56,7 @@ class LiveEye {
   std::size_t link_ = 0;  ///< on which the camera sits
   CameraPipeline pipeline_;
   std::vector<double> moments_s_;
+  std::vector<PictureRows> seen_;  ///< of each moment's picture
   Eigen::Isometry3d mount_;
   EyeRenderer renderer_;
   SceneBuilder builder_;

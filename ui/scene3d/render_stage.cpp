@@ -109,6 +109,7 @@ void RenderStage::build() {
     *uniform = new osg::Uniform(name, osg::Vec3());
     state.addUniform(*uniform);
   }
+  if (measured) state.setAttributeAndModes(rows_);
   viewport_ = new osg::Uniform("viewport", osg::Vec2());
   state.addUniform(viewport_);
   state.addUniform(new osg::Uniform("shadowTexel", 1.f / float(kShadowMapSize)));
@@ -206,6 +207,8 @@ bool RenderStage::draw(osg::Node& scene, const RenderView& view, QSize pixels, c
   skyTop_->set(rgb(options.skyTop));
   skyHorizon_->set(rgb(options.skyHorizon));
   resize(pixels);
+  const PictureRows rows = view.rows.value_or(PictureRows{0, pixels.height() - 1});
+  rows_->setScissor(0, rows.first, pixels.width(), rows.last + 1 - rows.first);
   osg::Camera& camera = *viewer_->getCamera();
   camera.setViewMatrix(osg::Matrixd(view.view.data()));
   camera.setProjectionMatrixAsFrustum(view.left, view.right, view.bottom, view.top, view.near_m, view.far_m);

@@ -45,6 +45,7 @@ LiveEye::LiveEye(const Game& game, const ModelSet& models, const std::vector<std
       renderer_(std::move(factory)) {
   builder_.setGround(game.scene.floor ? Ground::plain : Ground::none);
   builder_.setCarpet(scene_.carpet());
+  builder_.setLevels(true);
   builder_.setFurtherRobots(scene_.models());
   builder_.setFurtherJackets(scene_.jackets());
   builder_.setBalls(scene_.radii());
@@ -111,11 +112,12 @@ void LiveEye::catchUp() {
   while (isComplete(next_ + 1)) ++next_;
 }
 
-PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside) {
+PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows) {
   const ScenePose pose = scene_.pose(row);
   builder_.setPose(pose);
   PinholePicture picture;
   RenderOptions options = builder_.renderOptions();
+  options.sameShadows = sameShadows;
   Pinhole pinhole = pipeline_.pinhole();
   if (aside) {
     options.supersampling = 1;
@@ -134,16 +136,19 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
   EyeFrame frame;
   frame.number = number;
   frame.time_s = time_s;
-  std::vector<PinholePicture> pictures;
+  std::vector<PinholePicture> pictures(moments.size());
   // The shutter averages over moments: each takes one sample a pixel, at another place in it. The middle one, which the
-  // truth is read from, takes it in the middle.
+  // truth is read from, takes it in the middle; it is drawn first, and its shadows are those of all.
   const std::size_t middle = moments.size() / 2;
-  for (std::size_t i = 0; i < moments.size(); ++i) {
+  const auto take = [&](std::size_t i) {
     constexpr double third = 1.0 / 3;
     const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
-    pictures.push_back(moments.size() == 1 ? look(moments[i])
-                                           : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side)));
-  }
+    pictures[i] = moments.size() == 1 ? look(moments[i])
+                                      : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side), i != middle);
+  };
+  take(middle);
+  for (std::size_t i = 0; i < moments.size(); ++i)
+    if (i != middle) take(i);
   frame.picture = pipeline_.process(pictures, number);
   for (const int joint : joints_) frame.joints.push_back(now.values.at(static_cast<std::size_t>(joint)));
   return frame;

@@ -41,8 +41,9 @@ class LiveEye {
   /// Leaves frames out until the last one that the rows complete.
   void catchUp();
   /// The world as the pinhole of the camera sees it in a row; `aside` is where in its pixels samples lie, from their
-  /// middle [pixels]: none takes four a pixel.
-  PinholePicture look(const LiveRow& row, std::optional<Eigen::Vector2d> aside = std::nullopt);
+  /// middle [pixels]: none takes four a pixel. With `sameShadows` those of the look before stay.
+  PinholePicture look(const LiveRow& row, std::optional<Eigen::Vector2d> aside = std::nullopt,
+                      bool sameShadows = false);
 
  private:
   double frameTime_s(std::uint64_t number) const { return static_cast<double>(number) / camera().frameRate_hz; }

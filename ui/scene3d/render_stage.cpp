@@ -4,23 +4,23 @@
 #include <osg/Geometry>
 #include <osg/Image>
 #include <osg/LightSource>
-#include <osg/Program>
 #include <osg/Texture2D>
 #include <osgShadow/LightSpacePerspectiveShadowMap>
 #include <osgShadow/ShadowSettings>
 
+#include "ui/scene3d/shader_program.h"
 #include "ui/scene3d/shaders.h"
 
 namespace btr::ui {
 namespace {
 
-/// Of a picture for people and of a measurement, whose own pixels are few.
-constexpr int kShadowMapSize = 2048, kSmallShadowMapSize = 512;
+/// Of a picture for people, where the map is finer near the eye, and of a measurement.
+constexpr int kShadowMapSize = 2048, kSunMapSize = 1024;
 
 osg::ref_ptr<osg::Shader> shader(osg::Shader::Type type, const char* text) { return new osg::Shader(type, text); }
 
 /// A quad over the whole picture, drawn first; it has no extent that would move clipping planes or shadows.
-osg::ref_ptr<osg::Geometry> makeSky() {
+osg::ref_ptr<osg::Geometry> makeSky(const std::string& fragment) {
   struct NoBound final : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
   };
@@ -35,10 +35,7 @@ osg::ref_ptr<osg::Geometry> makeSky() {
   sky->setUseDisplayList(false);
   sky->setUseVertexBufferObjects(true);
   osg::StateSet& state = *sky->getOrCreateStateSet();
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->addShader(shader(osg::Shader::VERTEX, shaders::kSkyVertex));
-  program->addShader(shader(osg::Shader::FRAGMENT, shaders::kSkyFragment));
-  state.setAttribute(program);
+  state.setAttribute(shaderProgram({shaders::kSkyVertex}, {fragment}));
   state.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
   state.setRenderBinDetails(-10, "RenderBin");
   return sky;
@@ -51,9 +48,9 @@ osg::Vec3 rgb(const QColor& colour) { return {float(colour.redF()), float(colour
 /// Light-space perspective shadow map with our own shading and a polygon offset that neither speckles nor detaches.
 class RenderStage::SunShadow final : public osgShadow::LightSpacePerspectiveShadowMapVB {
  public:
-  SunShadow(osg::Light* light, int size) {
+  explicit SunShadow(osg::Light* light) {
     setLight(light);
-    setTextureSize(osg::Vec2s(static_cast<short>(size), static_cast<short>(size)));
+    setTextureSize(osg::Vec2s(kShadowMapSize, kShadowMapSize));
     setMinLightMargin(0.5f);
     _polygonOffsetFactor = 4;
     _polygonOffsetUnits = 16;
@@ -75,7 +72,8 @@ RenderStage::~RenderStage() {
   context_->release();
 }
 
-/// The graph: root → sky, and either `plain` or `shadowed` → `lit` → light, scene.
+/// The graph: root → sky, and either `plain` or `shadowed` → `lit` → light, scene. Shadows of a measurement are those
+/// of a SunMap.
 void RenderStage::build() {
   osg::ref_ptr<osg::Light> light = new osg::Light;
   light->setLightNum(0);
@@ -86,23 +84,20 @@ void RenderStage::build() {
   source->setLight(light);
   lit_->addChild(source);
 
+  const bool measured = target_ == Target::measurement;
+  const auto fragment = [&](const char* text) { return measured ? measuring(text) : std::string(text); };
   plain_ = new osg::Group;
   plain_->addChild(lit_);
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->addShader(shader(osg::Shader::VERTEX, shaders::kMainVertex));
-  program->addShader(shader(osg::Shader::VERTEX, shaders::kNoShadowVertex));
-  program->addShader(shader(osg::Shader::FRAGMENT, shaders::kMainFragment));
-  program->addShader(shader(osg::Shader::FRAGMENT, shaders::kNoShadowFragment));
-  plain_->getOrCreateStateSet()->setAttribute(program);
-
-  const int shadowSize = target_ == Target::measurement ? kSmallShadowMapSize : kShadowMapSize;
-  sunShadow_ = new SunShadow(light, shadowSize);
-  shadowed_ = new osgShadow::ShadowedScene(sunShadow_);
-  shadowed_->getShadowSettings()->setReceivesShadowTraversalMask(~0u);
-  shadowed_->getShadowSettings()->setCastsShadowTraversalMask(kCastsShadow);
-  shadowed_->addChild(lit_);
-
-  root_->addChild(makeSky());
+  plain_->getOrCreateStateSet()->setAttribute(
+      shaderProgram({shaders::kMainVertex, shaders::kNoShadowVertex},
+                    {fragment(shaders::kMainFragment), shaders::kNoShadowFragment}));
+  if (measured) {
+    sunMap_ = std::make_unique<SunMap>(*lit_, kSunMapSize);
+    shadowed_ = &sunMap_->node();
+  } else {
+    buildFineShadows(*light);
+  }
+  root_->addChild(makeSky(fragment(shaders::kSkyFragment)));
   root_->addChild(plain_);
   root_->addChild(shadowed_);
   osg::StateSet& state = *root_->getOrCreateStateSet();
@@ -112,11 +107,19 @@ void RenderStage::build() {
   }
   viewport_ = new osg::Uniform("viewport", osg::Vec2());
   state.addUniform(viewport_);
-  state.addUniform(new osg::Uniform("shadowTexel", 1.f / static_cast<float>(shadowSize)));
+  state.addUniform(new osg::Uniform("shadowTexel", 1.f / float(kShadowMapSize)));
   for (const char* name : {"unlit", "fade", "weave", "identity"}) state.addUniform(new osg::Uniform(name, 0.f));
   state.addUniform(new osg::Uniform("gloss", 0.25f));
   state.addUniform(new osg::Uniform("opacity", 1.f));
-  state.addUniform(new osg::Uniform("measured", target_ == Target::measurement ? 1.f : 0.f));
+}
+
+void RenderStage::buildFineShadows(osg::Light& light) {
+  sunShadow_ = new SunShadow(&light);
+  osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene(sunShadow_);
+  shadowed->getShadowSettings()->setReceivesShadowTraversalMask(~0u);
+  shadowed->getShadowSettings()->setCastsShadowTraversalMask(kCastsShadow);
+  shadowed->addChild(lit_);
+  shadowed_ = shadowed;
 }
 
 void RenderStage::start() {
@@ -163,6 +166,19 @@ void RenderStage::resize(QSize wanted) {
   viewport_->set(osg::Vec2(w, h));
 }
 
+void RenderStage::aimShadows(const RenderView& view, const RenderOptions& options) {
+  if (sunShadow_) return sunShadow_->setMaxFarPlane(float(view.shadowReach_m));
+  if (options.sameShadows && sunMap_->isDrawn()) {
+    sunMap_->keep();
+  } else if (options.shadows) {
+    constexpr double wide = 0.6;  // of the reach around its middle: the corners of a wide view, too
+    const Eigen::Matrix4d toWorld = view.view.inverse();
+    const Eigen::Vector3d eye = toWorld.block<3, 1>(0, 3), ahead = -toWorld.block<3, 1>(0, 2);
+    sunMap_->aim(eye + view.shadowReach_m / 2 * ahead, wide * view.shadowReach_m);
+  }
+  sunMap_->look(view.view);
+}
+
 bool RenderStage::draw(osg::Node& scene, const RenderView& view, QSize pixels, const RenderOptions& options) {
   if (!problem_.isEmpty()) return false;
   if (!context_) {
@@ -182,13 +198,15 @@ bool RenderStage::draw(osg::Node& scene, const RenderView& view, QSize pixels, c
   }
   plain_->setNodeMask(options.shadows ? 0 : ~0u);
   shadowed_->setNodeMask(options.shadows ? ~0u : 0);
-  sunShadow_->setMaxFarPlane(float(view.shadowReach_m));
+  aimShadows(view, options);
   skyTop_->set(rgb(options.skyTop));
   skyHorizon_->set(rgb(options.skyHorizon));
   resize(pixels);
   osg::Camera& camera = *viewer_->getCamera();
   camera.setViewMatrix(osg::Matrixd(view.view.data()));
   camera.setProjectionMatrixAsFrustum(view.left, view.right, view.bottom, view.top, view.near_m, view.far_m);
+  // Few enough triangles for the pixels of a measurement; a picture for people has them all.
+  if (sunMap_) camera.setLODScale(float((view.top - view.bottom) / view.near_m / pixels.height()));
   up_->set(osg::Vec3(osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), camera.getViewMatrix())));
   viewer_->frame(0.0);
   context_->release();

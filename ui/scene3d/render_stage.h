@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "ui/scene3d/renderer.h"
+#include "ui/scene3d/sun_map.h"
 
 namespace btr::ui {
 
@@ -40,6 +41,8 @@ class RenderStage {
  private:
   class SunShadow;
   void build();
+  void buildFineShadows(osg::Light& light);
+  void aimShadows(const RenderView& view, const RenderOptions& options);
   void start();
   void resize(QSize wanted);
 
@@ -51,10 +54,11 @@ class RenderStage {
   osg::ref_ptr<osgViewer::Viewer> viewer_;
   osg::ref_ptr<osg::Image> colour_ = new osg::Image, depth_ = new osg::Image;
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
-  osg::ref_ptr<osg::Group> lit_;                     ///< the light and the scene
-  osg::ref_ptr<osg::Group> plain_;                   ///< draws `lit_` without shadows
-  osg::ref_ptr<osgShadow::ShadowedScene> shadowed_;  ///< draws `lit_` with shadows
-  osg::ref_ptr<SunShadow> sunShadow_;
+  osg::ref_ptr<osg::Group> lit_;       ///< the light and the scene
+  osg::ref_ptr<osg::Group> plain_;     ///< draws `lit_` without shadows
+  osg::ref_ptr<osg::Group> shadowed_;  ///< draws `lit_` with shadows
+  osg::ref_ptr<SunShadow> sunShadow_;  ///< of a picture
+  std::unique_ptr<SunMap> sunMap_;     ///< of a measurement
   osg::ref_ptr<osg::Node> scene_;
   osg::ref_ptr<osg::Uniform> skyTop_, skyHorizon_, viewport_, up_;
   QSize pixels_;

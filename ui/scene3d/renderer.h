@@ -17,7 +17,8 @@ namespace btr::ui {
 /// How a picture is taken.
 struct RenderOptions {
   bool shadows = true;
-  int supersampling = 2;  ///< 1 or 2: pixels rendered per pixel of the picture, along each axis
+  bool sameShadows = false;  ///< of a measurement: they may stay as in the one before, of nearly the same moment
+  int supersampling = 2;     ///< 1 or 2: pixels rendered per pixel of the picture, along each axis
   QColor skyTop{214, 223, 232};
   QColor skyHorizon{240, 242, 244};
 };

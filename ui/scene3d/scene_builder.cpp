@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "ui/scene3d/field.h"
 #include "ui/scene3d/link_marks.h"
+#include "ui/scene3d/mesh_geometry.h"
 #include "ui/scene3d/triangle_mesh.h"
 
 namespace btr::ui {
@@ -25,39 +27,16 @@ constexpr unsigned kHidden = 0;
 
 osg::Matrixd matrix(const Eigen::Isometry3d& pose) { return osg::Matrixd(pose.matrix().data()); }
 
-void useBuffers(osg::Geometry& geometry) {
-  geometry.setUseDisplayList(false);
-  geometry.setUseVertexBufferObjects(true);
-}
-
-template <typename Array, typename Values>
-osg::ref_ptr<Array> copied(const Values& values) {
-  osg::ref_ptr<Array> array = new Array;
-  array->reserve(values.size());
-  for (const auto& value : values) {
-    typename Array::ElementDataType element;
-    for (int i = 0; i < Array::ElementDataType::num_components; ++i) element[i] = value[i];
-    array->push_back(element);
-  }
-  return array;
-}
-
-osg::ref_ptr<osg::Geometry> toGeometry(const TriangleMesh& mesh, float gloss) {
-  osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-  useBuffers(*geometry);
-  geometry->setVertexArray(copied<osg::Vec3Array>(mesh.positions));
-  geometry->setNormalArray(copied<osg::Vec3Array>(mesh.normals), osg::Array::BIND_PER_VERTEX);
-  geometry->setColorArray(copied<osg::Vec4Array>(mesh.colours), osg::Array::BIND_PER_VERTEX);
-  geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, mesh.indices.size(), mesh.indices.data()));
-  geometry->getOrCreateStateSet()->addUniform(new osg::Uniform("gloss", gloss));
-  return geometry;
-}
-
 osg::ref_ptr<osg::Geometry> toGeometry(const LineSegments& lines, const Colour& colour) {
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
   useBuffers(*geometry);
-  geometry->setVertexArray(copied<osg::Vec3Array>(lines));
-  geometry->setColorArray(copied<osg::Vec4Array>(std::vector<Colour>{colour}), osg::Array::BIND_OVERALL);
+  osg::ref_ptr<osg::Vec3Array> ends = new osg::Vec3Array;
+  ends->reserve(lines.size());
+  for (const Eigen::Vector3f& end : lines) ends->push_back({end.x(), end.y(), end.z()});
+  geometry->setVertexArray(ends);
+  osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array;
+  colours->push_back({colour[0], colour[1], colour[2], colour[3]});
+  geometry->setColorArray(colours, osg::Array::BIND_OVERALL);
   geometry->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, static_cast<int>(lines.size())));
   osg::StateSet& state = *geometry->getOrCreateStateSet();
   state.addUniform(new osg::Uniform("unlit", 1.f));
@@ -106,15 +85,50 @@ void makeTranslucent(osg::Node& node, int bin, bool depthOnly) {
   }
 }
 
+/// The bodies of a link; robots of one model share them. Null: none.
+struct LinkBodies {
+  osg::ref_ptr<osg::Node> common, clear, jackets[2];
+};
+
+/// By link. With a colour everything is drawn in it; with `levels` with fewer triangles where it is small.
+std::vector<LinkBodies> bodiesOf(const RobotModel& model, const Colour* colour, bool levels) {
+  const auto drawn = [levels](const TriangleMesh& mesh, float gloss) -> osg::ref_ptr<osg::Node> {
+    if (mesh.empty()) return nullptr;
+    osg::ref_ptr<osg::Node> node;
+    if (levels)
+      node = toLevels(mesh, gloss);
+    else
+      node = toGeometry(mesh, gloss);
+    node->setNodeMask(kCastsShadow);
+    return node;
+  };
+  std::vector<LinkBodies> bodies;
+  for (const Link& link : model.links) {
+    TriangleMesh common, clear, jacket[2];
+    for (const Shape& shape : link.shapes) {
+      if (!shape.drawn) continue;
+      TriangleMesh* mesh = &common;
+      for (int i = 0; i < 2; ++i)
+        if (shape.part == kJackets[i]) mesh = &jacket[i];
+      if (!colour && mesh == &common && shape.colour[3] < 1) mesh = &clear;
+      mesh->addShape(shape, shape.pose, colour ? *colour : shape.colour);
+    }
+    bodies.push_back({drawn(common, 0.30f), drawn(clear, 0.6f), {drawn(jacket[0], 0.12f), drawn(jacket[1], 0.12f)}});
+    if (bodies.back().clear) makeTranslucent(*bodies.back().clear, 10, false);
+  }
+  return bodies;
+}
+
 /// One drawn body: a robot and balls whose parts follow a pose. The solid one and every ghost are such.
 struct Figure {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   std::vector<osg::ref_ptr<osg::MatrixTransform>> links, balls;
   std::vector<osg::ref_ptr<osg::Node>> jackets[2], marks[kMarks];
 
-  /// With a colour everything is drawn in it, without collision outlines: a ghost.
-  Figure(const RobotModel* model, const std::vector<double>& radii, const Colour* colour) {
-    for (std::size_t i = 0; model && i < model->links.size(); ++i) links.push_back(addLink(model->links[i], colour));
+  /// With a colour everything is drawn in it, without collision outlines: a ghost. Bodies are those of the model.
+  Figure(const RobotModel* model, const std::vector<LinkBodies>& bodies, const std::vector<double>& radii,
+         const Colour* colour) {
+    for (const LinkBodies& link : bodies) links.push_back(addLink(link));
     if (model && !colour) addMarks(*model);
     for (double radius : radii) {
       balls.push_back(new osg::MatrixTransform);
@@ -154,27 +168,18 @@ struct Figure {
     }
   }
 
-  osg::ref_ptr<osg::MatrixTransform> addLink(const Link& link, const Colour* ghost) {
+  osg::ref_ptr<osg::MatrixTransform> addLink(const LinkBodies& bodies) {
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
-    TriangleMesh common, clear, jacket[2];
-    for (const Shape& shape : link.shapes) {
-      if (shape.drawn) {
-        TriangleMesh* mesh = &common;
-        for (int i = 0; i < 2; ++i)
-          if (shape.part == kJackets[i]) mesh = &jacket[i];
-        if (!ghost && mesh == &common && shape.colour[3] < 1) mesh = &clear;
-        mesh->addShape(shape, shape.pose, ghost ? *ghost : shape.colour);
-      }
+    for (const auto& body : {bodies.common, bodies.clear})
+      if (body) transform->addChild(body);
+    for (int i = 0; i < 2; ++i) {
+      if (!bodies.jackets[i]) continue;
+      osg::ref_ptr<osg::Group> worn = new osg::Group;  // shown or not for this robot alone
+      worn->setNodeMask(kHidden);
+      worn->addChild(bodies.jackets[i]);
+      transform->addChild(worn);
+      jackets[i].push_back(worn);
     }
-    const auto add = [&](const osg::ref_ptr<osg::Geometry>& geometry, unsigned mask) {
-      geometry->setNodeMask(mask);
-      transform->addChild(geometry);
-      return geometry;
-    };
-    if (!common.empty()) add(toGeometry(common, 0.30f), kCastsShadow);
-    if (!clear.empty()) makeTranslucent(*add(toGeometry(clear, 0.6f), kCastsShadow), 10, false);
-    for (int i = 0; i < 2; ++i)
-      if (!jacket[i].empty()) jackets[i].push_back(add(toGeometry(jacket[i], 0.12f), kHidden));
     group->addChild(transform);
     return transform;
   }
@@ -223,7 +228,7 @@ struct SceneBuilder::Impl {
   std::array<bool, kMarks> shown{};
   WorldMarks worldMarks;
   osg::ref_ptr<osg::Group> worldLines = new osg::Group;
-  bool dark = false;
+  bool dark = false, levels = false;
   int firstFurther = 2;
 
   void rebuildFigure();
@@ -265,9 +270,16 @@ struct SceneBuilder::Impl {
 
 void SceneBuilder::Impl::rebuildFigure() {
   pose = {};
-  figure = std::make_unique<Figure>(model.get(), radii, nullptr);
+  std::map<const RobotModel*, std::vector<LinkBodies>> bodies;
+  const auto of = [&](const RobotModel* each) -> const std::vector<LinkBodies>& {
+    const auto [place, isNew] = bodies.try_emplace(each);
+    if (isNew && each) place->second = bodiesOf(*each, nullptr, levels);
+    return place->second;
+  };
+  figure = std::make_unique<Figure>(model.get(), of(model.get()), radii, nullptr);
   further.clear();
-  for (const auto& other : furtherModels) further.emplace_back(other.get(), std::vector<double>(), nullptr);
+  for (const auto& other : furtherModels)
+    further.emplace_back(other.get(), of(other.get()), std::vector<double>(), nullptr);
   // Ground, first robot if there is one, further robots, balls.
   firstFurther = model ? 3 : 2;
   figure->number(2, firstFurther + static_cast<int>(further.size()));
@@ -289,7 +301,7 @@ void SceneBuilder::Impl::rebuildGhosts() {
   for (const Ghost& ghost : ghostPoses) {
     const Colour colour{float(ghost.colour.redF()), float(ghost.colour.greenF()), float(ghost.colour.blueF()),
                         float(ghost.colour.alphaF())};
-    Figure shape(model.get(), radii, &colour);
+    Figure shape(model.get(), model ? bodiesOf(*model, &colour, false) : std::vector<LinkBodies>(), radii, &colour);
     shape.showJacket(jacket);
     shape.place(ghost.pose);
     for (bool depthOnly : {true, false}) {
@@ -357,6 +369,11 @@ const ScenePose& SceneBuilder::pose() const { return impl_->pose; }
 
 void SceneBuilder::setRobot(std::shared_ptr<const RobotModel> model) {
   impl_->model = std::move(model);
+  impl_->rebuildFigure();
+}
+
+void SceneBuilder::setLevels(bool levels) {
+  impl_->levels = levels;
   impl_->rebuildFigure();
 }
 

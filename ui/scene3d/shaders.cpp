@@ -19,11 +19,10 @@ void main() {
 }
 )";
 
-// opacity: of surfaces, 1.
-// measured: 1 gives plain carpets (their grain costs half of the time of a software driver), linear light, and in alpha
-// the number of the object (`identity`; 0: translucent, alpha is opacity). gloss: strength of the highlight; unlit: 1
-// shows the colour as it is; fade: distance from the world's z axis at which a ground sinks into the horizon (0:
-// never); weave: strength of the carpet's grain.
+// MEASURED gives plain carpets (their grain costs half of the time of a software driver, which computes both sides of
+// an if), linear light, and in alpha the number of the object (`identity`; 0: translucent, alpha is opacity). opacity:
+// of surfaces, 1; gloss: strength of the highlight; unlit: 1 shows the colour as it is; fade: distance from the world's
+// z axis at which a ground sinks into the horizon (0: never); weave: strength of the carpet's grain.
 const char* const kMainFragment = R"(#version 120
 uniform vec3 skyTop;
 uniform vec3 skyHorizon;
@@ -33,13 +32,13 @@ uniform float gloss;
 uniform float unlit;
 uniform float fade;
 uniform float weave;
-uniform float measured;
 uniform float identity;
 uniform float opacity;
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec2 ground;
 float DynamicShadow();
+#ifndef MEASURED
 float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }
 float grain(vec2 p) {
   vec2 cell = floor(p);
@@ -48,10 +47,10 @@ float grain(vec2 p) {
   return mix(mix(hash(cell), hash(cell + vec2(1.0, 0.0)), f.x),
              mix(hash(cell + vec2(0.0, 1.0)), hash(cell + vec2(1.0, 1.0)), f.x), f.y);
 }
-vec4 told(vec4 colour) {
-  if (measured < 0.5) return colour;
-  return vec4(colour.rgb * colour.rgb, identity > 0.5 ? identity : colour.a);
-}
+vec4 told(vec4 colour) { return colour; }
+#else
+vec4 told(vec4 colour) { return vec4(colour.rgb * colour.rgb, identity > 0.5 ? identity : colour.a); }
+#endif
 void main() {
   if (unlit > 0.5) {
     gl_FragColor = told(gl_Color);
@@ -59,12 +58,14 @@ void main() {
   }
   // Squares and square roots stand for the exponent 2.2: cheaper where software draws.
   vec3 albedo = gl_Color.rgb * gl_Color.rgb;
-  if (weave > 0.0 && measured < 0.5) {
+#ifndef MEASURED
+  if (weave > 0.0) {
     float pixel = max(length(dFdx(ground)), length(dFdy(ground)));
     float near = clamp(0.004 / pixel - 0.6, 0.0, 1.0);
     float fine = near > 0.0 ? near * (grain(ground * 260.0) - 0.5) : 0.0;
     albedo *= 1.0 + weave * (1.3 * fine + 0.35 * (grain(ground * 9.0) - 0.5));
   }
+#endif
   vec3 normal = normalize(eyeNormal);
   vec3 toEye = normalize(-eyePosition);
   if (dot(normal, toEye) < 0.0) normal = -normal;
@@ -124,6 +125,31 @@ const char* const kNoShadowFragment = R"(#version 120
 float DynamicShadow() { return 1.0; }
 )";
 
+const char* const kSunMapVertex = R"(#version 120
+uniform mat4 toSunMap;
+varying vec3 inSunMap;
+void shadowCoordinates(vec4 position) { inSunMap = (toSunMap * position).xyz; }
+)";
+
+const char* const kSunMapFragment = R"(#version 120
+uniform sampler2DShadow sunMap;
+uniform float sunTexel;
+varying vec3 inSunMap;
+float DynamicShadow() {
+  vec2 d = 0.75 * vec2(sunTexel, -sunTexel);
+  return 0.25 * (shadow2D(sunMap, inSunMap + vec3(d.xx, 0.0)).r + shadow2D(sunMap, inSunMap + vec3(d.xy, 0.0)).r +
+                 shadow2D(sunMap, inSunMap + vec3(d.yx, 0.0)).r + shadow2D(sunMap, inSunMap + vec3(d.yy, 0.0)).r);
+}
+)";
+
+const char* const kCastVertex = R"(#version 120
+void main() { gl_Position = ftransform(); }
+)";
+
+const char* const kCastFragment = R"(#version 120
+void main() {}
+)";
+
 const char* const kSkyVertex = R"(#version 120
 varying float height;
 void main() {
@@ -135,11 +161,14 @@ void main() {
 const char* const kSkyFragment = R"(#version 120
 uniform vec3 skyTop;
 uniform vec3 skyHorizon;
-uniform float measured;
 varying float height;
 void main() {
   vec3 colour = mix(skyHorizon, skyTop, smoothstep(0.35, 1.0, height));
-  gl_FragColor = measured > 0.5 ? vec4(colour * colour, 0.0) : vec4(colour, 1.0);
+#ifdef MEASURED
+  gl_FragColor = vec4(colour * colour, 0.0);
+#else
+  gl_FragColor = vec4(colour, 1.0);
+#endif
 }
 )";
 

@@ -5,11 +5,15 @@
 namespace btr::ui::shaders {
 
 extern const char* const kMainVertex;
-extern const char* const kMainFragment;  ///< calls shadowCoordinates and DynamicShadow of one of the next two pairs
+extern const char* const kMainFragment;  ///< calls shadowCoordinates and DynamicShadow of one of the next three pairs
 extern const char* const kShadowVertex;
 extern const char* const kShadowFragment;
 extern const char* const kNoShadowVertex;
 extern const char* const kNoShadowFragment;
+extern const char* const kSunMapVertex;  ///< of a SunMap
+extern const char* const kSunMapFragment;
+extern const char* const kCastVertex;  ///< into a SunMap
+extern const char* const kCastFragment;
 extern const char* const kSkyVertex;
 extern const char* const kSkyFragment;
 

@@ -108,13 +108,19 @@ void MainWindow::makeControllers() {
   connect(measuring_, &MeasureController::measured, p.fitness, &FitnessChart::setMeasurements);
   connect(grids_, &GridController::kickWanted, replays_, &ReplayController::playKick);
   connect(&bench_, &Workbench::dockWanted, this, &MainWindow::raise);
-  // Who is on a page stays there; the alarm rings, and the sheet is in front when the page is left.
-  connect(measuring_, &MeasureController::sheetWanted, this, [this] {
-    if (layout_.page().isEmpty()) layout_.raise("sheet");
+  // Who is on a page stays there; the alarm rings, and the sheet is in front when the page is left. The keys go where
+  // the next cell is marked, not to the button that began the run; whoever is typing elsewhere is left alone.
+  const auto showSheet = [this] {
+    layout_.raise("sheet");
+    const QWidget* focus = focusWidget();
+    if (!focus || !focus->testAttribute(Qt::WA_InputMethodEnabled)) pages_.sheet->setFocus();
+  };
+  connect(measuring_, &MeasureController::sheetWanted, this, [this, showSheet] {
+    if (layout_.page().isEmpty()) showSheet();
   });
-  connect(&layout_, &DockLayout::pageChanged, this, [this](const QString& page) {
+  connect(&layout_, &DockLayout::pageChanged, this, [this, showSheet](const QString& page) {
     if (page == "grid") grids_->read();
-    if (page.isEmpty() && measuring_->isSheetWanted()) layout_.raise("sheet");
+    if (page.isEmpty() && measuring_->isSheetWanted()) showSheet();
   });
 }
 
@@ -128,6 +134,8 @@ void MainWindow::raise(const QString& dock) {
     layout_.dock(dock)->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
   }
   layout_.raise(dock);
+  // Who asks for the sheet wants to type into it.
+  if (dock == "sheet") pages_.sheet->setFocus();
 }
 
 void MainWindow::showPage(const QString& page) {

@@ -231,20 +231,24 @@ double JointEffects::throughEffects(Torques torques, const JointState& given, do
     if (!placed.effect->changesDrive()) continue;
     if (!keepState) scratch_ = placed.state;
     std::vector<double>& memory = keepState ? placed.state : scratch_;
-    const auto through = [&](double torque, double& beyond) {
+    const auto through = [&](double torque, double& beyond, double dt) {
       state.beyond = beyond;
-      if (!placed.effect->hasServoTerm()) return placed.effect->driveTorque(torque, state, *placed.values, memory, h);
-      const LimitedTorque sum = withTerm(torque, state, placed.effect->servoTerm(state, *placed.values, memory, h));
+      if (!placed.effect->hasServoTerm()) return placed.effect->driveTorque(torque, state, *placed.values, memory, dt);
+      const LimitedTorque sum = withTerm(torque, state, placed.effect->servoTerm(state, *placed.values, memory, dt));
       beyond = sum.beyond;
       return sum.given;
     };
-    if (!memory.empty() || torques.before == torques.after) {
+    const bool isLaw = placed.effect->stage() == Effect::Stage::command;
+    if (torques.before == torques.after || (!memory.empty() && !isLaw)) {
       double beyond = (torques.beyondBefore + torques.beyondAfter) / 2;
-      torques.before = torques.after = through(torques.mean(), beyond);
+      torques.before = torques.after = through(torques.mean(), beyond, h);
       torques.beyondBefore = torques.beyondAfter = beyond;
     } else {
-      torques.before = through(torques.before, torques.beyondBefore);
-      torques.after = through(torques.after, torques.beyondAfter);
+      state.command = torques.commandBefore;
+      torques.before = through(torques.before, torques.beyondBefore, h / 2);
+      state.command = torques.commandAfter;
+      torques.after = through(torques.after, torques.beyondAfter, h / 2);
+      state.command = given.command;
     }
   }
   return torques.mean();
@@ -268,17 +272,20 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
   const auto lawAt = [&](JointState moved) {
     moved.command = command.before;
     const double earlier = driveTorque(drive, moved, integral, input), more = beyondOf(moved, earlier);
-    if (command.before == command.after) return Torques{earlier, earlier, more, more};
+    Torques torques{earlier, earlier, more, more, command.before, command.after};
+    if (command.before == command.after) return torques;
     moved.command = command.after;
-    const double later = driveTorque(drive, moved, integral, input);
-    return Torques{earlier, later, more, beyondOf(moved, later)};
+    torques.after = driveTorque(drive, moved, integral, input);
+    torques.beyondAfter = beyondOf(moved, torques.after);
+    return torques;
   };
   struct Slopes {
     double all, law;
   };
   const auto slopesAlong = [&](double position, double rate) {
     constexpr double small = 1e-6;  // rad, rad/s, m or m/s
-    const JointState ahead = at(small * position, small * rate), behind = at(-small * position, -small * rate);
+    JointState ahead = at(small * position, small * rate), behind = at(-small * position, -small * rate);
+    ahead.isTry = behind.isTry = true;
     const Torques before = lawAt(behind), after = lawAt(ahead);
     return Slopes{
         (throughEffects(after, ahead, step.h, false) - throughEffects(before, behind, step.h, false)) / (2 * small),

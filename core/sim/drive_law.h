@@ -105,10 +105,12 @@ class JointEffects {
     std::vector<double> state;
     std::string name;
   };
-  /// Torques before and after a jump of the command. Effects with a memory see their mean.
+  /// Torques before and after a jump of the command. Effects of the servo's own law see each for half a step, others
+  /// with a memory their mean.
   struct Torques {
     double before, after;
-    double beyondBefore = 0, beyondAfter = 0;  ///< JointState::beyond
+    double beyondBefore = 0, beyondAfter = 0;    ///< JointState::beyond
+    double commandBefore = 0, commandAfter = 0;  ///< JointState::command
     double mean() const { return (before + after) / 2; }
   };
   double throughEffects(Torques torques, const JointState& state, double h, bool keepState);

@@ -26,6 +26,8 @@ struct JointState {
   double allDrives = 0;  ///< sum of |torque| of all drives of the robot in the last step
   double damping = 0;    ///< torque that the drive's own law loses per rate [N·m·s/rad or N·s/m]
   double beyond = 0;     ///< what that law asks for beyond its limit: all of it less what it gives [N·m or N]
+  bool isTry = false;    ///< asked only how the torque of this step depends on position and rate, which are shifted a
+                         ///< little: what is held over the step stays as it is
 };
 
 /// What a drive's law gives within its limit, and what it asks for beyond.

@@ -32,6 +32,8 @@ struct Plant {
   double bias = 0;                             ///< of the commands [rad]
   double before = 0;                           ///< time on at the first command, not recorded [s]
   double loopPeriod = 0;                       ///< torque held for so long [s]
+  double errorBand = 0;                        ///< largest error that is let be [rad]
+  bool wholeBeyond = false;                    ///< outside the band the whole error counts, not the rest
 };
 
 struct Trial {
@@ -108,7 +110,12 @@ class Servo {
   double torque(const State& x, double command, double added, double t) const {
     const std::size_t at = plant_.loopAtMotor ? 0 : 2;
     const double strength = 1 - plant_.lossPerSecond * plant_.lossTime * -std::expm1(-t / plant_.lossTime);
-    double torque = plant_.p * (command - x[at]) + added, most = plant_.maxTorque;
+    double error = command - x[at];
+    if (std::abs(error) <= plant_.errorBand)
+      error = 0;
+    else if (!plant_.wholeBeyond)
+      error -= std::copysign(plant_.errorBand, error);
+    double torque = plant_.p * error + added, most = plant_.maxTorque;
     if (plant_.lossOfSupply) torque *= strength, most *= strength;
     torque = std::clamp(torque - plant_.d * x[at + 1], -most, most);
     if (!plant_.lossOfSupply) torque *= strength;

@@ -169,6 +169,30 @@ TEST(StrangeServo, ThatDampsTheRateOfItsErrorIsSaidTo) {
   EXPECT_NEAR(found.at("gain_nm_s_rad"), plant.d, 0.1 * plant.d);
 }
 
+TEST(StrangeServo, ThatHoldsItsTorqueBetweenTwoLooksIsSaidTo) {
+  strange::Plant plant;
+  plant.loopPeriod = 0.01;
+  const GapReport report =
+      reportOn(plant, 12, {"sampled_loop", "joint_spring", "position_offset", "command_filter", "rotor_inertia"});
+  const Values found = sizesOf(report, "sampled_loop");
+  ASSERT_TRUE(found.contains("period_ms")) << toPlainText(report);
+  EXPECT_EQ(found.at("period_ms"), 1e3 * plant.loopPeriod);
+  EXPECT_NEAR(found.at("share"), 1, 0.05);
+}
+
+TEST(StrangeServo, ThatLetsSmallErrorsBeIsSaidTo) {
+  for (const bool whole : {false, true}) {
+    strange::Plant plant;
+    plant.errorBand = 0.03;
+    plant.wholeBeyond = whole;
+    const GapReport report = reportOn(plant, 13, {"error_dead_band", "drive_dead_band", "backlash", "integral_action"});
+    const Values found = sizesOf(report, "error_dead_band");
+    ASSERT_TRUE(found.contains("half_width_rad")) << toPlainText(report);
+    EXPECT_NEAR(found.at("half_width_rad"), plant.errorBand, 0.05 * plant.errorBand);
+    EXPECT_EQ(found.at("kind"), whole ? 0 : 1);
+  }
+}
+
 TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
   strange::Plant plant;
   plant.stiffness = 9;

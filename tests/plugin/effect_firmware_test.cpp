@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -137,6 +138,72 @@ TEST(IntegralAction, LeavesATorqueCommandAlone) {
   Numbers state{0};
   EXPECT_EQ(0.6, effect("integral_action")
                      ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15, 0}, state, 1e-3));
+}
+
+TEST(ErrorDeadBand, LetsSmallErrorsBe) {
+  const auto band = effect("error_dead_band");
+  const JointState joint{.position = 0.5};
+  for (const auto& [given, whole, rest] :
+       {std::array{0.51, 0.5, 0.5}, {0.481, 0.5, 0.5}, {0.6, 0.6, 0.58}, {0.3, 0.3, 0.32}}) {
+    const CommandAround kept = band->command({given, given}, joint, Numbers{0.02, 0}, {}, 1e-3);
+    const CommandAround less = band->command({0.5, given}, joint, Numbers{0.02, 1}, {}, 1e-3);
+    EXPECT_DOUBLE_EQ(whole, kept.before);
+    EXPECT_DOUBLE_EQ(rest, less.after);
+    EXPECT_DOUBLE_EQ(0.5, less.before);
+  }
+}
+
+// A ramp of torque that is seen every 3 ms: what acted until a sample is a staircase's area, whatever the step.
+TEST(SampledLoop, HoldsWhatItsLawAskedForUntilTheNextSample) {
+  const auto loop = effect("sampled_loop");
+  constexpr double period = 3e-3, slope = 2, until = 0.09;
+  for (const double step : {1e-3, 0.5e-3, 4.5e-3}) {
+    Numbers state(10);
+    double area = 0;
+    const long steps = std::lround(until / step);
+    for (long i = 0; i < steps; ++i) {
+      const double time = step * (static_cast<double>(i) + 0.5);
+      area += step * loop->driveTorque(slope * time, {.time = time, .command = 1}, Numbers{1, 3, 0}, state, step);
+    }
+    // Where the slope is not known yet, the first sample may miss by what the ramp gains in half a step.
+    double stairs = 0;
+    for (double k = 0; k * period < until - 1e-9; ++k) stairs += period * slope * k * period;
+    EXPECT_NEAR(stairs, area, 1e-9 + std::max(period, step) * slope * step) << "step " << step;
+  }
+}
+
+TEST(SampledLoop, LeavesBackEmfAsItIs) {
+  const auto loop = effect("sampled_loop");
+  for (const double stays : {0.0, 1.0}) {
+    Numbers state(10);
+    double torque = 0;
+    for (int i = 0; i < 5; ++i) {
+      const double rate = i;  // damped by 0.1 N·m·s/rad
+      torque = loop->driveTorque(1 - 0.1 * rate, {.time = 1e-3 * (i + 0.5), .rate = rate, .command = 1, .damping = 0.1},
+                                 Numbers{1, 40, stays}, state, 1e-3);
+    }
+    EXPECT_NEAR(stays == 0 ? 1 : 1 - 0.1 * 4, torque, 1e-12);
+  }
+}
+
+TEST(SampledLoop, SeesACommandThatJumpsAtItsSample) {
+  const SceneEffect held{effect("sampled_loop"), "sampled_loop", "rig.hinge", {1, 10, 0}};
+  const Drive drive{.p = 5, .d = 0, .maxTorque = 10};
+  JointEffects effects;
+  effects.add(held);
+  DriveRow row;
+  for (int i = 0; i < 15; ++i) {
+    const CommandAround command{i > 10 ? 0.3 : 0, i >= 10 ? 0.3 : 0};
+    const JointState joint{.time = 1e-3 * i, .command = command.mean(), .limit = 10};
+    row = effects.drive({}, drive, joint, command, 0, {}, {.h = 1e-3, .inertia = 1, .left = 1e-3});
+    if (i == 9) {
+      EXPECT_NEAR(0, row.p, 1e-12);
+    }
+    if (i == 10) {
+      EXPECT_NEAR(5 * 0.3 / 2, row.p, 1e-9);  // half of the kick
+    }
+  }
+  EXPECT_NEAR(5 * 0.3, row.p, 1e-9);
 }
 
 // The law asks for 1.5 N·m, its integral for 0.3 more, the falling command for 1.2 less: 0.6 of them all, although each

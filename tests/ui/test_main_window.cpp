@@ -510,6 +510,36 @@ class TestMainWindow : public QObject {
     QCOMPARE(window->findChild<MeasurementSheet*>()->model().rowCount(), 2);
   }
 
+  // The sheet comes to the front by itself with a marked cell: what is typed goes there, unless it belongs elsewhere.
+  void theSheetThatIsWantedHasTheKeys_data() {
+    QTest::addColumn<QString>("before");
+    QTest::addColumn<bool>("stays");
+    QTest::newRow("a button") << "go" << false;
+    QTest::newRow("a field that is typed into") << "searchExperiments" << true;
+  }
+  void theSheetThatIsWantedHasTheKeys() {
+    QFETCH(QString, before);
+    QFETCH(bool, stays);
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment(), 7);
+    stored.addGenerations(run, 3);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    QVERIFY(QTest::qWaitForWindowActive(window.get()));
+    show(*window, run);
+    auto* focus = window->findChild<QWidget*>(before);
+    focus->setFocus();
+    QCOMPARE(window->focusWidget(), focus);
+    stored.addTasks(run);
+    QTRY_VERIFY(window->findChild<Alarm*>()->isVisible());
+    settle(*window);
+    auto& sheet = window->findChild<MeasurementSheet*>()->view();
+    QTRY_COMPARE(window->focusWidget(), stays ? focus : &sheet);
+    emit window->findChild<Alarm*>()->sheetRequested();
+    settle(*window);
+    QCOMPARE(window->focusWidget(), &sheet);
+  }
+
   void theAlarmsComingMovesNothing() {
     StoredRun stored;
     const Id run = stored.addRun(stored.addExperiment(), 7);

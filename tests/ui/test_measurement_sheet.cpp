@@ -215,6 +215,23 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(s.text(2, first + 1), QString("0.8"));
   }
 
+  // Row by row as in a spreadsheet: Tab to the repeats, Enter to the next individual's first one.
+  void enterAfterTabGoesToWhereTabBegan() {
+    Stored s(3, 2);
+    s.goTo(0, first);
+    s.type("0.5");
+    s.press(Qt::Key_Tab);
+    s.type("0.6");
+    s.press(Qt::Key_Return);
+    QCOMPARE(s.sheet.view().currentIndex(), s.model().index(1, first));
+    // Another key between them: down, as ever.
+    s.press(Qt::Key_Tab);
+    s.press(Qt::Key_Left);
+    s.press(Qt::Key_Right);
+    s.press(Qt::Key_Return);
+    QCOMPARE(s.sheet.view().currentIndex(), s.model().index(2, first + 1));
+  }
+
   void escapeLeavesACellAsItWas() {
     Stored s(2);
     s.goTo(0, first);

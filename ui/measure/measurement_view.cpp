@@ -6,6 +6,7 @@
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QToolButton>
 #include <algorithm>
 #include <set>
@@ -95,22 +96,37 @@ QModelIndex MeasurementView::nextEditable(const QModelIndex& from, int direction
 }
 
 QModelIndex MeasurementView::moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) {
-  if (action == MoveNext) return nextEditable(currentIndex(), 1);
-  if (action == MovePrevious) return nextEditable(currentIndex(), -1);
-  return QTableView::moveCursor(action, modifiers);
+  if (action != MoveNext && action != MovePrevious) {
+    tabFrom_ = -1;
+    return QTableView::moveCursor(action, modifiers);
+  }
+  if (tabFrom_ < 0) tabFrom_ = currentIndex().column();
+  return nextEditable(currentIndex(), action == MoveNext ? 1 : -1);
 }
 
 void MeasurementView::moveDown() {
   const QModelIndex here = currentIndex();
-  if (here.isValid() && here.row() + 1 < model_.rowCount()) setCurrentIndex(here.siblingAtRow(here.row() + 1));
+  const int column = tabFrom_ < 0 ? here.column() : tabFrom_;
+  tabFrom_ = -1;
+  if (here.isValid() && here.row() + 1 < model_.rowCount()) setCurrentIndex(model_.index(here.row() + 1, column));
+}
+
+void MeasurementView::moveAlong(int direction) {
+  if (tabFrom_ < 0) tabFrom_ = currentIndex().column();
+  setCurrentIndex(nextEditable(currentIndex(), direction));
+}
+
+void MeasurementView::mousePressEvent(QMouseEvent* event) {
+  tabFrom_ = -1;
+  QTableView::mousePressEvent(event);
 }
 
 void MeasurementView::closeEditor(QWidget* editor, QAbstractItemDelegate::EndEditHint hint) {
   // Move on without opening the next editor: the next key starts it.
   QTableView::closeEditor(editor, QAbstractItemDelegate::NoHint);
   if (hint == QAbstractItemDelegate::SubmitModelCache) moveDown();
-  if (hint == QAbstractItemDelegate::EditNextItem) setCurrentIndex(nextEditable(currentIndex(), 1));
-  if (hint == QAbstractItemDelegate::EditPreviousItem) setCurrentIndex(nextEditable(currentIndex(), -1));
+  if (hint == QAbstractItemDelegate::EditNextItem) moveAlong(1);
+  if (hint == QAbstractItemDelegate::EditPreviousItem) moveAlong(-1);
 }
 
 void MeasurementView::keyPressEvent(QKeyEvent* event) {

@@ -5,9 +5,9 @@
 
 namespace btr::ui {
 
-/// The sheet's table, worked like a spreadsheet: type to enter, Enter goes down, Tab to the next cell to fill, arrows
-/// move (while typing: up and down), Delete clears what is not saved, Ctrl+C and Ctrl+V exchange blocks with a
-/// spreadsheet.
+/// The sheet's table, worked like a spreadsheet: type to enter, Enter goes down, Tab to the next cell to fill, Enter
+/// after it to the next row where Tab began, arrows move (while typing: up and down), Delete clears what is not saved,
+/// Ctrl+C and Ctrl+V exchange blocks with a spreadsheet.
 class MeasurementView : public QTableView {
   Q_OBJECT
 
@@ -36,15 +36,18 @@ class MeasurementView : public QTableView {
   QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
 
  private:
   void placeButtons();
   void arrangeColumns();
   void fitNote();
   void moveDown();
+  void moveAlong(int direction);
   QModelIndex nextEditable(const QModelIndex& from, int direction) const;
 
   MeasurementModel& model_;
+  int tabFrom_ = -1;  ///< the column in which the first of the last Tabs was pressed; −1: another key came since
 };
 
 /// Rows and cells of text from a clipboard or a CSV file: lines, then tabs; without tabs semicolons; without these

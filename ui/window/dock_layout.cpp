@@ -118,10 +118,11 @@ void DockLayout::size() {
   window_.resizeDocks({dock("fitness"), dock("gap")}, {middle * 54 / 100, middle * 46 / 100}, Qt::Horizontal);
 }
 
-/// As high as the run's text needs at that width, and the title of the dock.
+/// As high as the run's text needs at that width, without a scroll bar, and the title of the dock.
 int DockLayout::runHeight(int width) const {
-  const auto* page = qobject_cast<const ScrollPage*>(dock("run")->widget());
-  return page->widget()->layout()->minimumHeightForWidth(width) + window_.fontMetrics().height() * 2;
+  const QWidget* text = qobject_cast<const ScrollPage*>(dock("run")->widget())->widget();
+  const int least = qMax(text->layout()->minimumHeightForWidth(width), text->minimumSizeHint().height());
+  return least + window_.fontMetrics().height() * 2;
 }
 
 // The first layout is made before a run has been read, and some runs have more to say than others. What the user made

@@ -107,7 +107,7 @@ int signBitOf(const Written& written) {
 /// Periods that counters have, in the file's unit. `turn` is a turn of the joint, 0 for one that slides.
 std::vector<double> periods(const Written& written, double turn) {
   std::vector<double> known;
-  if (turn > 0) known.insert(known.end(), {turn, 360});
+  if (turn > 0) known = {turn, 360};
   if (!written.whole) return known;
   for (int bits = 8; bits <= 32; ++bits) known.push_back(std::ldexp(1, bits));
   for (const double counts : {1000, 2000, 3600, 4000, 8000, 10000, 20000, 36000, 40000}) known.push_back(counts);

@@ -63,6 +63,7 @@ struct CameraPipeline::Parts {
   }
 
   bool on(CameraStage stage) const { return spec[stage].on; }
+  std::vector<PictureRows> rows() const;
   void checkMoments(std::span<const PinholePicture> moments) const;
   LightPicture gathered(std::span<const PinholePicture> moments, bool throughShutter) const;
   LightPicture light(std::span<const PinholePicture> moments, std::uint64_t frameNumber,
@@ -80,6 +81,21 @@ struct CameraPipeline::Parts {
   std::optional<SensorNoise> noise;
   std::optional<GammaCurve> gamma;
 };
+
+std::vector<PictureRows> CameraPipeline::Parts::rows() const {
+  const int height = lens.pinhole().height;
+  std::vector<PictureRows> rows(shutter.moments_s().size(), {height, -1});
+  for (int y = 0; y < spec.height; ++y)
+    for (const MomentShare& share : shares[static_cast<std::size_t>(y)]) {
+      PictureRows& read = rows[share.moment];
+      const PictureRows more = lens.rowsFor(y);
+      read = {std::min(read.first, more.first), std::max(read.last, more.last)};
+    }
+  for (PictureRows& read : rows)
+    if (read.last < read.first) read = {0, 0};
+  rows[rows.size() / 2] = {0, height - 1};
+  return rows;
+}
 
 void CameraPipeline::Parts::checkMoments(std::span<const PinholePicture> moments) const {
   require(moments.size() == shutter.moments_s().size(), "a camera gets one picture for each of its moments");
@@ -169,6 +185,8 @@ CameraPipeline& CameraPipeline::operator=(CameraPipeline&&) noexcept = default;
 const CameraSpec& CameraPipeline::spec() const { return parts_->spec; }
 Pinhole CameraPipeline::pinhole() const { return parts_->lens.pinhole(); }
 std::vector<double> CameraPipeline::moments_s() const { return parts_->shutter.moments_s(); }
+
+std::vector<PictureRows> CameraPipeline::rows() const { return parts_->rows(); }
 
 CameraFrame CameraPipeline::process(std::span<const PinholePicture> moments, std::uint64_t frameNumber) const {
   return process(moments, frameNumber, {});

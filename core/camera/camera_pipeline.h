@@ -60,6 +60,10 @@ class CameraPipeline {
   /// When, in seconds from the frame's nominal time, which is the middle of the exposure of the middle row. In order.
   std::vector<double> moments_s() const;
 
+  /// Which rows of each moment's picture process() reads: those that the shutter exposed then, of the middle one all,
+  /// for the truth.
+  std::vector<PictureRows> rows() const;
+
   /// One picture for each of moments_s(), of the size of pinhole(); breaking that is a fault of the program.
   /// The same for the same (seed, frameNumber), whatever was processed before.
   CameraFrame process(std::span<const PinholePicture> moments, std::uint64_t frameNumber) const;

@@ -10,6 +10,11 @@ struct Pinhole {
   double focal_px = 191.9, centreX_px = 103.5, centreY_px = 79.5;
 };
 
+/// Rows of a picture, the last one included.
+struct PictureRows {
+  int first = 0, last = 0;
+};
+
 /// What it sees at one moment; row by row from the upper left.
 struct PinholePicture {
   Pinhole pinhole;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/camera/pictures.h"
 
 namespace btr::test {
@@ -38,6 +40,36 @@ TEST(CameraPipelineTogether, WithAllStagesOffGivesThePictureInBytes) {
   EXPECT_TRUE(frame.classes.empty());
   EXPECT_TRUE(frame.jpeg.empty());
   for (std::size_t i = 0; i < picture.rgb.size(); ++i) ASSERT_EQ(frame.rgb[i], std::lround(255 * picture.rgb[i]));
+}
+
+// A renderer may leave out the other rows.
+TEST(CameraPipelineTogether, OnlyTheRowsThatItNamesAreRead) {
+  for (const double readout_s : {0.0, 0.03})
+    for (const double moments : {1.0, 2.0, 3.0, 9.0}) {
+      CameraSpec spec = everything();
+      spec[CameraStage::shutter].values["readout_s"] = readout_s;
+      spec[CameraStage::shutter].values["moments"] = moments;
+      const CameraPipeline camera(spec);
+      std::vector<PinholePicture> pictures = momentsOf(camera);
+      const CameraFrame expected = camera.process(pictures, 3);
+      const std::vector<PictureRows> rows = camera.rows();
+      ASSERT_EQ(rows.size(), pictures.size());
+      const auto stride = static_cast<std::ptrdiff_t>(3 * camera.pinhole().width);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_GE(rows[i].first, 0);
+        ASSERT_LT(rows[i].last, camera.pinhole().height);
+        auto& rgb = pictures[i].rgb;
+        std::fill(rgb.begin(), rgb.begin() + rows[i].first * stride, 1e6f);
+        std::fill(rgb.begin() + (rows[i].last + 1) * stride, rgb.end(), 1e6f);
+      }
+      expectSame(camera.process(pictures, 3), expected);
+      EXPECT_EQ(rows[rows.size() / 2].last - rows[rows.size() / 2].first + 1, camera.pinhole().height);
+      // With a slow read-out the first moment lights the upper rows, the last the lower ones.
+      if (readout_s > 0 && moments > 2) {
+        EXPECT_LT(rows.front().last, camera.pinhole().height * 2 / 3);
+        EXPECT_GT(rows.back().first, camera.pinhole().height / 3);
+      }
+    }
 }
 
 // Numbers of a stage that is off, however strange, change nothing.

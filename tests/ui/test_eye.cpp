@@ -1,6 +1,9 @@
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 
+#include "core/model/kinematics.h"
+#include "core/sim/scene.h"
 #include "tests/ui/small_robot.h"
 #include "ui/scene3d/eye_renderer.h"
 #include "ui/scene3d/scene_builder.h"
@@ -56,6 +59,10 @@ class TestEye : public QObject {
   void aHiddenLinkIsNotSeen();
   void linesAreWhereTheCarpetSays();
   void theSameSceneGivesTheSameBits();
+  void rowsAloneHaveTheSameBits();
+  void theSunCastsAShadowWhereGeometrySays();
+  void shadowsCanStayAsTheyWere();
+  void fewerTrianglesAreNotSeen();
   void noOpenGlIsSaid();
 };
 
@@ -198,6 +205,117 @@ void TestEye::theSameSceneGivesTheSameBits() {
   QVERIFY(a.rgb == b.rgb);
   QVERIFY(a.depth_m == b.depth_m);
   QVERIFY(a.object == b.object);
+}
+
+void TestEye::rowsAloneHaveTheSameBits() {
+  SceneBuilder scene;
+  fill(scene, {0, 0, 0.2});
+  EyeRenderer renderer;
+  const PinholePicture whole = looked(renderer, scene, at(-1, 0, 0.3));
+  for (const int samples : {1, 2}) {
+    RenderOptions options;
+    options.supersampling = samples;
+    const PinholePicture all = looked(renderer, scene, at(-1, 0, 0.3), options);
+    for (const PictureRows rows : {PictureRows{0, 40}, {50, 110}, {159, 159}}) {
+      PinholePicture part = whole;
+      std::ranges::fill(part.rgb, -1.f);
+      QVERIFY(renderer.look(scene.node(), at(-1, 0, 0.3), eye(), options, part, rows));
+      for (int y = 0; y < 160; ++y)
+        for (std::size_t i = pixel(eye(), 0, y); i < pixel(eye(), 0, y + 1); ++i) {
+          const bool drawn = y >= rows.first && y <= rows.last;
+          for (std::size_t c = 0; c < 3; ++c) QCOMPARE(part.rgb[3 * i + c], drawn ? all.rgb[3 * i + c] : -1.f);
+          if (drawn) QVERIFY(part.depth_m[i] == all.depth_m[i] && part.object[i] == all.object[i]);
+        }
+    }
+  }
+}
+
+namespace {
+
+/// Light on the floor at a place, seen from above at (0, 0, 2).
+float lightAt(const PinholePicture& picture, double x, double y) {
+  const int u = int(std::lround(eye().centreX_px - eye().focal_px * y / 2));
+  const int v = int(std::lround(eye().centreY_px - eye().focal_px * x / 2));
+  return picture.rgb[3 * pixel(eye(), u, v) + 1];
+}
+
+/// Where the middle of a thing's shadow lies on the floor.
+Vector3d shadowOf(const Vector3d& thing) { return thing - thing.z() / sunDirection().z() * sunDirection(); }
+
+}  // namespace
+
+void TestEye::theSunCastsAShadowWhereGeometrySays() {
+  SceneBuilder scene;
+  const Vector3d ball(0.1, -0.2, 0.4);
+  fill(scene, ball);
+  EyeRenderer renderer;
+  RenderOptions lit;
+  lit.shadows = false;
+  const Isometry3d above = lookingDown(0, 0, 2);
+  const PinholePicture dark = looked(renderer, scene, above), bright = looked(renderer, scene, above, lit);
+  const Vector3d middle = shadowOf(ball);
+  QVERIFY(lightAt(dark, middle.x(), middle.y()) < 0.7f * lightAt(bright, middle.x(), middle.y()));
+  // Across the sun's way a shadow is as wide as the ball.
+  const Vector3d across = sunDirection().cross(Vector3d::UnitZ()).normalized();
+  const Vector3d inside = middle + 0.75 * ball_m * across, outside = middle + 1.5 * ball_m * across;
+  QVERIFY(lightAt(dark, inside.x(), inside.y()) < 0.8f * lightAt(bright, inside.x(), inside.y()));
+  QVERIFY(lightAt(dark, outside.x(), outside.y()) > 0.98f * lightAt(bright, outside.x(), outside.y()));
+}
+
+void TestEye::shadowsCanStayAsTheyWere() {
+  SceneBuilder scene;
+  const Vector3d before(0.1, -0.2, 0.4), after(-0.2, 0.1, 0.4);
+  fill(scene, before);
+  EyeRenderer renderer;
+  const Isometry3d above = lookingDown(0, 0, 2);
+  RenderOptions options;
+  options.sameShadows = true;
+  const auto isDark = [&](const PinholePicture& picture, const Vector3d& thing) {
+    const Vector3d middle = shadowOf(thing);
+    return lightAt(picture, middle.x(), middle.y()) < 0.7f * lightAt(picture, 0.5, 0.5);
+  };
+  const PinholePicture first = looked(renderer, scene, above, options);  // there are none before
+  QVERIFY(isDark(first, before) && !isDark(first, after));
+  fill(scene, after);
+  const PinholePicture same = looked(renderer, scene, lookingDown(0, 0, 2), options);
+  QVERIFY(isDark(same, before) && !isDark(same, after));
+  const PinholePicture anew = looked(renderer, scene, above);
+  QVERIFY(!isDark(anew, before) && isDark(anew, after));
+}
+
+void TestEye::fewerTrianglesAreNotSeen() {
+  SceneSpec spec;
+  RobotSpec robot;
+  robot.name = "dog";
+  robot.model = SOURCE_DIR "/resources/robots/ers7.wrl";
+  spec.robots = {robot};
+  const auto model = loadModels(spec).begin()->second;
+  SceneBuilder all, fewer;
+  fewer.setLevels(true);
+  for (SceneBuilder* scene : {&all, &fewer}) {
+    scene->setGround(Ground::plain);
+    scene->setFurtherRobots({model});
+    ScenePose pose;
+    pose.others = {forwardKinematics(*model, at(0, 0, 0.2), std::vector<double>(model->joints.size(), 0.0))};
+    scene->setPose(pose);
+  }
+  EyeRenderer renderer;
+  for (const double away_m : {0.4, 0.8, 1.6, 3.0}) {
+    const PinholePicture a = looked(renderer, all, at(-away_m, 0, 0.2)),
+                         b = looked(renderer, fewer, at(-away_m, 0, 0.2));
+    int ofDog = 0, off = 0;
+    double light = 0;
+    for (std::size_t i = 0; i < a.object.size(); ++i) {
+      const bool inOne = a.object[i] == all.furtherNumber(0), inOther = b.object[i] == all.furtherNumber(0);
+      ofDog += inOne;
+      off += inOne != inOther;
+      for (std::size_t c = 0; c < 3; ++c) light += std::abs(a.rgb[3 * i + c] - b.rgb[3 * i + c]);
+    }
+    QVERIFY2(ofDog > 100, qPrintable(QString::number(ofDog)));
+    // The outline has about 6 √area pixels, of which few fall to the other side.
+    QVERIFY2(off < 1.5 * std::sqrt(ofDog), qPrintable(QString("%1 of %2 at %3 m").arg(off).arg(ofDog).arg(away_m)));
+    QVERIFY2(light / 3 < 0.05 * ofDog, qPrintable(QString("%1 of %2 at %3 m").arg(light / 3).arg(ofDog).arg(away_m)));
+  }
 }
 
 void TestEye::noOpenGlIsSaid() {

@@ -41,6 +41,7 @@ LiveEye::LiveEye(const Game& game, const ModelSet& models, const std::vector<std
       link_(linkOf(*scene_.models()[robot_], camera)),
       pipeline_(std::move(camera)),
       moments_s_(pipeline_.moments_s()),
+      seen_(pipeline_.rows()),
       mount_(poseOf(pipeline_.spec().mount)),
       renderer_(std::move(factory)) {
   builder_.setGround(game.scene.floor ? Ground::plain : Ground::none);
@@ -70,6 +71,7 @@ void LiveEye::setCamera(CameraSpec camera) {
   link_ = link;
   pipeline_ = std::move(pipeline);
   moments_s_ = pipeline_.moments_s();
+  seen_ = pipeline_.rows();
   mount_ = poseOf(pipeline_.spec().mount);
   builder_.hideLink(std::pair{robot_, link_});
   if (rows_.empty()) return;
@@ -112,23 +114,23 @@ void LiveEye::catchUp() {
   while (isComplete(next_ + 1)) ++next_;
 }
 
-PinholePicture LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, bool sameShadows) {
+void LiveEye::look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, std::size_t moment) {
   const ScenePose pose = scene_.pose(row);
   builder_.setPose(pose);
-  PinholePicture picture;
+  PinholePicture& picture = pictures_[moment];
   RenderOptions options = builder_.renderOptions();
-  options.sameShadows = sameShadows;
+  options.sameShadows = moment != moments_s_.size() / 2;
   Pinhole pinhole = pipeline_.pinhole();
   if (aside) {
     options.supersampling = 1;
     pinhole.centreX_px -= aside->x();
     pinhole.centreY_px -= aside->y();
   }
-  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pinhole, options, picture))
+  if (!renderer_.look(builder_.node(), pose.others.at(robot_).at(link_) * mount_, pinhole, options, picture,
+                      seen_[moment]))
     throw InputError("camera", "OpenGL: " + renderer_.problem().toStdString(),
                      "a machine with OpenGL; Mesa's software driver will do (libegl-mesa0, libgl1-mesa-dri)");
   picture.pinhole = pipeline_.pinhole();
-  return picture;
 }
 
 EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector<LiveRow>& moments,
@@ -136,20 +138,21 @@ EyeFrame LiveEye::frameOf(std::uint64_t number, double time_s, const std::vector
   EyeFrame frame;
   frame.number = number;
   frame.time_s = time_s;
-  std::vector<PinholePicture> pictures(moments.size());
+  pictures_.resize(moments.size());
   // The shutter averages over moments: each takes one sample a pixel, at another place in it. The middle one, which the
   // truth is read from, takes it in the middle; it is drawn first, and its shadows are those of all.
   const std::size_t middle = moments.size() / 2;
   const auto take = [&](std::size_t i) {
     constexpr double third = 1.0 / 3;
     const double side = i == middle ? 0 : i % 2 == 0 ? third : -third;
-    pictures[i] = moments.size() == 1 ? look(moments[i])
-                                      : look(moments[i], Eigen::Vector2d(i < middle ? side : -side, side), i != middle);
+    const auto aside =
+        moments.size() == 1 ? std::nullopt : std::optional<Eigen::Vector2d>({i < middle ? side : -side, side});
+    look(moments[i], aside, i);
   };
   take(middle);
   for (std::size_t i = 0; i < moments.size(); ++i)
     if (i != middle) take(i);
-  frame.picture = pipeline_.process(pictures, number);
+  frame.picture = pipeline_.process(pictures_, number);
   for (const int joint : joints_) frame.joints.push_back(now.values.at(static_cast<std::size_t>(joint)));
   return frame;
 }

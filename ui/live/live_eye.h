@@ -40,16 +40,15 @@ class LiveEye {
   std::optional<EyeFrame> still();
   /// Leaves frames out until the last one that the rows complete.
   void catchUp();
-  /// The world as the pinhole of the camera sees it in a row; `aside` is where in its pixels samples lie, from their
-  /// middle [pixels]: none takes four a pixel. With `sameShadows` those of the look before stay.
-  PinholePicture look(const LiveRow& row, std::optional<Eigen::Vector2d> aside = std::nullopt,
-                      bool sameShadows = false);
 
  private:
   double frameTime_s(std::uint64_t number) const { return static_cast<double>(number) / camera().frameRate_hz; }
   std::uint64_t firstFrame(const LiveRow& row) const;
   bool isComplete(std::uint64_t number) const;
   LiveRow rowAt(double time_s) const;
+  /// The world as the pinhole of the camera sees it in a row; `aside` is where in its pixels samples lie, from their
+  /// middle [pixels]: none takes four a pixel. The middle moment is the first; its shadows are those of all.
+  void look(const LiveRow& row, std::optional<Eigen::Vector2d> aside, std::size_t moment);
   EyeFrame frameOf(std::uint64_t number, double time_s, const std::vector<LiveRow>& moments, const LiveRow& now);
 
   LiveScene scene_;
@@ -57,6 +56,7 @@ class LiveEye {
   std::size_t link_ = 0;  ///< on which the camera sits
   CameraPipeline pipeline_;
   std::vector<double> moments_s_;
+  std::vector<PictureRows> seen_;  ///< of each moment's picture
   Eigen::Isometry3d mount_;
   EyeRenderer renderer_;
   SceneBuilder builder_;
@@ -64,6 +64,7 @@ class LiveEye {
   std::vector<int> joints_;   ///< columns of jointColumns_
   std::deque<LiveRow> rows_;  ///< as far back as the next frame reaches
   std::uint64_t next_ = 0;
+  std::vector<PinholePicture> pictures_;  ///< one a moment; kept for their memory
 };
 
 /// The camera of resources/cameras that belongs to a robot's model, by its name; "" none does.

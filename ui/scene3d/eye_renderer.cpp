@@ -43,10 +43,13 @@ EyeRenderer::~EyeRenderer() = default;
 const QString& EyeRenderer::problem() const { return impl_->stage.problem(); }
 
 bool EyeRenderer::look(osg::Node& scene, const Eigen::Isometry3d& camera, const Pinhole& pinhole,
-                       const RenderOptions& options, PinholePicture& picture, double near_m) {
+                       const RenderOptions& options, PinholePicture& picture, std::optional<PictureRows> rows,
+                       double near_m) {
   const int factor = options.supersampling == 1 ? 1 : 2;
-  const RenderView view = frustumOf(camera, pinhole, near_m);
+  RenderView view = frustumOf(camera, pinhole, near_m);
   const QSize size(pinhole.width, pinhole.height);
+  const int firstRow = rows ? rows->first : 0, lastRow = rows ? rows->last : size.height() - 1;
+  view.rows = {factor * (size.height() - 1 - lastRow), factor * (size.height() - firstRow) - 1};
   if (!impl_->stage.draw(scene, view, size * factor, options)) return false;
   const auto count = static_cast<std::size_t>(size.width()) * static_cast<std::size_t>(size.height());
   picture.pinhole = pinhole;
@@ -57,8 +60,8 @@ bool EyeRenderer::look(osg::Node& scene, const Eigen::Isometry3d& camera, const 
   const auto* depth = reinterpret_cast<const float*>(impl_->stage.depth().data());
   const int stride = size.width() * factor;
   const double share = 1.0 / (factor * factor), n = view.near_m, f = view.far_m;
-  std::size_t pixel = 0;
-  for (int y = 0; y < size.height(); ++y)
+  std::size_t pixel = std::size_t(firstRow) * std::size_t(size.width());
+  for (int y = firstRow; y <= lastRow; ++y)
     for (int x = 0; x < size.width(); ++x, ++pixel) {
       const std::size_t first = std::size_t(size.height() - 1 - y) * factor * stride + std::size_t(x) * factor;
       float sum[3] = {0, 0, 0};

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "core/camera/pinhole.h"
 #include "ui/scene3d/renderer.h"
@@ -17,9 +18,10 @@ class EyeRenderer {
   EyeRenderer& operator=(const EyeRenderer&) = delete;
 
   /// `camera`: its frame in the world (x along the optical axis, y left, z up). False if there is no OpenGL: problem()
-  /// says why. Nothing nearer than `near_m` is seen.
+  /// says why. Nothing nearer than `near_m` is seen. With `rows` the picture is drawn in these alone, where it has the
+  /// same bits; others are left as they are.
   bool look(osg::Node& scene, const Eigen::Isometry3d& camera, const Pinhole& pinhole, const RenderOptions& options,
-            PinholePicture& picture, double near_m = 0.01);
+            PinholePicture& picture, std::optional<PictureRows> rows = std::nullopt, double near_m = 0.01);
   const QString& problem() const;
 
  private:

@@ -17,9 +17,13 @@ namespace {
 /// Of a picture for people, where the map is finer near the eye, and of a measurement.
 constexpr int kShadowMapSize = 2048, kSunMapSize = 1024;
 
+/// After the grounds of SceneBuilder, before what is translucent.
+constexpr int kSkyBin = 5;
+
 osg::ref_ptr<osg::Shader> shader(osg::Shader::Type type, const char* text) { return new osg::Shader(type, text); }
 
-/// A quad over the whole picture, drawn first; it has no extent that would move clipping planes or shadows.
+/// A quad behind the whole picture, drawn where nothing solid is; it has no extent that would move clipping planes or
+/// shadows.
 osg::ref_ptr<osg::Geometry> makeSky(const std::string& fragment) {
   struct NoBound final : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
@@ -36,8 +40,8 @@ osg::ref_ptr<osg::Geometry> makeSky(const std::string& fragment) {
   sky->setUseVertexBufferObjects(true);
   osg::StateSet& state = *sky->getOrCreateStateSet();
   state.setAttribute(shaderProgram({shaders::kSkyVertex}, {fragment}));
-  state.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
-  state.setRenderBinDetails(-10, "RenderBin");
+  state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
+  state.setRenderBinDetails(kSkyBin, "RenderBin");
   return sky;
 }
 
@@ -105,6 +109,7 @@ void RenderStage::build() {
     *uniform = new osg::Uniform(name, osg::Vec3());
     state.addUniform(*uniform);
   }
+  if (measured) state.setAttributeAndModes(rows_);
   viewport_ = new osg::Uniform("viewport", osg::Vec2());
   state.addUniform(viewport_);
   state.addUniform(new osg::Uniform("shadowTexel", 1.f / float(kShadowMapSize)));
@@ -202,6 +207,8 @@ bool RenderStage::draw(osg::Node& scene, const RenderView& view, QSize pixels, c
   skyTop_->set(rgb(options.skyTop));
   skyHorizon_->set(rgb(options.skyHorizon));
   resize(pixels);
+  const PictureRows rows = view.rows.value_or(PictureRows{0, pixels.height() - 1});
+  rows_->setScissor(0, rows.first, pixels.width(), rows.last + 1 - rows.first);
   osg::Camera& camera = *viewer_->getCamera();
   camera.setViewMatrix(osg::Matrixd(view.view.data()));
   camera.setProjectionMatrixAsFrustum(view.left, view.right, view.bottom, view.top, view.near_m, view.far_m);

@@ -1,11 +1,14 @@
 #pragma once
 #include <osg/Image>
+#include <osg/Scissor>
 #include <osg/Uniform>
 #include <osgShadow/ShadowedScene>
 #include <osgViewer/Viewer>
 
 #include <Eigen/Geometry>
+#include <optional>
 
+#include "core/camera/pinhole.h"
 #include "ui/scene3d/renderer.h"
 #include "ui/scene3d/sun_map.h"
 
@@ -16,7 +19,8 @@ struct RenderView {
   Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
   double left = -1, right = 1, bottom = -1, top = 1;
   double near_m = 0.01, far_m = 25;
-  double shadowReach_m = 5;  ///< from the eye
+  double shadowReach_m = 5;         ///< from the eye
+  std::optional<PictureRows> rows;  ///< of a measurement, from below: drawn are these alone. None: all
 };
 
 /// Light, shadows, sky and a scene in an OpenGL context of its own: what all renderers share. Belongs to the thread of
@@ -61,6 +65,7 @@ class RenderStage {
   std::unique_ptr<SunMap> sunMap_;     ///< of a measurement
   osg::ref_ptr<osg::Node> scene_;
   osg::ref_ptr<osg::Uniform> skyTop_, skyHorizon_, viewport_, up_;
+  osg::ref_ptr<osg::Scissor> rows_ = new osg::Scissor;
   QSize pixels_;
 };
 

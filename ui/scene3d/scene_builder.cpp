@@ -324,11 +324,13 @@ void SceneBuilder::Impl::rebuildGround() {
     ground->addChild(geometry);
     return *geometry->getOrCreateStateSet();
   };
-  // Floors sink behind what lies on them, and the outermost one into the horizon.
+  // Floors sink behind what lies on them, and the outermost one into the horizon. They are drawn after what hides them,
+  // lowest last: pixels that are not seen are not shaded.
   const float shade = groundKind == Ground::field ? 0.75f : 0.66f;
   const Colour floor = dark ? Colour{0.20f, 0.21f, 0.23f, 1} : Colour{shade, shade, shade + 0.02f, 1};
-  const auto sink = [](osg::StateSet& state, float amount) {
-    state.setAttributeAndModes(new osg::PolygonOffset(amount, amount));
+  const auto sink = [](osg::StateSet& state, int amount) {
+    state.setAttributeAndModes(new osg::PolygonOffset(float(amount), float(amount)));
+    state.setRenderBinDetails(amount, "RenderBin");
   };
   osg::StateSet& around = add(plainFloor(14, groundKind == Ground::field ? -0.004 : 0, floor), 0, kCastsNoShadow);
   around.addUniform(new osg::Uniform("fade", 12.f));

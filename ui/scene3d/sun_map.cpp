@@ -46,6 +46,7 @@ SunMap::SunMap(osg::Node& drawn, int size)
   osg::StateSet& casting = *camera_->getOrCreateStateSet();
   casting.setAttribute(shaderProgram({shaders::kCastVertex}, {shaders::kCastFragment}), wins);
   casting.setAttributeAndModes(new osg::PolygonOffset(2, 4), wins);
+  casting.setMode(GL_SCISSOR_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
   camera_->addChild(&drawn);
 
   osg::ref_ptr<osg::Group> receivers = new osg::Group;

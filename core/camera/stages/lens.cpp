@@ -1,5 +1,6 @@
 #include "core/camera/stages/lens.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/camera/stages/brown.h"
@@ -94,6 +95,13 @@ void LensMap::addRow(const std::vector<float>& rgb, int y, float weight, float* 
       row[3 * i + c] += weight * (above + v * (below - above));
     }
   }
+}
+
+PictureRows LensMap::rowsFor(int y) const {
+  if (identity_) return {y, y};
+  const auto row = y_px_.begin() + static_cast<std::ptrdiff_t>(y) * width_;
+  const auto [top, bottom] = std::minmax_element(row, row + width_);
+  return {static_cast<int>(*top), static_cast<int>(*bottom) + 1};
 }
 
 std::size_t LensMap::nearest(std::size_t pixel) const {

@@ -16,6 +16,8 @@ class LensMap {
   const Pinhole& pinhole() const { return pinhole_; }
   /// Adds `weight` times a row of the sensor to `row` (3 floats a pixel), between pixels linearly.
   void addRow(const std::vector<float>& rgb, int y, float weight, float* row) const;
+  /// What addRow() reads of the pinhole picture.
+  PictureRows rowsFor(int y) const;
   /// The nearest pixel of the pinhole picture.
   std::size_t nearest(std::size_t pixel) const;
   /// Distance over depth along the optical axis.

@@ -1,6 +1,7 @@
 // Array jobs: parts of a comparison, of grids or of a blind trial in Slurm's queue or on other machines over ssh.
 #include "app/cluster/btr_array.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -34,8 +35,19 @@ std::vector<std::size_t> unfinished(const std::vector<ElementState>& states) {
   return numbers;
 }
 
-void printStates(const ArrayJob& job, const std::vector<ElementState>& states, Shell& shell) {
+/// ", about 1:05:00 left"; empty where it is not known.
+std::string timeLeft(double seconds) {
+  if (seconds <= 0) return "";
+  const long s = std::lround(seconds);
+  char text[64];
+  std::snprintf(text, sizeof text, ", about %ld:%02ld:%02ld left", s / 3600, s / 60 % 60, s % 60);
+  return text;
+}
+
+void printStates(const std::string& folder, const ArrayJob& job, const std::vector<ElementState>& states,
+                 Shell& shell) {
   nlohmann::json all = nlohmann::json::array();
+  const ArrayProgress progress = progressOf(states);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const ElementState& s = states[i];
@@ -44,24 +56,37 @@ void printStates(const ArrayJob& job, const std::vector<ElementState>& states, S
                    {"state", s.state},
                    {"host", s.host},
                    {"share", s.share},
+                   {"trials_per_second", s.trialsPerSecond},
                    {"note", s.note}});
-    rows.push_back({std::to_string(i + 1), job.elements[i].name, s.state, tenthPercent(s.share), s.host, s.note});
+    rows.push_back({std::to_string(i + 1), job.elements[i].name, s.state, tenthPercent(s.share), s.host,
+                    s.trialsPerSecond > 0 ? brief(s.trialsPerSecond) : "", s.note});
   }
-  if (shell.json) return printJson(all);
-  writeOut("", table({"element", "what", "state", "done", "host", ""}, rows));
+  if (shell.json)
+    return printJson({{"format", "uchilsim-array-status-1"},
+                      {"what", job.what},
+                      {"into", job.into},
+                      {"is_slurms", !job.queueIds.empty()},
+                      {"is_worked_on_over_ssh", isWorkedOnOverSsh(folder)},
+                      {"workers", job.workers},
+                      {"share", progress.share},
+                      {"seconds_left", progress.secondsLeft},
+                      {"trials_per_second", progress.trialsPerSecond},
+                      {"elements", all}});
+  writeOut("", table({"element", "what", "state", "done", "host", "trials/s", ""}, rows));
+  std::printf("all: %s%s\n", tenthPercent(progress.share).c_str(), timeLeft(progress.secondsLeft).c_str());
 }
 
 void overSsh(const std::string& folder, const std::string& hosts, const std::vector<std::size_t>& numbers,
              Shell& shell) {
-  runOverSsh(folder, whole(hosts), numbers);
+  runOverSsh(folder, whole(hosts), numbers, *shell.stop);
   const ArrayJob job = loadArrayJob(folder);
   const std::vector<ElementState> states = arrayStates(folder, job);
-  printStates(job, states, shell);
+  printStates(folder, job, states, shell);
   if (!unfinished(states).empty()) shell.exitCode = stoppedEarly;
 }
 
 struct FolderArguments {
-  std::string folder, hosts;
+  std::string folder, hosts, login;
   std::size_t number = 0;
 };
 
@@ -145,13 +170,15 @@ void addArrayCommands(CLI::App& app, Shell& shell) {
   add("status", "how each element is: queued, running, done, waiting, stopped or failed, and why")
       ->callback([a, &shell] {
         const ArrayJob job = loadArrayJob(a->folder);
-        printStates(job, arrayStates(a->folder, job), shell);
+        printStates(a->folder, job, arrayStates(a->folder, job), shell);
       });
   add("collect", "bring the results of what is done into the database or folder of the command")->callback([a, &shell] {
     collect(*a, shell);
   });
-  add("cancel", "take the job out of Slurm's queue; what is done is kept")->callback([a] {
-    cancelInSlurm(loadArrayJob(a->folder));
+  add("cancel", "stop it, in Slurm's queue or over ssh; what is done is kept")->callback([a] {
+    const ArrayJob job = loadArrayJob(a->folder);
+    if (isWorkedOnOverSsh(a->folder) || job.queueIds.empty()) return stopOverSsh(a->folder);
+    cancelInSlurm(job);
   });
   CLI::App* again = add("resume", "work again on elements that failed, were stopped or have not begun, alone");
   again->add_option("--hosts", a->hosts, "on these machines in place of Slurm");
@@ -161,8 +188,10 @@ void addArrayCommands(CLI::App& app, Shell& shell) {
   element->group("");
   element->add_option("FOLDER", a->folder)->required();
   element->add_option("NUMBER", a->number)->required();
+  element->add_option("--login", a->login);
   element->callback([a, &shell] {
-    if (!workOnElement(whole(a->folder), a->number, shell.plugins(), *shell.stop)) shell.exitCode = stoppedEarly;
+    if (!workOnElement(whole(a->folder), a->number, shell.plugins(), *shell.stop, a->login))
+      shell.exitCode = stoppedEarly;
   });
 }
 

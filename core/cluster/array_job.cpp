@@ -126,17 +126,76 @@ ArrayJob loadArrayJob(const std::string& folder) {
 }
 
 void saveElementState(const std::string& folder, std::size_t number, const ElementState& state) {
-  writeWhole(elementFile(folder, number, ".json"),
-             json{{"state", state.state}, {"host", state.host}, {"note", state.note}, {"share", state.share}}.dump(
-                 1, ' ', false, json::error_handler_t::replace) +
-                 "\n");
+  writeWhole(elementFile(folder, number, ".json"), toJsonText(state) + "\n");
 }
+
+std::string toJsonText(const ElementState& state) {
+  json j{{"state", state.state},
+         {"host", state.host},
+         {"note", state.note},
+         {"share", state.share},
+         {"gained", state.gained},
+         {"worked_s", state.worked_s},
+         {"trials_per_second", state.trialsPerSecond}};
+  if (!state.login.empty()) {
+    j["login"] = state.login;
+    j["process"] = state.process;
+  }
+  return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+namespace {
+
+ElementState stateFrom(const json& j) {
+  ElementState s;
+  s.state = j.value("state", "");
+  s.host = j.value("host", "");
+  s.note = j.value("note", "");
+  s.share = j.value("share", 0.0);
+  s.gained = j.value("gained", 0.0);
+  s.worked_s = j.value("worked_s", 0.0);
+  s.trialsPerSecond = j.value("trials_per_second", 0.0);
+  s.login = j.value("login", "");
+  s.process = j.value("process", 0L);
+  return s;
+}
+
+}  // namespace
+
+ElementState elementStateFromJson(const std::string& text) { return stateFrom(json::parse(text)); }
 
 ElementState loadElementState(const std::string& folder, std::size_t number) {
   const std::string path = elementFile(folder, number, ".json");
   if (!fs::exists(path)) return {};
-  const json j = parsed(path);
-  return {j.value("state", ""), j.value("host", ""), j.value("note", ""), j.value("share", 0.0)};
+  try {
+    return stateFrom(parsed(path));
+  } catch (const json::exception& error) {
+    throw InputError(path, error.what(), "a file that btr wrote");
+  }
+}
+
+// An element's time per part counts what it did since it last began: what was done before took nobody's time that is
+// known.
+ArrayProgress progressOf(const std::vector<ElementState>& states) {
+  ArrayProgress progress;
+  double done = 0, gained = 0, worked_s = 0;
+  std::size_t running = 0;
+  for (const ElementState& s : states) {
+    done += s.share;
+    gained += s.gained;
+    worked_s += s.worked_s;
+    if (s.state != "running") continue;
+    ++running;
+    progress.trialsPerSecond += s.trialsPerSecond;
+  }
+  if (states.empty()) return progress;
+  progress.share = done / static_cast<double>(states.size());
+  const double left = static_cast<double>(states.size()) - done;
+  if (left <= 0)
+    progress.secondsLeft = 0;
+  else if (running > 0 && gained > 0)
+    progress.secondsLeft = left * worked_s / gained / static_cast<double>(running);
+  return progress;
 }
 
 Collected collectArray(const std::string& folder) {

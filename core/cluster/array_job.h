@@ -38,11 +38,25 @@ ArrayJob loadArrayJob(const std::string& folder);
 struct ElementState {
   std::string state;  ///< "" (not begun), "running", "done", "waiting" (for a person), "stopped", "failed"
   std::string host;
-  std::string note;  ///< why it failed or what it waits for
-  double share = 0;  ///< of what is to be done, as far as it is known
+  std::string note;                 ///< why it failed or what it waits for
+  double share = 0;                 ///< of what is to be done, as far as it is known
+  double gained = 0, worked_s = 0;  ///< the part of it that was done since it last began, and how long that took
+  double trialsPerSecond = 0;       ///< 0: not known
+  std::string login = {};           ///< by which ssh reached its machine
+  long process = 0;                 ///< there
 };
+std::string toJsonText(const ElementState& state);
+ElementState elementStateFromJson(const std::string& text);  ///< throws nlohmann::json::exception
 void saveElementState(const std::string& folder, std::size_t number, const ElementState& state);
 ElementState loadElementState(const std::string& folder, std::size_t number);
+
+/// How far a job is as a whole.
+struct ArrayProgress {
+  double share = 0;            ///< of all elements
+  double secondsLeft = -1;     ///< at the pace so far, on as many machines as now; negative: not known
+  double trialsPerSecond = 0;  ///< of all that are running
+};
+ArrayProgress progressOf(const std::vector<ElementState>& states);
 
 /// A file of the folder: "FOLDER/7.db".
 std::string elementFile(const std::string& folder, std::size_t number, const std::string& ending);

@@ -16,18 +16,21 @@ extern char** environ;  // NOLINT: POSIX
 namespace btr {
 namespace {
 
-pid_t spawnWith(const std::vector<std::string>& given, posix_spawn_file_actions_t& actions) {
+pid_t spawnWith(const std::vector<std::string>& given, posix_spawn_file_actions_t& actions,
+                const posix_spawnattr_t* attributes = nullptr) {
   std::vector<std::string> words = given;
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t pid = -1;
-  const int problem = posix_spawnp(&pid, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  const int problem = posix_spawnp(&pid, arguments.front(), &actions, attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (problem != 0) throw InputError(given.front() + ": cannot be started: " + std::strerror(problem));
   return pid;
 }
+
+}  // namespace
 
 int exitCodeOf(pid_t pid) {
   int status = 0;
@@ -36,8 +39,6 @@ int exitCodeOf(pid_t pid) {
   constexpr int killed = 128;
   return WIFEXITED(status) ? WEXITSTATUS(status) : killed + WTERMSIG(status);
 }
-
-}  // namespace
 
 ChildEnd runChild(const std::vector<std::string>& words) {
   int out[2], err[2];
@@ -85,6 +86,33 @@ pid_t startChild(const std::vector<std::string>& words, const std::string& log) 
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   return spawnWith(words, actions);
+}
+
+pid_t startApart(const std::vector<std::string>& words, const std::string& log, int& out, int kept) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(words.front() + ": cannot be started: " + std::strerror(errno));
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+  posix_spawn_file_actions_adddup2(&actions, kept, kept);  // onto itself: it stays open
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  pid_t pid = -1;
+  try {
+    pid = spawnWith(words, actions, &attributes);
+  } catch (const InputError&) {
+    close(ends[0]);
+    close(ends[1]);
+    posix_spawnattr_destroy(&attributes);
+    throw;
+  }
+  posix_spawnattr_destroy(&attributes);
+  close(ends[1]);
+  out = ends[0];
+  return pid;
 }
 
 std::string lastLine(const std::string& text) {

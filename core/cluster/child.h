@@ -20,6 +20,14 @@ std::string outputOfChild(const std::vector<std::string>& words);
 /// Starts a program; standard output and error go to the end of a file. Throws InputError if it cannot be started.
 pid_t startChild(const std::vector<std::string>& words, const std::string& log);
 
+/// Starts a program in a process group of its own, so that Ctrl-C is not told to it: standard output goes to `out`
+/// (from which its reader reads, and which its caller closes), its errors to the end of a file; it inherits `kept`,
+/// too. Throws InputError if it cannot be started.
+pid_t startApart(const std::vector<std::string>& words, const std::string& log, int& out, int kept);
+
+/// Waits for it; 128 + the signal's number where it was killed.
+int exitCodeOf(pid_t child);
+
 /// The last line that is not empty.
 std::string lastLine(const std::string& text);
 

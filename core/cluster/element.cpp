@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "core/cluster/child.h"
 #include "core/cluster/coordinator.h"
 #include "core/run/back_to_reality.h"
+#include "core/run/grid/grid_cells.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/scratch_folder.h"
@@ -34,12 +36,14 @@ constexpr int exitDone = 0, exitStopped = 3, exitWaits = 10;
 
 class Element {
  public:
-  Element(std::string folder, std::size_t number)
+  Element(std::string folder, std::size_t number, const std::string& login)
       : folder_(std::move(folder)), number_(number), job_(loadArrayJob(folder_)) {
     if (number_ < 1 || number_ > job_.elements.size())
       throw InputError(folder_, "element " + std::to_string(number_),
                        "elements 1 to " + std::to_string(job_.elements.size()));
     state_.host = hostName();
+    state_.login = login;
+    state_.process = getpid();
   }
 
   void requireSameBuild(const PluginHost& host) {
@@ -50,10 +54,12 @@ class Element {
   }
 
   bool work(const std::atomic<bool>& stop) try {
+    began_ = Clock::now();
     tell("running", "");
     const ScratchFolder local("uchilsim-element");
     const bool hasDatabase = fs::exists(elementDatabase(folder_, number_));
     if (hasDatabase) copyFile(elementDatabase(folder_, number_), local.file("element.db"));
+    if (hasDatabase) shareBefore_ = shareOf(local.file("element.db"));
     const std::string log = elementFile(folder_, number_, ".log");
     fs::remove(log);
     const pid_t child = startChild(words(local), log);
@@ -73,7 +79,15 @@ class Element {
   void tell(const std::string& state, const std::string& note) {
     state_.state = state;
     state_.note = note;
+    save();
+  }
+  void save() {
+    state_.gained = std::max(0.0, state_.share - shareBefore_);
+    state_.worked_s = std::chrono::duration<double>(Clock::now() - began_).count();
     saveElementState(folder_, number_, state_);
+    if (state_.login.empty()) return;
+    std::printf("%zu %s\n", number_, toJsonText(state_).c_str());
+    std::fflush(stdout);
   }
   void fail(const std::string& why) { tell("failed", why); }
 
@@ -103,16 +117,24 @@ class Element {
   }
 
   /// Which part of the generations is done.
-  void look(const std::string& database) {
+  double shareOf(const std::string& database) {
     const Database db = Database::open(database, Database::Mode::readOnly);
     double done = 0, all = 0;
+    state_.trialsPerSecond = 0;
+    for (const GridRecord& grid : db.grids()) {
+      const GridSpec spec = storedGrid(grid.specJson, grid.name);
+      const double each = valueOf(gridParameters(), spec.settings, "generations");
+      for (const GridCell& cell : cellsOf(spec)) all += cell.mirrorOf == 0 ? each : 0;
+    }
+    const bool isGrid = all > 0;
     for (const RunRecord& run : db.runs()) {
       const RunProgress progress = progressFromJson(run.progressJson);
       done += run.generation;
-      all += std::max(progress.totalGenerations, run.generation);
+      if (!isGrid) all += std::max(progress.totalGenerations, run.generation);
+      state_.trialsPerSecond = std::max(state_.trialsPerSecond, progress.trialsPerSecond);
     }
-    state_.share = all > 0 ? done / all : 0;
-    saveElementState(folder_, number_, state_);
+    // Solutions that are tried elsewhere in the end count as generations of a grid's runs, too.
+    return all > 0 ? std::min(1.0, done / all) : 0;
   }
 
   int waitFor(pid_t child, const std::atomic<bool>& stop, const std::string& database) {
@@ -131,7 +153,8 @@ class Element {
       }
       if (!database.empty() && Clock::now() - told > betweenStates) {
         told = Clock::now();
-        look(database);
+        state_.share = shareOf(database);
+        save();
       }
       if (!database.empty() && Clock::now() - copied > betweenCopies) {
         copied = Clock::now();
@@ -148,9 +171,11 @@ class Element {
       tell(code == exitDone ? "done" : "waiting", code == exitDone ? "" : said);
       return true;
     }
-    if (stop)
+    if (stop) {
       tell("stopped", "");
-    else if (code == exitStopped && said.find(": ") == std::string::npos)
+      return !state_.login.empty();
+    }
+    if (code == exitStopped && said.find(": ") == std::string::npos)
       tell("stopped", said);
     else
       fail("host " + state_.host + ": " + (said.empty() ? "exit code " + std::to_string(code) : said));
@@ -161,13 +186,15 @@ class Element {
   std::size_t number_;
   ArrayJob job_;
   ElementState state_;
+  Clock::time_point began_ = Clock::now();
+  double shareBefore_ = 0;  ///< of what had been done when it began
 };
 
 }  // namespace
 
-bool workOnElement(const std::string& folder, std::size_t number, const PluginHost& host,
-                   const std::atomic<bool>& stop) {
-  Element element(folder, number);
+bool workOnElement(const std::string& folder, std::size_t number, const PluginHost& host, const std::atomic<bool>& stop,
+                   const std::string& login) {
+  Element element(folder, number, login);
   element.requireSameBuild(host);
   return element.work(stop);
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/cluster/child.h"
+#include "core/cluster/ssh_hosts.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -117,18 +118,25 @@ void cancelInSlurm(const ArrayJob& job) {
 std::vector<ElementState> arrayStates(const std::string& folder, const ArrayJob& job) {
   std::vector<ElementState> states;
   std::map<std::size_t, std::string> held;
+  const bool here = isWorkedOnOverSsh(folder);
   if (!job.queueIds.empty()) held = heldBySlurm(job);
   for (std::size_t number = 1; number <= job.elements.size(); ++number) {
     ElementState state = loadElementState(folder, number);
     const auto queued = held.find(number);
     const bool isOver = state.state == "done" || state.state == "waiting";
-    if (queued != held.end() && !isOver) {
+    if (here) {
+      // Those whose turn has not come stand with nothing.
+      if (state.state.empty() && job.queueIds.empty()) state.state = "queued";
+    } else if (queued != held.end() && !isOver) {
       if (queued->second != "RUNNING" && queued->second != "COMPLETING") state = {"queued", "", queued->second, 0};
     } else if (!job.queueIds.empty() && (state.state == "running" || state.state.empty())) {
       const std::string last = lastWords(folder, number);
       state.note = (state.host.empty() ? "" : "host " + state.host + ": ") + "it ended without a word" +
                    (last.empty() ? "" : ": " + last);
       state.state = "failed";
+    } else if (job.queueIds.empty() && state.state == "running") {
+      state.state = "stopped";
+      state.note = "what worked on it over ssh is gone";
     }
     if (state.state.empty()) state.state = "not begun";
     states.push_back(state);

@@ -76,6 +76,43 @@ says err "no host that can be used"
 expect 3 "it is written, and machines may come" "$btr" array collect "$folder/none-job"
 expect 0 "with another machine" "$btr" array resume "$folder/none-job" --hosts "$folder/hosts"
 [ "$(grep -c " done *100.0 %" "$folder/out")" = 3 ] || { fail "not all elements are done"; cat "$folder/out"; }
+
+# Cancelled from elsewhere while two elements are worked on: what they did came back, and they go on from there.
+python3 -c '
+import json, sys
+folder = sys.argv[1]
+spec = json.load(open(folder + "/kick.json"))
+spec["name"] = "long"
+spec["stages"].update(first_generations=300, next_generations=1, total_generations=300)
+json.dump(spec, open(folder + "/long.json", "w"))
+json.dump({"format": "uchilsim-comparison-1", "name": "long", "seeds": [1, 2, 3],
+           "arms": [{"name": "a", "experiment": "long.json"}]}, open(folder + "/long-c.json", "w"))' "$folder"
+# of FOLDER EXPRESSION: of the job's status in JSON, j
+of() { "$btr" --json array status "$1" | python3 -c "import json, sys; j = json.load(sys.stdin); print($2)"; }
+printf 'lab1\nlab2\n' > "$folder/two"
+"$btr" compare "$folder/long-c.json" --db "$folder/long.db" --ssh "$folder/long" --hosts "$folder/two" > "$folder/long.out" 2> "$folder/long.err" &
+working=$!
+until [ "$(of "$folder/long" 'sum(e["state"] == "running" and e["share"] > 0 for e in j["elements"])' 2> /dev/null)" = 2 ]; do
+  kill -0 $working || { fail "the long job ended"; cat "$folder/long.err"; break; }
+  sleep 0.2
+done
+[ "$(of "$folder/long" 'j["is_worked_on_over_ssh"], j["elements"][2]["state"], j["seconds_left"] > 0, j["trials_per_second"] > 0')" = "True queued True True" ] ||
+  { fail "the status of a job that is worked on:"; "$btr" --json array status "$folder/long"; }
+expect 0 "by two at once" "$btr" array resume "$folder/long" --hosts "$folder/two"
+says out "nothing is left that could go on"
+expect 0 "cancelling" "$btr" array cancel "$folder/long"
+wait $working
+[ $? = 3 ] || fail "the cancelled command did not say that it was stopped"
+[ "$(of "$folder/long" '[e["state"] for e in j["elements"]], j["is_worked_on_over_ssh"]')" = "['stopped', 'stopped', 'not begun'] False" ] ||
+  { fail "the states after it was cancelled:"; "$btr" array status "$folder/long"; }
+for number in 1 2; do
+  generations=$("$btr" --json status --db "$folder/long/$number.db" | python3 -c 'import json, sys; print(json.load(sys.stdin)[0]["generation"])')
+  [ "$generations" -gt 0 ] || fail "element $number brought back $generations generations"
+done
+expect 1 "cancelling what nobody works on" "$btr" array cancel "$folder/long"
+one_line
+says err "nobody works on it"
+
 # A blind trial, where its generator was built.
 if [ -x "$(dirname "$btr")/conceal" ]; then
   trial=(gap prove --cases 3 --scene pendulum --kind nothing --seed 5)

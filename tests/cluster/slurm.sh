@@ -28,7 +28,7 @@ json.dump({"format": "uchilsim-comparison-1", "name": "c", "arms": arms, "seeds"
     "$root" "$folder" "$1" "$2" "$3"
 }
 # states FOLDER: "done done failed …"
-states() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(*(e["state"].replace(" ", "_") for e in json.load(sys.stdin)))'; }
+states() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(*(e["state"].replace(" ", "_") for e in json.load(sys.stdin)["elements"]))'; }
 # until_over FOLDER: nothing is queued or running any more
 until_over() { while states "$1" | grep -qE "queued|running|not_begun"; do sleep 0.2; done; }
 # release FOLDER: its newest job may begin

@@ -1,9 +1,11 @@
 // The robot's camera: its frames of a running world, what its stages do to a picture, its numbers from photographs.
 #include <QCoreApplication>
+#include <iostream>
 
 #include "app/camera/camera_commands.h"
 
 int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);       // worlds are told in long lines
   const QCoreApplication qt(argc, argv);  // it knows where the resources are
   CLI::App app{
       "The robot's camera: frames of a running world, what its stages do to a picture, its numbers from photographs",

@@ -189,9 +189,11 @@ void WorldDesk::step(const v1::StepRequest& request) {
   }
 }
 
-void WorldDesk::onePeriod() {
+bool WorldDesk::onePeriod() {
   session().step();
-  for (auto& each : cameras_) look(each.first);
+  bool pictures = false;
+  for (auto& each : cameras_) pictures = look(each.first) || pictures;
+  return pictures;
 }
 
 std::string WorldDesk::answer(Method method, std::string_view message) {
@@ -285,7 +287,10 @@ void WorldDesk::goOn() {
   if (speed_ <= 0 || !session_) return;
   const double begun = now_s(), period = session_->scene().controlPeriod_s;
   const auto due = [&] { return anchorPeriods_ + std::lround(std::floor((now_s() - anchor_s_) * speed_ / period)); };
-  while (session_->periods() < due() && session_->fault().empty() && now_s() - begun < workAtMost_s) onePeriod();
+  // A picture goes to whoever waits for it before the next one takes its place.
+  bool pictures = false;
+  while (session_->periods() < due() && session_->fault().empty() && now_s() - begun < workAtMost_s && !pictures)
+    pictures = onePeriod();
   if (!session_->fault().empty()) speed_ = 0;
   if (static_cast<double>(due() - session_->periods()) * period / std::max(speed_, 1e-9) > behindAtMost_s) {
     anchor_s_ = now_s();

@@ -54,8 +54,8 @@ class WorldDesk final : public Desk {
   void apply(const Act& act);
   void apply(const uchilsim::v1::Targets& targets, int row, int rows);
   void step(const uchilsim::v1::StepRequest& request);
-  void onePeriod();
-  void look(const std::string& robot);
+  bool onePeriod();                     ///< whether a camera has a new picture
+  bool look(const std::string& robot);  ///< the same
   std::string robot(const std::string& name);
   std::string picture(const uchilsim::v1::PictureRequest& request);
   void describe(uchilsim::v1::World& world);

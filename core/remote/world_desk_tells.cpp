@@ -163,18 +163,20 @@ std::string WorldDesk::robot(const std::string& name) {
 }
 
 // A camera that fails ends alone: the world goes on, and who asks for a picture is told why.
-void WorldDesk::look(const std::string& robot) {
+bool WorldDesk::look(const std::string& robot) {
   Camera& camera = cameras_.at(robot);
-  if (!camera.eye) return;
+  if (!camera.eye) return false;
   try {
-    if (auto picture = camera.eye->look(session())) {
-      camera.picture = std::move(*picture);
-      camera.period = session().periods();
-      ++camera.number;
-    }
+    auto picture = camera.eye->look(session());
+    if (!picture) return false;
+    camera.picture = std::move(*picture);
+    camera.period = session().periods();
+    ++camera.number;
+    return true;
   } catch (const InputError& error) {
     camera.eye.reset();
     camera.why = error.what();
+    return false;
   }
 }
 

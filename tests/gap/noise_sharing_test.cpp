@@ -65,6 +65,31 @@ TEST(NoiseSharing, TakesTheMedianOfTheTrialsThatShowTheNoiseHoweverManyStandStil
   for (const FitTrial& trial : trials) EXPECT_EQ(trial.noiseFloor[0], resolution(noisy(0.001)));
 }
 
+/// Even samples, every 10 ms, of a swing, with stamps that are off by a millisecond.
+FitTrial jittering(double amplitude, std::uint64_t seed) {
+  constexpr double noise = 0.001, jitter_s = 0.001;
+  Random random(seed);
+  FitTrial trial = trialOf({{"leg.knee.position_rad", still(0)}});
+  for (std::size_t i = 0; i < 400; ++i) {
+    const double time = 0.01 * static_cast<double>(i);
+    trial.recording.columns[0][i] = time + jitter_s * random.normal();
+    trial.recording.columns[1][i] = amplitude * std::sin(5 * time) + noise * random.normal();
+  }
+  return trial;
+}
+
+// Only the fast one shows that stamps are off, and all of them are from one logger.
+TEST(NoiseSharing, CountsSpeedTimesJitterInAllTrialsWhereOneShowsIt) {
+  std::vector<FitTrial> trials;
+  double squares = 0;
+  for (const double amplitude : {0.6, 0.2, 0.2, 0.2}) {
+    trials.push_back(jittering(amplitude, trials.size() + 1));
+    squares += std::pow(0.001, 2) + std::pow(0.001 * amplitude * 5, 2) / 2;
+  }
+  shared(trials);
+  for (const FitTrial& trial : trials) EXPECT_NEAR(trial.noiseFloor[0], std::sqrt(squares / 4), 1.5e-4);
+}
+
 // Seven samples a swing.
 TEST(NoiseSharing, LeavesOutTrialsWhoseFastMotionPassesForNoise) {
   std::vector<double> fast = noisy(0.001);

@@ -42,6 +42,9 @@ Dirt drawDirt(const std::string& kind, const std::vector<int>& groups, bool hasI
   if (has("jitter")) dirt.jitter = random.uniform(0.03, 0.15);
   if (has("stale")) dirt.staleFor = drawSlowness(groups, random);
   if (has("multirate")) dirt.everyNth = drawSlowness(groups, random);
+  // Of a value that is repeated and then left out nobody sees how old it is: that would be a lag, and no dirt.
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    if (dirt.staleFor[i] > 1) dirt.everyNth[i] = 1;
   if (has("dropped")) {
     dirt.lost = random.uniform(0.01, 0.1);
     dirt.losesRows = !hasInputs;

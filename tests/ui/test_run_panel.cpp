@@ -6,6 +6,7 @@
 #include <QSpinBox>
 #include <QTest>
 
+#include "ui/common/short_label.h"
 #include "ui/experiment/run_panel.h"
 
 using namespace btr;
@@ -56,7 +57,7 @@ Shown show(RunPanel& panel, const RunRecord& run, const RunProgress& progress, b
   const auto text = [&](const char* name) {
     return panel.findChild<QLabel*>(name)->text().replace(QChar(0x202f), ' ');
   };
-  return {text("stage"),
+  return {panel.findChild<ShortLabel*>("stage")->whole(),
           text("next"),
           text("best"),
           text("speed"),
@@ -97,11 +98,31 @@ class TestRunPanel : public QObject {
     QCOMPARE(shown.speed, QString("–"));
   }
 
+  // A narrow panel says the same in fewer words instead of cutting its buttons off.
+  void isBriefWhereItIsNarrow() {
+    RunPanel panel;
+    RunRecord run = aRun(RunState::adapting);
+    run.reality = "stand_in";
+    show(panel, run, progressIn("L3"), true);
+    const auto* stage = panel.findChild<QLabel*>("stage");
+    panel.resize(panel.sizeHint());
+    QCoreApplication::processEvents();
+    QCOMPARE(stage->text(), QString("L3 · adapting the simulator"));
+    const int whole = panel.width();
+    panel.resize(panel.minimumSizeHint().width(), panel.height());
+    QCoreApplication::processEvents();
+    QVERIFY(panel.width() < whole - 100);
+    QCOMPARE(stage->text(), QString("L3 · adapting"));
+    for (const auto* label : {stage, panel.findChild<const QLabel*>("standIn")})
+      QVERIFY(label->width() >= label->fontMetrics().horizontalAdvance(label->text()));
+    QVERIFY(panel.rect().contains(panel.findChild<QWidget*>("stop")->geometry()));
+  }
+
   void saysHowManyAreMeasuredWhileWaiting() {
     RunPanel panel;
     show(panel, aRun(RunState::waiting), progressIn("measuring"), false);
     panel.setMeasuring({7, 10});
-    QCOMPARE(panel.findChild<QLabel*>("stage")->text(), QString("Waiting for real fitness"));
+    QCOMPARE(panel.findChild<ShortLabel*>("stage")->whole(), QString("Waiting for real fitness"));
     QVERIFY(panel.findChild<QLabel*>("next")->text().contains("7 of 10"));
     QCOMPARE(panel.findChild<QProgressBar*>("within")->value(), 7);
     panel.setMeasuring({10, 10});
@@ -115,7 +136,7 @@ class TestRunPanel : public QObject {
     meanwhile.stageTotal = 20;
     QVERIFY(show(panel, aRun(RunState::waiting), meanwhile, true).stage.startsWith("Waiting for real fitness"));
     panel.setMeasuring({7, 10});
-    QVERIFY(panel.findChild<QLabel*>("stage")->text().contains("L3"));
+    QVERIFY(panel.findChild<ShortLabel*>("stage")->whole().contains("L3"));
     QVERIFY(panel.findChild<QLabel*>("next")->text().contains("7 of 10"));
     QCOMPARE(panel.findChild<QProgressBar*>("within")->text(), QString("measured 7 of 10 · L3 3 of 20"));
     QVERIFY(panel.findChild<QPushButton*>("stop")->isEnabled());
@@ -232,7 +253,7 @@ class TestRunPanel : public QObject {
     panel.show();
     show(panel, aRun(RunState::learning), progressIn("L1"), true);
     panel.clear();
-    QCOMPARE(panel.findChild<QLabel*>("stage")->text(), QString("No run is selected"));
+    QCOMPARE(panel.findChild<ShortLabel*>("stage")->whole(), QString("No run is selected"));
     QVERIFY(!panel.findChild<QPushButton*>("go")->isVisible());
   }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "ui/common/format.h"
+#include "ui/common/short_label.h"
 #include "ui/common/style_sheet.h"
 #include "ui/common/theme.h"
 
@@ -20,9 +21,9 @@ namespace btr::ui {
 RunPanel::RunPanel(QWidget* parent)
     : QWidget(parent),
       icon_(new QLabel(this)),
-      stage_(new QLabel(this)),
-      name_(new QLabel(this)),
-      standIn_(new QLabel(tr("STAND-IN REALITY"), this)),
+      stage_(new ShortLabel(this)),
+      name_(new ShortLabel(this)),
+      standIn_(new ShortLabel(this)),
       next_(new QLabel(this)),
       message_(new QLabel(this)),
       overall_(new QProgressBar(this)),
@@ -30,6 +31,10 @@ RunPanel::RunPanel(QWidget* parent)
       go_(new QPushButton(themeIcon("media-playback-start"), tr("Start"), this)),
       stop_(new QPushButton(themeIcon("media-playback-stop"), tr("Stop"), this)),
       jobs_(new QSpinBox(this)) {
+  standIn_->setTexts(
+      tr("STAND-IN REALITY"), tr("STAND-IN"),
+      tr("The measurements are answered by a simulated robot with concealed parameters, for demonstration. "
+         "No real robot was measured."));
   stage_->setObjectName("stage");
   next_->setObjectName("next");
   message_->setObjectName("message");
@@ -46,9 +51,6 @@ RunPanel::RunPanel(QWidget* parent)
   next_->setWordWrap(true);
   message_->setWordWrap(true);
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  standIn_->setToolTip(
-      tr("The measurements are answered by a simulated robot with concealed parameters, for demonstration. "
-         "No real robot was measured."));
   jobs_->setRange(0, 1024);
   jobs_->setSpecialValueText(tr("all cores"));
   jobs_->setToolTip(tr("Worker processes for the next start; the result does not depend on it"));
@@ -185,11 +187,11 @@ void RunPanel::changeEvent(QEvent* event) {
 void RunPanel::refresh() {
   const Tones tones = tonesOf(palette());
   if (empty_) {
-    stage_->setText(tr("No run is selected"));
+    stage_->setTexts(tr("No run is selected"));
     next_->setText(tr("Choose a run in the tree, or describe a new experiment and start it."));
     icon_->clear();
     shownIcon_.clear();
-    name_->clear();
+    name_->setTexts({});
     message_->clear();
     for (QWidget* widget : std::initializer_list<QWidget*>{standIn_, message_, overall_, within_, go_, stop_})
       widget->setVisible(false);
@@ -201,8 +203,8 @@ void RunPanel::refresh() {
   // An icon is drawn from its file each time.
   const QString icon = QString(iconName(face_)) + palette().windowText().color().name();
   if (std::exchange(shownIcon_, icon) != icon) icon_->setPixmap(themeIcon(iconName(face_)).pixmap(22, 22));
-  stage_->setText(stageText(face_, progress_));
-  name_->setText(runName(run_));
+  stage_->setTexts(stageText(face_, progress_), briefStageText(face_, progress_));
+  name_->setTexts(runName(run_), tr("Run %1").arg(run_.id));
   standIn_->setVisible(isStandIn(run_));
   styleOnce(*standIn_, QStringLiteral("color: %1; border: 1px solid %1; border-radius: 8px; padding: 1px 8px; "
                                       "font-weight: 600;")

@@ -12,6 +12,8 @@ class QSpinBox;
 
 namespace btr::ui {
 
+class ShortLabel;
+
 /// One run at a glance: where it is, what comes next, how fast, and the buttons to start, continue and stop it.
 class RunPanel : public QWidget {
   Q_OBJECT
@@ -55,7 +57,9 @@ class RunPanel : public QWidget {
   QString shownIcon_;  ///< and its colour
   RunFace face_ = RunFace::ready;
   QString unit_;
-  QLabel *icon_, *stage_, *name_, *standIn_, *next_, *message_;
+  QLabel* icon_;
+  ShortLabel *stage_, *name_, *standIn_;  ///< brief where the panel is narrow: its figures come first
+  QLabel *next_, *message_;
   QProgressBar *overall_, *within_;
   QPushButton *go_, *stop_;
   QSpinBox* jobs_;

@@ -64,6 +64,19 @@ QString stageText(RunFace face, const RunProgress& progress) {
   return {};
 }
 
+QString briefStageText(RunFace face, const RunProgress& progress) {
+  const QString whole = stageText(face, progress);
+  switch (face) {
+    case RunFace::learning:
+    case RunFace::adapting:
+      return whole.section(' ', 0, 2);  // "L1 · learning"
+    case RunFace::waiting:
+      return RunTexts::tr("Waiting");
+    default:
+      return whole;
+  }
+}
+
 QString iconName(RunFace face) {
   switch (face) {
     case RunFace::ready:

@@ -11,7 +11,9 @@ enum class RunFace { ready, learning, waiting, adapting, stopping, interrupted, 
 RunFace faceOf(const RunRecord& run, bool active);
 
 QString stageText(RunFace face, const RunProgress& progress);  ///< "L1 · learning", "Waiting for real fitness", …
-QString iconName(RunFace face);                                ///< a Breeze icon
+/// For a narrow place: "L1 · learning", "Waiting", …
+QString briefStageText(RunFace face, const RunProgress& progress);
+QString iconName(RunFace face);  ///< a Breeze icon
 
 /// Measured and wanted individuals of the stage that waits.
 struct MeasuringCount {

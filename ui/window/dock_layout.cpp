@@ -108,7 +108,8 @@ void DockLayout::size() {
   window_.resizeDocks({dock("tree"), dock("run"), dock("spec")}, {left, middle, right}, Qt::Horizontal);
   const int top = runHeight_ = runHeight(middle), rest = height - top - 90;
   if (isCompact()) {
-    window_.resizeDocks({dock("run"), dock("fitness")}, {top, rest}, Qt::Vertical);
+    // Alone: sizes that do not add up to what there is would all be made smaller.
+    window_.resizeDocks({dock("run")}, {top}, Qt::Vertical);
     return;
   }
   window_.resizeDocks({dock("run"), dock("fitness"), dock("individuals")}, {top, rest * 54 / 100, rest * 46 / 100},

@@ -44,16 +44,42 @@ Extent extentOf(const std::vector<double>& values) {
 struct Known {
   std::vector<double> levels;  ///< of the trials that show its noise
   std::vector<double> calm;    ///< those of them without fast motion in it
+  std::vector<double> timed;   ///< those of them that speed times jitter is part of
   double least = 1e-9;         ///< a millionth of what it moves
   double lastDigit = 0;
   bool few = false;  ///< numbers in a trial
 };
 
-double levelOf(const Known& known) { return median(known.calm.empty() ? known.levels : known.calm); }
+double rootMeanSquare(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// What a motion makes of stamps that jitter differs from trial to trial; all of it together is the channel's.
+double levelOf(const Known& known) {
+  if (!known.timed.empty()) return rootMeanSquare(known.levels);
+  return median(known.calm.empty() ? known.levels : known.calm);
+}
+
+/// Whether the logger's stamps jitter and its values do not. One trial that moves fast shows what another one hides.
+Stamps stampsOf(const std::vector<FitTrial>& trials) {
+  bool some = false;
+  double sum = 0;
+  for (const FitTrial& trial : trials)
+    for (const Measured& measured : trial.binding.measured) {
+      if (!isCompared(trial.binding, measured)) continue;
+      const ChannelFloor floor = channelFloor(trial.recording, measured.column);
+      if (!floor.shown || floor.byRows <= 0 || floor.byStamps <= 0) continue;
+      some = some || followsRowsNotStamps(floor);
+      sum += std::log(floor.byStamps / floor.byRows);
+    }
+  return some && sum > 0 ? Stamps::off : Stamps::asShown;
+}
 
 class NoiseFloors {
  public:
-  explicit NoiseFloors(const std::vector<FitTrial>& trials) {
+  explicit NoiseFloors(const std::vector<FitTrial>& trials) : stamps_(stampsOf(trials)) {
     for (const FitTrial& trial : trials)
       for (const Measured& measured : trial.binding.measured)
         if (isCompared(trial.binding, measured)) add(trial.recording, measured.column);
@@ -83,9 +109,10 @@ class NoiseFloors {
     Known& known = known_[recording.channels[column]];
     const double least = std::max(1e-6 * (extent.high - extent.low), 1e-9);
     known.least = std::max(known.least, least);
-    const ChannelFloor floor = channelFloor(recording, column);
+    const ChannelFloor floor = channelFloor(recording, column, stamps_);
     if (floor.shown) known.levels.push_back(std::max(floor.level, least));
     if (floor.shown && !floor.moves) known.calm.push_back(known.levels.back());
+    if (floor.shown && floor.ofTime > 0) known.timed.push_back(known.levels.back());
     known.few = known.few || floor.few;
     if (column < recording.places.lastDigit.size())
       known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);
@@ -110,6 +137,7 @@ class NoiseFloors {
     return {withoutAnything, "a guess: nothing in these recordings determines it"};
   }
 
+  Stamps stamps_;
   std::map<std::string, Known> known_;
 };
 

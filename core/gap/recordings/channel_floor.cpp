@@ -31,7 +31,7 @@ bool followsRowsNotStamps(const ChannelFloor& floor) {
   return floor.shown && floor.byStamps > clearly * floor.byRows;
 }
 
-ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
+ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps stamps) {
   constexpr std::size_t leastNumbers = 5;
   std::vector<double> time, values;
   Extent extent;
@@ -54,7 +54,7 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column) {
   floor.level = std::max({floor.byStamps, rounding, filtered});
   // A constant's differences show the rounding of the arithmetic.
   floor.shown = floor.level > 1e-12 * std::max(std::abs(extent.low), std::abs(extent.high));
-  if (followsRowsNotStamps(floor)) {
+  if (stamps == Stamps::off || followsRowsNotStamps(floor)) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
     floor.ofTime = usualSpeed(values, std::max(floor.byRows, rounding), median(std::move(steps))) * noiseFloor(time);

@@ -15,10 +15,14 @@ struct ChannelFloor {
   double byStamps = 0;  ///< noise over the time stamps
   double ofTime = 0;    ///< part of `level`: what the motion makes of stamps that jitter, speed × jitter
 };
+/// When samples were taken: at their time stamps unless the values show otherwise, or, as other recordings of the same
+/// logger show, evenly, row by row, while the stamps jitter.
+enum class Stamps { asShown, off };
+
 /// The largest of the noise over the channel's own samples at their times, of the rounding of its counts and of the
 /// digits written, of what a filter left of the noise (neighbours are then alike, and differences hide it), and, where
 /// stamps jitter and values do not, of the usual speed times the jitter.
-ChannelFloor channelFloor(const Recording& recording, std::size_t column);
+ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps stamps = Stamps::asShown);
 
 /// Values are smoother over rows than over stamps: these were not given when the samples were taken.
 bool followsRowsNotStamps(const ChannelFloor& floor);

@@ -13,7 +13,7 @@ namespace btr::cli {
 namespace {
 
 struct CompareArguments {
-  std::string file, database, csv;
+  std::string file, database, csv, places;
   int jobs = 0;
   bool quiet = false;
   ArrayArguments array;
@@ -57,8 +57,9 @@ void compareElsewhere(const CompareArguments& a, const ComparisonSpec& spec, con
 }
 
 void compare(const CompareArguments& a, Shell& shell) {
-  const ClusterJob cluster(shell, a.database, a.jobs);
+  ClusterJob cluster(shell, a.database, a.jobs);
   if (cluster.isDone()) return;
+  cluster.tellTo(a.places);
   const ComparisonSpec spec = loadComparison(a.file);
   const ComparedExperiments arms = loadArms(spec, shell.plugins());  // before a database is made for them
   if (a.array.isWanted()) return compareElsewhere(a, spec, arms, shell);
@@ -67,8 +68,17 @@ void compare(const CompareArguments& a, Shell& shell) {
   RunOptions options;
   options.jobs = a.jobs;
   options.workforce = cluster.workforce();
+  const double runs = static_cast<double>(spec.arms.size() * spec.seeds.size());
+  double before = -1;  // runs before the one that is worked on
+  std::string of;
+  options.progress = [&](const RunProgress& p) {
+    const double share = p.totalGenerations ? static_cast<double>(p.generation) / p.totalGenerations : 0;
+    cluster.tellProgress(of + ", " + p.stage, (before + share) / runs, p.trialsPerSecond);
+  };
   const Comparison all = runComparison(
       db, shell.plugins(), spec, arms, *shell.stop, options, [&](const std::string& arm, std::uint64_t seed) {
+        ++before;
+        of = arm + ", seed " + std::to_string(seed);
         if (!a.quiet) std::fprintf(stderr, "%s, seed %llu\n", arm.c_str(), static_cast<unsigned long long>(seed));
       });
   if (!a.quiet) cluster.tell();
@@ -92,6 +102,7 @@ void addCompareCommand(CLI::App& app, Shell& shell) {
   shell.writesFile(command, command->add_option("--csv", a->csv, "write the table to this file, too"));
   command->add_flag("--quiet", a->quiet, "do not say which run is worked on");
   addArrayOptions(command, a->array);
+  addPlacesOption(command, a->places);
   command->callback([a, &shell] { compare(*a, shell); });
 }
 

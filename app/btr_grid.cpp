@@ -22,7 +22,7 @@ namespace btr::cli {
 namespace {
 
 struct GridArguments {
-  std::string file, database, csv, cellsCsv, pointsCsv;
+  std::string file, database, csv, cellsCsv, pointsCsv, places;
   std::vector<std::string> methods;
   std::vector<std::uint64_t> seeds;
   Id grid = 0;
@@ -110,20 +110,21 @@ void report(const Database& db, const std::string& sha, const GridArguments& a, 
 }
 
 /// Goes on with the `k`-th of `grids` grids. False if it was stopped.
-bool goOn(Database& db, Id id, const GridArguments& a, Workforce* workforce, Shell& shell, std::size_t k,
+bool goOn(Database& db, Id id, const GridArguments& a, const ClusterJob& cluster, Shell& shell, std::size_t k,
           std::size_t grids) {
   const GridRecord record = db.grid(id);
   const bool show = isatty(STDERR_FILENO) && !a.quiet && !a.progress;
   GridOptions options;
   options.workers = a.workers;
-  options.workforce = workforce;
-  if (show) options.progress = [&](const GridProgress& p) { showGridProgress(record, p); };
-  if (a.progress)
-    options.progress = [&](const GridProgress& p) {
-      const double share = p.total ? static_cast<double>(p.done) / p.total : 0;
-      std::fprintf(stderr, "%s, %s %.3f\n", record.method.c_str(), p.phase.c_str(),
-                   (static_cast<double>(k) + share) / static_cast<double>(grids));
-    };
+  options.workforce = cluster.workforce();
+  options.progress = [&](const GridProgress& p) {
+    if (show) showGridProgress(record, p);
+    const double own = p.total ? static_cast<double>(p.done) / p.total : 0;
+    const double share = (static_cast<double>(k) + own) / static_cast<double>(grids);
+    const std::string stage = record.method + ", " + p.phase;
+    if (a.progress) std::fprintf(stderr, "%s %.3f\n", stage.c_str(), share);
+    cluster.tellProgress(stage, share, p.trialsPerSecond);
+  };
   const RunEnd end = continueGrid(db, shell.plugins(), id, *shell.stop, options);
   if (show) std::fprintf(stderr, "\n");
   if (end == RunEnd::finished) return true;
@@ -152,8 +153,9 @@ void gridElsewhere(const GridArguments& a, const GridSpec& spec, Shell& shell) {
 }
 
 void runGrid(const GridArguments& a, Shell& shell) {
-  const ClusterJob cluster(shell, a.database, a.workers);
+  ClusterJob cluster(shell, a.database, a.workers);
   if (cluster.isDone()) return;
+  cluster.tellTo(a.places);
   GridSpec spec = loadGrid(a.file);
   if (!a.methods.empty()) {
     spec.methods.clear();
@@ -171,7 +173,7 @@ void runGrid(const GridArguments& a, Shell& shell) {
     for (const GridSpec::Method method : spec.methods) {
       const Id id = startGrid(db, shell.plugins(), spec, method, seed);
       sha = db.grid(id).specSha256;
-      if (!goOn(db, id, a, cluster.workforce(), shell, k++, grids)) return;
+      if (!goOn(db, id, a, cluster, shell, k++, grids)) return;
     }
   if (!a.quiet) cluster.tell();
   report(db, sha, a, shell);
@@ -179,11 +181,12 @@ void runGrid(const GridArguments& a, Shell& shell) {
 
 /// A stored grid needs its file no more.
 void continueStored(const GridArguments& a, Shell& shell) {
-  const ClusterJob cluster(shell, a.database, a.workers);
+  ClusterJob cluster(shell, a.database, a.workers);
   if (cluster.isDone()) return;
+  cluster.tellTo(a.places);
   Database db = Database::open(a.database, Database::Mode::readWrite, workingPatience_ms);
   shell.goesOn = true;
-  if (goOn(db, a.grid, a, cluster.workforce(), shell, 0, 1)) report(db, db.grid(a.grid).specSha256, a, shell);
+  if (goOn(db, a.grid, a, cluster, shell, 0, 1)) report(db, db.grid(a.grid).specSha256, a, shell);
 }
 
 void showTable(const GridArguments& a, Shell& shell) {
@@ -266,6 +269,7 @@ void addGridCommands(CLI::App& app, Shell& shell) {
   shell.writesFile(command, csv);
   command->add_flag("--quiet", a->quiet, "no progress, no tables of cells");
   addArrayOptions(command, a->array);
+  addPlacesOption(command, a->places);
   command->add_flag("--progress", a->progress, "lines \"STAGE SHARE\" on stderr");
 
   CLI::App* tables = command->add_subcommand("table", "what is stored: cells of each grid, and the methods compared");

@@ -104,7 +104,7 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
 }
 
 struct RunArguments {
-  std::string spec, database;
+  std::string spec, database, places;
   Id run = 0;
   int jobs = 0;
   std::uint64_t seed = 0;
@@ -114,8 +114,9 @@ struct RunArguments {
 void run(const RunArguments& arguments, Shell& shell) {
   if (arguments.spec.empty() == (arguments.run == 0))
     throw CLI::ValidationError("run", "give either an experiment file or --run with the number of a stored run");
-  const ClusterJob cluster(shell, arguments.database, arguments.jobs);
+  ClusterJob cluster(shell, arguments.database, arguments.jobs);
   if (cluster.isDone()) return;
+  cluster.tellTo(arguments.places);
   // Read before a database is made for it.
   const std::optional<ExperimentSpec> spec =
       arguments.run ? std::nullopt : std::optional(loadExperiment(arguments.spec));
@@ -136,7 +137,11 @@ void run(const RunArguments& arguments, Shell& shell) {
   options.workforce = cluster.workforce();
   options.withoutRecordings = arguments.withoutRecordings;
   const bool show = isatty(STDERR_FILENO) && !arguments.quiet;
-  if (show) options.progress = showProgress;
+  options.progress = [&](const RunProgress& p) {
+    if (show) showProgress(p);
+    cluster.tellProgress(p.stage, p.totalGenerations ? static_cast<double>(p.generation) / p.totalGenerations : 0,
+                         p.trialsPerSecond);
+  };
   const RunEnd end = continueRun(db, shell.plugins(), id, *shell.stop, options);
   if (show) std::fprintf(stderr, "\n");
   if (!arguments.quiet) cluster.tell();
@@ -173,6 +178,7 @@ void addRunCommands(CLI::App& app, Shell& shell) {
   command->add_flag("--without-recordings", arguments->withoutRecordings,
                     "go on with the recordings that are there, or without any");
   command->add_flag("--quiet", arguments->quiet, "no progress on stderr");
+  addPlacesOption(command, arguments->places);
   command->callback([arguments, seed, &shell] {
     arguments->seedGiven = seed->count() > 0;
     run(*arguments, shell);

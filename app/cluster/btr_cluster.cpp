@@ -2,22 +2,29 @@
 #include "app/cluster/btr_cluster.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/cluster/build_identity.h"
 #include "core/cluster/coordinator.h"
 #include "core/cluster/foreman.h"
 #include "core/spec/error.h"
+#include "core/spec/json_reader.h"
 #include "core/store/network_file.h"
 
 namespace btr::cli {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double longestJob_s = 120;
+constexpr std::chrono::seconds betweenPlaces(1);
 /// With more ranks than this, rank 0 has enough to do without evaluating trials itself.
 constexpr int mostRanksWithAWorkingFirst = 8;
 
@@ -39,6 +46,25 @@ std::string ownWords() {
   return all.substr(std::min(all.find('\0'), all.size()));
 }
 
+struct HostSum {
+  int places = 0;
+  long pieces = 0, jobs = 0, losses = 0;
+  double worked_s = 0;
+};
+
+std::map<std::string, HostSum> hostsOf(const Coordinator& coordinator) {
+  std::map<std::string, HostSum> hosts;
+  for (const PlaceReport& place : coordinator.report()) {
+    HostSum& sum = hosts[place.host];
+    ++sum.places;
+    sum.pieces += place.pieces;
+    sum.jobs += place.jobs;
+    sum.losses += place.losses;
+    sum.worked_s += place.worked_s;
+  }
+  return hosts;
+}
+
 void requireLocal(const std::string& database) {
   if (const auto system = networkFileSystemOf(database))
     throw InputError(database + ": is on a network file system (" + *system +
@@ -49,6 +75,9 @@ void requireLocal(const std::string& database) {
 
 struct ClusterJob::Impl {
   std::unique_ptr<Coordinator> coordinator;
+  std::string file;  ///< of tellTo()
+  Clock::time_point begun = Clock::now(), told = Clock::now() - std::chrono::hours(1);
+  double shareBefore = -1;  ///< of what had been done when it began; negative: not known yet
 };
 
 ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : impl_(new Impl) {
@@ -85,23 +114,50 @@ Workforce* ClusterJob::workforce() const { return impl_->coordinator.get(); }
 
 void ClusterJob::tell() const {
   if (!impl_->coordinator) return;
-  struct Sum {
-    int places = 0;
-    long pieces = 0, jobs = 0, losses = 0;
-    double worked_s = 0;
-  };
-  std::map<std::string, Sum> hosts;
-  for (const PlaceReport& place : impl_->coordinator->report()) {
-    Sum& sum = hosts[place.host];
-    ++sum.places;
-    sum.pieces += place.pieces;
-    sum.jobs += place.jobs;
-    sum.losses += place.losses;
-    sum.worked_s += place.worked_s;
-  }
-  for (const auto& [host, sum] : hosts)
+  for (const auto& [host, sum] : hostsOf(*impl_->coordinator))
     std::fprintf(stderr, "btr: %s: %d workers, %ld trials in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
                  sum.places, sum.jobs, sum.pieces, sum.worked_s, sum.losses);
+}
+
+void ClusterJob::tellTo(const std::string& file) {
+  if (file.empty() || isDone_) return;
+  impl_->file = file;
+  tellProgress("", 0, 0);
+  impl_->shareBefore = -1;
+}
+
+// In one step: who reads meets the old file or the new one.
+void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond) const {
+  const Clock::time_point now = Clock::now();
+  if (impl_->file.empty() || (now - impl_->told < betweenPlaces && share < 1)) return;
+  impl_->told = now;
+  if (impl_->shareBefore < 0) impl_->shareBefore = share;
+  const double gained = share - impl_->shareBefore,
+               elapsed_s = std::chrono::duration<double>(now - impl_->begun).count();
+  nlohmann::json hosts = nlohmann::json::array();
+  if (impl_->coordinator)
+    for (const auto& [host, sum] : hostsOf(*impl_->coordinator))
+      hosts.push_back({{"host", host},
+                       {"workers", sum.places},
+                       {"pieces", sum.pieces},
+                       {"trials", sum.jobs},
+                       {"lost", sum.losses},
+                       {"worked_s", sum.worked_s}});
+  const nlohmann::json all{{"format", "uchilsim-places-1"},
+                           {"stage", stage},
+                           {"share", share},
+                           {"seconds_left", gained > 0 ? elapsed_s * (1 - share) / gained : -1},
+                           {"trials_per_second", trialsPerSecond},
+                           {"hosts", hosts}};
+  const std::string part = impl_->file + ".part";
+  writeFile(part, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  std::error_code error;
+  std::filesystem::rename(part, impl_->file, error);
+  if (error) throw InputError(impl_->file + ": cannot be written: " + error.message());
+}
+
+void addPlacesOption(CLI::App* command, std::string& file) {
+  command->add_option("--places", file, "keep this JSON file: which machine does how much, how far all is");
 }
 
 void addPiecesCommand(CLI::App& app, Shell& shell) {

@@ -23,12 +23,20 @@ class ClusterJob {
   Workforce* workforce() const;  ///< none where the process was started alone
   /// Who did how much, on stderr: a line for each host.
   void tell() const;
+  /// From now on tellProgress() keeps a JSON file ("uchilsim-places-1") of who does how much; of rank 0. Throws
+  /// InputError if it cannot be written.
+  void tellTo(const std::string& file);
+  /// At most once a second: which part of all (0 to 1) is done.
+  void tellProgress(const std::string& stage, double share, double trialsPerSecond) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
   bool isDone_ = false;
 };
+
+/// --places.
+void addPlacesOption(CLI::App* command, std::string& file);
 
 /// pieces: works for a rank; not in the list of commands.
 void addPiecesCommand(CLI::App& app, Shell& shell);

@@ -496,6 +496,31 @@ class TestGapPage : public QObject {
     QVERIFY(!ghostTrial(report, 1, scene, {}));
   }
 
+  // Three files of somebody else's: each one's guess can be looked at, what was typed is kept, nonsense is said.
+  void theMappingIsThatOfTheChosenRecording() {
+    QTemporaryDir folder;
+    const QString one = file(folder, "one.csv", "t;winkel\n0;0,5\n0,1;0,6\n"),
+                  two = file(folder, "two.csv", "time,q\n0,1\n1,2\n"), none = file(folder, "none.csv", "\x82\xff\n");
+    AnalysisSetup setup;
+    QSignalSpy failed(&setup, &AnalysisSetup::failed);
+    auto* recordings = setup.findChild<QTableWidget*>("recordings");
+    auto* form = setup.findChild<MappingForm*>();
+    setup.addRecordings({one});
+    QCOMPARE(form->recording(), one);
+    setup.addRecordings({two});
+    QCOMPARE(form->recording(), two);
+    recordings->setCurrentCell(0, 0);
+    QCOMPARE(form->recording(), one);
+    QCOMPARE(failed.count(), 0);
+    form->table().item(0, MappingForm::scale)->setText("0.5");
+    recordings->setCurrentCell(1, 0);
+    QCOMPARE(form->recording(), one);
+    QVERIFY(failed.takeFirst().at(0).toString().contains("one.csv has changes that are not saved"));
+    form->undoStack().undo();
+    setup.addRecordings({none});
+    QVERIFY(failed.takeLast().at(0).toString().contains("none.csv"));
+  }
+
   // Half of a range is none: a form too narrow for all columns is scrolled.
   void whatAColumnGivesIsNeverCut() {
     QTemporaryDir folder;

@@ -6,6 +6,8 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTest>
 
 #include "tests/ui/stored_run.h"
@@ -148,6 +150,8 @@ class TestWindowLayout : public QObject {
       const auto* figure = window.findChild<QLabel*>(name);
       QVERIFY2(figure->isVisible() && figure->visibleRegion().boundingRect() == figure->rect(), name);
     }
+    const auto* run = qobject_cast<QScrollArea*>(window.findChild<QDockWidget*>("dock.run")->widget());
+    QVERIFY(!run->verticalScrollBar()->isVisible());
   }
 
   // Who wants the run's text low keeps it so.

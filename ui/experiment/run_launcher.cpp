@@ -1,17 +1,11 @@
 #include "ui/experiment/run_launcher.h"
 
-#include <signal.h>
-
 #include <QCoreApplication>
-#include <QDir>
-#include <QFile>
 #include <QProcess>
-#include <QStandardPaths>
 
 #include "core/run/back_to_reality.h"
 #include "core/run/prepared_experiment.h"
 #include "core/store/database.h"
-#include "ui/common/give_way.h"
 
 namespace btr::ui {
 namespace {
@@ -30,7 +24,7 @@ RunLauncher::RunLauncher(std::shared_ptr<const PluginHost> host, const QString& 
 RunLauncher::~RunLauncher() {
   if (thread_) thread_->wait();
   // A process that goes on without the window keeps its open file.
-  for (const auto& [name, process] : processes_) QFile::remove(process.log);
+  for (auto& [name, process] : processes_) process.forget();
 }
 
 void RunLauncher::store(const QString& database, const ExperimentSpec& spec, quint64 seed, bool again) {
@@ -94,18 +88,10 @@ bool RunLauncher::continueGrid(const QString& database, Id grid, int workers) {
 }
 
 bool RunLauncher::start(const QString& name, QStringList arguments, const QString& jobsOption, int jobs) {
-  const QString folder = QStandardPaths::writableLocation(QStandardPaths::TempLocation);
-  Process process;
-  process.log = QStringLiteral("%1/uchilsim-%2-%3.log").arg(folder).arg(QCoreApplication::applicationPid()).arg(name);
-  QProcess starter;
-  starter.setProgram(program_);
   if (jobs > 0) arguments << jobsOption << QString::number(jobs);
-  starter.setArguments(arguments);
-  starter.setStandardInputFile(QProcess::nullDevice());
-  starter.setStandardOutputFile(QProcess::nullDevice());
-  starter.setStandardErrorFile(process.log);
-  if (!startDetachedGivingWay(starter, &process.pid)) {
-    emit failed(tr("%1 cannot be started: %2").arg(program_, starter.errorString()));
+  DetachedProgram process;
+  if (const QString problem = process.start(program_, arguments, name); !problem.isEmpty()) {
+    emit failed(problem);
     return false;
   }
   processes_[name] = process;
@@ -114,22 +100,12 @@ bool RunLauncher::start(const QString& name, QStringList arguments, const QStrin
 
 QString RunLauncher::lastWords(const QString& name) const {
   const auto found = processes_.find(name);
-  if (found == processes_.end()) return {};
-  QFile log(found->second.log);
-  if (!log.open(QIODevice::ReadOnly)) return {};
-  if (log.size() > 4096) log.seek(log.size() - 4096);
-  const QStringList lines = QString::fromUtf8(log.readAll()).split('\n', Qt::SkipEmptyParts);
-  return lines.isEmpty() ? QString() : lines.last().trimmed();
+  return found == processes_.end() ? QString() : found->second.lastWords();
 }
 
-// A process that has ended may stay as a zombie until the system collects it: state Z after the name in parentheses.
 bool RunLauncher::isAlive(const QString& name) const {
   const auto found = processes_.find(name);
-  if (found == processes_.end() || ::kill(static_cast<pid_t>(found->second.pid), 0) != 0) return false;
-  QFile stat(QStringLiteral("/proc/%1/stat").arg(found->second.pid));
-  if (!stat.open(QIODevice::ReadOnly)) return true;
-  const QByteArray text = stat.readAll();
-  return !text.mid(text.lastIndexOf(')') + 1).trimmed().startsWith('Z');
+  return found != processes_.end() && found->second.isAlive();
 }
 
 void RunLauncher::exportCsv(const QString& database, Id run, const QString& what, const QString& file) {

@@ -8,6 +8,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/experiment_spec.h"
 #include "core/store/records.h"
+#include "ui/experiment/detached_program.h"
 
 namespace btr::ui {
 
@@ -79,14 +80,10 @@ class RunLauncher : public QObject {
   QString lastWords(const QString& name) const;
   bool isAlive(const QString& name) const;
 
-  struct Process {
-    qint64 pid = 0;
-    QString log;
-  };
   std::shared_ptr<const PluginHost> host_;
   QString program_;
   inline static const QString grids = QStringLiteral("grids");
-  std::map<QString, Process> processes_;
+  std::map<QString, DetachedProgram> processes_;
   std::unique_ptr<QThread> thread_;
 };
 

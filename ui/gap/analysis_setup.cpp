@@ -25,6 +25,7 @@
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
 #include "ui/common/wheel_guard.h"
+#include "ui/common/wrapped_label.h"
 #include "ui/gap/mapping_form.h"
 #include "ui/gap/recording_plot.h"
 #include "ui/window/scroll_page.h"
@@ -176,9 +177,8 @@ QWidget* AnalysisSetup::makeInputs() {
       tr("Three recordings that the simulator made itself, with dry friction that the scene does not have: an analysis "
          "finds it in about a minute"));
   form->addRow(example_);
-  doctorSays_ = new QLabel(inputs);
+  doctorSays_ = new WrappedLabel(inputs);
   doctorSays_->setObjectName("doctorSays");
-  doctorSays_->setWordWrap(true);
   doctorSays_->setTextFormat(Qt::PlainText);
   doctorSays_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   doctorSays_->setAccessibleName(tr("What is odd about the recordings"));
@@ -226,6 +226,7 @@ void AnalysisSetup::readScene() {
     sceneRead_ = scene();
     mapping_->setChannels(channelsOf(spec_, models_));
     if (!sceneProblem_.isEmpty()) emit mended(std::exchange(sceneProblem_, {}));
+    openMapping();  // that of the scene, where there is one
     emit sceneChanged(scene());
   } catch (const std::exception& error) {
     sceneProblem_ = QString::fromUtf8(error.what());
@@ -240,8 +241,9 @@ void AnalysisSetup::chooseRecordings() {
 }
 
 void AnalysisSetup::addRecordings(const QStringList& paths) {
+  const int before = recordings_->rowCount();
   for (const QString& path : paths) {
-    if (files(true).contains(path) || files(false).contains(path)) continue;
+    if (recordingsHave(path)) continue;
     const int row = recordings_->rowCount();
     recordings_->insertRow(row);
     auto* name = new QTableWidgetItem(QFileInfo(path).fileName());
@@ -254,7 +256,8 @@ void AnalysisSetup::addRecordings(const QStringList& paths) {
     recordings_->setItem(row, heldOut, check);
     recordings_->setItem(row, mapped, new QTableWidgetItem);
   }
-  if (recordings_->currentRow() < 0 && recordings_->rowCount() > 0) recordings_->setCurrentCell(0, file);
+  // What was added is looked at: a file that is no recording is said at once.
+  if (recordings_->rowCount() > before) recordings_->setCurrentCell(before, file);
   if (out_->text().isEmpty() && recordings_->rowCount() > 0)
     out_->setText(
         QDir(reportBase_)
@@ -335,8 +338,11 @@ QString AnalysisSetup::problem() const {
     return tr("%1 is held out, but the same file is fitted.").arg(QFileInfo(seen).fileName());
   if (out_->text().trimmed().isEmpty()) return tr("Choose the report's folder.");
   if (!isSeed) return tr("Seed: %1 is not allowed; a whole number from 0").arg(seed_->text());
-  if (!mapping_->recording().isEmpty() && mapping_->isChanged())
-    return tr("The mapping has changes that are not saved.");
+  if (recordingsHave(mapping_->recording()) && mapping_->isChanged()) {
+    const QString of = QFileInfo(mapping_->recording()).fileName();
+    return mapping_->isEdited() ? tr("The mapping of %1 has changes that are not saved.").arg(of)
+                                : tr("The mapping of %1 is a guess: look at it and save it.").arg(of);
+  }
   if (certain_ && !asRecorded_->isChecked())
     return tr("A column is certainly not what its name says: mend the mapping, or analyse as recorded.");
   return {};
@@ -346,14 +352,26 @@ QString AnalysisSetup::mappingOf(const QString& recording) const {
   return QString::fromStdString(findMapping(recording.toStdString(), scene().toStdString()).value_or(""));
 }
 
+bool AnalysisSetup::recordingsHave(const QString& path) const {
+  return files(true).contains(path) || files(false).contains(path);
+}
+
 void AnalysisSetup::openMapping() {
   const int row = recordings_->currentRow();
   if (row < 0 || !recordings_->item(row, file)) return;
   const QString path = recordings_->item(row, file)->data(Qt::UserRole).toString();
-  looks_->setRecording(path, mappingOf(path), scene());
-  if (mapping_->recording() == path || (mapping_->isChanged() && !mapping_->recording().isEmpty())) return;
+  const QString found = mappingOf(path);
+  looks_->setRecording(path, found, scene());
+  if (mapping_->recording() == path && (found.isEmpty() || found == mapping_->file())) return;
+  // What was typed is kept; a guess is not.
+  if (mapping_->isEdited() && recordingsHave(mapping_->recording())) {
+    if (mapping_->recording() != path)
+      emit failed(tr("The mapping of %1 has changes that are not saved: save or undo them before you look at another.")
+                      .arg(QFileInfo(mapping_->recording()).fileName()));
+    return;
+  }
   try {
-    mapping_->open(path, mappingOf(path));
+    mapping_->open(path, found);
   } catch (const std::exception& error) {
     emit failed(QString::fromUtf8(error.what()));
   }
@@ -393,7 +411,8 @@ void AnalysisSetup::askDoctor() {
     const RecordingDoctor::Opinion& opinion = doctor_.of(path, mapping, sceneRead_, spec_, models_);
     for (const Diagnosis& trial : opinion.trials) objection.hear(path.toStdString(), mapping.toStdString(), trial);
     recordings_->item(row, file)->setToolTip((QStringList{path} + opinion.findings).join('\n'));
-    for (const QString& text : opinion.findings) {
+    for (QString text : opinion.findings) {
+      if (text.startsWith(path)) text = text.mid(path.size() + (text.mid(path.size(), 1) == ":")).trimmed();
       if (said.contains(text)) continue;
       said << text;
       lines << QFileInfo(path).fileName() + ": " + text;

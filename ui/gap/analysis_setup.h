@@ -77,6 +77,7 @@ class AnalysisSetup : public QWidget {
   void refresh();
   void askDoctor();
   QStringList files(bool heldOut) const;
+  bool recordingsHave(const QString& path) const;
   QString seenHeldOut() const;  ///< a held-out file whose bytes are fitted, too; empty: none
 
   QLineEdit *scene_, *out_, *seed_;

@@ -32,6 +32,8 @@ class MappingForm : public QWidget {
   /// NAME.mapping.json beside the recording, or the file that was given.
   QString file() const { return file_; }
   bool isChanged() const { return !undo_.isClean(); }
+  /// Somebody changed it: a guess that nobody touched is not saved, and nothing is lost with it.
+  bool isEdited() const { return isChanged() && undo_.canUndo(); }
   /// Throws InputError if something is not allowed or the file cannot be written.
   void save();
 

@@ -15,12 +15,14 @@
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
+#include "ui/cluster/machines_dialog.h"
 #include "ui/common/format.h"
 #include "ui/common/manual.h"
 #include "ui/common/plugins_dialog.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
 #include "ui/controllers/draft_controller.h"
+#include "ui/controllers/machines_controller.h"
 #include "ui/controllers/replay_controller.h"
 #include "ui/controllers/run_controller.h"
 #include "ui/remote/interface_dialog.h"
@@ -75,6 +77,7 @@ class Menus final : public QObject {
   void newDatabase();
   void makeRun();
   void openInterface();
+  void openMachines();
   void makeView();
   void makeLooks();
   void addPage(const char* name, const QString& page, const QString& icon, const QString& text,
@@ -87,6 +90,7 @@ class Menus final : public QObject {
   MenuPlaces places_;
   Workbench& bench_;
   InterfaceServer* interface_ = nullptr;
+  MachinesController* machines_ = nullptr;
   QMenu *recent_ = nullptr, *view_ = nullptr;
   QList<QAction*> files_, pages_;  ///< of the tool bar
 };
@@ -186,6 +190,7 @@ void Menus::makeRun() {
   connect(byItself, &QAction::toggled, this,
           [this](bool on) { bench_.settings().setFlag("continueWhenMeasured", on); });
   menu->addSeparator();
+  add(menu, "openMachines", "network-workgroup", tr("On se&veral machines…"), {}, [this] { openMachines(); });
   add(menu, "openInterface", "network-server", tr("&Open interface…"), {}, [this] { openInterface(); });
   connect(menu, &QMenu::aboutToShow, this, [this, go, copy] {
     const Id run = bench_.run().id;
@@ -204,6 +209,22 @@ void Menus::openInterface() {
       *interface_, [this] { return bench_.path(); }, &to_.window);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->open();
+}
+
+// The job goes on, and is still the one that is looked at, when the dialog is opened again.
+void Menus::openMachines() {
+  if (!machines_) {
+    machines_ = new MachinesController(bench_.launcher().program(), this);
+    connect(machines_, &MachinesController::collected, &bench_, [this] { bench_.watcher().poll(); });
+  }
+  if (auto* there = to_.window.findChild<MachinesDialog*>()) {
+    there->raise();
+    return there->activateWindow();
+  }
+  auto* dialog = new MachinesDialog(
+      *machines_, [this] { return bench_.path(); }, &to_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->show();
 }
 
 void Menus::makeView() {

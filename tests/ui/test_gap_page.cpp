@@ -283,6 +283,17 @@ class TestGapPage : public QObject {
     QCOMPARE(bench.page.findChild<QComboBox*>("channel")->currentIndex(), 2);
   }
 
+  void theMapsColoursAreAllExplained() {
+    HeatMap map;
+    map.setReport(std::make_shared<const GapReport>(sampleReport()));
+    map.show();
+    for (const int width : {500, 710, 1200}) {
+      map.resize(width, 200);
+      for (const QRect& place : map.scalePlaces())
+        QVERIFY2(map.viewport()->rect().contains(place), qPrintable(QString::number(width)));
+    }
+  }
+
   void theMapIsUsedWithKeysToo() {
     Bench bench;
     HeatMap& map = bench.page.view().map();

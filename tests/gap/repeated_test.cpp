@@ -123,6 +123,25 @@ TEST(Repeated, TheNoiseFloorIsThatOfTheValuesThatAreNew) {
   EXPECT_NEAR(noiseFloor(trial.columns[0], trial.columns[2]), 0.001, 0.0001);
 }
 
+// A cell that is lost may be the one in which a value was new: its repeats say it too late.
+TEST(Repeated, WhatWasFirstToldInALostCellHasNoDate) {
+  for (const double count : {0.0, 0.02})
+    for (const int every : {2, 3, 4}) {
+      Recording trial = readEvery4ms(0.004 * every, count, 0.001, 6);
+      Random random(8);
+      for (std::size_t row = 1; row < trial.rows(); ++row)
+        if (random.chance(0.08)) trial.columns[2][row] = NAN;
+      emptyRepeated(trial);
+      ASSERT_THAT(trial.thinned, ElementsAre("leg.knee.position_rad")) << count << " " << every;
+      EXPECT_GT(kept(trial), 1100u / static_cast<unsigned>(every));
+      const std::vector<double>& left = trial.columns[2];
+      for (std::size_t row = 0; row < trial.rows(); ++row)
+        if (std::isfinite(left[row]) && (row == 0 || left[row] != left[row - 1])) {
+          EXPECT_NEAR(left[row], turning(0.004 * static_cast<double>(row)), count / 2 + 0.005) << row;
+        }
+    }
+}
+
 TEST(Repeated, ABodyIsOneSensor) {
   Recording trial;
   trial.channels = {"time_s", "cube.base.x_m", "cube.base.z_m", "cube.base.qw"};

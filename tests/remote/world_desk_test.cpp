@@ -425,4 +425,35 @@ TEST_F(WorldDeskTest, AMillionDamagedCallsAreAnsweredAndNothingIsWrittenOutside)
   EXPECT_EQ(0, answered<v1::State>(desk, Method::reset, reset).period());
 }
 
+/// A picture every fourth period.
+class FourthEye final : public CameraEye {
+ public:
+  std::optional<CameraPicture> look(const Session& session) override {
+    if (session.periods() % 4 != 0 || session.periods() == 0) return std::nullopt;
+    return CameraPicture{1, 1, {0, 0, 0}};
+  }
+};
+
+// However far the world is behind its clock.
+TEST_F(WorldDeskTest, NoPictureTakesThePlaceOfOneThatNobodyCouldAskFor) {
+  WorldDesk seeing(plugins(), folder, [](const std::string&) { return std::make_unique<FourthEye>(); });
+  v1::OpenRequest open;
+  open.set_game("dog.json");
+  open.set_unlogged(true);
+  answered<v1::World>(seeing, Method::open, open, worldName);
+  v1::PictureRequest request;
+  request.set_robot("red1");
+  const auto number = [&] { return answered<v1::PictureReply>(seeing, Method::picture, request).number(); };
+  EXPECT_EQ(0, number());
+  v1::PlayRequest play;
+  play.set_speed(WorldDesk::fastestPlay);
+  answered<v1::State>(seeing, Method::play, play);
+  for (long last = 0; last < 20;) {
+    seeing.goOn();
+    const long now = number();
+    ASSERT_LE(now, last + 1);
+    last = now;
+  }
+}
+
 }  // namespace

@@ -321,6 +321,7 @@ class TestExperimentTree : public QObject {
     QSignalSpy compare(&tree, &ExperimentTree::compareRequested), stop(&tree, &ExperimentTree::stopRequested);
     entry(menu, "Compare these 2 runs")->trigger();
     QCOMPARE(compare.first().first().value<std::vector<Id>>(), (std::vector<Id>{first, second}));
+    QVERIFY(!entry(menu, "Continue them")->isEnabled());
     entry(menu, "Stop them")->trigger();
     QCOMPARE(stop.count(), 2);
   }

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QTemporaryDir>
 #include <QTest>
 #include <nlohmann/json.hpp>
 
@@ -55,14 +56,30 @@ class TestLivePage : public QObject {
     QTRY_VERIFY(open.page.row().playing);
   }
 
+  void aFileThatIsNoWorldLeavesTheOneThatIsThere() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    QTemporaryDir folder;
+    QFile log(folder.filePath("session.log"));
+    QVERIFY(log.open(QIODevice::WriteOnly));
+    log.write("{\"format\":\"uchilsim-log-1\",\"version\":\"0.2.0\"}\n{\"act\":\"pull\",\"period\":2}\n");
+    log.close();
+    open.page.openIfWorld(log.fileName());
+    const QString said = open.page.findChild<MessageBanner*>()->text();
+    QVERIFY2(said.contains("session.log") && said.contains("--replay"), qPrintable(said));
+    QVERIFY(open.action("livePlay")->isEnabled());
+    QVERIFY(open.isThere());
+  }
+
   void buttonsStayWhereTheyAreWhileTheWorldPlays() {
     OpenPage open;
     QVERIFY(open.isThere());
     const auto* clock = open.page.findChild<QLabel*>("liveClock");
-    const int width = clock->width();
+    const int width = clock->width(), left = clock->mapTo(&open.page, QPoint()).x();
     open.action("livePlay")->trigger();
     QTRY_VERIFY(clock->text().contains(QChar(0xd7)));
     QCOMPARE(clock->width(), width);
+    QCOMPARE(clock->mapTo(&open.page, QPoint()).x(), left);
   }
 
   void playsStepsAndWaits() {

@@ -540,6 +540,19 @@ class TestMainWindow : public QObject {
     QCOMPARE(window->focusWidget(), &sheet);
   }
 
+  // What went wrong with one step says nothing about the next.
+  void anErrorIsOverWhenAnotherSimulatorIsTaken() {
+    StoredRun stored;
+    const Id run = stored.addWaitingRun(stored.addExperiment(), 7);
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    show(*window, run);
+    window->bench().report("btr: run 1: its version 1 is this simulator already");
+    QCOMPARE(window->banner().text(), QString("run 1: its version 1 is this simulator already"));
+    emit window->gapPage().revertRequested({});
+    QCOMPARE(window->banner().text(), QString());
+  }
+
   void theAlarmsComingMovesNothing() {
     StoredRun stored;
     const Id run = stored.addRun(stored.addExperiment(), 7);

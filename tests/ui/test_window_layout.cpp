@@ -6,6 +6,8 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTest>
 
 #include "tests/ui/stored_run.h"
@@ -148,6 +150,8 @@ class TestWindowLayout : public QObject {
       const auto* figure = window.findChild<QLabel*>(name);
       QVERIFY2(figure->isVisible() && figure->visibleRegion().boundingRect() == figure->rect(), name);
     }
+    const auto* run = qobject_cast<QScrollArea*>(window.findChild<QDockWidget*>("dock.run")->widget());
+    QVERIFY(!run->verticalScrollBar()->isVisible());
   }
 
   // Who wants the run's text low keeps it so.
@@ -233,6 +237,37 @@ class TestWindowLayout : public QObject {
       QVERIFY2(steps < 600, qPrintable(window->focusWidget()->objectName()));
       QVERIFY(docks.size() >= 3);
     }
+  }
+
+  // Who chooses a pane that is behind a tab wants to see it, not to lose it.
+  void theViewMenuBringsPanesToTheFront() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    Desk::settle();
+    auto* sheet = window->findChild<QDockWidget*>("dock.sheet");
+    window->findChild<QDockWidget*>("dock.fitness")->raise();
+    Desk::settle();
+    QVERIFY(!DockLayout::isInFront(sheet));
+    const auto choose = [&] {
+      emit window->findChild<QMenu*>("menu.view")->aboutToShow();
+      const bool isTicked = action(*window, "see.sheet")->isChecked();
+      action(*window, "see.sheet")->trigger();
+      Desk::settle();
+      return isTicked;
+    };
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
+    QVERIFY(sheet->isAncestorOf(window->focusWidget()));
+    QVERIFY(choose());
+    QVERIFY(!sheet->isVisible());
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
+    window->showPage("analysis");
+    Desk::settle();
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
   }
 
   void noEntryStandsTwiceInAMenu() {

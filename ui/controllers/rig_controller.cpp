@@ -43,11 +43,15 @@ RigController::RigController(Workbench& bench, GapPage& page, ExperimentTree& tr
   connect(&page_, &GapPage::adoptRequested, this,
           [this](const QString& simulator, const QString& folder, const QString& rig) {
             const Id run = bench_.run().id;
-            if (run != 0 || !rig.isEmpty()) bench_.launcher().adopt(bench_.path(), run, rig, simulator, folder);
+            if (run == 0 && rig.isEmpty()) return;
+            emit bench_.messagesOver();
+            bench_.launcher().adopt(bench_.path(), run, rig, simulator, folder);
           });
   connect(&page_, &GapPage::revertRequested, this, [this](const QString& rig) {
     const Id run = bench_.run().id;
-    if (run != 0 || !rig.isEmpty()) bench_.launcher().revert(bench_.path(), run, rig);
+    if (run == 0 && rig.isEmpty()) return;
+    emit bench_.messagesOver();
+    bench_.launcher().revert(bench_.path(), run, rig);
   });
   connect(&page_, &GapPage::reportOpened, this, &RigController::showRigs);
   connect(&page_.setup(), &AnalysisSetup::sceneChanged, this, &RigController::showRigs);

@@ -41,6 +41,7 @@ RunController::RunController(Workbench& bench) : QObject(&bench), bench_(bench) 
     bench_.watcher().poll();
     bench_.inform({});
     bench_.selectRun(run);
+    emit bench_.dockWanted("fitness");  // in front may be the sheet of another run, where nothing happens now
     resume(run);
   });
 
@@ -130,8 +131,11 @@ void RunController::checkLaunched() {
       const RunState state = end.run.state;
       if (state == RunState::waiting || state == RunState::stopped || state == RunState::finished) return;
       const QString words = bench_.launcher().lastWords(end.run.id);
-      bench_.report(
-          tr("%1 ended: %2").arg(runName(end.run), words.isEmpty() ? tr("its process said nothing.") : words));
+      bench_.report(tr("%1 ended: %2")
+                        .arg(runName(end.run), words.isEmpty()
+                                                   ? tr("its process was ended, or crashed, and said nothing. What is "
+                                                        "stored is kept; Continue goes on from there.")
+                                                   : words));
     });
     run = launched_.erase(run);
   }

@@ -134,9 +134,11 @@ void Workbench::show(const RunRecord& run) {
   guard([&] { emit runSelected(run); });
 }
 
+// What btr says begins with its name, which is for a terminal.
 void Workbench::report(const QString& error) {
-  lastError_ = error;
-  emit reported(error);
+  static const QString speaker = QStringLiteral("btr: ");
+  lastError_ = error.startsWith(speaker) ? error.mid(speaker.size()) : error;
+  emit reported(lastError_);
 }
 
 void Workbench::mend(const QString& error) {

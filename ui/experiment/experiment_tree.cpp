@@ -431,14 +431,20 @@ void ExperimentTree::fillRunsMenu(QMenu& menu, const std::vector<Id>& runs) {
   menu.addAction(themeIcon("office-chart-line"), tr("Compare these %1 runs").arg(runs.size()), this,
                  [this, runs] { emit compareRequested(runs); });
   menu.addSeparator();
-  menu.addAction(themeIcon("media-playback-start"), tr("Continue them"), this, [this, runs] {
-    for (const Id run : runs)
-      if (runs_.at(run).state != RunState::finished && active_.count(run) == 0) emit continueRequested(run);
-  });
-  menu.addAction(themeIcon("media-playback-stop"), tr("Stop them"), this, [this, runs] {
-    for (const Id run : runs)
-      if (active_.count(run) > 0) emit stopRequested(run);
-  });
+  const auto goesOn = [this](Id run) { return runs_.at(run).state != RunState::finished && active_.count(run) == 0; };
+  const auto works = [this](Id run) { return active_.count(run) > 0; };
+  menu.addAction(themeIcon("media-playback-start"), tr("Continue them"), this,
+                 [this, runs, goesOn] {
+                   for (const Id run : runs)
+                     if (goesOn(run)) emit continueRequested(run);
+                 })
+      ->setEnabled(std::ranges::any_of(runs, goesOn));
+  menu.addAction(themeIcon("media-playback-stop"), tr("Stop them"), this,
+                 [this, runs, works] {
+                   for (const Id run : runs)
+                     if (works(run)) emit stopRequested(run);
+                 })
+      ->setEnabled(std::ranges::any_of(runs, works));
 }
 
 void ExperimentTree::fillExperimentsMenu(QMenu& menu, const std::vector<Id>& experiments) {

@@ -22,6 +22,8 @@ class EyePicture : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  void drawBoxes(QPainter& painter, const QRectF& picture) const;
+
   ShownFrame frame_;
   QString message_;
   bool boxes_ = true;

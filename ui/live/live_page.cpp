@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/spec/error.h"
+#include "core/spec/file_kind.h"
 #include "ui/common/format.h"
 #include "ui/common/message_banner.h"
 #include "ui/common/resources.h"
@@ -245,7 +246,18 @@ void LivePage::openWithDialog() {
   const QString file =
       QFileDialog::getOpenFileName(this, tr("Open a game, a scene or a robot"), resourceDirectory() + "/games",
                                    tr("Games, scenes, robots (*.json *.wrl *.urdf)"));
-  if (!file.isEmpty()) open(file);
+  if (!file.isEmpty()) openIfWorld(file);
+}
+
+void LivePage::openIfWorld(const QString& file) {
+  const std::string plain = file.toStdString();
+  const FileKind kind = kindOfFile(plain);
+  if (kind == FileKind::game || kind == FileKind::scene || kind == FileKind::robot) return open(file);
+  const std::string words = kindInWords(plain);
+  QString why = tr("%1 is %2; games, scenes and robots are opened here.").arg(file, QString::fromStdString(words));
+  if (words.find("uchilsim-log") != std::string::npos)
+    why += tr(" A session log plays again with its game: btr live GAME --replay LOG");
+  banner_->showMessage(MessageBanner::Kind::error, why);
 }
 
 void LivePage::saveGame() {

@@ -37,6 +37,8 @@ class LivePage : public QWidget {
   LivePage(const PluginHost& host, const QString& program, const QString& logs, QWidget* parent = nullptr);
 
   void open(const QString& file);
+  /// Open it where it is a game, a scene or a robot; else it is said what it is, and the world that is there goes on.
+  void openIfWorld(const QString& file);
   /// Opened when the page is first shown, unless another one is by then.
   void openWhenShown(const QString& file) { later_ = file; }
   /// Whose individuals can play.

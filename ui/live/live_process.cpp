@@ -184,6 +184,7 @@ void LiveProcess::finished(int code, QProcess::ExitStatus status) {
   words_ += process_.readAllStandardError();
   if (status == QProcess::NormalExit && code == 0) return;
   QString why = QString::fromUtf8(words_).trimmed().section('\n', -1);
+  if (why.startsWith("btr: ")) why.remove(0, 5);  // its name is for a terminal
   if (status == QProcess::CrashExit && wasReady)
     why = tr("The world's process crashed. Its log is kept up to the last act. %1").arg(why);
   else if (why.isEmpty())

@@ -39,6 +39,12 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   play_ = add("livePlay", "media-playback-start", tr("&Play"), tr("Goes on, or waits (Space)"));
   play_->setCheckable(true);
   connect(play_, &QAction::triggered, this, &LiveTools::playChosen);
+  // As wide as it becomes: no button moves under the mouse when the world plays.
+  auto* play = widgetForAction(play_);
+  play_->setText(tr("&Pause"));
+  const int pause = play->sizeHint().width();
+  play_->setText(tr("&Play"));
+  play->setMinimumWidth(std::max(pause, play->sizeHint().width()));
   step_ = add("liveStep", "media-skip-forward", tr("&Step"), tr("One control period (.)"));
   connect(step_, &QAction::triggered, this, &LiveTools::stepChosen);
   reset_ = add("liveReset", "media-skip-backward", tr("&Reset"), tr("As it was opened"));

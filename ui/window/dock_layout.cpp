@@ -106,10 +106,11 @@ void DockLayout::size() {
   const int left = isCompact() ? width * 16 / 100 : width * 19 / 100;
   const int right = isCompact() ? width * 27 / 100 : width * 29 / 100, middle = width - left - right;
   window_.resizeDocks({dock("tree"), dock("run"), dock("spec")}, {left, middle, right}, Qt::Horizontal);
-  const int top = runHeight_ = runHeight(middle), rest = height - top - 90;
+  const int top = runHeight(middle), rest = height - top - 90;
+  runHeight_ = 0;
+  QMetaObject::invokeMethod(this, &DockLayout::growRun, Qt::QueuedConnection);
   if (isCompact()) {
-    // Alone: sizes that do not add up to what there is would all be made smaller.
-    window_.resizeDocks({dock("run")}, {top}, Qt::Vertical);
+    window_.resizeDocks({dock("run"), dock("fitness")}, {top, rest}, Qt::Vertical);
     return;
   }
   window_.resizeDocks({dock("run"), dock("fitness"), dock("individuals")}, {top, rest * 54 / 100, rest * 46 / 100},
@@ -140,7 +141,19 @@ void DockLayout::growRun() {
   const int wanted = runHeight(run->width());
   if (wanted <= runHeight_) return;
   runHeight_ = wanted;
-  if (run->height() < wanted) window_.resizeDocks({run}, {wanted}, Qt::Vertical);
+  if (run->height() >= wanted) return;
+  // Sizes that do not add up to what there is are all made smaller: what is right below gives what the text takes.
+  QMap<int, QDockWidget*> below;
+  for (QDockWidget* other : all())
+    if (isInFront(other) && !other->isFloating() && other->x() == run->x() && other->y() > run->y())
+      below[other->y()] = other;
+  QList<QDockWidget*> docks{run};
+  QList<int> sizes{wanted};
+  for (QDockWidget* other : below) {
+    sizes << other->height() - (docks.size() == 1 ? wanted - run->height() : 0);
+    docks << other;
+  }
+  window_.resizeDocks(docks, sizes, Qt::Vertical);
 }
 
 // The runs' docks get their sizes when they are seen: behind a page they have none.

@@ -8,6 +8,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/noise_floor.h"
+#include "core/gap/recordings/resample.h"
 #include "core/gap/recordings/table/row_order.h"
 #include "core/spec/figures.h"
 
@@ -30,43 +31,78 @@ std::map<std::string, Columns> sensorsOf(const Recording& trial) {
   return sensors;
 }
 
-/// Rows in a run of equal readings of one sensor, by the run's first row; rows with an empty cell stand alone.
-struct Runs {
-  std::vector<std::size_t> first, length;
+/// Equal readings of one sensor, one after another.
+struct Run {
+  std::vector<std::size_t> rows;
+  bool dated = false;  ///< it is known when its value came: no reading is missing before it
+  bool whole = true;   ///< no reading is missing in it
 };
 
-Runs runsOf(const Recording& trial, const Columns& columns) {
-  Runs runs;
-  for (std::size_t row = 0; row < trial.rows(); ++row) {
-    const bool repeats = row > 0 && std::ranges::all_of(columns, [&](std::size_t column) {
-                           return trial.columns[column][row] == trial.columns[column][row - 1];  // never for NaN
-                         });
-    if (!repeats) {
-      runs.first.push_back(row);
-      runs.length.push_back(0);
-    }
-    ++runs.length.back();
+/// What a sensor tells, in the rows that have all of its cells.
+struct Readings {
+  std::vector<Run> runs;
+  std::vector<long> place;  ///< by row: in numbers of its usual distance from one reading to the next
+};
+
+/// Places of rows in time, in numbers of rows: where rows are lost, some are left out.
+std::vector<long> slotsOf(const Recording& trial) {
+  constexpr double lost = 1.6;  // periods: stamps may jitter
+  const std::vector<double>& time = trial.columns[0];
+  const double period_s = rhythm(trial);
+  std::vector<long> slots(time.size(), 0);
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    const double periods = (time[row] - time[row - 1]) / period_s;
+    slots[row] = slots[row - 1] + (periods > lost && std::isfinite(periods) ? std::lround(periods) : 1);
   }
-  return runs;
+  return slots;
+}
+
+Readings readingsOf(const Recording& trial, const Columns& columns) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < trial.rows(); ++row)
+    if (std::ranges::none_of(columns, [&](std::size_t column) { return std::isnan(trial.columns[column][row]); }))
+      rows.push_back(row);
+  Readings readings;
+  readings.place = slotsOf(trial);
+  std::vector<double> distances;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    distances.push_back(static_cast<double>(readings.place[rows[i]] - readings.place[rows[i - 1]]));
+  // A value in every n-th row only: these are its readings.
+  const double usual = std::max(1.0, median(std::move(distances)));
+  for (long& place : readings.place) place = std::lround(static_cast<double>(place) / usual);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool follows = i > 0 && readings.place[rows[i]] - readings.place[rows[i - 1]] <= 1;
+    const bool repeats = i > 0 && std::ranges::all_of(columns, [&](std::size_t column) {
+                           return trial.columns[column][rows[i]] == trial.columns[column][rows[i - 1]];
+                         });
+    if (!repeats) readings.runs.push_back({{}, follows, true});
+    Run& run = readings.runs.back();
+    run.whole = run.whole && (follows || !repeats);
+    run.rows.push_back(rows[i]);
+  }
+  return readings;
 }
 
 /// A sensor whose readings change in every n-th row only, and never between, measures in those; 1: none such. Shows
 /// itself in slow motion as well, where a count lasts for many rows.
-std::size_t rhythmOfChanges(const Runs& runs) {
+std::size_t rhythmOfChanges(const Readings& readings) {
   constexpr std::size_t longest = 10, enough = 15;
   constexpr double nearlyAll = 0.98;
-  if (runs.first.size() < enough + 1) return 1;
+  std::vector<std::size_t> changes;
+  for (const Run& run : readings.runs)
+    if (run.dated) changes.push_back(static_cast<std::size_t>(readings.place[run.rows[0]]));
+  if (changes.size() < enough) return 1;
   for (std::size_t rhythm = longest; rhythm > 1; --rhythm) {
     std::vector<std::size_t> inPhase(rhythm, 0);
-    for (std::size_t run = 1; run < runs.first.size(); ++run) ++inPhase[runs.first[run] % rhythm];
-    const double changes = static_cast<double>(runs.first.size() - 1);
-    if (static_cast<double>(*std::ranges::max_element(inPhase)) >= nearlyAll * changes) return rhythm;
+    for (const std::size_t change : changes) ++inPhase[change % rhythm];
+    if (static_cast<double>(*std::ranges::max_element(inPhase)) >= nearlyAll * static_cast<double>(changes.size()))
+      return rhythm;
   }
   return 1;
 }
 
 /// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
-std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Runs& runs) {
+std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Readings& readings) {
   // A few runs are enough where all of them are held: noise alone never repeats in all columns at once.
   constexpr double severalCounts = 5, leastShare = 0.35, nearlyAll = 0.9;
   constexpr std::size_t enough = 20, few = 6;
@@ -77,18 +113,20 @@ std::size_t readingsPerMeasurement(const Recording& trial, const Columns& column
   }
   std::vector<double> lengths;
   std::size_t held = 0;
-  for (std::size_t run = 1; run + 1 < runs.first.size(); ++run) {
+  for (std::size_t k = 1; k + 1 < readings.runs.size(); ++k) {
     // A run in motion: it is reached and left by more than a few counts.
-    const auto moves = [&](std::size_t row) {
+    const auto moves = [&](const Run& before, const Run& after) {
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const std::vector<double>& values = trial.columns[columns[i]];
-        if (const double step = std::abs(values[row] - values[row - 1]); step > 0 && step >= counts[i]) return true;
+        const double step = std::abs(values[after.rows[0]] - values[before.rows[0]]);
+        if (step > 0 && step >= counts[i]) return true;
       }
       return false;
     };
-    if (!moves(runs.first[run]) || !moves(runs.first[run + 1])) continue;
-    lengths.push_back(static_cast<double>(runs.length[run]));
-    held += runs.length[run] > 1;
+    const Run &run = readings.runs[k], &next = readings.runs[k + 1];
+    if (!run.dated || !run.whole || !next.dated || !moves(readings.runs[k - 1], run) || !moves(run, next)) continue;
+    lengths.push_back(static_cast<double>(run.rows.size()));
+    held += run.rows.size() > 1;
   }
   const double needed = lengths.size() >= enough ? leastShare : nearlyAll;
   if (lengths.size() < few || static_cast<double>(held) < needed * static_cast<double>(lengths.size())) return 1;
@@ -102,17 +140,22 @@ std::size_t readingsPerMeasurement(const Recording& trial, const Columns& column
 void emptyRepeated(Recording& trial) {
   const std::size_t rows = trial.rows();
   for (const auto& [sensor, columns] : sensorsOf(trial)) {
-    const Runs runs = runsOf(trial, columns);
-    const std::size_t each = std::max(readingsPerMeasurement(trial, columns, runs), rhythmOfChanges(runs));
+    const Readings readings = readingsOf(trial, columns);
+    const std::size_t each = std::max(readingsPerMeasurement(trial, columns, readings), rhythmOfChanges(readings));
     if (each < 2) continue;
     std::size_t emptied = 0;
-    for (std::size_t run = 0; run < runs.first.size(); ++run)
-      for (std::size_t i = 1; i < runs.length[run]; ++i) {
-        if (i % each == 0) continue;
-        for (const std::size_t column : columns)
-          trial.columns[column][runs.first[run] + i] = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t k = 0; k < readings.runs.size(); ++k) {
+      const Run& run = readings.runs[k];
+      for (const std::size_t row : run.rows) {
+        const auto after = static_cast<std::size_t>(readings.place[row] - readings.place[run.rows[0]]);
+        // When a value came of which the first reading is lost, nobody knows; what rests is not late.
+        const bool isKnown = k == 0 || run.dated || after >= 2 * each;
+        const bool isNew = isKnown && after % each == 0;
+        if (isNew) continue;
+        for (const std::size_t column : columns) trial.columns[column][row] = std::numeric_limits<double>::quiet_NaN();
         ++emptied;
       }
+    }
     for (const std::size_t column : columns) trial.thinned.push_back(trial.channels[column]);
     trial.notes.push_back((columns.size() == 1 ? trial.channels[columns[0]] : sensor) + ": " + std::to_string(emptied) +
                           " of " + std::to_string(rows) +

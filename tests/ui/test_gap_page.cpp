@@ -551,10 +551,13 @@ class TestGapPage : public QObject {
     QCOMPARE(readFile(scenes.toStdString()), before);
     QCOMPARE(form.file(), folder.filePath("swing.mapping.json"));
     QVERIFY(QFile::exists(form.file()));
-    // One that fits is edited where it is.
+    // One that fits is edited where it is, and is saved, whatever was looked at before.
     MappingForm own;
+    own.open(file(folder, "guessed.csv", "t,q\n0,1\n1,2\n"));
+    QVERIFY(own.isChanged() && !own.isEdited());
     own.open(csv, form.file());
     QCOMPARE(own.file(), form.file());
+    QVERIFY(!own.isChanged());
   }
 
   // Half of a range is none: a form too narrow for all columns is scrolled.

@@ -177,7 +177,11 @@ void MappingForm::open(const QString& recording, const QString& mapping) {
   preview_ = std::move(preview);
   draft_ = std::move(draft);
   undo_.clear();
-  if (!known) undo_.resetClean();
+  // clear() leaves an empty stack as clean or unclean as it was.
+  if (known)
+    undo_.setClean();
+  else
+    undo_.resetClean();
   show();
 }
 

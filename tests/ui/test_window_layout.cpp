@@ -154,6 +154,22 @@ class TestWindowLayout : public QObject {
     QVERIFY(!run->verticalScrollBar()->isVisible());
   }
 
+  void aMessageDoesNotCutTheRunsFigures() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    Desk::settle();
+    const auto* best = window->findChild<QLabel*>("best");
+    QCOMPARE(best->visibleRegion().boundingRect(), best->rect());
+    window->bench().report("disk full: nothing of this step was stored");
+    Desk::settle();
+    QCOMPARE(best->visibleRegion().boundingRect(), best->rect());
+  }
+
   // Who wants the run's text low keeps it so.
   void whatTheUserMadeLowerStaysLow() {
     Desk desk;

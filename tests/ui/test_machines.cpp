@@ -272,6 +272,9 @@ void TestMachines::theDialogShowsAJobAndFitsASmallScreen() {
       QVERIFY2(each->focusPolicy() & Qt::TabFocus, qPrintable(each->text()));
     }
   }
+  // An underlined letter leads to a field; no label shows its "&".
+  for (const QLabel* each : dialog.findChildren<QLabel*>())
+    QVERIFY2(each->buddy() || !each->text().contains('&'), qPrintable(each->text()));
   for (const char* name : {"machines.cancel", "machines.resume", "machines.collect"})
     QVERIFY(!button(name)->isEnabled());
   button("machines.start")->click();

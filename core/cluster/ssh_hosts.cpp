@@ -143,7 +143,7 @@ class OverSsh {
     const int code = exitCodeOf(parallel);
     const std::string said = readFile(log);
     if (!other.empty()) writeFile(log, said + other);
-    closeStates(asked);
+    closeStates(asked, lastLine(said));
     constexpr int notFound = 127, isRefused = 255;
     if (code == notFound) throw InputError("GNU parallel is not installed (package parallel)");
     if (code == isRefused && !asked) throw InputError("parallel: " + lastLine(said));
@@ -180,13 +180,16 @@ class OverSsh {
     }
   }
 
-  /// What says that it runs when nobody works on it any more.
-  void closeStates(bool wasStopped) {
+  /// What says that it runs when nobody works on it any more, and what could not be begun.
+  void closeStates(bool wasStopped, const std::string& lastWords) {
     for (const std::size_t number : numbers_) {
       ElementState state = loadElementState(folder_, number);
-      if (state.state != "running") continue;
+      const bool isLost = state.state == "running", wasNeverBegun = state.state.empty() && !wasStopped;
+      if (!isLost && !wasNeverBegun) continue;
       state.state = wasStopped ? "stopped" : "failed";
-      state.note = wasStopped ? "" : "host " + state.host + ": the connection was lost";
+      if (!wasStopped)
+        state.note = isLost ? "host " + state.host + ": the connection was lost"
+                            : "it could not be begun" + (lastWords.empty() ? "" : ": " + lastWords);
       saveElementState(folder_, number, state);
     }
   }

@@ -90,6 +90,18 @@ TEST(NoiseSharing, CountsSpeedTimesJitterInAllTrialsWhereOneShowsIt) {
   for (const FitTrial& trial : trials) EXPECT_NEAR(trial.noiseFloor[0], std::sqrt(squares / 4), 1.5e-4);
 }
 
+TEST(NoiseSharing, CountsSpeedTimesJitterWhereValuesAreTooSparseToTell) {
+  std::vector<FitTrial> trials;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    trials.push_back(jittering(0.2, seed));
+    for (std::size_t row = 0; row < 400; ++row)
+      if (row % 4 != 0) trials.back().recording.columns[1][row] = NAN;
+  }
+  shared(trials);
+  const double ofTime = 0.001 * 0.2 * 5 / std::sqrt(2.0);
+  for (const FitTrial& trial : trials) EXPECT_GT(trial.noiseFloor[0], std::hypot(0.0009, 0.9 * ofTime));
+}
+
 // Seven samples a swing.
 TEST(NoiseSharing, LeavesOutTrialsWhoseFastMotionPassesForNoise) {
   std::vector<double> fast = noisy(0.001);

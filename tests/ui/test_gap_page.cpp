@@ -283,6 +283,17 @@ class TestGapPage : public QObject {
     QCOMPARE(bench.page.findChild<QComboBox*>("channel")->currentIndex(), 2);
   }
 
+  void theMapsColoursAreAllExplained() {
+    HeatMap map;
+    map.setReport(std::make_shared<const GapReport>(sampleReport()));
+    map.show();
+    for (const int width : {500, 710, 1200}) {
+      map.resize(width, 200);
+      for (const QRect& place : map.scalePlaces())
+        QVERIFY2(map.viewport()->rect().contains(place), qPrintable(QString::number(width)));
+    }
+  }
+
   void theMapIsUsedWithKeysToo() {
     Bench bench;
     HeatMap& map = bench.page.view().map();
@@ -519,6 +530,34 @@ class TestGapPage : public QObject {
     form->undoStack().undo();
     setup.addRecordings({none});
     QVERIFY(failed.takeLast().at(0).toString().contains("none.csv"));
+  }
+
+  void aMappingOfOtherRecordingsIsNotOverwritten() {
+    QTemporaryDir folder;
+    const QString csv = file(folder, "swing.csv", "t,q\n0,1\n1,2\n"),
+                  scenes = file(folder, "scene.mapping.json",
+                                R"({"time_s": {"column": "t"}, "leg.knee.position_rad": {"column": "q"},
+                                    "leg.knee.duty": {"column": "pwm"}})");
+    const std::string before = readFile(scenes.toStdString());
+    MappingForm form;
+    form.open(csv, scenes);
+    QVERIFY(!form.isValid());
+    while (!form.isValid()) {
+      const auto missing = std::ranges::find(form.draft().rows, "pwm", &MappingRow::column);
+      form.table().setCurrentCell(int(missing - form.draft().rows.begin()), 0);
+      form.removeRow();
+    }
+    form.save();
+    QCOMPARE(readFile(scenes.toStdString()), before);
+    QCOMPARE(form.file(), folder.filePath("swing.mapping.json"));
+    QVERIFY(QFile::exists(form.file()));
+    // One that fits is edited where it is, and is saved, whatever was looked at before.
+    MappingForm own;
+    own.open(file(folder, "guessed.csv", "t,q\n0,1\n1,2\n"));
+    QVERIFY(own.isChanged() && !own.isEdited());
+    own.open(csv, form.file());
+    QCOMPARE(own.file(), form.file());
+    QVERIFY(!own.isChanged());
   }
 
   // Half of a range is none: a form too narrow for all columns is scrolled.

@@ -40,6 +40,7 @@ struct Bench {
     experiment["learner"]["settings"]["population"] = 6;
     experiment["adaptation"]["learner"]["settings"]["population"] = 4;
     experiment["adaptation"]["settings"]["generations"] = 1;
+    order.database = folder.filePath("all.db");
     Database::open(order.database.toStdString(), Database::Mode::create);
     order.folder = folder.filePath("job");
     order.hosts = "lab1\n# the next one\nlab2\n";
@@ -68,7 +69,7 @@ struct Bench {
 
   QTemporaryDir folder;
   json experiment;
-  MachinesOrder order{.database = folder.filePath("all.db")};
+  MachinesOrder order;
   QStringList told, problems;
   MachinesController controller{BTR_PROGRAM};
 };
@@ -101,7 +102,7 @@ void TestMachines::initTestCase() {
   writeFile(ssh.toStdString(),
             "#!/bin/sh\nwhile [ \"${1#-}\" != \"$1\" ]; do case $1 in -o|-l|-p|-S|-i) shift;; esac; shift; done\n"
             "[ \"$1\" = off ] && { echo 'ssh: connect to host off: Connection refused' >&2; exit 255; }\n"
-            "shift\ncd " +
+            "shift\n[ \"$1\" = -- ] && shift\ncd " +
                 machines_.path().toStdString() + " && exec sh -c \"$*\"\n");
   QFile(ssh).setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   qputenv("PARALLEL_SSH", ssh.toUtf8());
@@ -131,7 +132,7 @@ void TestMachines::aStatusIsReadAndAnotherDocumentIsOneSentence() {
   QCOMPARE(ranks.parts.front().lost, 1L);
   QCOMPARE(ranks.parts.front().trialsPerSecond, 10.0);
   for (const char* other : {"", "{}", "[1]", R"({"format": "uchilsim-array-status-9"})"})
-    QVERIFY_EXCEPTION_THROWN(arrayStatus(other), InputError);
+    QVERIFY_THROWS_EXCEPTION(InputError, arrayStatus(other));
 }
 
 void TestMachines::whatCannotBeOrderedIsOneSentence() {
@@ -271,6 +272,9 @@ void TestMachines::theDialogShowsAJobAndFitsASmallScreen() {
       QVERIFY2(each->focusPolicy() & Qt::TabFocus, qPrintable(each->text()));
     }
   }
+  // An underlined letter leads to a field; no label shows its "&".
+  for (const QLabel* each : dialog.findChildren<QLabel*>())
+    QVERIFY2(each->buddy() || !each->text().contains('&'), qPrintable(each->text()));
   for (const char* name : {"machines.cancel", "machines.resume", "machines.collect"})
     QVERIFY(!button(name)->isEnabled());
   button("machines.start")->click();

@@ -154,6 +154,22 @@ class TestWindowLayout : public QObject {
     QVERIFY(!run->verticalScrollBar()->isVisible());
   }
 
+  void aMessageDoesNotCutTheRunsFigures() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    Desk::settle();
+    const auto* best = window->findChild<QLabel*>("best");
+    QCOMPARE(best->visibleRegion().boundingRect(), best->rect());
+    window->bench().report("disk full: nothing of this step was stored");
+    Desk::settle();
+    QCOMPARE(best->visibleRegion().boundingRect(), best->rect());
+  }
+
   // Who wants the run's text low keeps it so.
   void whatTheUserMadeLowerStaysLow() {
     Desk desk;
@@ -237,6 +253,37 @@ class TestWindowLayout : public QObject {
       QVERIFY2(steps < 600, qPrintable(window->focusWidget()->objectName()));
       QVERIFY(docks.size() >= 3);
     }
+  }
+
+  // Who chooses a pane that is behind a tab wants to see it, not to lose it.
+  void theViewMenuBringsPanesToTheFront() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    Desk::settle();
+    auto* sheet = window->findChild<QDockWidget*>("dock.sheet");
+    window->findChild<QDockWidget*>("dock.fitness")->raise();
+    Desk::settle();
+    QVERIFY(!DockLayout::isInFront(sheet));
+    const auto choose = [&] {
+      emit window->findChild<QMenu*>("menu.view")->aboutToShow();
+      const bool isTicked = action(*window, "see.sheet")->isChecked();
+      action(*window, "see.sheet")->trigger();
+      Desk::settle();
+      return isTicked;
+    };
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
+    QVERIFY(sheet->isAncestorOf(window->focusWidget()));
+    QVERIFY(choose());
+    QVERIFY(!sheet->isVisible());
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
+    window->showPage("analysis");
+    Desk::settle();
+    QVERIFY(!choose());
+    QVERIFY(DockLayout::isInFront(sheet));
   }
 
   void noEntryStandsTwiceInAMenu() {

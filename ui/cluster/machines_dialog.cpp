@@ -40,6 +40,13 @@ void setRow(QTableWidget& table, int row, const QStringList& texts) {
   }
 }
 
+/// Whose underlined letter leads to the field.
+QLabel* labelFor(QWidget* field, const QString& text) {
+  auto* label = new QLabel(text);
+  label->setBuddy(field);
+  return label;
+}
+
 void setColumns(QTableWidget& table, const QStringList& headers, int rows) {
   if (table.columnCount() != headers.size()) {
     table.clear();
@@ -104,10 +111,8 @@ QLayout* MachinesDialog::makeForm() {
   ranks_->setObjectName("machines.ranks");
   ranks_->setRange(1, 100'000);
   ranks_->setValue(2);
-  ranksLabel_ = new QLabel(tr("&Ranks"));
-  ranksLabel_->setBuddy(ranks_);
-  auto* workersLabel = new QLabel(tr("&Workers of each"));
-  workersLabel->setBuddy(workers_);
+  ranksLabel_ = labelFor(ranks_, tr("&Ranks"));
+  auto* workersLabel = labelFor(workers_, tr("&Workers of each"));
   auto* ways = new QHBoxLayout;
   ways->addWidget(way_);
   ways->addSpacing(12);
@@ -122,13 +127,11 @@ QLayout* MachinesDialog::makeForm() {
   hosts_->setTabChangesFocus(true);
   hosts_->setFixedHeight(fontMetrics().lineSpacing() * 3 + 16);
   hosts_->setToolTip(tr("One a line, as ssh knows them; 2/lab2 works on two at a time"));
-  hostsLabel_ = new QLabel(tr("Com&puters"));
-  hostsLabel_->setBuddy(hosts_);
+  hostsLabel_ = labelFor(hosts_, tr("Com&puters"));
   options_ = new QLineEdit;
   options_->setObjectName("machines.options");
   options_->setPlaceholderText(QStringLiteral("--partition=short --time=2:00:00"));
-  optionsLabel_ = new QLabel(tr("Options of s&batch"));
-  optionsLabel_->setBuddy(options_);
+  optionsLabel_ = labelFor(options_, tr("Options of s&batch"));
   folder_ = new QLineEdit;
   folder_->setObjectName("machines.folder");
   folder_->setToolTip(tr("New or empty; for Slurm one that all machines see"));
@@ -148,11 +151,11 @@ QLayout* MachinesDialog::makeForm() {
   for (QPushButton* button : {choose, place}) button->setAutoDefault(false);
 
   auto* form = new QFormLayout;
-  form->addRow(tr("Work &on"), files);
-  form->addRow(tr("W&here"), ways);
+  form->addRow(labelFor(file_, tr("Work &on")), files);
+  form->addRow(labelFor(way_, tr("W&here")), ways);
   form->addRow(hostsLabel_, hosts_);
   form->addRow(optionsLabel_, options_);
-  form->addRow(tr("Job's &folder"), folders);
+  form->addRow(labelFor(folder_, tr("Job's &folder")), folders);
   form->addRow(tr("Results to"), last);
   connect(choose, &QPushButton::clicked, this, &MachinesDialog::chooseFile);
   connect(place, &QPushButton::clicked, this, &MachinesDialog::chooseFolder);

@@ -94,7 +94,16 @@ MachinesController::MachinesController(const QString& program, QObject* parent)
   connect(&timer_, &QTimer::timeout, this, &MachinesController::poll);
 }
 
-MachinesController::~MachinesController() { work_.forget(); }
+// Short commands that are under way may end; nobody hears of it.
+MachinesController::~MachinesController() {
+  constexpr int patience_ms = 5000;
+  for (QProcess* process : findChildren<QProcess*>()) {
+    process->disconnect(this);
+    if (process->state() != QProcess::NotRunning && !process->waitForFinished(patience_ms)) process->kill();
+    process->waitForFinished(patience_ms);
+  }
+  work_.forget();
+}
 
 QString MachinesController::path(const char* name) const { return QDir(folder_).filePath(name); }
 bool MachinesController::isRanks() const { return QFileInfo::exists(path(ranksFile)); }
@@ -212,6 +221,7 @@ bool MachinesController::goRanks() {
   QFile file(path(ranksFile));
   if (!file.open(QIODevice::ReadOnly)) return false;
   QJsonObject job = QJsonDocument::fromJson(file.readAll()).object();
+  file.close();
   QStringList words;
   for (const QJsonValue& word : job["words"].toArray()) words << word.toString();
   if (QStandardPaths::findExecutable("mpirun").isEmpty()) {

@@ -6,6 +6,7 @@
 #include <QScrollBar>
 #include <QToolTip>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/gap/search/gap_report.h"
@@ -16,6 +17,7 @@ namespace btr::ui {
 namespace {
 
 constexpr int margin = 8, scaleHeight = 26;
+constexpr std::array scaleErrors{1.0, 2.0, 5.0, 10.0, 20.0, heatTop};
 
 QColor colourOf(double error) {
   const HeatColour c = heatColour(error);
@@ -177,23 +179,34 @@ bool HeatMap::viewportEvent(QEvent* event) {
   return true;
 }
 
+// Below the cells, further to the left where these are narrow.
+std::vector<QRect> HeatMap::scalePlaces() const {
+  const int least = 29 + fontMetrics().horizontalAdvance("≥ 50"), count = int(scaleErrors.size());
+  const int step = std::clamp(viewport()->width() / count, least, least + 7 + margin);
+  const int left = std::max(0, std::min(labelWidth(), viewport()->width() - count * step));
+  std::vector<QRect> places;
+  for (int i = 0; i < count; ++i)
+    places.emplace_back(left + i * step, viewport()->height() - scaleHeight, least, scaleHeight);
+  return places;
+}
+
 // How to read the colours, below the rows.
 void HeatMap::paintScale(QPainter& painter) const {
   const int top = viewport()->height() - scaleHeight, text = fontMetrics().height();
   painter.fillRect(0, top, viewport()->width(), scaleHeight, palette().base());
-  int x = labelWidth();
+  const std::vector<QRect> places = scalePlaces();
   painter.setPen(palette().color(QPalette::Text));
-  painter.drawText(QRect(0, top, x - margin, scaleHeight), Qt::AlignRight | Qt::AlignVCenter,
+  painter.drawText(QRect(0, top, places.front().left() - margin, scaleHeight), Qt::AlignRight | Qt::AlignVCenter,
                    tr("error (noise floors)"));
-  for (const double error : {1.0, 2.0, 5.0, 10.0, 20.0, heatTop}) {
-    const QRect box(x, top + (scaleHeight - text) / 2, 24, text);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double error = scaleErrors[i];
+    const QRect box(places[i].left(), top + (scaleHeight - text) / 2, 24, text);
     painter.fillRect(box, colourOf(error));
     painter.setPen(palette().color(QPalette::Mid));
     painter.drawRect(box);
     painter.setPen(palette().color(QPalette::Text));
     const QString label = (error == 1 ? "≤ " : error == heatTop ? "≥ " : "") + QString::number(error);
-    painter.drawText(QRect(x + 29, top, 40, scaleHeight), Qt::AlignLeft | Qt::AlignVCenter, label);
-    x += 36 + fontMetrics().horizontalAdvance("≥ 50") + margin;
+    painter.drawText(places[i].adjusted(29, 0, margin, 0), Qt::AlignLeft | Qt::AlignVCenter, label);
   }
 }
 

@@ -30,6 +30,7 @@ class HeatMap : public QAbstractScrollArea {
   void chooseWorst();
   QRect rectOf(Cell cell) const;  ///< in the viewport
   QString describe(Cell cell) const;
+  std::vector<QRect> scalePlaces() const;  ///< of the colours' legend, each with its number, in the viewport
 
   QSize sizeHint() const override { return {700, 220}; }
   QSize minimumSizeHint() const override { return {320, 110}; }

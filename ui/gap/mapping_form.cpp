@@ -171,11 +171,17 @@ void MappingForm::open(const QString& recording, const QString& mapping) {
                              : MappingDraft::guess(preview.columns);
   const QFileInfo info(recording);
   recording_ = recording;
-  file_ = found.isEmpty() ? info.path() + '/' + info.completeBaseName() + ".mapping.json" : found;
+  // A mapping of other recordings, such as the scene's, stays as it is: what is made of it for this one is this one's.
+  const bool fits = !found.isEmpty() && (!known || problemsOf(draft, preview.columns).empty());
+  file_ = fits ? found : info.path() + '/' + info.completeBaseName() + ".mapping.json";
   preview_ = std::move(preview);
   draft_ = std::move(draft);
   undo_.clear();
-  if (!known) undo_.resetClean();
+  // clear() leaves an empty stack as clean or unclean as it was.
+  if (known)
+    undo_.setClean();
+  else
+    undo_.resetClean();
   show();
 }
 

@@ -29,7 +29,7 @@ class MappingForm : public QWidget {
   MappingProblems problems() const { return problemsOf(draft_, preview_.columns); }
   bool isValid() const { return problems().empty(); }
   QString recording() const { return recording_; }
-  /// NAME.mapping.json beside the recording, or the file that was given.
+  /// NAME.mapping.json beside the recording, or the file that was given where that fits the recording.
   QString file() const { return file_; }
   bool isChanged() const { return !undo_.isClean(); }
   /// Somebody changed it: a guess that nobody touched is not saved, and nothing is lost with it.

@@ -10,6 +10,7 @@
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QScrollArea>
 #include <QToolBar>
 
 #include "ui/charts/fitness_chart.h"
@@ -78,6 +79,7 @@ class Menus final : public QObject {
   void makeRun();
   void openInterface();
   void openMachines();
+  void addDock(QDockWidget* dock);
   void makeView();
   void makeLooks();
   void addPage(const char* name, const QString& page, const QString& icon, const QString& text,
@@ -227,11 +229,26 @@ void Menus::openMachines() {
   dialog->show();
 }
 
+// Ticked is what can be seen. What is behind a tab or a page comes to the front with the keys, and only what is in
+// front goes away.
+void Menus::addDock(QDockWidget* dock) {
+  QAction* see = view_->addAction(dock->windowIcon(), dock->windowTitle());
+  const QString name = dock->objectName().mid(5);
+  see->setObjectName("see." + name);
+  see->setCheckable(true);
+  connect(view_, &QMenu::aboutToShow, see, [see, dock] { see->setChecked(DockLayout::isInFront(dock)); });
+  connect(see, &QAction::triggered, this, [this, dock, name] {
+    if (DockLayout::isInFront(dock)) return void(dock->close());
+    emit bench_.dockWanted(name);
+    if (auto* page = qobject_cast<QScrollArea*>(dock->widget())) page->widget()->setFocus();
+  });
+}
+
 void Menus::makeView() {
   view_ = to_.window.menuBar()->addMenu(tr("&View"));
   view_->setObjectName("menu.view");
   for (QDockWidget* dock : to_.window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
-    if (!to_.layout.isPage(dock)) view_->addAction(dock->toggleViewAction());
+    if (!to_.layout.isPage(dock)) addDock(dock);
   view_->addSeparator();
   makeLooks();
   addPage("showStartPage", "start", "go-home", tr("&Start page"), QKeySequence("Alt+Home"),

@@ -56,6 +56,7 @@ struct FitTrial {
   Recording recording;
   Binding binding;
   std::vector<double> noiseFloor;   ///< by measured channel [its unit]; 0: not compared
+  bool jitters = false;             ///< what motion makes of stamps that jitter is part of the floors
   std::vector<double> pause_s;      ///< by measured channel: longer between two samples is a pause; of cutSegments()
   std::size_t compared = SIZE_MAX;  ///< rows from here on are not compared: of a walk, what nobody can foretell
   std::size_t rows() const { return std::min(compared, recording.rows()); }

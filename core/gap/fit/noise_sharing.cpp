@@ -62,19 +62,30 @@ double levelOf(const Known& known) {
   return median(known.calm.empty() ? known.levels : known.calm);
 }
 
-/// Whether the logger's stamps jitter and its values do not. One trial that moves fast shows what another one hides.
+/// A value in every other row at most: too far apart to show whether they follow stamps that jitter.
+bool isSparse(const std::vector<double>& values) {
+  const auto numbers = std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+  return 2 * static_cast<std::size_t>(numbers) <= values.size() + 1;
+}
+
+/// Whether the logger's stamps jitter and its values do not. One trial that moves fast shows what another one hides;
+/// where all are too sparse to tell, what the jitter may do counts as noise.
 Stamps stampsOf(const std::vector<FitTrial>& trials) {
-  bool some = false;
-  double sum = 0;
+  constexpr double clearly = 0.2;
+  bool some = false, sparse = true;
+  double sum = 0, count = 0;
   for (const FitTrial& trial : trials)
     for (const Measured& measured : trial.binding.measured) {
       if (!isCompared(trial.binding, measured)) continue;
       const ChannelFloor floor = channelFloor(trial.recording, measured.column);
       if (!floor.shown || floor.byRows <= 0 || floor.byStamps <= 0) continue;
       some = some || followsRowsNotStamps(floor);
+      sparse = sparse && isSparse(trial.recording.columns[measured.column]);
       sum += std::log(floor.byStamps / floor.byRows);
+      ++count;
     }
-  return some && sum > 0 ? Stamps::off : Stamps::asShown;
+  const bool areOff = some ? sum > 0 : sparse && sum > -clearly * count;
+  return areOff ? Stamps::off : Stamps::asShown;
 }
 
 class NoiseFloors {
@@ -85,6 +96,9 @@ class NoiseFloors {
         if (isCompared(trial.binding, measured)) add(trial.recording, measured.column);
   }
 
+  bool jitter() const {
+    return std::ranges::any_of(known_, [](const auto& channel) { return !channel.second.timed.empty(); });
+  }
   /// 0 for a channel without a number.
   double of(const std::string& channel, std::vector<std::string>& notes) const {
     const auto found = known_.find(channel);
@@ -146,6 +160,7 @@ class NoiseFloors {
 void shareNoiseFloors(std::vector<FitTrial>& trials, std::vector<std::string>& notes) {
   const NoiseFloors floors(trials);
   for (FitTrial& trial : trials) {
+    trial.jitters = floors.jitter();
     trial.noiseFloor.clear();
     for (const Measured& measured : trial.binding.measured) {
       const bool holdsNumbers = !extentOf(trial.recording.columns[measured.column]).empty();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "core/gap/recordings/channel_name.h"
@@ -33,7 +34,8 @@ bool followsRowsNotStamps(const ChannelFloor& floor) {
 
 ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps stamps) {
   constexpr std::size_t leastNumbers = 5;
-  std::vector<double> time, values;
+  std::vector<double> time, values, rows(recording.rows());
+  std::iota(rows.begin(), rows.end(), 0.0);
   Extent extent;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     const double value = recording.columns[column][row];
@@ -47,7 +49,9 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps
   const double rounding = quantisationStep(values) / std::sqrt(12.0);
   const auto name = parseChannel(recording.channels[column]);
   const Impacts impacts = name && name->part.empty() ? Impacts::some : Impacts::none;  // a ball bounces
-  floor.byRows = noiseFloor(recording.columns[column], impacts);
+  // Where cells are empty, rows are further apart.
+  floor.byRows = values.size() == rows.size() ? noiseFloor(recording.columns[column], impacts)
+                                              : noiseFloor(rows, recording.columns[column], impacts);
   floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column], impacts);
   floor.moves = impacts == Impacts::none && motionPasses(recording.columns[column], floor.byRows);
   const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;
@@ -57,7 +61,8 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps
   if (stamps == Stamps::off || followsRowsNotStamps(floor)) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-    floor.ofTime = usualSpeed(values, std::max(floor.byRows, rounding), median(std::move(steps))) * noiseFloor(time);
+    floor.ofTime = usualSpeed(values, std::max(floor.byRows, rounding), median(std::move(steps))) *
+                   noiseFloor(recording.columns[0]);
     floor.level = std::max(floor.level, std::hypot(std::max(floor.byRows, rounding), floor.ofTime));
   }
   const double digit = column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;

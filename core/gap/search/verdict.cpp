@@ -177,7 +177,9 @@ Findings findingsOf(const GapReport& report, const FitProblem& problem, const Se
                   [](const auto& number) { return number.excited; }) ||
       std::any_of(found.attempts.begin(), found.attempts.end(), [](const Attempt& a) { return a.excited; });
   e.tried = !found.attempts.empty();
-  e.colour = colourOf(problem, found.final.heldOut);
+  // Where stamps jitter, so do commands, and what follows a late one is late for a while.
+  const bool jitters = std::ranges::any_of(problem.trials, &FitTrial::jitters);
+  if (!jitters) e.colour = colourOf(problem, found.final.heldOut);
   return e;
 }
 

@@ -62,6 +62,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   theme_.apply(bench_.settings().look());
   pages_ = makePages(*this, layout_, *bench_.host(), bench_.launcher().program(), options.settingsFile);
   messages_ = new WindowMessages(*this, bench_);
+  connect(messages_, &WindowMessages::aboutToTakeRoom, &layout_, &DockLayout::keepRunInSight);
   place_ = new WindowPlace(*this, layout_, bench_.settings());
   makeControllers();
   const WindowLinks links{*this, bench_, layout_, pages_, *drafts_, *runs_, *grids_};

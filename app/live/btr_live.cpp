@@ -21,6 +21,8 @@ void addLiveCommand(CLI::App& app, Shell& shell) {
   shell.writesFile(live, live->add_option("--csv", a->csv, "writes its trace as a recording"));
   addCameraOptions(*live, a->camera, shell);
   shell.writesFile(live, live->add_option("--save", a->save, "writes the game as it is at the end"));
+  shell.writesFile(live, live->add_option("--save-scene", a->saveScene,
+                                          "writes where everything is at the end as a scene of its own"));
   live->add_option("--patience", a->patience_s, "how long a controller may take for one control period [s]")
       ->transform(decimalNumber(0.01, 1e6))
       ->capture_default_str();

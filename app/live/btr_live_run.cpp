@@ -12,6 +12,7 @@
 #include "app/live/btr_camera_eye.h"
 #include "app/live/btr_live_steering.h"
 #include "app/openr/btr_openr_robots.h"
+#include "core/live/moment.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/sim/model_losses.h"
@@ -120,6 +121,7 @@ class LiveRun {
 
   nlohmann::json finish() {
     if (!arguments_.save.empty()) save(arguments_.save);
+    if (!arguments_.saveScene.empty()) saveScene(arguments_.saveScene);
     if (openr_) openr_->end();
     tellConsole();
     const std::string sha = session_.traceSha256();
@@ -158,6 +160,12 @@ class LiveRun {
 
   void save(const std::string& path) {
     writeFile(path, toJsonText(movedTo(session_.save(), std::filesystem::path(path).parent_path().string())));
+  }
+
+  void saveScene(const std::string& path) {
+    Game moment;
+    moment.scene = momentOf(session_);
+    writeFile(path, toJsonText(movedTo(std::move(moment), std::filesystem::path(path).parent_path().string()).scene));
   }
 
   void act() {

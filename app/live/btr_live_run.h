@@ -16,7 +16,7 @@ struct OpenrChoice {
 
 /// What a running world without a window is asked for.
 struct LiveArguments {
-  std::string game, replay, log, csv, save;
+  std::string game, replay, log, csv, save, saveScene;
   double seconds = 10, speed = 0, patience_s = 2;
   bool steered = false;
   LiveCameraOptions camera;

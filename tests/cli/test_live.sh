@@ -61,4 +61,16 @@ done
 expect 0 "speed" "$btr" --json bench --live --seconds 1
 says out '"core_share_per_dog"'
 
+# A moment of its log as a scene, from which something else begins.
+expect 0 "a moment" "$btr" live "$match" --replay "$folder/log" --seconds 0.3 --save-scene "$folder/moment.json"
+python3 - "$folder/moment.json" "$match" <<'P' || failures=1
+import json, sys
+moment = json.load(open(sys.argv[1]))
+assert moment["format"] == "uchilsim-scene-1"
+ball = moment["balls"][0]
+assert ball["position_m"][0] > 2 and ball["velocity_m_s"][0] > 0.5, ball  # it was thrown at 0.16 s
+assert len(moment["robots"]) == 2 and all(len(robot["joint_start"]) >= 15 for robot in moment["robots"])
+P
+expect 0 "from there" "$btr" live "$folder/moment.json" --seconds 0.1
+
 finish

@@ -154,6 +154,22 @@ class TestWindowLayout : public QObject {
     QVERIFY(!run->verticalScrollBar()->isVisible());
   }
 
+  void aMessageDoesNotCutTheRunsFigures() {
+    Desk desk;
+    const auto window = desk.open();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    action(*window, "resetLayout")->trigger();
+    window->resize(1264, 676);
+    Desk::settle();
+    const auto* run = qobject_cast<QScrollArea*>(window->findChild<QDockWidget*>("dock.run")->widget());
+    QVERIFY(!run->verticalScrollBar()->isVisible());
+    window->bench().report("disk full: nothing of this step was stored");
+    Desk::settle();
+    QVERIFY(!run->verticalScrollBar()->isVisible());
+  }
+
   // Who wants the run's text low keeps it so.
   void whatTheUserMadeLowerStaysLow() {
     Desk desk;

@@ -135,6 +135,13 @@ bool DockLayout::eventFilter(QObject* watched, QEvent* event) {
   return QObject::eventFilter(watched, event);
 }
 
+void DockLayout::keepRunInSight() {
+  const QDockWidget* run = dock("run");
+  if (!run->isVisible() || run->height() < runHeight(run->width())) return;
+  runHeight_ = 0;
+  QMetaObject::invokeMethod(this, &DockLayout::growRun, Qt::QueuedConnection);
+}
+
 void DockLayout::growRun() {
   QDockWidget* run = dock("run");
   if (!page_.isEmpty() || !sized_ || !run->isVisible() || run->isFloating()) return;

@@ -33,6 +33,8 @@ class DockLayout : public QObject {
 
   QByteArray state() const;
   bool restore(const QByteArray& state);
+  /// Something is about to take room above the docks: a run that is all in sight stays so.
+  void keepRunInSight();
   /// Sizes hold only in a window that has its own size: called when it is first shown.
   void sizeOnce();
 

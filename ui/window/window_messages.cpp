@@ -63,7 +63,11 @@ void WindowMessages::makeBar() {
   stack->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Maximum);
   bar_->addWidget(stack);
   window_.addToolBar(Qt::TopToolBarArea, bar_);
-  const auto showIfAny = [this] { bar_->setVisible(!banner_->text().isEmpty()); };
+  const auto showIfAny = [this] {
+    const bool any = !banner_->text().isEmpty();
+    if (any && bar_->isHidden()) emit aboutToTakeRoom();
+    bar_->setVisible(any);
+  };
   showIfAny();
   connect(banner_, &MessageBanner::shown, bar_, showIfAny);
   connect(banner_, &MessageBanner::cleared, bar_, showIfAny);

@@ -18,6 +18,9 @@ class WindowMessages : public QObject {
   /// Holds the banner; is there only while it says something.
   QToolBar& bar() { return *bar_; }
 
+ signals:
+  void aboutToTakeRoom();  ///< the first message: the docks will be lower
+
  private:
   void makeBar();
   void makeStatusLine();

@@ -90,6 +90,7 @@ class TestMachines : public QObject {
   void aHostThatIsNotThereIsNamed();
   void aSlurmThatIsNotThereIsOneSentence();
   void ranksWorkOnAnExperiment();
+  void whatKeepsRanksFromBeginningIsOneSentence();
   void theDialogShowsAJobAndFitsASmallScreen();
 
  private:
@@ -107,6 +108,7 @@ void TestMachines::initTestCase() {
   QFile(ssh).setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   qputenv("PARALLEL_SSH", ssh.toUtf8());
   qputenv("PARALLEL_HOME", machines_.path().toUtf8());
+  qputenv("OMPI_MCA_plm_rsh_agent", ssh.toUtf8());
   qputenv("OMPI_ALLOW_RUN_AS_ROOT", "1");
   qputenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
 }
@@ -253,6 +255,21 @@ void TestMachines::ranksWorkOnAnExperiment() {
   QCOMPARE(status.parts.front().workers, 2);
   QVERIFY(status.parts.front().trials > 0);
   QCOMPARE(Database::open(bench.order.database.toStdString(), Database::Mode::readOnly).runs().front().generation, 3);
+}
+
+void TestMachines::whatKeepsRanksFromBeginningIsOneSentence() {
+  if (!has("mpirun")) QSKIP("mpirun is not installed");
+  Bench bench;
+  bench.write(3, {1});
+  bench.order.way = MachinesOrder::Way::ranks;
+  bench.order.file = bench.file("kick.json");
+  bench.order.hosts = "2/off";
+  QVERIFY(bench.controller.start(bench.order));
+  QTRY_VERIFY_WITH_TIMEOUT(!bench.controller.isGoing() && !bench.problems.isEmpty(), longest_ms);
+  for (const QString& problem : bench.problems)
+    QVERIFY2(!problem.contains('\n') && !problem.contains("----"), qPrintable(problem));
+  QVERIFY2(bench.problems.first().contains("off"), qPrintable(bench.problems.first()));
+  QVERIFY(!bench.controller.isKnown());
 }
 
 void TestMachines::theDialogShowsAJobAndFitsASmallScreen() {

@@ -259,6 +259,7 @@ void MachinesDialog::showWay() {
     each->setVisible(isSlurm);
   for (QWidget* each : {static_cast<QWidget*>(ranks_), static_cast<QWidget*>(ranksLabel_)}) each->setVisible(isRanks);
   hosts_->setPlaceholderText(isRanks ? tr("none: this one") : QStringLiteral("lab1\n2/ada@lab2"));
+  hosts_->viewport()->update();
 }
 
 void MachinesDialog::showArray(const JobStatus& status) {
@@ -305,7 +306,9 @@ void MachinesDialog::refresh() {
   } else if (!isThere) {
     job_->setText(isGoing || !isFree ? tr("%1: is being begun…").arg(controller_.folder()) : controller_.folder());
   } else if (!isArray) {
-    job_->setText(tr("%1: %2").arg(controller_.folder(), isGoing ? tr("ranks are at work") : tr("nobody works on it")));
+    job_->setText(tr("%1: %2").arg(controller_.folder(), isGoing             ? tr("ranks are at work")
+                                                         : status.share >= 1 ? tr("finished")
+                                                                             : tr("nobody works on it")));
   } else {
     job_->setText(tr("%1: %2 elements, %3 done, %4 running, %5 failed")
                       .arg(controller_.folder())

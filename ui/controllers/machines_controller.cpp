@@ -62,6 +62,25 @@ QString lastLineOf(const QByteArray& text) {
   return lines.isEmpty() ? QString() : lines.last().trimmed();
 }
 
+/// What a program that ended said, as one sentence: the last line of btr's own, else the first paragraph. mpirun draws
+/// lines around its own.
+QString sentenceIn(const QString& words) {
+  static const QRegularExpression drawn(QStringLiteral("^-{5,}$"));
+  QString own;
+  QStringList paragraph;
+  bool isOver = false;
+  for (const QString& each : words.split('\n')) {
+    const QString line = each.simplified();
+    const bool isBetween = line.isEmpty() || drawn.match(line).hasMatch();
+    if (line.startsWith("btr: ")) own = line;
+    if (isBetween)
+      isOver = isOver || !paragraph.isEmpty();
+    else if (!isOver)
+      paragraph << line;
+  }
+  return own.isEmpty() ? paragraph.join(' ') : own;
+}
+
 QString tr(const char* text) { return QCoreApplication::translate("MachinesController", text); }
 
 }  // namespace
@@ -372,11 +391,12 @@ void MachinesController::take(const JobStatus& status) {
 // cannot be written.
 void MachinesController::noticeEnd() {
   if (!working_) return;
-  if (const QString words = work_.lastWords(); !words.isEmpty() && words != said_) {
+  const bool isAlive = work_.isAlive();
+  if (const QString words = sentenceIn(work_.words()); !words.isEmpty() && words != said_) {
     said_ = words;
-    emit told(words, true);
+    emit told(words, !isAlive);
   }
-  if (work_.isAlive()) return;
+  if (isAlive) return;
   working_ = false;
   emit changed();
 }

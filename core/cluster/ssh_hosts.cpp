@@ -26,11 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// "2/lab7": so many elements at a time.
+bool hasCount(const std::string& host) {
+  const std::size_t slash = host.find('/');
+  return slash != std::string::npos && slash > 0 && host.find_first_not_of("0123456789") == slash;
+}
+
 /// The words after "2/" with which ssh is called: "ssh -p 2222 lab7", or the host alone.
 std::vector<std::string> sshWords(const std::string& host) {
-  const std::size_t slash = host.find('/');
-  const bool hasCount = slash != std::string::npos && host.find_first_not_of("0123456789") == slash;
-  std::istringstream words(hasCount ? host.substr(slash + 1) : host);
+  std::istringstream words(hasCount(host) ? host.substr(host.find('/') + 1) : host);
   std::vector<std::string> all;
   for (std::string word; words >> word;) all.push_back(word);
   if (all.size() == 1) {
@@ -208,7 +212,7 @@ void runOverSsh(const std::string& folder, const std::string& hostsFile, const s
   for (const std::string& host : requireHosts(hostsFile)) {
     const std::string objection = objectionTo(host, job.program);
     if (objection.empty())
-      usable += host + "\n";
+      usable += (hasCount(host) ? "" : "1/") + host + "\n";
     else
       std::fprintf(stderr, "btr: host %s is left out: %s\n", host.c_str(), objection.c_str());
   }
@@ -219,7 +223,7 @@ void runOverSsh(const std::string& folder, const std::string& hostsFile, const s
   writeFile(hosts, usable);
 
   std::vector<std::string> words{
-      "parallel",  "--will-cite", "--line-buffer", "--sshloginfile", hosts,      "--jobs",    "1",
+      "parallel",  "--will-cite", "--line-buffer", "--sshloginfile", hosts,      "--jobs",    "100%",
       "--workdir", "...",         "--cleanup",     "--transferfile", "job.json", "--retries", "3"};
   const bool hasDatabase = fs::exists(elementDatabase(folder, numbers.front()));
   if (hasDatabase) words.insert(words.end(), {"--transferfile", "{}.db"});

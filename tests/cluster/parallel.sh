@@ -89,7 +89,7 @@ json.dump({"format": "uchilsim-comparison-1", "name": "long", "seeds": [1, 2, 3]
            "arms": [{"name": "a", "experiment": "long.json"}]}, open(folder + "/long-c.json", "w"))' "$folder"
 # of FOLDER EXPRESSION: of the job's status in JSON, j
 of() { "$btr" --json array status "$1" | python3 -c "import json, sys; j = json.load(sys.stdin); print($2)"; }
-printf 'lab1\nlab2\n' > "$folder/two"
+printf '2/lab1\n' > "$folder/two" # one machine, two elements at a time
 "$btr" compare "$folder/long-c.json" --db "$folder/long.db" --ssh "$folder/long" --hosts "$folder/two" > "$folder/long.out" 2> "$folder/long.err" &
 working=$!
 until [ "$(of "$folder/long" 'sum(e["state"] == "running" and e["share"] > 0 for e in j["elements"])' 2> /dev/null)" = 2 ]; do

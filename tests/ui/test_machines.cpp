@@ -207,7 +207,7 @@ void TestMachines::aJobIsCancelledAndResumed() {
   Bench other;
   other.controller.open(bench.order.folder);
   QTRY_VERIFY_WITH_TIMEOUT(other.isOver(), longest_ms);
-  QCOMPARE(other.controller.hosts(), QString("lab1"));
+  QCOMPARE(other.controller.hosts(), QString("1/lab1"));
   other.controller.resume(other.controller.hosts());
   QTRY_VERIFY_WITH_TIMEOUT(other.isOver() && other.controller.status().count("done") == 2, longest_ms);
   QCOMPARE(other.problems, QStringList());

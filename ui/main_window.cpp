@@ -1,8 +1,11 @@
 #include "ui/main_window.h"
 
+#include <QAbstractSpinBox>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPlainTextEdit>
 #include <QScreen>
 
 #include "ui/charts/compare_page.h"
@@ -53,6 +56,13 @@ class AlarmPlace final : public QWidget {
  private:
   Alarm& alarm_;
 };
+
+/// Whether somebody is in the middle of a text. An empty line has the focus when the window opens.
+bool isTypedInto(const QWidget* focus) {
+  const auto* line = qobject_cast<const QLineEdit*>(focus);
+  return (line && !line->text().isEmpty()) || qobject_cast<const QAbstractSpinBox*>(focus) ||
+         qobject_cast<const QPlainTextEdit*>(focus);
+}
 
 }  // namespace
 
@@ -113,8 +123,7 @@ void MainWindow::makeControllers() {
   // the next cell is marked, not to the button that began the run; whoever is typing elsewhere is left alone.
   const auto showSheet = [this] {
     layout_.raise("sheet");
-    const QWidget* focus = focusWidget();
-    if (!focus || !focus->testAttribute(Qt::WA_InputMethodEnabled)) pages_.sheet->setFocus();
+    if (!isTypedInto(focusWidget())) pages_.sheet->setFocus();
   };
   connect(measuring_, &MeasureController::sheetWanted, this, [this, showSheet] {
     if (layout_.page().isEmpty()) showSheet();

@@ -515,6 +515,8 @@ class TestMainWindow : public QObject {
     QTest::addColumn<QString>("before");
     QTest::addColumn<bool>("stays");
     QTest::newRow("a button") << "go" << false;
+    QTest::newRow("the tree") << "experimentTree" << false;
+    QTest::newRow("an empty field") << "searchExperiments" << false;
     QTest::newRow("a field that is typed into") << "searchExperiments" << true;
   }
   void theSheetThatIsWantedHasTheKeys() {
@@ -530,6 +532,7 @@ class TestMainWindow : public QObject {
     auto* focus = window->findChild<QWidget*>(before);
     focus->setFocus();
     QCOMPARE(window->focusWidget(), focus);
+    if (stays) QTest::keyClicks(focus, "Ki");
     stored.addTasks(run);
     QTRY_VERIFY(window->findChild<Alarm*>()->isVisible());
     settle(*window);

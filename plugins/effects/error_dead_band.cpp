@@ -1,6 +1,6 @@
 /// A servo's firmware that lets small errors be.
-///   e' = 0 for |e| ≤ w, else e (kind 0) or e − w·sign(e) (kind 1)      e = c − q: command less position, w: half of the
-///   band
+///   e' = 0 for |e| ≤ w, else e (kind 0) or e − w·sign(e) (kind 1)      e = c − q: command less position, w: half of
+///   the band
 /// Servos of models and of robots have it against humming: "dead band" or "compliance margin" in their data sheets
 /// (Robotis, AX-12 manual: compliance margin and slope). Damping goes on inside the band.
 /// Drives that follow a position only. Neutral: w = 0.

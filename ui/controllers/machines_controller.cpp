@@ -149,6 +149,7 @@ void MachinesController::follow(const QString& folder) {
   work_.forget();
   work_ = {};
   working_ = false;
+  hostsFile_.clear();
   said_.clear();
   complaint_.clear();
   folder_ = folder.isEmpty() ? folder : QDir(folder).absolutePath();
@@ -199,6 +200,7 @@ bool MachinesController::startArray(const MachinesOrder& order) {
       emit told(QString::fromUtf8(error.what()), true);
       return false;
     }
+    hostsFile_ = hosts;
     return launch(program_, arguments << "--ssh" << folder_ << "--hosts" << hosts);
   }
   arguments << "--slurm" << folder_;
@@ -397,6 +399,7 @@ void MachinesController::noticeEnd() {
     emit told(words, !isAlive);
   }
   if (isAlive) return;
+  if (!hostsFile_.isEmpty()) QFile::remove(hostsFile_);
   working_ = false;
   emit changed();
 }

@@ -75,6 +75,7 @@ class MachinesController : public QObject {
   QString path(const char* name) const;
 
   QString program_, folder_;
+  QString hostsFile_;  ///< of the command that works over ssh; removed when it has ended
   JobStatus status_;
   bool known_ = false, asking_ = false;
   int busy_ = 0, generation_ = 0;  ///< of what is followed: answers about another folder come too late

@@ -113,6 +113,7 @@ TEST(MergedTopics, AreNoPausesAndNoEmptyCells) {
   const RecordingHealth health = examine(topics(rows));
   EXPECT_NEAR(health.period_s, 0.005, 1e-9);
   EXPECT_THAT(health.gaps, IsEmpty());
+  EXPECT_THAT(topics(rows).thinned, IsEmpty());
 }
 
 TEST(MergedTopics, AValueInEveryOtherRowIsASlowerSensor) {

@@ -8,7 +8,6 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/noise_floor.h"
-#include "core/gap/recordings/resample.h"
 #include "core/gap/recordings/table/row_order.h"
 #include "core/spec/figures.h"
 
@@ -41,37 +40,25 @@ struct Run {
 /// What a sensor tells, in the rows that have all of its cells.
 struct Readings {
   std::vector<Run> runs;
-  std::vector<long> place;  ///< by row: in numbers of its usual distance from one reading to the next
+  std::vector<long> place;  ///< by row: how many readings there would have been by then if none were missing
 };
 
-/// Places of rows in time, in numbers of rows: where rows are lost, some are left out.
-std::vector<long> slotsOf(const Recording& trial) {
-  constexpr double lost = 1.6;  // periods: stamps may jitter
-  const std::vector<double>& time = trial.columns[0];
-  const double period_s = rhythm(trial);
-  std::vector<long> slots(time.size(), 0);
-  for (std::size_t row = 1; row < time.size(); ++row) {
-    const double periods = (time[row] - time[row - 1]) / period_s;
-    slots[row] = slots[row - 1] + (periods > lost && std::isfinite(periods) ? std::lround(periods) : 1);
-  }
-  return slots;
-}
-
 Readings readingsOf(const Recording& trial, const Columns& columns) {
+  constexpr double lost = 1.6;  // of the usual time between readings: stamps may jitter
+  const std::vector<double>& time = trial.columns[0];
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < trial.rows(); ++row)
     if (std::ranges::none_of(columns, [&](std::size_t column) { return std::isnan(trial.columns[column][row]); }))
       rows.push_back(row);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < rows.size(); ++i) steps.push_back(time[rows[i]] - time[rows[i - 1]]);
+  const double usual_s = median(std::move(steps));
   Readings readings;
-  readings.place = slotsOf(trial);
-  std::vector<double> distances;
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    distances.push_back(static_cast<double>(readings.place[rows[i]] - readings.place[rows[i - 1]]));
-  // A value in every n-th row only: these are its readings.
-  const double usual = std::max(1.0, median(std::move(distances)));
-  for (long& place : readings.place) place = std::lround(static_cast<double>(place) / usual);
+  readings.place.assign(trial.rows(), 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool follows = i > 0 && readings.place[rows[i]] - readings.place[rows[i - 1]] <= 1;
+    const double passed = i > 0 && usual_s > 0 ? (time[rows[i]] - time[rows[i - 1]]) / usual_s : 0;
+    const bool follows = i > 0 && !(passed > lost);
+    if (i > 0) readings.place[rows[i]] = readings.place[rows[i - 1]] + (follows ? 1 : std::lround(passed));
     const bool repeats = i > 0 && std::ranges::all_of(columns, [&](std::size_t column) {
                            return trial.columns[column][rows[i]] == trial.columns[column][rows[i - 1]];
                          });

@@ -239,7 +239,8 @@ double JointEffects::throughEffects(Torques torques, const JointState& given, do
       return sum.given;
     };
     const bool isLaw = placed.effect->stage() == Effect::Stage::command;
-    if (torques.before == torques.after || (!memory.empty() && !isLaw)) {
+    const bool jumps = isLaw ? torques.commandBefore != torques.commandAfter : torques.before != torques.after;
+    if (!jumps || (!memory.empty() && !isLaw)) {
       double beyond = (torques.beyondBefore + torques.beyondAfter) / 2;
       torques.before = torques.after = through(torques.mean(), beyond, h);
       torques.beyondBefore = torques.beyondAfter = beyond;

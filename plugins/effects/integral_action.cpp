@@ -36,8 +36,9 @@ class IntegralAction final : public btr::Effect {
   double servoTerm(const btr::JointState& joint, std::span<const double> values, std::span<double> state,
                    double dt) const override {
     if (values[0] == 0 || !joint.followsPosition) return 0;
-    state[0] = std::clamp(state[0] + values[0] * (joint.command - joint.position) * dt, -values[1], values[1]);
-    return state[0];
+    const double before = state[0];
+    state[0] = std::clamp(before + values[0] * (joint.command - joint.position) * dt, -values[1], values[1]);
+    return (before + state[0]) / 2;  // the mean over the step
   }
 };
 

@@ -83,7 +83,8 @@ TEST(IntegralAction, AddsUpTheErrorUntilItsClampAndStaysWithinTheDrivesLimit) {
   const JointState joint{.position = 0.1, .command = 0.3, .limit = 0.9};
   double torque = 0;
   for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
-  EXPECT_NEAR(0.6 + 2 * 0.2 * 0.25, torque, 1e-12);
+  // The mean over the last step.
+  EXPECT_NEAR(0.6 + 2 * 0.2 * 0.2495, torque, 1e-12);
   for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
   EXPECT_NEAR(0.75, torque, 1e-12);
   EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15, 0}, state, 1e-3));

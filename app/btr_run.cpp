@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "app/cluster/btr_cluster.h"
+#include "app/duration.h"
 #include "core/run/back_to_reality.h"
 #include "core/run/prepared_experiment.h"
 #include "core/run/reality_gap.h"
@@ -19,18 +20,10 @@
 namespace btr::cli {
 namespace {
 
-std::string duration(double seconds) {
-  if (seconds < 0) return "?";
-  char text[32];
-  const auto s = static_cast<long>(seconds + 0.5);
-  std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
-  return text;
-}
-
 void showProgress(const RunProgress& p) {
   std::fprintf(stderr, "\r%-9s %d/%d  generation %d/%d  best %.4g  mean %.4g  %.0f trials/s  left %s \x1b[K",
                p.stage.c_str(), p.stageDone, p.stageTotal, p.generation, p.totalGenerations, p.best, p.mean,
-               p.trialsPerSecond, duration(p.secondsLeft).c_str());
+               p.trialsPerSecond, p.secondsLeft < 0 ? "?" : duration(p.secondsLeft).c_str());
   std::fflush(stderr);
 }
 

@@ -1,12 +1,12 @@
 // Array jobs: parts of a comparison, of grids or of a blind trial in Slurm's queue or on other machines over ssh.
 #include "app/cluster/btr_array.h"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/duration.h"
 #include "core/cluster/build_identity.h"
 #include "core/cluster/child.h"
 #include "core/cluster/element.h"
@@ -36,13 +36,7 @@ std::vector<std::size_t> unfinished(const std::vector<ElementState>& states) {
 }
 
 /// ", about 1:05:00 left"; empty where it is not known.
-std::string timeLeft(double seconds) {
-  if (seconds <= 0) return "";
-  const long s = std::lround(seconds);
-  char text[64];
-  std::snprintf(text, sizeof text, ", about %ld:%02ld:%02ld left", s / 3600, s / 60 % 60, s % 60);
-  return text;
-}
+std::string timeLeft(double seconds) { return seconds > 0 ? ", about " + duration(seconds) + " left" : ""; }
 
 void printStates(const std::string& folder, const ArrayJob& job, const std::vector<ElementState>& states,
                  Shell& shell) {

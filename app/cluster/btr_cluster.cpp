@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -126,7 +125,6 @@ void ClusterJob::tellTo(const std::string& file) {
   impl_->shareBefore = -1;
 }
 
-// In one step: who reads meets the old file or the new one.
 void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond) const {
   const Clock::time_point now = Clock::now();
   if (impl_->file.empty() || (now - impl_->told < betweenPlaces && share < 1)) return;
@@ -149,11 +147,7 @@ void ClusterJob::tellProgress(const std::string& stage, double share, double tri
                            {"seconds_left", gained > 0 ? elapsed_s * (1 - share) / gained : -1},
                            {"trials_per_second", trialsPerSecond},
                            {"hosts", hosts}};
-  const std::string part = impl_->file + ".part";
-  writeFile(part, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  std::error_code error;
-  std::filesystem::rename(part, impl_->file, error);
-  if (error) throw InputError(impl_->file + ": cannot be written: " + error.message());
+  writeFile(impl_->file, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void addPlacesOption(CLI::App* command, std::string& file) {

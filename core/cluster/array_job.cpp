@@ -16,15 +16,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 constexpr const char* format = "uchilsim-array-1";
 
-/// In one step: who reads meets the old file or the new one.
-void writeWhole(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  writeFile(part, text);
-  std::error_code error;
-  fs::rename(part, path, error);
-  if (error) throw InputError(path + ": cannot be written: " + error.message());
-}
-
 json parsed(const std::string& path) {
   try {
     return json::parse(readFile(path));
@@ -92,16 +83,16 @@ void claimArrayFolder(const std::string& folder) {
 void saveArrayJob(const std::string& folder, const ArrayJob& job) {
   json elements = json::array();
   for (const ArrayElement& e : job.elements) elements.push_back({{"name", e.name}, {"arguments", e.arguments}});
-  writeWhole((fs::path(folder) / "job.json").string(), json{{"format", format},
-                                                            {"what", job.what},
-                                                            {"into", job.into},
-                                                            {"program", job.program},
-                                                            {"workers", job.workers},
-                                                            {"elements", elements},
-                                                            {"build", job.build},
-                                                            {"queue_ids", job.queueIds}}
-                                                               .dump(1) +
-                                                           "\n");
+  writeFile((fs::path(folder) / "job.json").string(), json{{"format", format},
+                                                           {"what", job.what},
+                                                           {"into", job.into},
+                                                           {"program", job.program},
+                                                           {"workers", job.workers},
+                                                           {"elements", elements},
+                                                           {"build", job.build},
+                                                           {"queue_ids", job.queueIds}}
+                                                              .dump(1) +
+                                                          "\n");
 }
 
 ArrayJob loadArrayJob(const std::string& folder) {
@@ -126,7 +117,7 @@ ArrayJob loadArrayJob(const std::string& folder) {
 }
 
 void saveElementState(const std::string& folder, std::size_t number, const ElementState& state) {
-  writeWhole(elementFile(folder, number, ".json"), toJsonText(state) + "\n");
+  writeFile(elementFile(folder, number, ".json"), toJsonText(state) + "\n");
 }
 
 std::string toJsonText(const ElementState& state) {

@@ -48,13 +48,18 @@ std::vector<std::string> sshWords(const std::string& host) {
   return all;
 }
 
+/// What a machine says to a command; ssh never asks for a password.
+ChildEnd tellHost(const std::string& host, const std::string& command) {
+  std::vector<std::string> words = sshWords(host);
+  words.insert(words.begin() + 1, {"-o", "BatchMode=yes", "-o", "ConnectTimeout=10"});
+  words.push_back(command);
+  return runChild(words);
+}
+
 /// Why a machine cannot be used; empty if it can.
 std::string objectionTo(const std::string& host, const std::string& program) {
-  std::vector<std::string> words = sshWords(host);
-  if (words.empty()) return "no host";
-  words.insert(words.begin() + 1, {"-o", "BatchMode=yes", "-o", "ConnectTimeout=10"});
-  words.push_back("test -x '" + program + "'");
-  const ChildEnd end = runChild(words);
+  if (sshWords(host).empty()) return "no host";
+  const ChildEnd end = tellHost(host, "test -x '" + program + "'");
   if (end.exitCode == 0) return "";
   constexpr int isNotThere = 1;
   return end.exitCode == isNotThere ? program + " is not there" : lastLine(end.err);
@@ -175,10 +180,7 @@ class OverSsh {
     for (const std::size_t number : numbers_) {
       const ElementState state = loadElementState(folder_, number);
       if (state.state != "running" || state.login.empty() || state.process <= 0) continue;
-      std::vector<std::string> words = sshWords(state.login);
-      words.insert(words.begin() + 1, {"-o", "BatchMode=yes", "-o", "ConnectTimeout=10"});
-      words.push_back("kill -TERM " + std::to_string(state.process));
-      if (const ChildEnd end = runChild(words); end.exitCode != 0)
+      if (const ChildEnd end = tellHost(state.login, "kill -TERM " + std::to_string(state.process)); end.exitCode != 0)
         std::fprintf(stderr, "btr: host %s: element %zu cannot be stopped: %s\n", state.login.c_str(), number,
                      lastLine(end.err).c_str());
     }

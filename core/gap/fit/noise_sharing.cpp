@@ -44,10 +44,10 @@ Extent extentOf(const std::vector<double>& values) {
 struct Known {
   std::vector<double> levels;  ///< of the trials that show its noise
   std::vector<double> calm;    ///< those of them without fast motion in it
-  std::vector<double> timed;   ///< those of them that speed times jitter is part of
   double least = 1e-9;         ///< a millionth of what it moves
   double lastDigit = 0;
-  bool few = false;  ///< numbers in a trial
+  bool few = false;      ///< numbers in a trial
+  bool jitters = false;  ///< speed times jitter is part of a level
 };
 
 double rootMeanSquare(const std::vector<double>& values) {
@@ -58,7 +58,7 @@ double rootMeanSquare(const std::vector<double>& values) {
 
 /// What a motion makes of stamps that jitter differs from trial to trial; all of it together is the channel's.
 double levelOf(const Known& known) {
-  if (!known.timed.empty()) return rootMeanSquare(known.levels);
+  if (known.jitters) return rootMeanSquare(known.levels);
   return median(known.calm.empty() ? known.levels : known.calm);
 }
 
@@ -97,7 +97,7 @@ class NoiseFloors {
   }
 
   bool jitter() const {
-    return std::ranges::any_of(known_, [](const auto& channel) { return !channel.second.timed.empty(); });
+    return std::ranges::any_of(known_, [](const auto& channel) { return channel.second.jitters; });
   }
   /// 0 for a channel without a number.
   double of(const std::string& channel, std::vector<std::string>& notes) const {
@@ -126,7 +126,7 @@ class NoiseFloors {
     const ChannelFloor floor = channelFloor(recording, column, stamps_);
     if (floor.shown) known.levels.push_back(std::max(floor.level, least));
     if (floor.shown && !floor.moves) known.calm.push_back(known.levels.back());
-    if (floor.shown && floor.ofTime > 0) known.timed.push_back(known.levels.back());
+    known.jitters = known.jitters || (floor.shown && floor.ofTime > 0);
     known.few = known.few || floor.few;
     if (column < recording.places.lastDigit.size())
       known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);

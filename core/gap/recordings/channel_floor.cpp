@@ -25,6 +25,14 @@ double usualSpeed(const std::vector<double>& values, double noise, double period
   return std::sqrt(std::max(0.0, squares / count - 2 * noise * noise)) / (static_cast<double>(over) * period_s);
 }
 
+/// Where cells are empty, rows are further apart.
+double noiseOverRows(const std::vector<double>& column, bool hasGaps, Impacts impacts) {
+  if (!hasGaps) return noiseFloor(column, impacts);
+  std::vector<double> rows(column.size());
+  std::iota(rows.begin(), rows.end(), 0.0);
+  return noiseFloor(rows, column, impacts);
+}
+
 }  // namespace
 
 bool followsRowsNotStamps(const ChannelFloor& floor) {
@@ -34,8 +42,7 @@ bool followsRowsNotStamps(const ChannelFloor& floor) {
 
 ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps stamps) {
   constexpr std::size_t leastNumbers = 5;
-  std::vector<double> time, values, rows(recording.rows());
-  std::iota(rows.begin(), rows.end(), 0.0);
+  std::vector<double> time, values;
   Extent extent;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     const double value = recording.columns[column][row];
@@ -49,9 +56,7 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps
   const double rounding = quantisationStep(values) / std::sqrt(12.0);
   const auto name = parseChannel(recording.channels[column]);
   const Impacts impacts = name && name->part.empty() ? Impacts::some : Impacts::none;  // a ball bounces
-  // Where cells are empty, rows are further apart.
-  floor.byRows = values.size() == rows.size() ? noiseFloor(recording.columns[column], impacts)
-                                              : noiseFloor(rows, recording.columns[column], impacts);
+  floor.byRows = noiseOverRows(recording.columns[column], values.size() < recording.rows(), impacts);
   floor.byStamps = noiseFloor(recording.columns[0], recording.columns[column], impacts);
   floor.moves = impacts == Impacts::none && motionPasses(recording.columns[column], floor.byRows);
   const double filtered = column < recording.filteredNoise.size() ? recording.filteredNoise[column] : 0;

@@ -9,7 +9,7 @@
 
 #include "app/number_options.h"
 #include "core/plugin/plugin_host.h"
-#include "core/run/spread.h"
+#include "core/run/reality/spread.h"
 #include "core/spec/figures.h"
 
 // Commands of btr. Each function adds its subcommands to the parser; their callbacks do the work and set the exit code.

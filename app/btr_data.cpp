@@ -5,8 +5,8 @@
 
 #include "app/btr_commands.h"
 #include "core/run/export.h"
-#include "core/run/prepared_experiment.h"
 #include "core/run/replay.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
-#include "core/run/measured_import.h"
-#include "core/run/plausibility.h"
-#include "core/run/prepared_experiment.h"
-#include "core/run/reality_gap.h"
-#include "core/run/resting_simulator.h"
+#include "core/run/reality/measured_import.h"
+#include "core/run/reality/plausibility.h"
+#include "core/run/reality/reality_gap.h"
+#include "core/run/reality/resting_simulator.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 

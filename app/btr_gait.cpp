@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
-#include "core/run/gait_check.h"
+#include "core/run/reality/gait_check.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

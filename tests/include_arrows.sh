@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Arrows point one way: ui, app → remote, cluster → live, run → gap, store, plugin, camera → learn, sim → model → spec; inside gap: proof → report → search →
-# fit → replay → recordings.
+# fit → replay → recordings; inside run: loop → reality → setup.
 # Reads every #include "..." and names each that points the wrong way.
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 2
@@ -18,6 +18,9 @@ declare -A may=(
   [core/gap/proof]="core/spec core/model core/sim core/learn core/plugin core/gap"
   [core/store]="core/spec core/model core/sim core/learn core/store"
   [core/run]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run"
+  [core/run/setup]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run/setup"
+  [core/run/reality]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run/setup core/run/reality"
+  [core/run/loop]="core/spec core/model core/sim core/learn core/plugin core/gap core/store core/run/setup core/run/reality core/run/loop"
   [core/cluster]="core/spec core/model core/sim core/learn core/plugin core/store core/run core/cluster"
   [core/camera]="core/spec core/camera"
   [core/live]="core/spec core/model core/sim core/plugin core/live"
@@ -45,11 +48,15 @@ done
 declare -A public=(
   [store]="database network_file records"
   [plugin]="plugin_host reality"
-  [run]="adoption back_to_reality comparison fitness_clues measured_import plausibility prepared_experiment reality_gap
-    reality_report replay resting_simulator rig spec_changes spread stored_recordings"
+  [run]="comparison replay"
+  [run/loop]="back_to_reality"
+  [run/setup]="prepared_experiment spec_changes"
+  [run/reality]="adoption fitness_clues measured_import plausibility reality_gap reality_report resting_simulator rig
+    spread stored_recordings"
   [run/grid]="grid grid_cells grid_kicks grid_losses grid_table"
   [model]="kinematics robot_model"
-  [sim]="obstacle_shape scene trace trial"
+  [sim]="scene trace trial"
+  [sim/contact]="obstacle_shape"
   [live]="act game number_groups"
   [camera]="camera_pipeline camera_spec picture_file pinhole point_files truth_file twin video_file"
   [gap/recordings]="channel_name mapping recording"

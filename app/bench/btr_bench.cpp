@@ -10,7 +10,7 @@
 #include "app/bench/btr_bench_rows.h"
 #include "app/bench/btr_live_bench.h"
 #include "app/btr_commands.h"
-#include "core/sim/bench.h"
+#include "core/sim/bench/bench.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_host.h"
-#include "core/sim/bench.h"
+#include "core/sim/bench/bench.h"
 
 namespace btr::cli {
 

@@ -3,8 +3,8 @@
 
 #include "app/bench/btr_bench_clock.h"
 #include "app/bench/btr_bench_rows.h"
-#include "core/run/evaluator.h"
-#include "core/sim/lcp_hook.h"
+#include "core/run/setup/evaluator.h"
+#include "core/sim/engine/lcp_hook.h"
 #include "core/sim/trial.h"
 #include "core/spec/random.h"
 

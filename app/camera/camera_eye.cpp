@@ -7,8 +7,8 @@
 
 #include "app/camera/camera_commands.h"
 #include "core/spec/error.h"
-#include "ui/live/live_eye.h"
-#include "ui/live/live_lines.h"
+#include "ui/live/drawn/live_lines.h"
+#include "ui/live/eyes/live_eye.h"
 
 namespace btr::cli {
 namespace {

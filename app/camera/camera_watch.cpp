@@ -11,8 +11,8 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/resources.h"
-#include "ui/live/live_eye.h"
-#include "ui/live/live_lines.h"
+#include "ui/live/drawn/live_lines.h"
+#include "ui/live/eyes/live_eye.h"
 
 namespace btr::cli {
 

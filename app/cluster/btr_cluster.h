@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/btr_commands.h"
-#include "core/run/workforce.h"
+#include "core/run/setup/workforce.h"
 
 namespace btr::cli {
 

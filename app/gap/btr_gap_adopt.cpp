@@ -7,7 +7,7 @@
 #include "core/gap/report/report_figures.h"
 #include "core/gap/report/report_files.h"
 #include "core/gap/search/report_words.h"
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"

@@ -5,9 +5,9 @@
 
 #include "app/btr_commands.h"
 #include "app/progress_line.h"
-#include "core/run/fitness_clues.h"
-#include "core/run/rig.h"
-#include "core/run/stored_recordings.h"
+#include "core/run/reality/fitness_clues.h"
+#include "core/run/reality/rig.h"
+#include "core/run/reality/stored_recordings.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"

@@ -5,7 +5,7 @@
 
 #include "core/cluster/crew.h"
 #include "core/cluster/rank_link.h"
-#include "core/run/workforce.h"
+#include "core/run/setup/workforce.h"
 
 namespace btr {
 

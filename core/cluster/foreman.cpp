@@ -12,7 +12,7 @@
 
 #include "core/cluster/build_identity.h"
 #include "core/cluster/parts.h"
-#include "core/run/evaluator.h"
+#include "core/run/setup/evaluator.h"
 #include "core/spec/child_process.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"

@@ -9,7 +9,7 @@
 #include "core/live/memory_json.h"
 #include "core/model/kinematics.h"
 #include "core/model/load_model.h"
-#include "core/sim/collision.h"
+#include "core/sim/contact/collision.h"
 #include "core/sim/scene.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"

@@ -9,7 +9,7 @@
 
 #include "core/live/referee.h"
 #include "core/sim/senses.h"
-#include "core/sim/world_memory.h"
+#include "core/sim/world/world_memory.h"
 #include "core/spec/parameter.h"
 #include "core/spec/pitch_spec.h"
 #include "core/spec/scene_spec.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/sim/world_memory.h"
+#include "core/sim/world/world_memory.h"
 
 namespace btr {
 

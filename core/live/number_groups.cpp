@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/sim/scene_build.h"
+#include "core/sim/world/scene_build.h"
 
 namespace btr {
 namespace {

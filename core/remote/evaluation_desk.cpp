@@ -6,7 +6,7 @@
 #include "core/model/load_model.h"
 #include "core/remote/act_messages.h"
 #include "core/remote/experiments.h"
-#include "core/run/search.h"
+#include "core/run/loop/search.h"
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"

@@ -6,7 +6,7 @@
 
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
-#include "core/run/evaluator.h"
+#include "core/run/setup/evaluator.h"
 
 namespace uchilsim::v1 {
 class EvaluateRequest;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "core/remote/nursery.h"
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/spec/error.h"
 
 namespace btr::remote {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/run/export.h"
-#include "core/run/prepared_experiment.h"
-#include "core/run/reality_gap.h"
+#include "core/run/reality/reality_gap.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/spread.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/reality/spread.h"
 #include "core/spec/comparison_spec.h"
 #include "core/spec/experiment_spec.h"
 

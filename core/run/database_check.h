@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/plugin/plugin_host.h"
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/store/database.h"
 
 namespace btr {

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "core/run/reality_gap.h"
-#include "core/run/reality_report.h"
+#include "core/run/reality/reality_gap.h"
+#include "core/run/reality/reality_report.h"
 #include "core/spec/csv.h"
 #include "core/spec/error.h"
 

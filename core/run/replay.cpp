@@ -1,6 +1,6 @@
 #include "core/run/replay.h"
 
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 
 namespace btr {
 

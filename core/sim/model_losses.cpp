@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/sim/collision.h"
+#include "core/sim/contact/collision.h"
 
 namespace btr {
 namespace {

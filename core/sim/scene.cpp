@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sim/scene_build.h"
+#include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 
 namespace btr {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/sim/world_impl.h"
+#include "core/sim/world/world_impl.h"
 
 namespace btr {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/sim/contact_force.h"
+#include "core/sim/contact/contact_force.h"
 #include "core/sim/effect.h"
 #include "core/sim/readings.h"
 #include "core/sim/scene.h"
 #include "core/sim/trace.h"
-#include "core/sim/world_memory.h"
+#include "core/sim/world/world_memory.h"
 
 namespace btr {
 

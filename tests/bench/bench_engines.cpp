@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "core/plugin/plugin_host.h"
-#include "core/sim/lcp_hook.h"
+#include "core/sim/engine/lcp_hook.h"
 #include "core/sim/trial.h"
 #include "tests/bench/mujoco_engine.h"
 

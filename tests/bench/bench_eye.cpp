@@ -10,7 +10,7 @@
 #include "core/live/session.h"
 #include "core/plugin/plugin_host.h"
 #include "core/sim/scene.h"
-#include "ui/live/live_eye.h"
+#include "ui/live/eyes/live_eye.h"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include <memory>
 #include <thread>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "tests/bench/heartbeat.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "core/sim/bench.h"
+#include "core/sim/bench/bench.h"
 
 namespace btr::bench {
 

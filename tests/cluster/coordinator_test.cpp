@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/cluster/build_identity.h"
-#include "core/run/evaluator.h"
+#include "core/run/setup/evaluator.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/parameter.h"
 #include "tests/refusal.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/sim/ray.h"
+#include "core/sim/contact/ray.h"
 #include "tests/live/game_files.h"
 #include "tests/refusal.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "tests/plugin/built_plugins.h"
 
 namespace btr {

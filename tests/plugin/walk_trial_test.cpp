@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "core/run/evaluator.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/evaluator.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "tests/plugin/built_plugins.h"
 
 namespace btr {

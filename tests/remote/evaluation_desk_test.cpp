@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/search.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/loop/search.h"
 #include "core/spec/json_reader.h"
 #include "tests/remote/remote_folder.h"
 #include "uchilsim.pb.h"

@@ -8,8 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/run_lock.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/setup/run_lock.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "core/sim/contact_builder.h"
+#include "core/sim/contact/contact_builder.h"
 
 namespace btr::rival {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "core/run/stand_in.h"
+#include "core/run/reality/stand_in.h"
 #include "core/sim/trial.h"
 
 namespace btr::rival {

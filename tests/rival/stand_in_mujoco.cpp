@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/stand_in.h"
+#include "core/run/reality/stand_in.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 #include "tests/rival/rival_trial.h"

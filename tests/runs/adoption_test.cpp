@@ -1,4 +1,4 @@
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 #include "core/gap/report/report_files.h"
 #include "core/gap/search/gap_report.h"
-#include "core/run/identified_numbers.h"
-#include "core/run/run_lock.h"
+#include "core/run/reality/identified_numbers.h"
+#include "core/run/setup/run_lock.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/sample_report.h"

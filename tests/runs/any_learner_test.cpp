@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/json_reader.h"
 
 namespace {

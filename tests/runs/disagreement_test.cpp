@@ -1,5 +1,5 @@
 // What to measure next: individuals about which simulators disagree that explain the measurements about equally well.
-#include "core/run/disagreement.h"
+#include "core/run/loop/disagreement.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/run/export.h"
-#include "core/run/reality_gap.h"
+#include "core/run/reality/reality_gap.h"
 #include "core/spec/error.h"
 #include "tests/runs/small_kick_run.h"
 

@@ -1,9 +1,9 @@
-#include "core/run/fitness_clues.h"
+#include "core/run/reality/fitness_clues.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/run/evaluator.h"
+#include "core/run/setup/evaluator.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "tests/runs/small_kick_run.h"

@@ -1,5 +1,5 @@
 // Published gaits as a check on reality.
-#include "core/run/gait_check.h"
+#include "core/run/reality/gait_check.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/plugin/plugin_host.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 
 namespace btr {

@@ -1,5 +1,5 @@
 // What recordings told of a simulator's numbers, and bounds narrowed to it.
-#include "core/run/identified_numbers.h"
+#include "core/run/reality/identified_numbers.h"
 #include "core/gap/search/gap_report.h"
 
 #include <gtest/gtest.h>

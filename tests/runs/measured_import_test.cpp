@@ -1,4 +1,4 @@
-#include "core/run/measured_import.h"
+#include "core/run/reality/measured_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/run/plausibility.h"
+#include "core/run/reality/plausibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

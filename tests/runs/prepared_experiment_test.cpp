@@ -1,5 +1,5 @@
 // An experiment made ready from files, stored as a run, and made ready again from what was stored.
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/sim/collision.h"
+#include "core/sim/contact/collision.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"

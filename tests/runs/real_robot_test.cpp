@@ -1,5 +1,5 @@
 // Where real fitness comes from is settled before a run begins.
-#include "core/run/robot.h"
+#include "core/run/loop/robot.h"
 
 #include <gtest/gtest.h>
 

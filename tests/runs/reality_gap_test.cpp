@@ -1,4 +1,4 @@
-#include "core/run/reality_gap.h"
+#include "core/run/reality/reality_gap.h"
 
 #include <gtest/gtest.h>
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/run/back_to_reality.h"
 #include "core/run/export.h"
-#include "core/run/prepared_experiment.h"
-#include "core/run/reality_gap.h"
-#include "core/run/reality_report.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/reality/reality_gap.h"
+#include "core/run/reality/reality_report.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 
 namespace {

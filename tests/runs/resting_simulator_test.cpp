@@ -1,6 +1,6 @@
-#include "core/run/resting_simulator.h"
+#include "core/run/reality/resting_simulator.h"
 
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "tests/store/store_fixture.h"
 
 namespace btr {

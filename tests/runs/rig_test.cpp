@@ -1,12 +1,12 @@
 // Rigs: scenes that no run belongs to, and the simulators that gap analysis found for them.
-#include "core/run/rig.h"
+#include "core/run/reality/rig.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "core/spec/json_reader.h"
 #include "tests/gap/rig_report.h"
 #include "tests/plugin/built_plugins.h"

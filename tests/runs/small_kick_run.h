@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/plugin/plugin_host.h"
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
 #include "tests/temporary_folder.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "tests/refusal.h"
 #include "tests/runs/small_kick_run.h"
 

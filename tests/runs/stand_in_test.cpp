@@ -1,5 +1,5 @@
 // What the stand-in reality conceals: a function of its settings, of sizes that effects declare as usual.
-#include "core/run/stand_in.h"
+#include "core/run/reality/stand_in.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/run/stored_recordings.h"
+#include "core/run/reality/stored_recordings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/sim/bench.h"
+#include "core/sim/bench/bench.h"
 #include "core/sim/trot.h"
 #include "core/sim/world.h"
 

@@ -1,5 +1,5 @@
 // A ball that flies and hits the floor: the instant and the place of a bounce, whatever the step.
-#include "core/sim/ball_impact.h"
+#include "core/sim/contact/ball_impact.h"
 
 #include <gtest/gtest.h>
 

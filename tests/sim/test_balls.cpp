@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/sim/contact_builder.h"
+#include "core/sim/contact/contact_builder.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sim/joint_space.h"
+#include "core/sim/engine/joint_space.h"
 #include "core/spec/random.h"
 #include "tests/sim/small_worlds.h"
 

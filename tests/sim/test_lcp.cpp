@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/sim/lcp_box.h"
-#include "core/sim/lcp_hook.h"
-#include "core/sim/lcp_solver.h"
+#include "core/sim/engine/lcp_box.h"
+#include "core/sim/engine/lcp_hook.h"
+#include "core/sim/engine/lcp_solver.h"
 #include "core/sim/trial.h"
 #include "core/sim/trot.h"
 #include "core/spec/random.h"

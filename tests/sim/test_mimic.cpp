@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/sim/joint_space.h"
-#include "core/sim/scene_build.h"
+#include "core/sim/engine/joint_space.h"
+#include "core/sim/world/scene_build.h"
 #include "core/spec/random.h"
 #include "tests/refusal.h"
 #include "tests/sim/small_worlds.h"

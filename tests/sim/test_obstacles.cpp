@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/sim/obstacle_shape.h"
-#include "core/sim/ode_session.h"
-#include "core/sim/solid_contacts.h"
+#include "core/sim/contact/obstacle_shape.h"
+#include "core/sim/contact/solid_contacts.h"
+#include "core/sim/engine/ode_session.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/model/load_model.h"
-#include "core/sim/collision.h"
+#include "core/sim/contact/collision.h"
 #include "core/sim/model_losses.h"
 #include "tests/sim/small_worlds.h"
 

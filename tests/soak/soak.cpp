@@ -12,10 +12,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/run/back_to_reality.h"
 #include "core/run/export.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/run/replay.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"

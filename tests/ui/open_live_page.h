@@ -9,7 +9,7 @@
 #include "core/spec/json_reader.h"
 #include "ui/live/live_page.h"
 #include "ui/live/live_world.h"
-#include "ui/live/object_tree.h"
+#include "ui/live/panels/object_tree.h"
 
 namespace btr::ui {
 

@@ -2,7 +2,7 @@
 #include <QDir>
 #include <QTemporaryDir>
 
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/spec/experiment_spec.h"
 #include "core/store/database.h"
 

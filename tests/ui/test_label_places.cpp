@@ -1,7 +1,7 @@
 #include <QTest>
 #include <random>
 
-#include "ui/live/label_places.h"
+#include "ui/live/drawn/label_places.h"
 
 using namespace btr::ui;
 

@@ -5,8 +5,8 @@
 #include "core/camera/camera_spec.h"
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
-#include "ui/live/live_eye.h"
-#include "ui/live/view_mode.h"
+#include "ui/live/drawn/view_mode.h"
+#include "ui/live/eyes/live_eye.h"
 
 using namespace btr;
 using namespace btr::ui;

@@ -14,11 +14,11 @@
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "tests/ui/open_live_page.h"
-#include "ui/live/console_panel.h"
-#include "ui/live/lamp_places.h"
+#include "ui/live/drawn/lamp_places.h"
+#include "ui/live/drawn/live_lines.h"
 #include "ui/live/live_desk.h"
-#include "ui/live/live_lines.h"
-#include "ui/live/selection_panel.h"
+#include "ui/live/panels/console_panel.h"
+#include "ui/live/panels/selection_panel.h"
 #include "ui/live/stored_controller.h"
 
 using namespace btr;

@@ -14,8 +14,8 @@
 #include "tests/ui/open_live_page.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/message_banner.h"
-#include "ui/live/signal_picker.h"
-#include "ui/live/signals_panel.h"
+#include "ui/live/panels/signal_picker.h"
+#include "ui/live/panels/signals_panel.h"
 
 using namespace btr;
 using namespace btr::ui;

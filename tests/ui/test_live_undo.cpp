@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/ui/open_live_page.h"
-#include "ui/live/slider_form.h"
+#include "ui/live/panels/slider_form.h"
 
 using namespace btr;
 using namespace btr::ui;

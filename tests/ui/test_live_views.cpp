@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "tests/ui/open_live_page.h"
-#include "ui/live/extra_view.h"
-#include "ui/live/eye_panel.h"
-#include "ui/live/eye_picture.h"
+#include "ui/live/drawn/extra_view.h"
+#include "ui/live/drawn/live_trails.h"
+#include "ui/live/eyes/eye_picture.h"
 #include "ui/live/live_desk.h"
-#include "ui/live/live_trails.h"
+#include "ui/live/panels/eye_panel.h"
 
 using namespace btr;
 using namespace btr::ui;

@@ -19,8 +19,8 @@
 #include <QTreeView>
 #include <algorithm>
 
-#include "core/run/adoption.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/reality/adoption.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "tests/gap/rig_report.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/ui/locked_database.h"

@@ -10,7 +10,7 @@
 #include <QWheelEvent>
 #include <cmath>
 
-#include "core/run/spread.h"
+#include "core/run/reality/spread.h"
 #include "core/spec/error.h"
 #include "ui/charts/decimate.h"
 #include "ui/charts/nice_numbers.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/run/adoption.h"
-#include "core/run/spread.h"
+#include "core/run/reality/adoption.h"
+#include "core/run/reality/spread.h"
 
 namespace btr::ui {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include <QWidget>
 
-#include "core/run/reality_gap.h"
+#include "core/run/reality/reality_gap.h"
 #include "ui/charts/plot_data.h"
 
 namespace btr::ui {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/run/spec_changes.h"
+#include "core/run/setup/spec_changes.h"
 #include "ui/charts/plot_data.h"
 
 namespace btr::ui {

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "ui/common/database_reader.h"
 
 namespace btr::ui {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "core/run/adoption.h"
-#include "core/run/resting_simulator.h"
+#include "core/run/reality/adoption.h"
+#include "core/run/reality/resting_simulator.h"
 #include "core/spec/json_reader.h"
 #include "ui/charts/plot_data.h"
 #include "ui/controllers/run_controller.h"

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "ui/controllers/workbench.h"
 #include "ui/experiment/run_text.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "core/run/stored_recordings.h"
+#include "core/run/reality/stored_recordings.h"
 #include "ui/experiment/experiment_tree.h"
 #include "ui/experiment/run_text.h"
 #include "ui/experiment/simulators_page.h"

@@ -2,7 +2,7 @@
 #include <QObject>
 #include <vector>
 
-#include "core/run/rig.h"
+#include "core/run/reality/rig.h"
 #include "core/spec/scene_spec.h"
 #include "ui/controllers/workbench.h"
 

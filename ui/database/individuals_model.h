@@ -4,7 +4,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "core/run/spread.h"
+#include "core/run/reality/spread.h"
 #include "core/store/records.h"
 
 namespace btr::ui {

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "ui/common/theme.h"
 #include "ui/experiment/badge_delegate.h"
 #include "ui/experiment/run_text.h"

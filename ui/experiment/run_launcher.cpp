@@ -3,8 +3,8 @@
 #include <QCoreApplication>
 #include <QProcess>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/store/database.h"
 
 namespace btr::ui {

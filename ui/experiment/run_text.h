@@ -1,7 +1,7 @@
 #pragma once
 #include <QString>
 
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/store/records.h"
 
 namespace btr::ui {

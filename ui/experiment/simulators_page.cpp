@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/theme.h"

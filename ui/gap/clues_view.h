@@ -1,7 +1,7 @@
 #pragma once
 #include <QWidget>
 
-#include "core/run/fitness_clues.h"
+#include "core/run/reality/fitness_clues.h"
 #include "ui/gap/program_process.h"
 
 class QLabel;

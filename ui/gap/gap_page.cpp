@@ -21,7 +21,7 @@
 #include "core/gap/report/report_text.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
-#include "core/run/adoption.h"
+#include "core/run/reality/adoption.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "ui/common/format.h"

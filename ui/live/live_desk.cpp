@@ -3,10 +3,10 @@
 #include <QDockWidget>
 #include <nlohmann/json.hpp>
 
-#include "ui/live/console_panel.h"
-#include "ui/live/extra_view.h"
-#include "ui/live/eye_panel.h"
+#include "ui/live/drawn/extra_view.h"
 #include "ui/live/live_world.h"
+#include "ui/live/panels/console_panel.h"
+#include "ui/live/panels/eye_panel.h"
 #include "ui/live/program_record.h"
 
 namespace btr::ui {

@@ -2,8 +2,8 @@
 #include <QWidget>
 #include <string>
 
+#include "ui/live/drawn/live_view.h"
 #include "ui/live/live_process.h"
-#include "ui/live/live_view.h"
 
 class QMenu;
 

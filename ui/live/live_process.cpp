@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/spec/error.h"
-#include "ui/live/live_lines.h"
+#include "ui/live/drawn/live_lines.h"
 
 namespace btr::ui {
 namespace {

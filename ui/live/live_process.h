@@ -7,7 +7,7 @@
 #include "core/live/act.h"
 #include "core/live/game.h"
 #include "core/sim/scene.h"
-#include "ui/live/live_scene.h"
+#include "ui/live/drawn/live_scene.h"
 
 namespace btr::ui {
 

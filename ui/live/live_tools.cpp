@@ -12,7 +12,7 @@
 
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
-#include "ui/live/live_scene.h"
+#include "ui/live/drawn/live_scene.h"
 
 namespace btr::ui {
 namespace {

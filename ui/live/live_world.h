@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/sim/scene.h"
+#include "ui/live/drawn/live_scene.h"
 #include "ui/live/live_process.h"
-#include "ui/live/live_scene.h"
 
 namespace btr {
 class PluginHost;

@@ -4,7 +4,7 @@
 #include <deque>
 #include <map>
 
-#include "ui/live/live_scene.h"
+#include "ui/live/drawn/live_scene.h"
 
 namespace btr::ui {
 class LiveWorld;

@@ -4,7 +4,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 
-#include "core/run/measured_import.h"
+#include "core/run/reality/measured_import.h"
 
 namespace btr::ui {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <QString>
 
-#include "core/run/plausibility.h"
-#include "core/run/resting_simulator.h"
+#include "core/run/reality/plausibility.h"
+#include "core/run/reality/resting_simulator.h"
 
 class QWidget;
 

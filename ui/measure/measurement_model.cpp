@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/run/plausibility.h"
+#include "core/run/reality/plausibility.h"
 
 namespace btr::ui {
 

@@ -4,8 +4,8 @@
 #include <QLocale>
 #include <QPalette>
 
-#include "core/run/reality_gap.h"
-#include "core/run/spread.h"
+#include "core/run/reality/reality_gap.h"
+#include "core/run/reality/spread.h"
 #include "core/spec/figures.h"
 #include "ui/charts/plot_data.h"
 #include "ui/common/format.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/run/reality_gap.h"
+#include "core/run/reality/reality_gap.h"
 #include "ui/common/number_entry.h"
 
 namespace btr::ui {

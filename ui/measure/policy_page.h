@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "core/run/reality_report.h"
+#include "core/run/reality/reality_report.h"
 
 class QComboBox;
 class QLabel;

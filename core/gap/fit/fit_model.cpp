@@ -5,7 +5,7 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/unit_at.h"
-#include "core/sim/scene_build.h"
+#include "core/sim/world/scene_build.h"
 
 namespace btr {
 

@@ -11,7 +11,7 @@
 #include "core/gap/replay/start_state.h"
 #include "core/gap/replay/trial_scenes.h"
 #include "core/sim/model_losses.h"
-#include "core/sim/scene_build.h"
+#include "core/sim/world/scene_build.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/output_path.h"
 

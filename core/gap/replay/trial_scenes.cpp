@@ -6,8 +6,8 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual.h"
+#include "core/sim/engine/ode_session.h"
 #include "core/sim/model_losses.h"
-#include "core/sim/ode_session.h"
 #include "core/spec/cancelled.h"
 
 namespace btr {

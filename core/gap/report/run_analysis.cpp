@@ -6,7 +6,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/report/report_files.h"
 #include "core/gap/search/gap_report.h"
-#include "core/sim/ode_session.h"
+#include "core/sim/engine/ode_session.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"

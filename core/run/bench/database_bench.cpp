@@ -9,7 +9,7 @@
 
 #include "core/run/comparison.h"
 #include "core/run/export.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/store/database.h"
 #include "core/store/storage.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/run/back_to_reality.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/loop/back_to_reality.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/error.h"
 #include "core/spec/random.h"
 #include "core/store/database.h"

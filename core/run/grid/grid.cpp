@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/run/grid/grid_work.h"
-#include "core/run/run_lock.h"
+#include "core/run/setup/run_lock.h"
 #include "core/spec/error.h"
 #include "core/spec/sha256.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run/back_to_reality.h"
+#include "core/run/loop/back_to_reality.h"
 #include "core/spec/grid_spec.h"
 
 namespace btr {

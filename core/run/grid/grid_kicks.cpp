@@ -5,9 +5,9 @@
 #include <set>
 #include <span>
 
-#include "core/run/evaluator.h"
 #include "core/run/export.h"
 #include "core/run/grid/grid_cells.h"
+#include "core/run/setup/evaluator.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

@@ -7,7 +7,7 @@
 #include "core/learn/vector_grid.h"
 #include "core/run/export.h"
 #include "core/run/grid/grid_cells.h"
-#include "core/run/prepared_experiment.h"
+#include "core/run/setup/prepared_experiment.h"
 #include "core/spec/experiment_spec.h"
 
 namespace btr {

@@ -4,7 +4,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/run/grid/grid.h"
-#include "core/run/spread.h"
+#include "core/run/reality/spread.h"
 
 namespace btr {
 

@@ -7,7 +7,7 @@
 
 #include "core/run/grid/grid.h"
 #include "core/run/grid/grid_cells.h"
-#include "core/run/search.h"
+#include "core/run/loop/search.h"
 
 // The parts of a grid's work, for the sources that do it.
 namespace btr {

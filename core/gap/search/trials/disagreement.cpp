@@ -14,7 +14,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/replay/trial_scenes.h"
 #include "core/gap/search/trials/slip.h"
-#include "core/sim/scene_build.h"
+#include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
 

@@ -1,0 +1,190 @@
+#include "core/sim/engine/lcp_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/engine/lcp_wide.h"
+
+namespace btr {
+namespace {
+
+// One row of a Cholesky factor, from a row of the matrix in `line` (0 … row): writes its entries into the factor's
+// columns above, `line` keeps the diagonal before its root. What stands left of an entry's own column in a line of four
+// is overwritten, and never read again.
+BTR_WIDE void factorLine(double* line, double* factor, const double* inverse, unsigned stride, unsigned row) {
+  for (unsigned k = 0; k < row; ++k) {
+    double* column = factor + static_cast<std::size_t>(k) * stride;
+    const double entry = line[k] * inverse[k];
+    column[row] = entry;
+    const unsigned last = row / wideLanes;
+    for (unsigned chunk = (k + 1) / wideLanes; chunk <= last; ++chunk)
+      *reinterpret_cast<Four*>(line + chunk * wideLanes) -=
+          entry * *reinterpret_cast<const Four*>(column + chunk * wideLanes);
+  }
+}
+
+// to −= factor · from
+BTR_WIDE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
+  for (unsigned chunk = first / wideLanes; chunk * wideLanes < count; ++chunk)
+    *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
+        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
+}
+
+BTR_WIDE void addTimes(double* to, double factor, const double* from, unsigned count) {
+  for (unsigned chunk = 0; chunk * wideLanes < count; ++chunk)
+    *reinterpret_cast<Four*>(to + chunk * wideLanes) +=
+        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
+}
+
+}  // namespace
+
+void BoxSolver::take(const LcpProblem& p) {
+  n_ = p.n;
+  stride_ = (n_ + wideLanes - 1) / wideLanes * wideLanes;
+  const std::size_t square = static_cast<std::size_t>(n_) * stride_;
+  a_.assign(square, 0);
+  factor_.assign(square, 0);
+  for (unsigned i = 0; i < n_; ++i)
+    for (unsigned j = 0; j <= i; ++j)
+      lineOf(a_, i)[j] = lineOf(a_, j)[i] = p.a[static_cast<std::size_t>(i) * p.skip + j];
+  b_.assign(stride_, 0);
+  for (unsigned i = 0; i < n_; ++i) b_[i] = p.bx[2 * i];
+  x_.assign(n_, 0);
+  low_.resize(n_);
+  high_.resize(n_);
+  side_.resize(n_);
+  inverse_.resize(n_);
+  right_.resize(stride_);
+  product_.resize(stride_);
+  line_.assign(stride_, 0);
+  factored_.clear();
+}
+
+// Rows of the factor that are of the same rows of A as before stay as they are.
+bool BoxSolver::factorFree() {
+  const auto count = static_cast<unsigned>(free_.size());
+  const std::size_t same = static_cast<std::size_t>(
+      std::mismatch(free_.begin(), free_.end(), factored_.begin(), factored_.end()).first - free_.begin());
+  factored_.resize(same);
+  for (auto i = static_cast<unsigned>(same); i < count; ++i) {
+    const double* row = lineOf(a_, free_[i]);
+    for (unsigned j = 0; j <= i; ++j) line_[j] = row[free_[j]];
+    const double before = line_[i];
+    factorLine(line_.data(), factor_.data(), inverse_.data(), stride_, i);
+    if (!(line_[i] > 1e-14 * before)) return false;
+    inverse_[i] = 1 / std::sqrt(line_[i]);
+    factored_.push_back(free_[i]);
+  }
+  return true;
+}
+
+// Free rows by Cholesky, the others at their bounds.
+bool BoxSolver::solveFree() {
+  free_.clear();
+  for (unsigned i = 0; i < n_; ++i) {
+    if (side_[i] == Side::free) free_.push_back(i);
+    if (side_[i] == Side::low) x_[i] = low_[i];
+    if (side_[i] == Side::high) x_[i] = high_[i];
+  }
+  if (!factorFree()) return false;
+  product_ = b_;
+  for (unsigned j = 0; j < n_; ++j)
+    if (side_[j] != Side::free && x_[j] != 0) subtractTimes(product_.data(), x_[j], lineOf(a_, j), 0, n_);
+  const auto count = static_cast<unsigned>(free_.size());
+  for (unsigned i = 0; i < count; ++i) right_[i] = product_[free_[i]];
+  for (unsigned k = 0; k < count; ++k) {
+    const double solved = right_[k] * inverse_[k];
+    subtractTimes(right_.data(), solved, lineOf(factor_, k), k + 1, count);
+    right_[k] = solved;
+  }
+  for (unsigned i = count; i-- > 0;) {
+    const double* column = lineOf(factor_, i);
+    double sum = right_[i];
+    for (unsigned k = i + 1; k < count; ++k) sum -= column[k] * right_[k];
+    x_[free_[i]] = right_[i] = sum * inverse_[i];
+  }
+  return true;
+}
+
+// Rows that contradict their side.
+void BoxSolver::findWrong(double largest) {
+  for (unsigned i = 0; i < n_; ++i) product_[i] = -b_[i];
+  for (unsigned j = 0; j < n_; ++j)
+    if (x_[j] != 0) addTimes(product_.data(), x_[j], lineOf(a_, j), n_);
+  wrong_.clear();
+  for (unsigned i = 0; i < n_; ++i) {
+    if (side_[i] == Side::free) {
+      if (x_[i] < low_[i] - 1e-13 * largest) wrong_.push_back({i, Side::low});
+      if (x_[i] > high_[i] + 1e-13 * largest) wrong_.push_back({i, Side::high});
+      continue;
+    }
+    if (low_[i] == high_[i]) continue;
+    const double w = product_[i], rounding = 1e-13 * (std::abs(b_[i]) + lineOf(a_, i)[i] * largest);
+    if (side_[i] == Side::low ? w < -rounding : w > rounding) wrong_.push_back({i, Side::free});
+  }
+}
+
+bool BoxSolver::pivot() {
+  unsigned fewest = n_ + 1;
+  int patience = 10;
+  for (int iteration = 0; iteration < 200 + 10 * static_cast<int>(n_); ++iteration) {
+    if (!solveFree()) return false;
+    double largest = 0;
+    for (unsigned i = 0; i < n_; ++i) largest = std::max(largest, std::abs(x_[i]));
+    if (!std::isfinite(largest)) return false;
+    findWrong(largest);
+    if (wrong_.empty()) return true;
+    const auto count = static_cast<unsigned>(wrong_.size());
+    if (count < fewest) {
+      fewest = count;
+      patience = 10;
+    } else if (patience > 0) {
+      --patience;
+    }
+    if (patience > 0)
+      for (const auto& [row, side] : wrong_) side_[row] = side;
+    else
+      side_[wrong_.back().row] = wrong_.back().side;
+  }
+  return false;
+}
+
+bool BoxSolver::solve(const LcpProblem& p, bool coulomb) {
+  if (p.n > mostRows) return false;
+  if (p.n == 1 && !p.findex) {
+    const double x = p.bx[0] / p.a[0];
+    if (!(p.a[0] > 0) || !std::isfinite(x)) return false;
+    p.bx[1] = std::clamp(x, p.loHi[0], p.loHi[1]);
+    return true;
+  }
+  take(p);
+  // Without friction first.
+  bool friction = false;
+  for (unsigned i = 0; i < p.n; ++i) {
+    const bool hangs = p.findex && p.findex[i] >= 0;
+    friction = friction || hangs;
+    low_[i] = hangs ? 0 : p.loHi[2 * i];
+    high_[i] = hangs ? 0 : p.loHi[2 * i + 1];
+    side_[i] = hangs ? Side::low : Side::free;
+  }
+  if (!pivot()) return false;
+  for (int pass = 0; friction && pass < (coulomb ? mostPasses : 1); ++pass) {
+    double largest = 0, change = 0;
+    for (unsigned i = 0; i < p.n; ++i) largest = std::max(largest, std::abs(x_[i]));
+    for (unsigned i = 0; i < p.n; ++i) {
+      if (!p.findex || p.findex[i] < 0) continue;
+      const double most = p.loHi[2 * i + 1] * std::abs(x_[static_cast<std::size_t>(p.findex[i])]);
+      // A bound matters where a row is at it, or would now be beyond it.
+      if (side_[i] != Side::free || std::abs(x_[i]) > most) change = std::max(change, std::abs(most - high_[i]));
+      low_[i] = -most;
+      high_[i] = most;
+      if (pass == 0) side_[i] = Side::free;
+    }
+    if (pass > 0 && change <= agreed * largest) break;
+    if (!pivot()) return false;
+  }
+  for (unsigned i = 0; i < p.n; ++i) p.bx[2 * i + 1] = x_[i];
+  return true;
+}
+
+}  // namespace btr

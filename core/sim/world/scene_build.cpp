@@ -1,0 +1,203 @@
+// Scene file and models → a Scene.
+#include "core/sim/world/scene_build.h"
+
+#include <filesystem>
+
+#include "core/model/load_model.h"
+#include "core/sim/contact/collision.h"
+#include "core/spec/error.h"
+
+namespace btr {
+namespace {
+
+Drive driveFromModel(const Joint& joint) {
+  Drive drive;
+  drive.kind = joint.type == Joint::Type::fixed || joint.mimic ? Drive::Kind::none : Drive::Kind::servo;
+  if (joint.type == Joint::Type::fixed) return drive;
+  const ServoData& servo = joint.servo;
+  drive.p = servo.p_nm_rad.value_or(7.5);
+  drive.i = servo.i_nm_rad_s.value_or(0);
+  drive.d = servo.d_nm_s_rad.value_or(0.05);
+  drive.maxTorque = servo.maxTorque_nm.value_or(defaultServoLimit(joint.type));
+  drive.noLoadSpeed_rad_s = servo.noLoadSpeed_rad_s.value_or(0);
+  drive.coulombFriction = servo.coulombFriction_nm.value_or(0);
+  drive.viscousFriction = servo.viscousFriction_nm_s_rad.value_or(0);
+  const double ratio = servo.gearRatio.value_or(1);
+  drive.rotorInertia_kg_m2 = servo.rotorInertia_kg_m2.value_or(0) * ratio * ratio;
+  return drive;
+}
+
+Drive::Kind kindOf(const ServoSpec& servo, const Joint& joint, const std::string& place) {
+  const bool slides = joint.type == Joint::Type::slide;
+  if (servo.drive == "servo") return Drive::Kind::servo;
+  if (servo.drive == "dc_motor") return Drive::Kind::dcMotor;
+  if (servo.drive == "motion") return Drive::Kind::motion;
+  if (servo.drive == "none") return Drive::Kind::none;
+  if (servo.drive == (slides ? "force" : "torque")) return Drive::Kind::torque;
+  throw InputError(place + ".drive", servo.drive,
+                   slides ? "servo, dc_motor, force, motion or none on a slide joint"
+                          : "servo, dc_motor, torque, motion or none on a rotary joint");
+}
+
+int jointOf(const SceneRobot& robot, const std::string& name, const std::string& place) {
+  const int joint = robot.model.findJoint(name);
+  if (joint < 0 || robot.model.joints[static_cast<std::size_t>(joint)].type == Joint::Type::fixed)
+    throw InputError(place, name, "a moving joint of the model " + robot.model.name);
+  return joint;
+}
+
+/// "follows left_finger"
+std::string followsOf(const RobotModel& model, std::size_t joint) {
+  return "follows " + model.joints[static_cast<std::size_t>(model.joints[joint].mimic->leader)].name;
+}
+
+/// A body that nothing carries needs a mass: the root's, with what is rigidly fixed to it.
+void needMass(const RobotSpec& spec, const RobotModel& model) {
+  std::vector<char> rigid(model.links.size(), 0);
+  rigid[0] = 1;
+  double mass = model.links[0].inertial.mass_kg;
+  for (std::size_t i = 0; i < model.joints.size() && spec.mergeFixed; ++i) {
+    const Joint& joint = model.joints[i];
+    rigid[i + 1] = joint.type == Joint::Type::fixed && rigid[static_cast<std::size_t>(joint.parentLink)];
+    if (rigid[i + 1]) mass += model.links[i + 1].inertial.mass_kg;
+  }
+  if (!(mass > 0))
+    throw InputError("scene robots." + spec.name + ".base", "free",
+                     "fixed: the root link " + model.links[0].name + " of the model " + model.name + " has no mass");
+}
+
+SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
+  SceneRobot robot;
+  robot.name = spec.name;
+  robot.model = model;
+  robot.freeBase = spec.base == "free";
+  if (robot.freeBase) needMass(spec, model);
+  robot.collision = spec.collision;
+  robot.mergeFixed = spec.mergeFixed;
+  const auto& q = spec.orientation_wxyz;
+  robot.start = Eigen::Translation3d(spec.position_m[0], spec.position_m[1], spec.position_m[2]) *
+                Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  robot.jointStart.assign(model.joints.size(), 0);
+  robot.jointStartRate.assign(model.joints.size(), 0);
+  for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
+
+  const std::string place = "scene robots." + spec.name;
+  for (const auto& [name, start] : spec.jointStart)
+    robot.jointStart[static_cast<std::size_t>(jointOf(robot, name, place + ".joint_start"))] = start;
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (const auto& mimic = model.joints[i].mimic) {
+      robot.jointStart[i] =
+          mimic->multiplier * robot.jointStart[static_cast<std::size_t>(mimic->leader)] + mimic->offset;
+      if (spec.jointStart.contains(model.joints[i].name))
+        throw InputError(place + ".joint_start", model.joints[i].name, "no joint that " + followsOf(model, i));
+    }
+  for (const auto& [name, servo] : spec.servos) {
+    const auto joint = static_cast<std::size_t>(jointOf(robot, name, place + ".servos"));
+    Drive& drive = robot.drives[joint];
+    drive.kind = kindOf(servo, model.joints[joint], place + ".servos." + name);
+    if (model.joints[joint].mimic && drive.kind != Drive::Kind::none)
+      throw InputError(place + ".servos." + name + ".drive", servo.drive,
+                       "none for a joint that " + followsOf(model, joint));
+    // What a kind of drive does not have stays out of it: only a servo's numbers come from the model.
+    if (drive.kind != Drive::Kind::servo) drive.maxTorque = 1e9, drive.noLoadSpeed_rad_s = 0;
+    if (drive.kind == Drive::Kind::dcMotor)
+      for (const char* number : {"voltage_v", "resistance_ohm", "max_duty"})
+        setDriveNumber(drive, model.joints[joint], number, find(servoNumbers(), number)->byDefault, place);
+    for (const auto& [number, value] : servo.numbers)
+      setDriveNumber(drive, model.joints[joint], number, value, place + ".servos." + name);
+  }
+  return robot;
+}
+
+}  // namespace
+
+double* driveNumber(Drive& drive, const Joint& joint, const std::string& number) {
+  const bool slides = joint.type == Joint::Type::slide;
+  const auto is = [&](const char* rotary, const char* sliding) { return number == (slides ? sliding : rotary); };
+  if (number == "p") return &drive.p;
+  if (number == "i") return &drive.i;
+  if (number == "d") return &drive.d;
+  if (number == "off_braking") return &drive.offBraking;
+  if (is("max_torque_nm", "max_force_n")) return &drive.maxTorque;
+  if (is("no_load_speed_rad_s", "no_load_speed_m_s")) return &drive.noLoadSpeed_rad_s;
+  if (is("firmware_gain_v_per_rad", "firmware_gain_v_per_m")) return &drive.firmwareGain_v_rad;
+  if (number == "voltage_v") return &drive.supply_v;
+  if (is("torque_constant_nm_per_a", "force_constant_n_per_a")) return &drive.torqueConstant_nm_a;
+  if (number == "resistance_ohm") return &drive.resistance_ohm;
+  if (number == "max_duty") return &drive.maxDuty;
+  if (is("rotor_inertia_kg_m2", "rotor_inertia_kg")) return &drive.rotorInertia_kg_m2;
+  if (is("coulomb_friction_nm", "coulomb_friction_n")) return &drive.coulombFriction;
+  if (is("viscous_friction_nm_s_rad", "viscous_friction_n_s_m")) return &drive.viscousFriction;
+  return nullptr;
+}
+
+void setDriveNumber(Drive& drive, const Joint& joint, const std::string& number, double value,
+                    const std::string& place) {
+  double* target = driveNumber(drive, joint, number);
+  if (!target)
+    throw InputError(place, number,
+                     joint.type == Joint::Type::slide
+                         ? "a number of a slide joint's drive (p, i, d, max_force_n, …)"
+                         : "a number of a rotary joint's drive (p, i, d, max_torque_nm, …)");
+  *target = value;
+}
+
+void scaleMass(Link& link, double factor) {
+  link.inertial.mass_kg *= factor;
+  link.inertial.inertia_kg_m2 *= factor;
+}
+
+void makeHulls(RobotModel& model, const std::string& path, const SceneSpec& scene) {
+  for (const RobotSpec& robot : scene.robots) {
+    if (robot.model != path) continue;
+    for (Link& link : model.links)
+      for (Shape& shape : link.shapes)
+        if (shape.kind == Shape::Kind::mesh && !shape.hull && collidesIn(model, link, shape, robot.collision))
+          shape.hull = convexHull(shape.surface->vertices);
+  }
+}
+
+ModelSet loadModels(const SceneSpec& spec) {
+  ModelSet models;
+  for (const auto& robot : spec.robots) {
+    if (models.contains(robot.model)) continue;
+    const std::filesystem::path path(robot.model);
+    const auto full = path.is_absolute() ? path : std::filesystem::path(spec.directory) / path;
+    RobotModel model = loadModel(full.string());
+    makeHulls(model, robot.model, spec);
+    models[robot.model] = std::make_shared<const RobotModel>(std::move(model));
+  }
+  return models;
+}
+
+Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models) {
+  Scene scene;
+  scene.gravity_m_s2 << spec.gravity_m_s2[0], spec.gravity_m_s2[1], spec.gravity_m_s2[2];
+  scene.step_s = spec.step_s;
+  scene.controlPeriod_s = spec.controlPeriod_s;
+  scene.floor = spec.floor;
+  scene.balls = spec.balls;
+  scene.obstacles = spec.obstacles;
+  scene.robotsCollide = spec.robotsCollide;
+  for (const auto& robot : spec.robots) {
+    const auto model = models.find(robot.model);
+    if (model == models.end())
+      throw InputError("scene robots." + robot.name + ".model", robot.model, "a model that was loaded");
+    scene.robots.push_back(robotFrom(robot, *model->second));
+  }
+  // Numbers of single links and joints are paths into the scene like those of a simulator version.
+  for (const auto& robot : spec.robots) {
+    // A mass takes its inertia with it: it comes before an inertia that is given.
+    for (const auto& [link, values] : robot.links)
+      for (const bool mass : {true, false})
+        for (const auto& [number, value] : values)
+          if ((number == "mass_kg") == mass)
+            setByPath(scene, "robots." + robot.name + ".links." + link + "." + number, value);
+    for (const auto& [joint, values] : robot.joints)
+      for (const auto& [number, value] : values)
+        setByPath(scene, "robots." + robot.name + ".joints." + joint + "." + number, value);
+  }
+  return scene;
+}
+
+}  // namespace btr

@@ -57,11 +57,6 @@ QString mpiHosts(const QStringList& lines) {
 /// Of a command that takes them.
 QString workersOption(const QString& command) { return command == "grid" ? "--workers" : "--jobs"; }
 
-QString lastLineOf(const QByteArray& text) {
-  const QStringList lines = QString::fromUtf8(text).split('\n', Qt::SkipEmptyParts);
-  return lines.isEmpty() ? QString() : lines.last().trimmed();
-}
-
 /// What a program that ended said, as one sentence: the last line of btr's own, else the first paragraph. mpirun draws
 /// lines around its own.
 QString sentenceIn(const QString& words) {
@@ -259,31 +254,45 @@ bool MachinesController::goRanks() {
   return true;
 }
 
-// One short command; what it says on standard error is told.
-void MachinesController::ask(const QStringList& arguments, const std::function<void(const QByteArray&)>& done) {
+// One short command of the program; one that cannot be started is told.
+void MachinesController::run(const QStringList& arguments, const std::function<void(const Answer&)>& ended,
+                             const std::function<void()>& notStarted) {
   auto* process = new QProcess(this);
-  ++busy_;
-  const auto over = [this, process] {
+  connect(process, &QProcess::finished, this, [process, ended](int code, QProcess::ExitStatus status) {
     process->deleteLater();
+    const bool wasKilled = status != QProcess::NormalExit;
+    const QString words = lastLine(QString::fromUtf8(process->readAllStandardError()));
+    ended({wasKilled ? -1 : code, process->readAllStandardOutput(),
+           wasKilled && words.isEmpty() ? tr("%1 was killed").arg(process->program()) : words});
+  });
+  connect(process, &QProcess::errorOccurred, this, [this, process, notStarted](QProcess::ProcessError error) {
+    if (error != QProcess::FailedToStart) return;
+    process->deleteLater();
+    emit told(tr("%1 cannot be started: %2").arg(program_, process->errorString()), true);
+    notStarted();
+  });
+  process->setStandardInputFile(QProcess::nullDevice());
+  process->start(program_, arguments);
+}
+
+void MachinesController::ask(const QStringList& arguments, const std::function<void(const QByteArray&)>& done) {
+  ++busy_;
+  const auto over = [this] {
     --busy_;
     emit changed();
     poll();
   };
-  connect(process, &QProcess::finished, this, [this, process, done, over](int code, QProcess::ExitStatus status) {
-    constexpr int stoppedEarly = 3;  // with what is missing in its answer
-    if (status == QProcess::NormalExit && (code == 0 || code == stoppedEarly))
-      done(process->readAllStandardOutput());
-    else
-      emit told(lastLineOf(process->readAllStandardError()), true);
-    over();
-  });
-  connect(process, &QProcess::errorOccurred, this, [this, process, over](QProcess::ProcessError error) {
-    if (error != QProcess::FailedToStart) return;
-    emit told(tr("%1 cannot be started: %2").arg(program_, process->errorString()), true);
-    over();
-  });
-  process->setStandardInputFile(QProcess::nullDevice());
-  process->start(program_, arguments);
+  run(
+      arguments,
+      [this, done, over](const Answer& answer) {
+        constexpr int stoppedEarly = 3;  // with what is missing in its answer
+        if (answer.code == 0 || answer.code == stoppedEarly)
+          done(answer.out);
+        else
+          emit told(answer.lastWords, true);
+        over();
+      },
+      over);
   emit changed();
 }
 
@@ -313,7 +322,8 @@ void MachinesController::resume(const QString& hosts) {
   if (lines.isEmpty() && !status_.isSlurms)
     return emit told(tr("Name the computers that ssh reaches, one a line."), true);
   if (lines.isEmpty()) {
-    ask({"array", "resume", folder_}, [this](const QByteArray& answer) { emit told(lastLineOf(answer), false); });
+    ask({"array", "resume", folder_},
+        [this](const QByteArray& answer) { emit told(lastLine(QString::fromUtf8(answer)), false); });
     return;
   }
   const QString file = path("hosts-again");
@@ -328,7 +338,7 @@ void MachinesController::resume(const QString& hosts) {
 void MachinesController::collect() {
   if (folder_.isEmpty() || isRanks()) return;
   ask({"array", "collect", folder_}, [this](const QByteArray& answer) {
-    emit told(lastLineOf(answer), false);
+    emit told(lastLine(QString::fromUtf8(answer)), false);
     emit collected(status_.into);
   });
 }
@@ -344,33 +354,27 @@ void MachinesController::poll() {
     return;
   }
   asking_ = true;
-  auto* process = new QProcess(this);
-  const int generation = generation_;
-  connect(process, &QProcess::finished, this, [this, process, generation](int code, QProcess::ExitStatus status) {
-    process->deleteLater();
-    asking_ = false;
-    if (generation != generation_) return poll();
-    QString problem;
-    if (status != QProcess::NormalExit || code != 0) problem = lastLineOf(process->readAllStandardError());
-    try {
-      if (problem.isEmpty()) take(arrayStatus(process->readAllStandardOutput()));
-    } catch (const InputError& error) {
-      problem = QString::fromUtf8(error.what());
-    }
-    // Said once: a queue that does not answer may do so later.
-    if (!problem.isEmpty() && problem != complaint_) emit told(problem, true);
-    if (!problem.isEmpty() && !known_) timer_.stop();
-    complaint_ = problem;
-  });
-  connect(process, &QProcess::errorOccurred, this, [this, process](QProcess::ProcessError error) {
-    if (error != QProcess::FailedToStart) return;
-    process->deleteLater();
-    asking_ = false;
-    timer_.stop();
-    emit told(tr("%1 cannot be started: %2").arg(program_, process->errorString()), true);
-  });
-  process->setStandardInputFile(QProcess::nullDevice());
-  process->start(program_, {"--json", "array", "status", folder_});
+  run(
+      {"--json", "array", "status", folder_},
+      [this, generation = generation_](const Answer& answer) {
+        asking_ = false;
+        if (generation != generation_) return poll();
+        QString problem;
+        if (answer.code != 0) problem = answer.lastWords;
+        try {
+          if (problem.isEmpty()) take(arrayStatus(answer.out));
+        } catch (const InputError& error) {
+          problem = QString::fromUtf8(error.what());
+        }
+        // Said once: a queue that does not answer may do so later.
+        if (!problem.isEmpty() && problem != complaint_) emit told(problem, true);
+        if (!problem.isEmpty() && !known_) timer_.stop();
+        complaint_ = problem;
+      },
+      [this] {
+        asking_ = false;
+        timer_.stop();
+      });
 }
 
 void MachinesController::readPlaces() {

@@ -67,6 +67,14 @@ class MachinesController : public QObject {
   bool startRanks(const MachinesOrder& order);
   bool goRanks();
   bool launch(const QString& program, const QStringList& arguments);
+  /// Of a command that has ended.
+  struct Answer {
+    int code;  ///< its exit code; negative: it was killed
+    QByteArray out;
+    QString lastWords;  ///< the last line on standard error
+  };
+  void run(const QStringList& arguments, const std::function<void(const Answer&)>& ended,
+           const std::function<void()>& notStarted);
   void ask(const QStringList& arguments, const std::function<void(const QByteArray&)>& done);
   void readPlaces();
   void take(const JobStatus& status);

@@ -37,13 +37,15 @@ QString DetachedProgram::words() const {
   return QString::fromUtf8(log.readAll()).trimmed();
 }
 
-QString DetachedProgram::lastWords() const {
-  const QStringList lines = words().split('\n', Qt::SkipEmptyParts);
-  return lines.isEmpty() ? QString() : lines.last().trimmed();
-}
+QString DetachedProgram::lastWords() const { return lastLine(words()); }
 
 void DetachedProgram::forget() {
   if (!log_.isEmpty()) QFile::remove(log_);
+}
+
+QString lastLine(const QString& text) {
+  const QStringList lines = text.split('\n', Qt::SkipEmptyParts);
+  return lines.isEmpty() ? QString() : lines.last().trimmed();
 }
 
 // A process that has ended may stay as a zombie until the system collects it: state Z after the name in parentheses.

@@ -24,6 +24,9 @@ class DetachedProgram {
   QString log_;
 };
 
+/// The last line that is not empty, trimmed; empty if none.
+QString lastLine(const QString& text);
+
 /// True while a process with this number is there and has not ended.
 bool isProcessAlive(qint64 process);
 

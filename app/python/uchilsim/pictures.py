@@ -84,7 +84,10 @@ class SharedFrames:
 
     def after(self, number: int) -> Frame | None:
         """The next frame after this one, or the oldest that is sure to stay for a while; the newest after 0."""
-        while (newest := self.newest) > number:
+        for _ in range(100):  # lapped so often by its writer: later
+            newest = self.newest
+            if newest <= number:
+                break
             oldest = newest if number == 0 else newest - self._slots + 2
             frame = self.frame(max(number + 1, oldest))
             if frame is not None:

@@ -168,8 +168,8 @@ TEST(Coordinator, SaysWhyItsForemenDoNotBegin) {
   options.command = {"/bin/false"};
   Coordinator coordinator(nullptr, kicks.host(), options);
   EXPECT_EQ("rank 0 (host " + hostName() +
-                "): no place is left that works (its process ended (exit code 1)); what was stored is kept: go on with "
-                "btr run",
+                "): no place is left that works (its process ended (exit code 1)); what was stored is kept: the same "
+                "command goes on",
             test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 

@@ -6,7 +6,8 @@ trial() { local cases=$1; shift; "$btr" gap prove --cases "$cases" --scene pendu
 trial_content() {
   (cd "$1" && find . -type f | sort | while read -r file; do
     echo "== $file"
-    sed -E "s#$1##g; s/\"(wall_time_s|(median_)?seconds)\": [^,]*//; s/, seed [0-9]+, [0-9.e-]+ s//; s/time of an analysis, median.*//" "$file"
+    sed -E "s#$1##g; s/\"(wall_time_s|(median_)?seconds)\": [^,]*//; s/, seed [0-9]+, [0-9.e-]+ s//; s/time of an analysis, median.*//" "$file" |
+      case $file in */proof.txt | */proof.html) sed -E "s#(<td>| +)[0-9.]+(</td></tr>|\$)#\2#" ;; *) cat ;; esac
   done)
 }
 # same_trial ONE OTHER "what": the same cases and the same count

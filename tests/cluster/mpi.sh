@@ -91,7 +91,7 @@ assert places["share"] == 1 and places["trials_per_second"] > 0 and sum(h["trial
       expect 0 "a blind trial goes on" ranks 2 "$btr" gap prove --cases 6 --scene pendulum --kind nothing --seed 5 --out "$folder/trial-killed-job"
     else
       victims=($(below $job))
-      kill -9 "${victims[-1]}" 2> /dev/null # a worker of a rank, or who supervises it
+      kill -9 "${victims[-1]}" 2> /dev/null # a worker of a rank, or the generator that it asked
       wait $job
     fi
     same_trial "$folder/trial-one" "$folder/trial-killed-$where" "a blind trial of which the $where was killed"

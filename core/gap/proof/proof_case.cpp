@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,6 +57,12 @@ std::string lastLineOf(std::string text) {
   return text.substr(text.rfind('\n') + 1);  // npos + 1 is 0
 }
 
+/// The generator was killed from outside, as by a machine without memory: no property of the case.
+class GeneratorKilled : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Standard output of a program that must succeed.
 std::string outputOf(std::vector<std::string> words) {
   std::array<int, 2> out{}, err{};
@@ -86,6 +93,8 @@ std::string outputOf(std::vector<std::string> words) {
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said[0];
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw GeneratorKilled(words[0] + " " + words[1] + ": was killed (signal 9)");
   const std::string why = lastLineOf(said[1]);
   throw InputError(words[0] + " " + words[1] + ": " + (why.empty() ? "has failed" : why));
 }
@@ -145,19 +154,7 @@ Values errorsAfterwards(const ProofRequest& request, std::size_t number, const G
   }
 }
 
-}  // namespace
-
-std::string nameOfCase(std::size_t number) {
-  std::string digits = std::to_string(number);
-  digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
-  return "case_" + digits;
-}
-
-std::string verdictOfCase(const std::string& out, std::size_t number) {
-  return (fs::path(out) / nameOfCase(number) / "verdict.json").string();
-}
-
-void proveCase(const ProofRequest& request, std::size_t number, const EffectLibrary& library, const Analyse& analyse) {
+void proveOnce(const ProofRequest& request, std::size_t number, const EffectLibrary& library, const Analyse& analyse) {
   const fs::path folder = folderOf(request, number);
   fs::remove_all(folder);  // what an interrupted run left
   auto make = concealWords(request, "make", number);
@@ -194,6 +191,27 @@ void proveCase(const ProofRequest& request, std::size_t number, const EffectLibr
   if (!failure.empty()) proved.verdict.clear();
   proved.failure = failure;
   writeFile((folder / "verdict.json").string(), toJsonText(proved));
+}
+
+}  // namespace
+
+std::string nameOfCase(std::size_t number) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 3 ? 3 - digits.size() : 0, '0');
+  return "case_" + digits;
+}
+
+std::string verdictOfCase(const std::string& out, std::size_t number) {
+  return (fs::path(out) / nameOfCase(number) / "verdict.json").string();
+}
+
+void proveCase(const ProofRequest& request, std::size_t number, const EffectLibrary& library, const Analyse& analyse) {
+  // A second time, as a worker that died would be.
+  try {
+    proveOnce(request, number, library, analyse);
+  } catch (const GeneratorKilled&) {
+    proveOnce(request, number, library, analyse);
+  }
 }
 
 }  // namespace btr

@@ -6,7 +6,7 @@ for program in parallel rsync ssh sshd ssh-keygen; do
   PATH=$PATH:/usr/sbin command -v $program > /dev/null || { echo "skipped: $program is not installed (parallel, rsync, openssh-server)"; exit 77; }
 done
 at=$folder/ssh
-mkdir -m 700 "$at"
+mkdir -m 700 "$at" "$folder/work"
 ssh-keygen -q -t ed25519 -N "" -f "$at/host"
 ssh-keygen -q -t ed25519 -N "" -f "$at/key"
 cp "$at/key.pub" "$at/authorized"
@@ -21,6 +21,7 @@ UsePAM no
 PasswordAuthentication no
 StrictModes no
 PermitRootLogin yes
+SetEnv TMPDIR=$folder/work
 CONF
 [ "$(id -u)" = 0 ] && mkdir -p /run/sshd
 $(PATH=$PATH:/usr/sbin command -v sshd) -D -e -f "$at/sshd_config" 2> "$at/log" &
@@ -122,16 +123,18 @@ if has_generator; then
   expect 0 "collecting its cases" "$btr" array collect "$folder/trial-job"
   says out "3 elements collected"
   same_trial "$folder/trial-one" "$folder/trial" "a blind trial over ssh"
-  expect 0 "more cases in one process" trial 43 --out "$folder/trial-one"
-  trial 43 --out "$folder/trial" --ssh "$folder/trial-more" --hosts "$folder/two" --per-element 20 > "$folder/long.out" 2> "$folder/long.err" &
+  expect 0 "more cases in one process" trial 23 --out "$folder/trial-one"
+  trial 23 --out "$folder/trial" --ssh "$folder/trial-more" --hosts "$folder/two" --per-element 10 > "$folder/long.out" 2> "$folder/long.err" &
   working=$!
-  until [ "$(of "$folder/trial-more" 'sum(e["share"] > 0 and e["trials_per_second"] > 0 for e in j["elements"])' 2> /dev/null)" = 2 ]; do
+  until ls "$folder"/work/uchilsim-element-*/out/case_004/verdict.json > /dev/null 2>&1; do
     kill -0 $working 2> /dev/null || { fail "the longer trial ended"; cat "$folder/long.err"; break; }
-    sleep 0.2
+    sleep 0.05
   done
   expect 0 "cancelling the trial" "$btr" array cancel "$folder/trial-more"
   wait $working
   [ $? = 3 ] || fail "the cancelled trial did not say that it was stopped"
+  [ "$(of "$folder/trial-more" 'any(0 < e["share"] < 1 and e["trials_per_second"] > 0 for e in j["elements"])')" = True ] ||
+    { fail "the states of the cancelled trial:"; "$btr" array status "$folder/trial-more"; }
   expect 0 "the trial goes on" "$btr" array resume "$folder/trial-more" --hosts "$folder/hosts"
   expect 0 "collecting the longer trial" "$btr" array collect "$folder/trial-more"
   same_trial "$folder/trial-one" "$folder/trial" "a cancelled blind trial over ssh"

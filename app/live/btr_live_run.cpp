@@ -12,7 +12,9 @@
 #include "app/live/btr_camera_eye.h"
 #include "app/live/btr_live_steering.h"
 #include "app/openr/btr_openr_robots.h"
+#include "core/live/log_replay.h"
 #include "core/live/moment.h"
+#include "core/live/moment_experiment.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/sim/model_losses.h"
@@ -51,8 +53,9 @@ std::unique_ptr<Watchdog> watchdogOf(const LiveArguments& arguments, bool json) 
 /// The periods of a session, its acts from a log, its rows for a file.
 class LiveRun {
  public:
-  LiveRun(const LiveArguments& arguments, Game game, const PluginHost& host, bool json)
+  LiveRun(const LiveArguments& arguments, Game game, std::optional<SessionLog> log, const PluginHost& host, bool json)
       : arguments_(arguments),
+        host_(host),
         json_(json),
         begun_(game),
         dog_(watchdogOf(arguments, json)),
@@ -61,10 +64,10 @@ class LiveRun {
                                                  // Its process is ended by whoever started it: the world goes on.
                                                })),
         session_(std::move(game), host, dog_.get(), cameraMaker()) {
-    if (!arguments.replay.empty()) {
-      replayed_ = loadSessionLog(arguments.replay);
-      if (replayed_->gameSha256 != gameSha256(begun_))
+    if (log) {
+      if (log->gameSha256 != gameSha256(begun_))
         throw InputError(arguments.replay, "it began with another game", "the log of a session of " + arguments.game);
+      replay_ = std::make_unique<LogReplay>(std::move(*log), session_.periods());
     }
     if (!arguments.log.empty()) written_ = std::make_unique<SessionLogWriter>(arguments.log, begun_);
     session_.onAct([this](long period, const Act& act) {
@@ -74,7 +77,7 @@ class LiveRun {
     for (const OpenrChoice& choice : arguments.sticks)
       session_.apply(ControllerAct{choice.robot, controllerOf(choice)});
     // What programs did stands in the log that is played again.
-    if (!replayed_) openr_ = std::make_unique<OpenrRobots>(session_, programDog_.get());
+    if (!replay_) openr_ = std::make_unique<OpenrRobots>(session_, programDog_.get());
     if (openr_ && arguments.strict)
       if (const std::vector<std::string> failures = openr_->failures(); !failures.empty())
         throw InputError(failures.front());
@@ -87,13 +90,33 @@ class LiveRun {
 
   long wanted(bool secondsGiven) const {
     const long from = session_.periods();
-    if (replayed_ && !secondsGiven) return replayed_->periods;
-    return from + std::lround(arguments_.seconds / session_.game().scene.controlPeriod_s);
+    const double period_s = session_.game().scene.controlPeriod_s;
+    const double from_s = static_cast<double>(from) * period_s;
+    if (arguments_.until_s && *arguments_.until_s < from_s)
+      throw InputError("--until", toText(*arguments_.until_s) + " s", "at least " + toText(from_s) + " s, the start");
+    if (arguments_.until_s && replay_ && *arguments_.until_s > static_cast<double>(replay_->log().periods) * period_s)
+      throw InputError("--until", toText(*arguments_.until_s) + " s",
+                       "at most " + toText(static_cast<double>(replay_->log().periods) * period_s) + " s, where " +
+                           arguments_.replay + " ends");
+    if (arguments_.until_s) return std::lround(*arguments_.until_s / period_s);
+    if (replay_ && !secondsGiven) return replay_->log().periods;
+    return from + std::lround(arguments_.seconds / period_s);
   }
 
   /// By lines on standard input.
   void steer(const std::atomic<bool>& stop) {
-    LiveSteering(session_, *openr_, [this](const std::string& path) { save(path); }).run(stop);
+    LiveSteering::Work work;
+    work.step = [this] { step(); };
+    work.act = [this] { return act(); };
+    work.save = [this](const std::string& path) { save(path); };
+    work.saveScene = [this](const std::string& path) { saveScene(path); };
+    work.saveExperiment = [this](const std::string& path, const std::string& robot) {
+      writeExperiment(experimentOf(session_, host_, robot), path);
+    };
+    work.programs = [this] { return openr_.get(); };
+    work.replay = [this] { return replay_.get(); };
+    work.goOn = [this] { goOn(); };
+    LiveSteering(session_, std::move(work)).run(stop);
   }
 
   void run(long until, const std::atomic<bool>& stop) {
@@ -105,8 +128,7 @@ class LiveRun {
     while (session_.fault().empty() && !stop) {
       act();
       if (session_.periods() >= until) break;
-      if (openr_) openr_->step();
-      session_.step();
+      step();
       tellConsole();
       if (!arguments_.csv.empty() && session_.fault().empty()) sample();
       if (camera_ && session_.fault().empty()) camera_->tell(session_);
@@ -122,8 +144,11 @@ class LiveRun {
   nlohmann::json finish() {
     if (!arguments_.save.empty()) save(arguments_.save);
     if (!arguments_.saveScene.empty()) saveScene(arguments_.saveScene);
+    if (!arguments_.saveExperiment.empty())
+      writeExperiment(experimentOf(session_, host_, arguments_.learner), arguments_.saveExperiment);
     if (openr_) openr_->end();
     tellConsole();
+    if (session_.periods() != marked_) keepMark(session_.periods(), session_.mark());
     const std::string sha = session_.traceSha256();
     if (written_) written_->end(session_.periods(), sha);
     if (!arguments_.csv.empty()) writeOut(arguments_.csv, trace_.toCsv());
@@ -136,14 +161,50 @@ class LiveRun {
     if (openr_)
       if (nlohmann::json states = openr_->states(); !states.empty()) result["programs"] = std::move(states);
     if (session_.referee()) addReferee(session_, result, 0);
-    if (replayed_ && !replayed_->traceSha256.empty() && session_.periods() == replayed_->periods)
-      result["identical"] = sha == replayed_->traceSha256;
+    if (replay_) tellSameness(result, sha);
     return result;
   }
 
   std::vector<std::string> programFailures() const { return openr_ ? openr_->failures() : std::vector<std::string>{}; }
 
  private:
+  /// One control period on.
+  void step() {
+    if (openr_) openr_->step();
+    const long before = session_.periods();
+    session_.step();
+    const long now = session_.periods();
+    if (now != before && now % SessionLog::markEvery == 0 && !(replay_ && replay_->hasMarks()))
+      keepMark(now, session_.mark());
+  }
+
+  void keepMark(long period, const std::string& mark) {
+    marked_ = period;
+    if (written_) written_->mark(period, mark);
+  }
+
+  /// What the log that is played again has here; true if the game's numbers are others now.
+  bool act() {
+    if (!replay_) return false;
+    return replay_->act(session_, [this](long period, const std::string& mark) { keepMark(period, mark); });
+  }
+
+  /// What is left of the log is given up: hands and programs have it from here.
+  void goOn() {
+    openr_ = std::make_unique<OpenrRobots>(session_, programDog_.get());
+    replay_.reset();
+  }
+
+  void tellSameness(nlohmann::json& result, const std::string& sha) const {
+    const SessionLog& log = replay_->log();
+    if (!log.traceSha256.empty() && session_.periods() == log.periods) result["identical"] = sha == log.traceSha256;
+    if (log.marks.empty()) return;
+    result["identical_until"] = replay_->sameUntil();
+    if (!replay_->differsBy()) return;
+    result["differs_by"] = *replay_->differsBy();
+    result["identical"] = false;
+  }
+
   static GameController controllerOf(const OpenrChoice& choice) {
     GameController controller;
     controller.openr = choice.stick;
@@ -158,20 +219,16 @@ class LiveRun {
     if (!json_) std::fflush(stdout);
   }
 
+  // A checkpoint would give a log that is played again other bits.
   void save(const std::string& path) {
-    writeFile(path, toJsonText(movedTo(session_.save(), std::filesystem::path(path).parent_path().string())));
+    Game game = replay_ ? session_.saved() : session_.save();
+    writeFile(path, toJsonText(movedTo(std::move(game), std::filesystem::path(path).parent_path().string())));
   }
 
   void saveScene(const std::string& path) {
     Game moment;
     moment.scene = momentOf(session_);
     writeFile(path, toJsonText(movedTo(std::move(moment), std::filesystem::path(path).parent_path().string()).scene));
-  }
-
-  void act() {
-    if (!replayed_) return;
-    while (next_ < replayed_->acts.size() && replayed_->acts[next_].period <= session_.periods())
-      session_.apply(replayed_->acts[next_++].act);
   }
 
   void sample() {
@@ -182,26 +239,39 @@ class LiveRun {
   }
 
   const LiveArguments& arguments_;
+  const PluginHost& host_;
   bool json_;
   Game begun_;
   std::unique_ptr<Watchdog> dog_, programDog_;
   Session session_;
-  std::optional<SessionLog> replayed_;
+  std::unique_ptr<LogReplay> replay_;
   std::unique_ptr<SessionLogWriter> written_;
   std::unique_ptr<OpenrRobots> openr_;  ///< none while a log is played again
   std::unique_ptr<LiveCamera> camera_;
   Trace trace_;
-  std::size_t next_ = 0;
+  long marked_ = -1;  ///< the period of the last mark
   double seconds_ = 0, simulated_ = 0;
 };
+
+/// Where it is known.
+std::string firstDifference(const nlohmann::json& result) {
+  if (!result.contains("differs_by")) return {};
+  return ": the first difference is between the steps " + result["identical_until"].dump() + " and " +
+         result["differs_by"].dump();
+}
 
 }  // namespace
 
 void runLive(const LiveArguments& arguments, bool secondsGiven, Shell& shell) {
-  Game game = loadGame(arguments.game);
+  std::optional<SessionLog> log;
+  if (!arguments.replay.empty()) log = loadSessionLog(arguments.replay);
+  if (arguments.game.empty() && !log->game)
+    throw InputError(arguments.replay, "its game is not in it",
+                     "the game's file beside it: btr live GAME --replay LOG");
+  Game game = arguments.game.empty() ? *log->game : loadGame(arguments.game);
   const ModelSet models = loadModels(game.scene);
   for (const std::string& loss : modelLosses(game.scene, models)) std::fprintf(stderr, "%s\n", loss.c_str());
-  LiveRun run(arguments, std::move(game), shell.plugins(), shell.json);
+  LiveRun run(arguments, std::move(game), std::move(log), shell.plugins(), shell.json);
   if (arguments.steered) {
     run.steer(*shell.stop);
     run.finish();
@@ -220,7 +290,10 @@ void runLive(const LiveArguments& arguments, bool secondsGiven, Shell& shell) {
       std::cout << "red " << result["score"][0] << ", blue " << result["score"][1] << ", half " << result["half"]
                 << " at " << brief(result["clock_s"]) << " s\n";
     if (result.contains("identical"))
-      std::cout << (differs ? "NOT identical to the log's\n" : "identical to the log's\n");
+      std::cout << (differs ? "NOT identical to the log's" + firstDifference(result) : "identical to the log's")
+                << "\n";
+    else if (result.contains("identical_until"))
+      std::cout << "identical to the log's up to step " << result["identical_until"] << "\n";
   }
   if (!fault.empty()) std::fprintf(stderr, "the world stopped: %s\n", fault.c_str());
   const std::vector<std::string> failures = run.programFailures();

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct OpenrChoice {
 
 /// What a running world without a window is asked for.
 struct LiveArguments {
-  std::string game, replay, log, csv, save, saveScene;
+  std::string game, replay, log, csv, save, saveScene, saveExperiment, learner;
+  std::optional<double> until_s{};  ///< of the world's time
   double seconds = 10, speed = 0, patience_s = 2;
   bool steered = false;
   LiveCameraOptions camera;
@@ -25,7 +27,7 @@ struct LiveArguments {
 };
 
 /// Runs it, and says on standard output what came of it. `secondsGiven`: else a log is played to its end. Throws
-/// InputError.
+/// InputError. Without a game, that of the log.
 void runLive(const LiveArguments& arguments, bool secondsGiven, Shell& shell);
 
 }  // namespace btr::cli

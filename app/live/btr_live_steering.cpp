@@ -39,8 +39,7 @@ void say(const nlohmann::json& line) {
 
 void tellLine(const nlohmann::json& line) { say(line); }
 
-LiveSteering::LiveSteering(Session& session, OpenrRobots& openr, std::function<void(const std::string&)> save)
-    : session_(session), openr_(openr), save_(std::move(save)) {
+LiveSteering::LiveSteering(Session& session, Work work) : session_(session), work_(std::move(work)) {
   if (const RefereeState* referee = session_.referee()) {
     over_ = referee->over;
     eventsTold_ = referee->seen;
@@ -49,14 +48,16 @@ LiveSteering::LiveSteering(Session& session, OpenrRobots& openr, std::function<v
 
 void LiveSteering::run(const std::atomic<bool>& stop) {
   tellGame();
+  if (work_.replay()) tellLog();
   tellRow();
   while (!ended_ && !stop && std::cout.good()) {
     if (!readInput(untilNext_ms())) break;
-    if (playing_) advance();
+    if (playing_ || goal_) advance();
   }
 }
 
 int LiveSteering::untilNext_ms() const {
+  if (goal_) return 0;
   if (!playing_) return 200;  // Ctrl-C is noticed
   if (speed_ <= 0) return 0;
   const double period = session_.game().scene.controlPeriod_s / speed_;
@@ -86,29 +87,18 @@ void LiveSteering::obey(const std::string& line) {
   try {
     JsonReader reader = JsonReader::parse(line, "line");
     if (reader.has("act")) return act(reader);
-    const std::string wanted = reader.word(
-        "do", {"play", "pause", "step", "speed", "save", "game", "signals", "contacts", "type", "undo", "redo", "end"});
-    if (wanted == "play") playing_ = true;
-    if (wanted == "pause") playing_ = false;
-    if (wanted == "end") ended_ = true;
-    if (wanted == "game") tellGame();
+    const std::string wanted =
+        reader.word("do", {"play", "pause", "step", "speed", "save", "save_scene", "save_experiment", "game", "signals",
+                           "contacts", "type", "undo", "redo", "go_to", "go_on", "end"});
     if (wanted == "undo" || wanted == "redo") {
       reader.finish();
+      requireHands();
       return change([&] { wanted == "undo" ? undo_.undo(session_) : undo_.redo(session_); });
     }
-    if (wanted == "signals") chooseSignals(reader);
-    if (wanted == "contacts") session_.measureContacts(reader.flag("on", true));
-    if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
-    if (wanted == "type") openr_.type(reader.text("robot"), reader.text("text"));
-    if (wanted == "save") {
-      const std::string path = reader.text("path");
-      if (const nlohmann::json* view = reader.any("view")) session_.setView(view->dump());
-      save_(path);
-      say({{"saved", path}});
-    }
+    work(wanted, reader);
     const long periods = wanted == "step" ? static_cast<long>(reader.integer("periods", 1, 10000, 1)) : 0;
     reader.finish();
-    for (long i = 0; i < periods; ++i) stepOnce();
+    for (long i = 0; i < periods && stepOnce(); ++i) continue;
     anchor_s_ = measuredFrom_s_ = now_s();
     anchorPeriods_ = measuredPeriods_ = session_.periods();
     factor_ = 0;
@@ -118,7 +108,52 @@ void LiveSteering::obey(const std::string& line) {
   }
 }
 
+void LiveSteering::work(const std::string& wanted, JsonReader& reader) {
+  if (wanted == "play") playing_ = true;
+  if (wanted == "pause") {
+    playing_ = false;
+    goal_.reset();
+  }
+  if (wanted == "end") ended_ = true;
+  if (wanted == "game") tellGame();
+  if (wanted == "signals") chooseSignals(reader);
+  if (wanted == "contacts") session_.measureContacts(reader.flag("on", true));
+  if (wanted == "speed") speed_ = reader.number("times", 0, 1000);
+  if (wanted == "type") {
+    requireHands();
+    work_.programs()->type(reader.text("robot"), reader.text("text"));
+  }
+  if (wanted == "go_to") goTo(reader);
+  if (wanted == "go_on") {
+    if (!work_.replay()) reader.refuse("do", "go_on while a log is played again");
+    goal_.reset();
+    work_.goOn();
+  }
+  if (!wanted.starts_with("save")) return;
+  const std::string path = reader.text("path");
+  if (wanted == "save") {
+    if (const nlohmann::json* view = reader.any("view")) session_.setView(view->dump());
+    work_.save(path);
+  }
+  if (wanted == "save_scene") work_.saveScene(path);
+  if (wanted == "save_experiment") work_.saveExperiment(path, reader.text("robot", ""));
+  say({{"saved", path}, {"what", wanted.size() > 5 ? wanted.substr(5) : "game"}});
+}
+
+void LiveSteering::requireHands() const {
+  if (work_.replay())
+    throw InputError("a hand", "a log that is played again", "hands once it is a session again: go on from here");
+}
+
+void LiveSteering::goTo(JsonReader& reader) {
+  const LogReplay* replay = work_.replay();
+  if (!replay) reader.refuse("do", "go_to while a log is played again");
+  goal_ = static_cast<long>(
+      reader.integer("period", session_.periods(), std::max(session_.periods(), replay->log().periods)));
+}
+
 void LiveSteering::act(JsonReader& reader) {
+  requireHands();
   std::optional<long> gesture;
   if (reader.has("gesture")) gesture = static_cast<long>(reader.integer("gesture", 0, 1'000'000'000));
   nlohmann::json act = reader.node();
@@ -154,8 +189,13 @@ void LiveSteering::advance() {
     if (speed_ <= 0) return session_.periods() + 1;
     return anchorPeriods_ + static_cast<long>(std::floor((now_s() - anchor_s_) * speed_ / period));
   };
-  while (session_.periods() < due() && now_s() - begin < workAtMost_s && session_.fault().empty() && playing_) {
-    stepOnce();
+  const auto wanted = [&] { return goal_ ? *goal_ : due(); };
+  while (session_.periods() < wanted() && now_s() - begin < workAtMost_s && (playing_ || goal_)) {
+    if (!stepOnce()) {
+      playing_ = false;
+      goal_.reset();
+      break;
+    }
     // The end of a game is a moment to look at: it waits there.
     if (session_.referee() && session_.referee()->over && !over_) {
       over_ = true;
@@ -163,6 +203,16 @@ void LiveSteering::advance() {
     }
   }
   const double now = now_s();
+  if (goal_) {
+    anchor_s_ = measuredFrom_s_ = now;
+    anchorPeriods_ = measuredPeriods_ = session_.periods();
+    factor_ = 0;
+    // At its goal it waits for what has to be told there, too.
+    if (session_.periods() < *goal_ && now < nextRow_s_) return;
+    if (session_.periods() >= *goal_) goal_.reset();
+    nextRow_s_ = now + rowEvery_s;
+    return tellRow();
+  }
   if (speed_ > 0 && static_cast<double>(due() - session_.periods()) * period / speed_ > behindAtMost_s) {
     anchor_s_ = now;
     anchorPeriods_ = session_.periods();
@@ -178,13 +228,18 @@ void LiveSteering::advance() {
   tellRow();
 }
 
-void LiveSteering::stepOnce() {
-  openr_.step();
-  session_.step();
-  if (!signals_.wanted() || !session_.fault().empty()) return;
+bool LiveSteering::stepOnce() {
+  const LogReplay* replay = work_.replay();
+  if (replay) replayActs();
+  if (replay && replay->isOver(session_)) return false;
+  work_.step();
+  if (replay && session_.periods() >= replay->log().periods && session_.fault().empty()) replayActs();
+  if (!session_.fault().empty()) return false;
+  if (!signals_.wanted()) return true;
   sampled_.clear();
   session_.sample(sampled_);
   signals_.add(session_.periods(), sampled_);
+  return true;
 }
 
 // What was kept of the channels before is told first, so that every sample belongs to the channels that were told last.
@@ -197,8 +252,29 @@ void LiveSteering::chooseSignals(JsonReader& reader) {
 }
 
 void LiveSteering::tellGame() {
+  gameChanged_ = false;
   signals_.resolve(session_.channels());
   say(gameLine(session_));
+}
+
+// Objects that come or go are told at once: samples belong to the channels that were told.
+void LiveSteering::replayActs() {
+  const auto channels = session_.channels();
+  gameChanged_ |= work_.act();
+  if (session_.channels() != channels) tellGame();
+}
+
+// Once: what a line of time shows.
+void LiveSteering::tellLog() {
+  const LogReplay& replay = *work_.replay();
+  nlohmann::json acts = nlohmann::json::array();
+  for (const NamedActs& each : actsOf(replay.log(), session_.game().scene.controlPeriod_s))
+    acts.push_back({each.from, each.to, each.name});
+  say({{"log",
+        {{"from", replay.from()},
+         {"until", replay.log().periods},
+         {"marks", replay.log().marks.size()},
+         {"acts", std::move(acts)}}}});
 }
 
 void LiveSteering::tellReferee(nlohmann::json& line) {
@@ -220,18 +296,26 @@ void addReferee(const Session& session, nlohmann::json& line, long from) {
 }
 
 void LiveSteering::tellPrograms(nlohmann::json& line) {
-  for (const openr::LivePrograms::Line& said : openr_.takeLines())
+  OpenrRobots* programs = work_.programs();
+  if (!programs) return;
+  for (const openr::LivePrograms::Line& said : programs->takeLines())
     line["console"].push_back({said.robot, said.object, said.text});
-  if (openr_.changes() == programsTold_) return;
-  programsTold_ = openr_.changes();
-  line["programs"] = openr_.states();
+  if (programs->changes() == programsTold_) return;
+  programsTold_ = programs->changes();
+  line["programs"] = programs->states();
 }
 
 void LiveSteering::tellRow() {
+  if (gameChanged_) tellGame();
   nlohmann::json line = rowLine(session_, playing_, factor_);
   if (signals_.wanted()) line["samples"] = signals_.take();
   if (session_.referee()) tellReferee(line);
   tellPrograms(line);
+  if (const LogReplay* replay = work_.replay()) {
+    nlohmann::json& told = line["replay"];
+    told = {{"same_until", replay->sameUntil()}, {"over", replay->isOver(session_)}};
+    if (replay->differsBy()) told["differs_by"] = *replay->differsBy();
+  }
   say(line);
 }
 

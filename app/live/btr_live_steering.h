@@ -6,6 +6,7 @@
 
 #include "app/live/btr_live_signals.h"
 #include "app/openr/btr_openr_robots.h"
+#include "core/live/log_replay.h"
 #include "core/live/session.h"
 #include "core/live/undo.h"
 
@@ -18,15 +19,33 @@ namespace btr::cli {
 /// manual/formats/game.md. Ends with standard input, with {"do": "end"}, or when `stop` is raised.
 class LiveSteering {
  public:
-  /// `save(path)` writes the game; what it throws as InputError is answered as a refusal.
-  LiveSteering(Session& session, OpenrRobots& openr, std::function<void(const std::string& path)> save);
+  /// What is done with the session; what these throw as InputError is answered as a refusal.
+  struct Work {
+    std::function<void()> step;  ///< one control period
+    /// What a log that is played again has before the next one; true if the game's numbers are others then.
+    std::function<bool()> act;
+    std::function<void(const std::string&path)> save, saveScene;
+    std::function<void(const std::string& path, const std::string& robot)> saveExperiment;
+    std::function<OpenrRobots*()> programs;  ///< null while a log is played again
+    std::function<LogReplay*()> replay;      ///< null while hands are on
+    std::function<void()> goOn;              ///< ends the replay
+  };
+  LiveSteering(Session& session, Work work);
   void run(const std::atomic<bool>& stop);
 
  private:
   bool readInput(int wait_ms);
   void obey(const std::string& line);
+  /// {"do": …}, all but undo and redo.
+  void work(const std::string& wanted, JsonReader& reader);
   void advance();
-  void stepOnce();
+  /// False where it cannot go on: a log's end, a world that stopped.
+  bool stepOnce();
+  /// Hands are off while a log is played again.
+  void requireHands() const;
+  void goTo(JsonReader& reader);
+  void tellLog();
+  void replayActs();
   void tellGame();
   void tellRow();
   void tellPrograms(nlohmann::json& line);
@@ -40,20 +59,21 @@ class LiveSteering {
   int untilNext_ms() const;
 
   Session& session_;
-  OpenrRobots& openr_;
+  Work work_;
   long programsTold_ = -1;  ///< OpenrRobots::changes()
-  std::function<void(const std::string&)> save_;
   UndoStack undo_;
   std::string undoTold_, redoTold_;
   LiveSignals signals_;
   std::vector<double> sampled_;  ///< one row
   std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
-  bool over_ = false;       ///< the referee's game
-  long eventsTold_ = 0;     ///< of the referee
-  double speed_ = 1;        ///< simulated seconds a second; 0: as fast as possible
-  double anchor_s_ = 0;     ///< wall time …
-  long anchorPeriods_ = 0;  ///< … at which this period was due
+  bool over_ = false;         ///< the referee's game
+  bool gameChanged_ = false;  ///< since it was told, by a log's acts
+  std::optional<long> goal_;  ///< a period to which a log is played as fast as possible
+  long eventsTold_ = 0;       ///< of the referee
+  double speed_ = 1;          ///< simulated seconds a second; 0: as fast as possible
+  double anchor_s_ = 0;       ///< wall time …
+  long anchorPeriods_ = 0;    ///< … at which this period was due
   double measuredFrom_s_ = 0, factor_ = 0;
   long measuredPeriods_ = 0;
   double nextRow_s_ = 0;

@@ -204,8 +204,20 @@ void Session::holdCommands(const WorldMemory& memory, const Commands& commands) 
   }
 }
 
+void Session::hash(std::string_view bytes) {
+  hash_.add(bytes);
+  sinceMark_.add(bytes);
+}
+
 void Session::hashChannels() {
-  for (const std::string& channel : channels()) hash_.add(channel + "\n");
+  for (const std::string& channel : channels()) hash(channel + "\n");
+}
+
+std::string Session::mark() {
+  const std::string mark = sinceMark_.finish();
+  sinceMark_ = Sha256();
+  sinceMark_.add(mark);
+  return mark;
 }
 
 void Session::setPulls() {
@@ -279,7 +291,7 @@ void Session::step() {
   sense(false);
   row_.clear();
   sample(row_);
-  hash_.add({reinterpret_cast<const char*>(row_.data()), row_.size() * sizeof(double)});
+  hash({reinterpret_cast<const char*>(row_.data()), row_.size() * sizeof(double)});
   officiate();
   if (periods_ % goodEvery == 0) lastGood_ = world_->memory();
 }
@@ -361,10 +373,16 @@ void Session::change(const CheckpointAct&) { rebuild(game_, world_->memory()); }
 
 Game Session::save() {
   if (fault_.empty()) apply(CheckpointAct{});
+  // What the world was begun anew from: what it remembers of it may differ in a last bit.
+  return savedWith(lastGood_);
+}
+
+Game Session::saved() const { return savedWith(fault_.empty() ? world_->memory() : lastGood_); }
+
+Game Session::savedWith(WorldMemory world) const {
   Game saved = game_;
   GameState state;
-  // What the world was begun anew from: what it remembers of it may differ in a last bit.
-  state.world = lastGood_;
+  state.world = std::move(world);
   state.periods = periods_;
   for (const auto& [name, player] : players_) {
     state.clocks[name] = player.clock;

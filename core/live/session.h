@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/live/act.h"
@@ -38,6 +39,9 @@ class Session {
   /// The game as it is now, with its state: a checkpoint is made (and logged), so that a session of what is returned
   /// goes on with the same bits as this one.
   Game save();
+  /// The same without a checkpoint: this session's own bits stay as they are, what is saved goes on from what the
+  /// world remembers now.
+  Game saved() const;
 
   const Game& game() const { return game_; }
   const Scene& scene() const { return scene_; }
@@ -61,6 +65,9 @@ class Session {
   const std::string& fault() const { return fault_; }
   /// SHA-256 over the traces' rows since the session began (or was loaded); call it once, at the end.
   std::string traceSha256() { return hash_.finish(); }
+  /// SHA-256 over the rows since the mark before, with that mark, so that two sessions can be compared as they go:
+  /// the same up to here if they are the same at marks of the same periods.
+  std::string mark();
   /// From now on the contacts of each step are kept, or no longer; no bit of the motion changes.
   void measureContacts(bool on);
   bool measuresContacts() const { return contacts_; }
@@ -123,7 +130,9 @@ class Session {
   /// The session's senses become these; what both have is remembered.
   void takeSenses(std::vector<Sensing> sensing);
   void sense(bool onlyNew);
+  void hash(std::string_view bytes);
   void hashChannels();
+  Game savedWith(WorldMemory world) const;
   SimulatorSpec& simulatorOf(Game& game, const std::string& robot) const;
   std::size_t robotOf(const std::string& name) const;
   std::size_t jointOf(std::size_t robot, const std::string& joint) const;
@@ -151,7 +160,7 @@ class Session {
   WorldMemory lastGood_;
   long periods_ = 0;
   std::string fault_;
-  Sha256 hash_;
+  Sha256 hash_, sinceMark_;
   std::function<void(long, const Act&)> logged_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/model/servo_by_load.h"
 #include "core/model/vrml_parser.h"
 #include "core/model/vrml_robot.h"
 #include "core/spec/error.h"
@@ -18,6 +19,7 @@ RobotModel readVrml(const std::string& text, const std::string& place, const std
   document.roots = vrml::Parser(document, budget, spent, folder).readFile(text, place, path);
   RobotModel model = vrml::extractRobot(document, budget);
   checkModel(model, place);
+  chooseServosByLoad(model);
   return model;
 }
 

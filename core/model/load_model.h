@@ -44,9 +44,9 @@ RobotModel parseVrml(const std::string& text, const std::string& place, const Mo
 RobotModel parseUrdf(const std::string& text, const std::string& place, const ModelBudget& budget = {},
                      const MeshSource& meshes = {});
 
-/// Semantic checks: mass > 0, inertia symmetric, positive definite and within the triangle inequality, limits in order,
-/// unit axes, unique names, one root. Throws InputError at the first violation.
-void checkModel(const RobotModel& model, const std::string& place);
+/// Semantic checks: mass > 0, inertia symmetric and positive definite, limits in order, unit axes, unique names, one
+/// root. Throws InputError at the first violation. Moments that violate the triangle inequality become a warning.
+void checkModel(RobotModel& model, const std::string& place);
 
 /// What `btr model check` prints: links, joints, masses, centre of mass, warnings with line numbers.
 std::string describeModel(const RobotModel& model);

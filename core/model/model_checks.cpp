@@ -5,6 +5,7 @@
 
 #include "core/model/load_model.h"
 #include "core/spec/error.h"
+#include "core/spec/figures.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
@@ -51,9 +52,10 @@ void checkServo(const Joint& joint, const std::string& place) {
   check(joint.speedLimit, "the speed limit");
 }
 
-/// Eigenvalues must be those of a body with mass: positive, none larger than the sum of the others. Files have few
-/// digits, so a thin plate may miss the second by a ten thousandth.
-void checkInertia(const Link& link, const std::string& place) {
+/// Eigenvalues must be those of a body with mass: positive. None of a real body's is larger than the sum of the others;
+/// files of estimated or rounded numbers break that, and what moves by them still obeys Newton: a warning. Files have
+/// few digits, so a thin plate may miss it by a ten thousandth.
+void checkInertia(const Link& link, const std::string& place, std::vector<Warning>& warnings) {
   const Eigen::Matrix3d& inertia = link.inertial.inertia_kg_m2;
   const std::string name = "link " + link.name + ": the inertia ";
   if (!inertia.allFinite()) throw InputError(place, link.line, name + "must be finite");
@@ -67,12 +69,14 @@ void checkInertia(const Link& link, const std::string& place) {
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia / size, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(moments(0) > 1e-9)) throw InputError(place, link.line, name + "must be positive definite");
   if (moments(2) > (moments(0) + moments(1)) * (1 + 1e-4))
-    throw InputError(place, link.line,
-                     name + "violates the triangle inequality: principal moments " + toText(moments(0) * size) + ", " +
-                         toText(moments(1) * size) + ", " + toText(moments(2) * size) + " kg m2");
+    warnings.push_back({link.line,
+                        name + "violates the triangle inequality, which no real body does: principal moments " +
+                            brief(moments(0) * size) + ", " + brief(moments(1) * size) + ", " +
+                            brief(moments(2) * size) + " kg m2; simulated as given",
+                        Warning::Loss::inertia, link.name});
 }
 
-void checkLink(const Link& link, bool mayBeMassless, const std::string& place) {
+void checkLink(const Link& link, bool mayBeMassless, const std::string& place, std::vector<Warning>& warnings) {
   const Inertial& inertial = link.inertial;
   if (mayBeMassless && inertial.mass_kg == 0) return;
   if (!(inertial.mass_kg >= lightest_kg && inertial.mass_kg <= largestNumber))
@@ -83,7 +87,7 @@ void checkLink(const Link& link, bool mayBeMassless, const std::string& place) {
     throw InputError(place, link.line, "link " + link.name + ": centre of mass must be finite");
   checkLargest(inertial.centreOfMass_m.cwiseAbs().maxCoeff(), "link " + link.name + ": the centre of mass [m]",
                link.line, place);
-  checkInertia(link, place);
+  checkInertia(link, place, warnings);
 }
 
 void checkJoint(const Joint& joint, std::size_t number, const std::string& place) {
@@ -128,7 +132,7 @@ class Names {
 
 }  // namespace
 
-void checkModel(const RobotModel& model, const std::string& place) {
+void checkModel(RobotModel& model, const std::string& place) {
   if (model.links.empty()) throw InputError(place + ": the robot has no links; at least one is expected");
   if (model.joints.size() + 1 != model.links.size())
     throw InputError(place + ": the robot has " + std::to_string(model.links.size()) + " links and " +
@@ -141,7 +145,7 @@ void checkModel(const RobotModel& model, const std::string& place) {
     links.add(link.name, link.line);
     // A base that stands in the world needs no mass.
     checkSizes(link, place);
-    checkLink(link, i == 0 && !model.freeBase, place);
+    checkLink(link, i == 0 && !model.freeBase, place, model.warnings);
   }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];

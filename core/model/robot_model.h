@@ -50,7 +50,8 @@ struct Link {
   int line = 0;  ///< in the file, for messages
 };
 
-/// Numbers of a joint's servo and transmission that the file gave. Names and units as in the VRML extension.
+/// Numbers of a joint's servo and transmission that the file gave, or that chooseServosByLoad() chose. Names and units
+/// as in the VRML extension.
 struct ServoData {
   std::optional<double> p_nm_rad, i_nm_rad_s, d_nm_s_rad, maxTorque_nm, noLoadSpeed_rad_s;
   std::optional<double> coulombFriction_nm, viscousFriction_nm_s_rad, backlash_rad, commandDelay_s;
@@ -82,8 +83,8 @@ struct Joint {
   int line = 0;
 };
 
-/// The largest torque [N·m] or force [N] of a servo whose file gives none: that of the ERS-7's legs, 10 N on a slide
-/// joint.
+/// The largest torque [N·m] or force [N] of a servo whose file gives none and whose load it can hold: that of the
+/// ERS-7's legs, 10 N on a slide joint. For others see chooseServosByLoad().
 inline double defaultServoLimit(Joint::Type type) { return type == Joint::Type::slide ? 10 : 0.85; }
 
 struct Sensor {
@@ -99,8 +100,8 @@ struct Sensor {
 /// What a reader had to leave out or to assume.
 struct Warning {
   /// What the robot's motion loses by it: nothing, a shape that collides with nothing, a joint without limits or with
-  /// other ones than the file's, a torque limit that was assumed.
-  enum class Loss { none, collision, limits, effort };
+  /// other ones than the file's, a torque limit that was assumed, an inertia that no real body has.
+  enum class Loss { none, collision, limits, effort, inertia };
   int line = 0;
   std::string text;
   Loss loss = Loss::none;

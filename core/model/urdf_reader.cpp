@@ -1,10 +1,14 @@
 // URDF on tinyxml2, which is not recursive beyond 100 elements and expands no entities.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
+#include "core/model/servo_by_load.h"
 #include "core/model/urdf_shapes.h"
 #include "core/model/urdf_tree.h"
 #include "core/model/urdf_xml.h"
+#include "core/spec/figures.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
@@ -23,22 +27,48 @@ void checkText(const std::string& text, const UrdfXml& xml) {
   if (text.find('\0') != std::string::npos) xml.fail(1, "a control character is not allowed; URDF is plain text");
 }
 
-/// In the file's order: the first element that only xacro understands.
+/// In the file's order: the first element that only xacro understands, and whether xacro has work to do: without a
+/// definition, an inclusion, a "${" or a "$(" the file was expanded, and what is left names macros that nobody knows
+/// any more.
 class FindXacro : public tinyxml2::XMLVisitor {
  public:
-  bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute*) override {
-    if (!found && std::string(element.Name()).starts_with("xacro:")) found = &element;
-    return !found;
+  bool VisitEnter(const Element& element, const tinyxml2::XMLAttribute* first) override {
+    const std::string name = element.Name();
+    if (name.starts_with("xacro:")) {
+      if (!found) found = &element;
+      for (const char* own : {"macro", "include", "property", "arg", "if", "unless", "insert_block", "element"})
+        hasWork = hasWork || name.substr(6) == own;
+    }
+    for (const auto* each = first; each; each = each->Next())
+      for (const char* open : {"${", "$("})
+        hasWork = hasWork || std::string_view(each->Value()).find(open) != std::string_view::npos;
+    return true;
   }
   const Element* found = nullptr;
+  bool hasWork = false;
 };
+
+/// Where the text begins for XML: tools write comments before the declaration, which XML wants first. What is cut off
+/// keeps its lines.
+std::string withDeclarationFirst(std::string text) {
+  const std::size_t declaration = text.find("<?xml");
+  if (declaration == std::string::npos || declaration == 0) return text;
+  const std::size_t root = text.find("<robot");
+  if (root != std::string::npos && root < declaration) return text;
+  const std::size_t end = text.find("?>", declaration);
+  if (end == std::string::npos) return text;
+  for (std::size_t i = declaration; i < end + 2; ++i)
+    if (text[i] != '\n') text[i] = ' ';
+  return text;
+}
 
 class UrdfReader {
  public:
   UrdfReader(UrdfXml& xml, const MeshSource& meshes) : xml_(xml), shapes_(xml, meshes) {}
 
-  UrdfTree read(const std::string& text) {
-    checkText(text, xml_);
+  UrdfTree read(const std::string& given) {
+    checkText(given, xml_);
+    const std::string text = withDeclarationFirst(given);
     tinyxml2::XMLDocument document;
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
@@ -52,7 +82,7 @@ class UrdfReader {
       xml_.fail(robot ? robot->GetLineNum() : 1, "the outermost element must be <robot>");
     FindXacro xacro;
     robot->Accept(&xacro);
-    if (xacro.found)
+    if (xacro.found && xacro.hasWork)
       xml_.fail(*xacro.found, "<" + UrdfXml::shown(xacro.found->Name()) +
                                   "> belongs to xacro: expand the file first (xacro robot.urdf.xacro > robot.urdf)");
     tree_.name = robot->Attribute("name") ? robot->Attribute("name") : "";
@@ -186,11 +216,7 @@ class UrdfReader {
     const auto effort = xml_.notNegativeIfAny(limit, "effort", who);
     if (effort && *effort > 0) joint.servo.maxTorque_nm = effort;
     const bool moves = joint.type != Joint::Type::fixed;
-    if (effort && *effort == 0 && moves && !follows)
-      xml_.warn(*limit,
-                who + ": effort 0 is taken as not given: its servo gets " + toText(defaultServoLimit(joint.type)) +
-                    (joint.type == Joint::Type::slide ? " N" : " N m"),
-                Loss::effort, joint.name);
+    if (effort && *effort == 0 && moves && !follows) tree_.effortless[joint.name] = limit->GetLineNum();
     const auto velocity = xml_.notNegativeIfAny(limit, "velocity", who);
     joint.speedLimit = velocity.value_or(0);
     if (velocity && *velocity == 0 && moves)
@@ -205,13 +231,31 @@ class UrdfReader {
   UrdfTree tree_;
 };
 
+/// What servos get whose effort is 0, before what else is said of their lines.
+void sayEffortless(const std::map<std::string, int>& effortless, RobotModel& model) {
+  for (const auto& [name, line] : effortless) {
+    const int number = model.findJoint(name);
+    if (number < 0) continue;
+    const Joint& joint = model.joints[static_cast<std::size_t>(number)];
+    const double torque = joint.servo.maxTorque_nm.value_or(defaultServoLimit(joint.type));
+    const std::string text = "joint " + UrdfXml::shown(name) + ": effort 0 is taken as not given: its servo gets " +
+                             brief(torque) + (joint.type == Joint::Type::slide ? " N" : " N m");
+    model.warnings.insert(model.warnings.begin(), {line, text, Loss::effort, name});
+  }
+}
+
 }  // namespace
 
 RobotModel parseUrdf(const std::string& text, const std::string& place, const ModelBudget& budget,
                      const MeshSource& meshes) {
   UrdfXml xml(place, budget);
-  RobotModel model = makeModel(UrdfReader(xml, meshes).read(text), place);
+  UrdfTree tree = UrdfReader(xml, meshes).read(text);
+  const std::map<std::string, int> effortless = tree.effortless;
+  RobotModel model = makeModel(std::move(tree), place);
   checkModel(model, place);
+  chooseServosByLoad(model);
+  sayEffortless(effortless, model);
+  std::ranges::stable_sort(model.warnings, {}, &Warning::line);
   return model;
 }
 

@@ -14,6 +14,7 @@ class TreeMaker {
   TreeMaker(UrdfTree tree, const std::string& place) : tree_(std::move(tree)), place_(place) {}
 
   RobotModel make() {
+    declareWorld();
     connect();
     std::size_t root = findRoot();
     model_.name = tree_.name;
@@ -51,6 +52,20 @@ class TreeMaker {
       throw InputError(place_, joint.joint.line,
                        "joint " + joint.joint.name + ": there is no link \"" + name.substr(0, 40) + "\"");
     return found->second;
+  }
+
+  /// "world" is known to every simulator: a joint may hang from it though no link has that name.
+  void declareWorld() {
+    if (tree_.linkNumber.contains("world")) return;
+    for (const UrdfJoint& joint : tree_.joints)
+      if (joint.parent == "world") {
+        UrdfLink world;
+        world.link.name = "world";
+        world.link.line = joint.joint.line;
+        tree_.linkNumber.emplace("world", tree_.links.size());
+        tree_.links.push_back(std::move(world));
+        return;
+      }
   }
 
   void connect() {

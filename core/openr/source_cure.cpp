@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/openr/compiler_complaints.h"
+#include "core/openr/old_extensions.h"
+
 namespace btr::openr {
 namespace {
-
-using Place = std::pair<std::string, int>;  ///< file and line
-
-bool isNameCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 std::map<Place, std::set<std::string>> placesOf(const std::string& errors) {
   std::map<Place, std::set<std::string>> places;
@@ -46,89 +45,10 @@ std::size_t lastWord(const std::string& line, const std::string& name) {
   return std::string::npos;
 }
 
-/// What the compiler said about a place.
-struct Complaint {
-  std::string file, function, text;  ///< "In member function '…'" before it
-  int line, column;
-};
-
-std::vector<Complaint> complaintsOf(const std::string& errors) {
-  std::vector<Complaint> complaints;
-  std::istringstream in(errors);
-  std::string function;
-  const std::string mark = ": error: ", within = ": In ";
-  for (std::string line; std::getline(in, line);) {
-    if (const auto at = line.find(within); at != std::string::npos && line.find(mark) == std::string::npos)
-      function = line.substr(at);
-    const auto at = line.find(mark);
-    if (at == std::string::npos) continue;
-    const auto columnAt = line.rfind(':', at - 1);
-    const auto lineAt = columnAt == std::string::npos ? columnAt : line.rfind(':', columnAt - 1);
-    if (lineAt == std::string::npos) continue;
-    std::istringstream numbers(line.substr(lineAt + 1, columnAt - lineAt - 1) + " " +
-                               line.substr(columnAt + 1, at - columnAt - 1));
-    Complaint complaint{line.substr(0, lineAt), function, line.substr(at + mark.size()), 0, 0};
-    if (numbers >> complaint.line >> complaint.column && complaint.column > 0) complaints.push_back(complaint);
-  }
-  return complaints;
-}
-
 /// The word between `begin` and the next quote; empty if `text` does not start with `begin`.
 std::string quoted(const std::string& text, const std::string& begin) {
   if (text.rfind(begin, 0) != 0) return "";
   return text.substr(begin.size(), text.find('\'', begin.size()) - begin.size());
-}
-
-/// Where each line of each file begins in a preprocessed text. A line that stands there several times (a header without
-/// a guard) is its last one.
-std::map<Place, std::size_t> lineBegins(const std::string& preprocessed) {
-  std::map<Place, std::size_t> begins;
-  Place at{"", 1};
-  for (std::size_t begin = 0; begin < preprocessed.size();) {
-    auto end = preprocessed.find('\n', begin);
-    if (end == std::string::npos) end = preprocessed.size();
-    std::istringstream words(preprocessed.substr(begin, end - begin));
-    std::string hash, file;
-    int number = 0;
-    if (preprocessed[begin] == '#' && words >> hash >> number >> file && hash == "#" && file.size() > 1) {
-      at = {file.substr(1, file.rfind('"') - 1), number};
-    } else {
-      begins[at] = begin;
-      ++at.second;
-    }
-    begin = end + 1;
-  }
-  return begins;
-}
-
-/// The text with blanks for what stands in quotes and in lines that begin with #.
-std::string withoutLiterals(std::string text) {
-  char quote = 0;
-  bool lineBegin = true, skipped = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\n') {
-      lineBegin = true;
-      skipped = false;
-      quote = 0;
-      continue;
-    }
-    if (lineBegin && c == '#') skipped = true;
-    lineBegin = lineBegin && std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (skipped) {
-      text[i] = ' ';
-    } else if (quote != 0) {
-      text[i] = ' ';
-      if (c == '\\' && i + 1 < text.size() && text[i + 1] != '\n')
-        text[++i] = ' ';
-      else if (c == quote)
-        quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-      text[i] = ' ';
-    }
-  }
-  return text;
 }
 
 bool wordAt(const std::string& text, std::size_t at, const std::string& word) {
@@ -192,14 +112,6 @@ std::size_t befriendingClass(const std::string& text, std::size_t use, const std
   }
   return std::string::npos;
 }
-
-struct Change {
-  std::size_t length;  ///< of what it replaces
-  std::string text;
-};
-
-/// By place, so that two complaints about one place change it once.
-using Changes = std::map<std::size_t, Change>;
 
 /// Takes the declarations of the `for`s at `places` before them; one whose block already has that variable sets it.
 void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::string>>& places, Changes& changes) {
@@ -282,12 +194,10 @@ std::string curedSource(const std::string& preprocessed, const std::string& erro
              complaint.function.find('<') != std::string::npos)
       changes[at] = {0, "this->"};
   }
-  std::string cured = preprocessed;
+  addOldExtensions(preprocessed, bare, begins, complaints, changes);
   // The text of a literal in a moved declaration is the source's own.
   hoist(preprocessed, loops, changes);
-  for (auto change = changes.rbegin(); change != changes.rend(); ++change)
-    cured.replace(change->first, change->second.length, change->second.text);
-  return cured;
+  return changed(preprocessed, changes);
 }
 
 std::string withoutRepeatedNames(const std::string& preprocessed, const std::string& errors) {

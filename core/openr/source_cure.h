@@ -15,7 +15,8 @@ std::string withoutRepeatedNames(const std::string& preprocessed, const std::str
 /// - a member of a base that depends on a template's argument without `this->`;
 /// - a variable of a `for` that is used behind it: its declaration stands before it then;
 /// - a member of a class template of its own without `template<>`;
-/// - a class that is known only as another one's friend.
+/// - a class that is known only as another one's friend;
+/// - what that compiler had beyond the language, see old_extensions.h.
 /// The same text if there is nothing of that kind.
 std::string curedSource(const std::string& preprocessed, const std::string& errors);
 

@@ -416,6 +416,56 @@ class StickBuilder {
     return listed;
   }
 
+  /// Folders below an object's that are no object, library or stick of their own, relative to it.
+  static std::vector<fs::path> partsOf(const fs::path& folder) {
+    std::vector<fs::path> parts;
+    for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
+      if (!at->is_directory()) continue;
+      const std::string name = at->path().filename().string();
+      const bool other = name[0] == '.' || name == "MS" || looksLikeObject(at->path()) ||
+                         fs::exists(at->path() / "Makefile") || fs::exists(at->path() / "OPEN-R");
+      if (other)
+        at.disable_recursion_pending();
+      else
+        parts.push_back(at->path().lexically_relative(folder));
+    }
+    std::sort(parts.begin(), parts.end());
+    return parts;
+  }
+
+  /// Adds the compiled ones to `objects`; false if one does not compile.
+  static bool compile(const fs::path& folder, std::vector<fs::path> sources, const std::string& includes,
+                      const fs::path& sdk, std::string& objects, std::string& said) {
+    std::sort(sources.begin(), sources.end());
+    bool whole = true;
+    for (const fs::path& source : sources) {
+      const std::string made = (source.parent_path() / source.stem()).string() + ".o";
+      const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
+      const bool compiled = run(folder,
+                                shellWord((sdk / "bin" / compiler).string()) + " -O2 -g" + includes + " -c " +
+                                    shellWord(source.string()) + " -o " + shellWord(made),
+                                said) == 0;
+      if (compiled) objects += " " + shellWord(made);
+      whole = whole && compiled;
+    }
+    return whole;
+  }
+
+  /// Sources in folders below an object's become a library: of them it has what it needs.
+  static std::string libraryOf(const fs::path& folder, const std::vector<fs::path>& parts, const std::string& includes,
+                               const fs::path& sdk, std::string& said) {
+    std::vector<fs::path> sources;
+    for (const fs::path& part : parts)
+      for (const auto& entry : fs::directory_iterator(folder / part))
+        if (isSource(entry.path())) sources.push_back(part / entry.path().filename());
+    std::string objects;
+    compile(folder, sources, includes, sdk, objects, said);
+    if (objects.empty()) return "";
+    const std::string library = "parts.a";
+    run(folder, shellWord((sdk / "bin/mipsel-linux-ar").string()) + " rcP " + library + objects, said);
+    return " " + library;
+  }
+
   void byHand(const fs::path& folder, const std::string& name, const fs::path& stick, const fs::path& sdk) {
     if (options_.progress) options_.progress(name);
     StickBuild::Object object{name, {}, {}};
@@ -431,22 +481,14 @@ class StickBuilder {
       if (isSource(entry.path())) sources.push_back(entry.path().filename());
       if (entry.path().extension() == ".ocf") ocf = entry.path().filename().string();
     }
-    std::sort(sources.begin(), sources.end());
+    const std::vector<fs::path> parts = partsOf(folder);
     std::string includes = " -I.";
     for (const char* other : {"include", "../include", "../common", "../common/include"})
       if (fs::exists(folder / other)) includes += std::string(" -I") + other;
+    for (const fs::path& part : parts) includes += " -I" + shellWord(part.string());
     std::string objects;
-    bool whole = !sources.empty();
-    for (const fs::path& source : sources) {
-      const std::string made = source.stem().string() + ".o";
-      const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
-      whole = run(folder,
-                  shellWord((sdk / "bin" / compiler).string()) + " -O2 -g" + includes + " -c " +
-                      shellWord(source.string()) + " -o " + shellWord(made),
-                  object.said) == 0 &&
-              whole;
-      objects += " " + shellWord(made);
-    }
+    const bool whole = compile(folder, sources, includes, sdk, objects, object.said) && !sources.empty();
+    objects += libraryOf(folder, parts, includes, sdk, object.said);
     const std::string module = moduleName(title, listedModules(stick));
     const bool linked =
         whole && run(folder,

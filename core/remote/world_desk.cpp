@@ -191,6 +191,7 @@ void WorldDesk::step(const v1::StepRequest& request) {
 
 bool WorldDesk::onePeriod() {
   session().step();
+  if (log_ && session().periods() % SessionLog::markEvery == 0) log_->mark(session().periods(), session().mark());
   bool pictures = false;
   for (auto& each : cameras_) pictures = look(each.first) || pictures;
   return pictures;

@@ -12,6 +12,7 @@ bool matters(const Warning& warning, const RobotSpec& robot) {
     case Warning::Loss::none:
       return false;
     case Warning::Loss::limits:
+    case Warning::Loss::inertia:
       return true;
     case Warning::Loss::collision:
       return robot.collision != "none";

@@ -14,7 +14,7 @@ namespace btr {
 class Connection;
 
 /// Traces above this are stored only as their hash: 20 s of walking are a megabyte, which a replay makes again.
-inline constexpr std::size_t largestKeptTrace_bytes = 256 * 1024;
+inline constexpr std::size_t largestKeptTrace_bytes = std::size_t{256} * 1024;
 
 /// What a merge has added.
 struct MergedRuns {

@@ -73,4 +73,47 @@ assert len(moment["robots"]) == 2 and all(len(robot["joint_start"]) >= 15 for ro
 P
 expect 0 "from there" "$btr" live "$folder/moment.json" --seconds 0.1
 
+# The log alone plays again: its game is in it, and marks say up to where the bits are the same.
+expect 0 "the log alone" "$btr" --json live --replay "$folder/log"
+says out '"identical": true'
+says out '"identical_until": 150'
+expect 2 "neither" "$btr" live
+expect 1 "beyond its end" "$btr" live --replay "$folder/log" --until 9
+says err "at most 1.2 s"
+sed '/"act":"throw"/s/2.0/1.5/' "$folder/log" > "$folder/other.log"
+expect 1 "another throw" "$btr" live --replay "$folder/other.log"
+says out "the first difference is between the steps 0 and 50"
+sed '1s/"directory":.*"game_sha256"/"game_sha256"/; 1s/^{/{"format":"uchilsim-log-1",/' "$folder/log" > "$folder/old.log"
+expect 1 "without its game" "$btr" live --replay "$folder/old.log"
+says err "btr live GAME --replay LOG"
+expect 0 "with it" "$btr" live "$match" --replay "$folder/old.log"
+
+# Any moment of it is the start of an experiment.
+expect 0 "an experiment" "$btr" live --replay "$folder/log" --until 0.3 --save-experiment "$folder/from-here.json" --learner red1
+expect 1 "nobody learns" "$btr" live --replay "$folder/log" --until 0.3 --save-experiment "$folder/none.json" --learner nobody
+says err "nobody"
+
+# Steered: hands are off until it goes on from where it is; its own log then has all of it.
+cat > "$folder/lines" <<'LINES'
+{"act": "remove", "object": "blue1"}
+{"do": "step", "periods": 120}
+{"do": "go_on"}
+{"act": "score", "red": 9, "blue": 9}
+{"do": "step", "periods": 30}
+{"do": "end"}
+LINES
+expect 0 "steered replay" bash -c '"$0" live --replay "$1" --steered --log "$2" < "$3"' "$btr" "$folder/log" "$folder/on.log" "$folder/lines"
+python3 - "$folder/out" <<'P' || failures=1
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+told = [line["log"] for line in lines if "log" in line][0]
+assert told["until"] == 150 and [act[2] for act in told["acts"]].count("remove blue1") == 2, told
+assert any("a log that is played again" in line.get("refused", "") for line in lines)
+rows = [line for line in lines if "row" in line]
+assert "replay" in rows[0] and "replay" not in rows[-1], rows[-1]
+assert rows[-1]["score"] == [9, 9]
+P
+expect 0 "what went on" "$btr" --json live --replay "$folder/on.log"
+says out '"identical": true'
+
 finish

@@ -68,6 +68,27 @@ TEST(SourceCure, SpecialMembersOfTemplatesAndFriendsAreDeclared) {
             "# 1 \"a.cc\"\nint x;\nclass Tree; class Node { friend class Tree; Tree* owner; };\n");
 }
 
+TEST(SourceCure, CastsThatAreAssignedToAreOfTheVariable) {
+  const std::string lvalue = "error: lvalue required as increment operand\n";
+  EXPECT_EQ(curedSource("# 1 \"a.cc\"\n((a::b*)p)++; ++(c d)q; (f(x))++;\n",
+                        "a.cc:1:2: " + lvalue + "a.cc:1:16: " + lvalue + "a.cc:1:27: " + lvalue),
+            "# 1 \"a.cc\"\n(*(a::b**)&p)++; ++*(c d*)&q; (f(x))++;\n");
+}
+
+TEST(SourceCure, FunctionsNamesBetweenLiteralsAreLiterals) {
+  EXPECT_EQ(curedSource("# 9 \"a.cc\"\nf(\"in \" __FUNCTION__ \"\\n\", __FUNCTION__);\n",
+                        "a.cc: In member function 'virtual void A::go(int) const':\n"
+                        "a.cc:9:2: error: expected ')' before '__FUNCTION__'\n"),
+            "# 9 \"a.cc\"\nf(\"in \" \"go\" \"\\n\", __FUNCTION__);\n");
+}
+
+TEST(SourceCure, LesserAndGreaterAreNamed) {
+  const std::string expected = "error: expected primary-expression before '?' token\n";
+  EXPECT_EQ(curedSource("# 1 \"a.cc\"\nm <?= f(a, b) ? c : d; x = a >? b;\n",
+                        "a.cc:1:4: " + expected + "a.cc:1:31: " + expected),
+            "# 1 \"a.cc\"\nm <btr_least>= ( f(a, b) ? c : d); x = a <btr_most> b;\n");
+}
+
 TEST(SourceCure, NamesMissingHeadersOnce) {
   EXPECT_THAT(missingHeaders("a.cc:1:1: note: 'strcmp' is defined in header '<cstring>'; did you forget\n"
                              "a.cc:2:1: note: 'strlen' is defined in header '<cstring>'; did you forget\n"
@@ -82,6 +103,21 @@ TEST(Dialect, SourcesOf2003RunAsTheyAre) {
   EXPECT_THAT(all, HasSubstr("stl x 9 12 1 3.5 3 1 3\n"));  // templates without typename and this->
   EXPECT_THAT(all, HasSubstr("3 44 1 0.125000 7\n"));       // numbers that are cut
   EXPECT_THAT(all, HasSubstr("assign in if 3 5\n"));
+}
+
+TEST(Dialect, ExtensionsSizesAndNumbersAsTheRobotsCompilerHadThem) {
+  const std::string all = runStick(stickOf("ancient"), 3).all();
+  EXPECT_THAT(all, HasSubstr("in Extensions: found\n"));
+  EXPECT_THAT(all, HasSubstr("casts 2 2 ffffffff\n"));
+  EXPECT_THAT(all, HasSubstr("clipped 5 0 9, most 6\n"));
+  EXPECT_THAT(all, HasSubstr("mixed 50 1\n"));
+  EXPECT_THAT(all, HasSubstr("sizes 1024 4000 64\n"));
+  // Nothing beside a longword is written by "%ld".
+  EXPECT_THAT(all, HasSubstr("read 4 alpha 4000000000 deadbeef 17 7\n"));
+  EXPECT_THAT(all, HasSubstr("read 2 65535 9 -70000 5\n"));
+  EXPECT_THAT(all, HasSubstr("read 5 1 1 1 15\n"));
+  EXPECT_THAT(all, HasSubstr("read 3 12 13 3 x\n"));
+  EXPECT_THAT(all, HasSubstr("parts 6 42\n"));  // from folders below the object's, without a Makefile
 }
 
 TEST(Dialect, IdiomsOfThatTimeMeanWhatTheyMeant) {

@@ -22,15 +22,15 @@ struct HookGuard {
   ~HookGuard() { hook = LcpHook{}; }
 };
 
-// A random tree of up to 14 links with all kinds of joints, drives and friction, dropped on the floor among balls.
-Scene randomScene(std::uint64_t seed) {
+// A random tree of links with all kinds of joints, drives and friction, dropped on the floor among balls.
+Scene randomScene(std::uint64_t seed, int fewest = 3, int most = 14) {
   Random random(seed);
   RobotModel model;
   model.name = "tree";
   const auto small = [&](double size) {
     return Eigen::Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
   };
-  const int count = 3 + static_cast<int>(random.below(12));
+  const int count = fewest + static_cast<int>(random.below(static_cast<std::uint64_t>(most - fewest + 1)));
   std::vector<Drive> drives;
   for (int i = 0; i < count; ++i) {
     Shape shape = random.chance(0.5) ? sphere(0.03) : box({0.05, 0.04, 0.06});
@@ -90,6 +90,24 @@ TEST(LcpReducer, AgreesWithOdeOnThousandsOfRandomProblems) {
   EXPECT_EQ(0, guard.hook.whole);
 }
 
+// Humanoids with fingers have fifty joints and more.
+TEST(LcpReducer, AgreesWithOdeOnRobotsOfFiftyJoints) {
+  HookGuard guard;
+  guard.hook.compare = true;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = randomScene(seed, 40, 55);
+    World world(scene, seed);
+    Random random(seed + 1000);
+    for (int period = 0; period < 4 && world.fault().empty(); ++period) {
+      auto inputs = commands(scene, 0);
+      for (auto& input : inputs[0]) input.command = random.uniform(-1, 1);
+      world.advance(inputs, 0.008);
+    }
+  }
+  EXPECT_GT(guard.hook.reduced, 40);
+  EXPECT_LT(guard.hook.worst, 1e-6);
+}
+
 Scene walkScene() {
   SceneSpec spec = loadScene(SOURCE_DIR "/resources/scenes/walk.json");
   spec.step_s = 0.004;
@@ -134,25 +152,32 @@ struct Problem {
   LcpProblem view() { return {n, n, a.data(), bx.data(), loHi.data(), findex.data()}; }
 };
 
-TEST(LcpReducer, SolvesAProblemWithoutBoundsByItself) {
-  Problem problem(24);
+void expectSolvedAlone(unsigned n) {
+  Problem problem(n);
   Random random(3);
   // A = G·Gᵀ + 1, banded, known x.
-  std::vector<double> wanted(24);
-  for (unsigned i = 0; i < 24; ++i) {
+  std::vector<double> wanted(n);
+  for (unsigned i = 0; i < n; ++i) {
     wanted[i] = random.normal();
-    for (unsigned j = i < 7 ? 0 : i - 7; j < i; ++j) problem.a[i * 24 + j] = 0.1 * random.normal();
+    for (unsigned j = i < 7 ? 0 : i - 7; j < i; ++j) problem.a[i * n + j] = 0.1 * random.normal();
   }
-  for (unsigned i = 0; i < 24; ++i) {
+  for (unsigned i = 0; i < n; ++i) {
     double sum = 0;
-    for (unsigned j = 0; j < 24; ++j) sum += problem.a[std::max(i, j) * 24 + std::min(i, j)] * wanted[j];
+    for (unsigned j = 0; j < n; ++j) sum += problem.a[std::max(i, j) * n + std::min(i, j)] * wanted[j];
     problem.bx[2 * i] = sum;
   }
   LcpReducer reducer;
   ASSERT_TRUE(reducer.reduce(problem.view()));
   EXPECT_EQ(0u, reducer.small().n);
   reducer.expand(problem.view());
-  for (unsigned i = 0; i < 24; ++i) EXPECT_NEAR(wanted[i], problem.bx[2 * i + 1], 1e-12);
+  for (unsigned i = 0; i < n; ++i) EXPECT_NEAR(wanted[i], problem.bx[2 * i + 1], 1e-12);
+}
+
+TEST(LcpReducer, SolvesAProblemWithoutBoundsByItself) {
+  for (const unsigned n : {24u, 6 * 32u, 6 * 33u, 6 * 64u}) {
+    SCOPED_TRACE(n);
+    expectSolvedAlone(n);
+  }
 }
 
 // A normal force (row 0) and a friction (row 1) that are coupled.
@@ -227,7 +252,7 @@ TEST(LcpReducer, LeavesUnusualProblemsAlone) {
   Problem hanging(24);
   hanging.findex[20] = 3;
   EXPECT_FALSE(reducer.reduce(hanging.view())) << "a bound that hangs on an unbounded row";
-  Problem huge(6 * 33);
+  Problem huge(6 * 65);
   EXPECT_FALSE(reducer.reduce(huge.view()));
 }
 

@@ -172,8 +172,8 @@ void LcpReducer::findBlocks(const LcpProblem& p) {
         coupled = span == N ? anySixNotZero(row) : anyNotZero(row, span);
       }
       if (!coupled) continue;
-      blocks_[i].neighbours |= 1u << j;
-      blocks_[j].neighbours |= 1u << i;
+      blocks_[i].neighbours |= Set{1} << j;
+      blocks_[j].neighbours |= Set{1} << i;
     }
 }
 
@@ -182,35 +182,35 @@ void LcpReducer::orderBlocks() {
   const auto count = static_cast<unsigned>(blocks_.size());
   order_.clear();
   below_.assign(count, 0);
-  std::uint32_t left = count == 32 ? ~0u : (1u << count) - 1;
+  Set left = count == mostBlocks ? ~Set{0} : (Set{1} << count) - 1;
   while (left) {
     unsigned best = 0;
     int fewest = 99;
-    for (std::uint32_t rest = left; rest; rest &= rest - 1) {
+    for (Set rest = left; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       if (const int degree = std::popcount(blocks_[i].neighbours & left); degree < fewest) {
         fewest = degree;
         best = i;
       }
     }
-    left &= ~(1u << best);
+    left &= ~(Set{1} << best);
     order_.push_back(best);
     below_[best] = blocks_[best].neighbours & left;
-    for (std::uint32_t rest = below_[best]; rest; rest &= rest - 1) {
+    for (Set rest = below_[best]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
-      blocks_[i].neighbours |= below_[best] & ~(1u << i);
+      blocks_[i].neighbours |= below_[best] & ~(Set{1} << i);
     }
   }
 }
 
 void LcpReducer::gather(const LcpProblem& p) {
   // Storage for the diagonal blocks and whatever the factor fills, (later, earlier) in the order of elimination.
-  slot_.assign(mostBlocks * mostBlocks, -1);
+  slot_.assign(blocks_.size() * blocks_.size(), -1);
   std::int16_t slots = 0;
   for (const unsigned k : order_) {
-    slot_[k * mostBlocks + k] = slots++;
-    for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1)
-      slot_[static_cast<unsigned>(std::countr_zero(rest)) * mostBlocks + k] = slots++;
+    slot_[k * blocks_.size() + k] = slots++;
+    for (Set rest = below_[k]; rest; rest &= rest - 1)
+      slot_[static_cast<unsigned>(std::countr_zero(rest)) * blocks_.size() + k] = slots++;
   }
   storage_.assign(static_cast<std::size_t>(slots) * N * W, 0);
   chunks_ = (static_cast<unsigned>(bounded_.size()) + lanes) / lanes;  // one column more, for b
@@ -225,7 +225,7 @@ void LcpReducer::gather(const LcpProblem& p) {
       if (r < column.count)
         for (unsigned c = 0; c <= r; ++c) diagonal[r * W + c] = lower(column.rows[r], column.rows[c]);
     }
-    for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
+    for (Set rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const Block& row = blocks_[i];
       double* to = blockAt(i, k);
@@ -248,16 +248,16 @@ BTR_WIDE bool LcpReducer::factor() {
   for (const unsigned k : order_) {
     const double* diagonal = blockAt(k, k);
     if (!factorBlock(blockAt(k, k))) return false;
-    for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
+    for (Set rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       solveBlock(diagonal, blockAt(i, k));
     }
     // Each pair of blocks once, where it is stored.
-    for (std::uint32_t rows = below_[k]; rows; rows &= rows - 1) {
+    for (Set rows = below_[k]; rows; rows &= rows - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rows));
-      for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
+      for (Set rest = below_[k]; rest; rest &= rest - 1) {
         const auto j = static_cast<unsigned>(std::countr_zero(rest));
-        if (slot_[i * mostBlocks + j] >= 0) subtractProduct(blockAt(i, j), blockAt(i, k), blockAt(j, k));
+        if (slot_[i * blocks_.size() + j] >= 0) subtractProduct(blockAt(i, j), blockAt(i, k), blockAt(j, k));
       }
     }
   }
@@ -270,7 +270,7 @@ BTR_WIDE void LcpReducer::forward() {
     for (unsigned chunk = 0; chunk < chunks_; ++chunk) {
       double* mine = chunkAt(k, chunk);
       if (!forwardBlock(blockAt(k, k), mine)) continue;
-      for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
+      for (Set rest = below_[k]; rest; rest &= rest - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(rest));
         subtractForward(blockAt(i, k), mine, chunkAt(i, chunk));
       }
@@ -341,7 +341,7 @@ BTR_WIDE void LcpReducer::expand(const LcpProblem& problem) {
       const double* row = chunkAt(k, 0) + r * lanes;
       x[k][r] = subtractDot(row[(count / lanes) * stride + count % lanes], row, stride, smallX_.data(), chunks_);
     }
-    for (std::uint32_t rest = below_[k]; rest; rest &= rest - 1) {
+    for (Set rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const double* between = blockAt(i, k);
       for (unsigned r = 0; r < N; ++r) BTR_UNROLL

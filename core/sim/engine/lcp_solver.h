@@ -24,7 +24,7 @@ struct LcpProblem {
 class LcpReducer {
  public:
   static constexpr unsigned block = 6;  ///< rows of a hinge with its servo, or of a universal joint with two
-  static constexpr unsigned mostBlocks = 32;
+  static constexpr unsigned mostBlocks = 64;
   static constexpr unsigned lanes = 4;  ///< numbers that are worked on at once
   static constexpr unsigned width = 8;  ///< of a stored block's rows: six and two zeros
 
@@ -37,6 +37,7 @@ class LcpReducer {
   void expand(const LcpProblem& problem);
 
  private:
+  using Set = std::uint64_t;  ///< of blocks
   bool sortRows(const LcpProblem& problem);
   void findBlocks(const LcpProblem& problem);
   void orderBlocks();
@@ -46,22 +47,22 @@ class LcpReducer {
   void formSmall(const LcpProblem& problem);
   void subtractEliminated(unsigned count);
   double* blockAt(unsigned row, unsigned column) {
-    return storage_.data() + static_cast<std::size_t>(slot_[row * mostBlocks + column]) * block * width;
+    return storage_.data() + static_cast<std::size_t>(slot_[row * blocks_.size() + column]) * block * width;
   }
   double* chunkAt(unsigned blockIndex, unsigned chunk) {
     return right_.data() + (blockIndex * chunks_ + chunk) * block * lanes;
   }
 
   struct Block {
-    unsigned count = 0;            ///< rows in use; the others are those of an identity
-    unsigned rows[block] = {};     ///< of the problem
-    std::uint32_t neighbours = 0;  ///< blocks it is coupled to, then also through those that were eliminated
+    unsigned count = 0;         ///< rows in use; the others are those of an identity
+    unsigned rows[block] = {};  ///< of the problem
+    Set neighbours = 0;         ///< blocks it is coupled to, then also through those that were eliminated
   };
   std::vector<unsigned> bounded_;  ///< rows of the problem
   std::vector<int> boundedIndex_;  ///< by row of the problem, −1 unbounded
   std::vector<Block> blocks_;
-  std::vector<unsigned> order_;       ///< of elimination
-  std::vector<std::uint32_t> below_;  ///< by block: what its column of the factor fills
+  std::vector<unsigned> order_;  ///< of elimination
+  std::vector<Set> below_;       ///< by block: what its column of the factor fills
   /// Blocks of matrix, then factor, rows of `width`; those beside the diagonal transposed, as their solver and all
   /// products want them.
   std::vector<double> storage_;

@@ -24,6 +24,9 @@ BTR_OPENR_NOTHING(ssnop);
 #undef BTR_OPENR_NOTHING
 
 #include "btr_openr_version.h"
+#ifdef __cplusplus
+#include "btr_old_operators.h"
+#endif
 
 #ifdef __cplusplus
 extern "C" {

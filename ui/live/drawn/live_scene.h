@@ -19,6 +19,13 @@ struct ProgramLine {
   QString robot, object, text;
 };
 
+/// Of a log that is played again, see LogReplay.
+struct LiveReplay {
+  long sameUntil = 0;
+  std::optional<long> differsBy;
+  bool over = false;
+};
+
 /// What a running session tells of one moment.
 struct LiveRow {
   std::vector<double> values;  ///< by channel
@@ -34,6 +41,7 @@ struct LiveRow {
   QStringList events;                              ///< since the last row: "goal of red" …
   std::map<std::string, Orders> orders;            ///< by robot with a program: motor power and lamps
   std::vector<ProgramLine> console;                ///< since the last row
+  std::optional<LiveReplay> replay;                ///< none of a session that hands reach into
   /// By robot with a program, when that changed: "" it runs, else why no longer.
   std::optional<std::map<std::string, QString>> programs;
 };

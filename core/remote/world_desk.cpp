@@ -95,7 +95,7 @@ void WorldDesk::begin() {
   session_ = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
   ++episode_;
   speed_ = 0;
-  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}};
+  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}, nullptr};
   if (channels_.empty()) {
     channels_ = session_->channels();
     channelsTold_ = ++channelsVersion_;  // by what opens the world
@@ -267,6 +267,8 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
     }
     case Method::picture:
       return picture(messageOf<v1::PictureRequest>(message));
+    case Method::pictureMemory:
+      return pictureMemory(messageOf<v1::PictureMemoryRequest>(message));
     case Method::robot:
       return robot(messageOf<v1::RobotRequest>(message).robot());
     case Method::logFiles:

@@ -425,19 +425,7 @@ void LivePage::showSelected() {
   simulator_->showSelected();
 }
 
-/// From above one corner, near enough to see a dog and far enough to see all.
-void LivePage::lookAtAll() {
-  Eigen::AlignedBox3d all;
-  for (const LiveObject& object : world_->objects()) all.extend(world_->poseOf(object.name).translation());
-  ViewCamera camera;
-  if (!all.isEmpty()) {
-    camera.focus = all.center();
-    constexpr double perRadius = 2.2;
-    camera.distance = std::clamp(perRadius * (all.diagonal().norm() / 2 + 0.3), camera.distance, 15.0);
-    if (camera.distance > 3) camera.elevation = 0.6;
-  }
-  view_->setCamera(camera);
-}
+void LivePage::lookAtAll() { view_->setCamera(view_->homeCamera()); }
 
 void LivePage::pick(const std::string& object, bool toggle) {
   if (!toggle) return world_->select({object});

@@ -122,8 +122,8 @@ void LiveWorld::takeGame(const Game& game, const ModelSet& models, const std::ve
 void LiveWorld::takeRow(const LiveRow& row) {
   const bool first = row_.values.empty();
   row_ = row;
-  if (first) emit firstRow();
   emit rowChanged();
+  if (first) emit firstRow();
 }
 
 int LiveWorld::indexOf(const std::string& object) const {

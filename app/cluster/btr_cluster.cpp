@@ -152,6 +152,17 @@ void ClusterJob::tellProgress(const std::string& stage, double share, double tri
   writeFile(impl_->file, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+bool isNeedless(const char* command) {
+  const Launch launch = launchOfThisProcess();
+  if (launch.rank > 0) return true;
+  if (launch.size > 1)
+    throw InputError(
+        launch.by + " started " + std::to_string(launch.size) + " ranks, and btr " + command +
+        " works on one machine, with --jobs; start it alone, or set UCHILSIM_ALONE=1 for one of its own on "
+        "each rank");
+  return false;
+}
+
 void addPlacesOption(CLI::App* command, std::string& file) {
   command->add_option("--places", file, "keep this JSON file: which machine does how much, how far all is");
 }

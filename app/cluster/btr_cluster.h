@@ -37,6 +37,10 @@ class ClusterJob {
   bool isDone_ = false;
 };
 
+/// For a command that works in one process: of several ranks the first throws InputError, and on the others, which have
+/// nothing to do, this is true.
+bool isNeedless(const char* command);
+
 /// --places.
 void addPlacesOption(CLI::App* command, std::string& file);
 

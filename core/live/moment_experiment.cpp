@@ -113,11 +113,15 @@ void choose(ExperimentSpec& experiment, const GameController& wanted, const Scen
     break;
   }
   if (fitness.empty()) throw InputError("fitness", "none", "a fitness that this scene is enough for");
-  const auto motion = controller->begin(arranged, wanted.settings, resolve(genotype, wanted.parameters, "parameters"));
-  experiment.controller = choiceOf(wanted.plugin, wanted.settings, controller->settings());
+  const double trial_s = find(stageParameters(), "trial_maximum_s")->byDefault;
+  Values settings = wanted.settings;
+  const std::vector<double> parameters = resolve(genotype, wanted.parameters, "parameters");
+  const auto duration_s = [&] { return controller->begin(arranged, settings, parameters)->duration(); };
+  // In a game a motion goes on for as long as the game does.
+  if (duration_s() > trial_s) settings.erase("duration_s");
+  experiment.controller = choiceOf(wanted.plugin, settings, controller->settings());
   experiment.fitness.name = fitness;
-  if (motion->duration() > find(stageParameters(), "trial_maximum_s")->byDefault)
-    experiment.stages["trial_maximum_s"] = motion->duration();
+  if (const double motion_s = duration_s(); motion_s > trial_s) experiment.stages["trial_maximum_s"] = motion_s;
   if (!wanted.parameters.empty()) experiment.start = SearchStart{wanted.parameters};
 }
 

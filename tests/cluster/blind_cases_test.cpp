@@ -18,6 +18,7 @@
 #include "core/gap/proof/proof_run.h"
 #include "core/spec/json_reader.h"
 #include "tests/cluster/descendants.h"
+#include "tests/cluster/foremen.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
@@ -25,8 +26,8 @@ namespace {
 
 using namespace btr;
 namespace fs = std::filesystem;
-
-const std::atomic<bool> goOn{false};
+using test::goOn;
+using test::withForemen;
 
 /// Content of every file below a folder by its name, but for how long things took and where the folder is.
 std::map<std::string, std::string> contentOf(const fs::path& folder) {
@@ -72,12 +73,6 @@ class Trial {
   }
   ProofRequest request;
 };
-
-CoordinatorOptions withForemen(int foremen) {
-  CoordinatorOptions options;
-  options.foremen = foremen;
-  return options;
-}
 
 std::map<std::string, std::string> ofOneProcess(const TemporaryFolder& folder, std::size_t cases = 3) {
   const std::string out = folder.file("alone");

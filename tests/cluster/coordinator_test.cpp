@@ -11,14 +11,15 @@
 #include "core/spec/experiment_spec.h"
 #include "core/spec/parameter.h"
 #include "tests/cluster/descendants.h"
+#include "tests/cluster/foremen.h"
 #include "tests/refusal.h"
 
 namespace {
 
 using namespace btr;
 using test::descendants;
-
-const std::atomic<bool> goOn{false};
+using test::goOn;
+using test::withForemen;
 
 /// Kicks of a short experiment, drawn at random.
 class Kicks {
@@ -53,12 +54,6 @@ class Kicks {
   PreparedExperiment prepared_;
   std::vector<TrialJob> jobs_;
 };
-
-CoordinatorOptions withForemen(int foremen) {
-  CoordinatorOptions options;
-  options.foremen = foremen;
-  return options;
-}
 
 TEST(Coordinator, GivesTheBitsOfOneProcessWhateverTheNumberOfForemen) {
   const Kicks kicks(12);

@@ -101,6 +101,11 @@ assert places["share"] == 1 and places["trials_per_second"] > 0 and sum(h["trial
   [ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "no generator: more than one sentence"
 fi
 
+# What works on one machine alone does not write the same folder from every rank.
+expect 1 "an analysis on 2 ranks" ranks 2 "$btr" gap analyse "$root/resources/scenes/xl330.json" --recording "$folder/none.csv" --out "$folder/analysis"
+says err "btr: mpirun started 2 ranks, and btr gap analyse works on one machine, with --jobs"
+[ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "an analysis on 2 ranks: more than one sentence"
+
 # A rank with another build is refused by name. It is a whole copy of which one plugin was changed.
 mkdir -p "$folder/copy"
 cp -r "$(dirname "$btr")/../lib" "$folder/copy/lib"

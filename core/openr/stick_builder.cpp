@@ -488,7 +488,8 @@ class StickBuilder {
     for (const fs::path& part : parts) includes += " -I" + shellWord(part.string());
     std::string objects;
     const bool whole = compile(folder, sources, includes, sdk, objects, object.said) && !sources.empty();
-    objects += libraryOf(folder, parts, includes, sdk, object.said);
+    std::string partsSaid;  // of parts that nobody asks for it does not matter
+    objects += libraryOf(folder, parts, includes, sdk, partsSaid);
     const std::string module = moduleName(title, listedModules(stick));
     const bool linked =
         whole && run(folder,
@@ -496,7 +497,10 @@ class StickBuilder {
                          (ocf.empty() ? "" : " " + shellWord(ocf)) + (usesJpeg(folder) ? " -ljpeg" : "") +
                          " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
                      object.said) == 0;
-    if (linked) object.modules.push_back(module);
+    if (linked)
+      object.modules.push_back(module);
+    else
+      object.said = partsSaid + object.said;
     result_.objects.push_back(std::move(object));
   }
 

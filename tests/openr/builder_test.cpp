@@ -147,6 +147,13 @@ TEST(StickBuilder, AStubByHandAndAMakefileWithoutInstall) {
   EXPECT_THAT(runStick(stickOf("hand"), 12).all(), HasSubstr("hand: by hand 2\n"));
 }
 
+TEST(StickBuilder, WithoutAMakefilePartsThatNobodyAsksForNeedNotCompile) {
+  const StickBuild build = buildOnto(emptyFolder("parts"), {programFolder("ancient")});
+  ASSERT_EQ(build.objects.size(), 1u);
+  EXPECT_EQ(build.objects[0].said, "");
+  EXPECT_EQ(build.objects[0].modules, std::vector<std::string>{"ANCIENT.BIN"});
+}
+
 TEST(StickBuilder, SaysWhatTheCompilerSays) {
   const std::string folder = emptyFolder("wrong");
   std::filesystem::create_directories(folder + "/Thing");

@@ -112,7 +112,7 @@ TEST(Dialect, ExtensionsSizesAndNumbersAsTheRobotsCompilerHadThem) {
   EXPECT_THAT(all, HasSubstr("clipped 5 0 9, most 6\n"));
   EXPECT_THAT(all, HasSubstr("mixed 50 1\n"));
   EXPECT_THAT(all, HasSubstr("sizes 1024 4000 64\n"));
-  // Nothing beside a longword is written by "%ld".
+  // Nothing beside a longword is written by "%ld", whatever its file includes.
   EXPECT_THAT(all, HasSubstr("read 4 alpha 4000000000 deadbeef 17 7\n"));
   EXPECT_THAT(all, HasSubstr("read 2 65535 9 -70000 5\n"));
   EXPECT_THAT(all, HasSubstr("read 5 1 1 1 15\n"));

@@ -28,7 +28,6 @@ typedef long long int64;
 typedef unsigned long long uint64;
 
 #ifdef __cplusplus
-#include <btr_scan.h>
 #include <btr_sizes.h>
 typedef bool Boolean;
 #else

@@ -3,8 +3,13 @@
 #ifndef BTR_OPENR_SCAN_H
 #define BTR_OPENR_SCAN_H
 
-#include <cstdio>
-#include <cstring>
+extern "C" {
+int btr_c_fscanf(FILE* from, const char* format, ...) __asm__("fscanf");
+int btr_c_sscanf(const char* from, const char* format, ...) __asm__("sscanf");
+int btr_c_scanf(const char* format, ...) __asm__("scanf");
+}
+
+extern "C++" {
 
 /// Bytes of what an argument of scanf() points to; 0: not known, or text.
 template <class T>
@@ -16,7 +21,7 @@ inline unsigned char btr_scan_width(...) { return 0; }
 class btr_scan_format {
  public:
   btr_scan_format(const char* format, const unsigned char* widths, int count) : text_(format) {
-    if (std::strlen(format) >= sizeof(own_) / 2) return;
+    if (__builtin_strlen(format) >= sizeof(own_) / 2) return;
     text_ = own_;
     char* to = own_;
     int next = 0;
@@ -25,8 +30,8 @@ class btr_scan_format {
       const bool assigned = *at != '*' && *at != '%';
       while (*at == '*' || (*at >= '0' && *at <= '9')) *to++ = *at++;
       const char* modifier = at;
-      while (*at != 0 && std::strchr("hlLqjzt", *at) != 0) ++at;
-      const bool integer = *at != 0 && std::strchr("diouxXn", *at) != 0;
+      while (is(*at, "hlLqjzt")) ++at;
+      const bool integer = is(*at, "diouxXn");
       const bool narrow = *modifier == 'h';
       const unsigned char width = assigned && next < count ? widths[next] : 0;
       if (integer && !narrow && width == 8) {
@@ -50,6 +55,10 @@ class btr_scan_format {
  private:
   btr_scan_format(const btr_scan_format&);
   btr_scan_format& operator=(const btr_scan_format&);
+  static bool is(char c, const char* one) {
+    while (*one != 0 && *one != c) ++one;
+    return *one != 0;
+  }
   const char* text_;
   char own_[512];
 };
@@ -58,30 +67,30 @@ class btr_scan_format {
   const unsigned char widths[] = {btr_scan_width(arguments)..., 0}; \
   const btr_scan_format now(format, widths, (int)sizeof...(Arguments))
 
+// Preferred to the C library's, which take anything.
 template <class... Arguments>
-inline int btr_fscanf(std::FILE* from, const char* format, Arguments... arguments) {
+inline int fscanf(FILE* from, const char* format, Arguments... arguments) {
   BTR_OPENR_SCAN_FORMAT;
-  return std::fscanf(from, now.text(), arguments...);
+  return btr_c_fscanf(from, now.text(), arguments...);
 }
 template <class... Arguments>
-inline int btr_sscanf(const char* from, const char* format, Arguments... arguments) {
+inline int sscanf(const char* from, const char* format, Arguments... arguments) {
   BTR_OPENR_SCAN_FORMAT;
-  return std::sscanf(from, now.text(), arguments...);
+  return btr_c_sscanf(from, now.text(), arguments...);
 }
 template <class... Arguments>
-inline int btr_scanf(const char* format, Arguments... arguments) {
+inline int scanf(const char* format, Arguments... arguments) {
   BTR_OPENR_SCAN_FORMAT;
-  return std::scanf(now.text(), arguments...);
+  return btr_c_scanf(now.text(), arguments...);
 }
 namespace std {
-using ::btr_fscanf;
-using ::btr_scanf;
-using ::btr_sscanf;
+using ::fscanf;
+using ::scanf;
+using ::sscanf;
 }  // namespace std
 
 #undef BTR_OPENR_SCAN_FORMAT
-#define fscanf btr_fscanf
-#define sscanf btr_sscanf
-#define scanf btr_scanf
+
+}  // extern "C++"
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+extern "C++" {
 namespace std {
 
 inline size_t min(size_t a, unsigned int b) { return a < b ? a : b; }
@@ -12,5 +13,6 @@ inline size_t max(size_t a, unsigned int b) { return a > b ? a : b; }
 inline size_t max(unsigned int a, size_t b) { return a > b ? a : b; }
 
 }  // namespace std
+}
 
 #endif

@@ -111,6 +111,7 @@ struct SearchThresholds {
     double inReach = 1.5;    ///< by squared error in windows, of the best [time]
     int raceFrom = 2;        ///< rounds of draws, after which candidates that are out of the race are left [time]
     double race = 2.25;      ///< by squared error, of the best so far: out of it [time]
+    double helps = 0.95;     ///< by squared error in windows, of that without it, before anything is fitted [time]
     double mostLeft = 4;     ///< error of what may be the cause; of other laws a better fit says nothing [case]
     double hopeless = 4;     ///< times mostLeft in short windows: whole trials leave more [time]
   };

@@ -140,6 +140,8 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
   for (const Racer& each : race) {
     const FitModel& model = each.draws.best();
     const double error = residualsOf(windows.problem(), model, {}).squaredNorm();
+    // What helps nothing in any size that was drawn begins nowhere better than where it is.
+    if (error > limits.helps * residualsOf(windows.problem(), without[each.base].model, {}).squaredNorm()) continue;
     least = std::min(least, error);
     const Begun begins{each.tried, model, without[each.base].shifts, error};
     const auto known = std::ranges::find(begun, each.tried, &Begun::tried);

@@ -57,7 +57,10 @@ class Reader {
     const auto before = at<std::uint64_t>(begin);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (before % 2 == 1 || at<std::int64_t>(begin + 8) != number) return std::nullopt;
-    std::string rgb(memory_ + begin + 64, at<std::uint32_t>(begin + 32));
+    // Byte by byte: slower than the writer, which laps it.
+    std::string rgb(at<std::uint32_t>(begin + 32), '\0');
+    const volatile char* from = memory_ + begin + 64;
+    for (char& pixel : rgb) pixel = *from++;
     std::atomic_thread_fence(std::memory_order_acquire);
     if (at<std::uint64_t>(begin) != before) return std::nullopt;
     return rgb;
@@ -82,32 +85,40 @@ TEST(PictureRing, KeepsTheLastFrames) {
   EXPECT_FALSE(reader.frame(11));
 }
 
+/// What two processes tell each other.
+struct Shared {
+  std::atomic<int> tries{0};
+  std::atomic_bool ends{false};
+};
+
 TEST(PictureRing, AnotherProcessNeverSeesATornFrame) {
+  constexpr int triesWhileWritten = 5000, wholeAtLeast = 100;
   PictureRing ring(shade(0));
-  std::atomic_bool* ends =
-      new (mmap(nullptr, sizeof(std::atomic_bool), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))
-          std::atomic_bool(false);
+  void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  auto* shared = new (memory) Shared;
   const pid_t reading = fork();
   if (reading == 0) {
     const Reader reader(ring);
     int whole = 0;
     bool torn = false;
-    while (!torn && (whole < 1000 || !*ends)) {
+    while (!torn && (whole < wholeAtLeast || !shared->ends)) {
       const auto number = reader.newest();
-      const auto frame = number > 0 ? reader.frame(number) : std::nullopt;
+      if (number == 0) continue;  // not yet
+      const auto frame = reader.frame(number);
+      ++shared->tries;
       if (!frame) continue;
       ++whole;
       torn = *frame != std::string(pixels, static_cast<char>(number));
     }
+    shared->tries = triesWhileWritten;
     _exit(torn ? 1 : 0);
   }
-  // Without a pause: the reader is lapped again and again.
-  for (std::int64_t number = 1; number <= 20000; ++number) ring.write(number, number, shade(number));
-  *ends = true;
+  for (std::int64_t number = 1; shared->tries < triesWhileWritten; ++number) ring.write(number, number, shade(number));
+  shared->ends = true;
   int status = -1;
   ASSERT_EQ(reading, waitpid(reading, &status, 0));
   EXPECT_EQ(0, status);
-  munmap(ends, sizeof *ends);
+  munmap(memory, sizeof(Shared));
 }
 
 TEST(PictureRing, IsWrittenByItsMakerAlone) {

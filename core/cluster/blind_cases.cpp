@@ -74,7 +74,7 @@ std::string proveAway(ProofRequest request, std::size_t number, const EffectLibr
 }
 
 void takeCase(const std::string& out, std::size_t number, const std::string& bytes) {
-  const fs::path folder = fs::path(out) / nameOfCase(number), part = folder.string() + ".part";
+  const fs::path folder = fs::path(out) / nameOfCase(number), part = fs::path(out) / ("." + nameOfCase(number));
   std::error_code error;
   fs::remove_all(part, error);
   const Parts files = unpack(bytes);

@@ -142,9 +142,9 @@ void gridElsewhere(const GridArguments& a, const GridSpec& spec, Shell& shell) {
   const auto begin = [&](const std::string& folder, ArrayJob& job) {
     for (const std::uint64_t seed : spec.seeds)
       for (const GridSpec::Method method : spec.methods) {
-        job.elements.push_back(
-            {std::string(toText(method)) + ", seed " + std::to_string(seed),
-             {"grid", "--grid", "1", "--db", "{db}", "--workers", std::to_string(job.workers), "--quiet"}});
+        job.elements.push_back({std::string(toText(method)) + ", seed " + std::to_string(seed),
+                                {"grid", "--grid", "1", "--db", "{db}", "--workers", std::to_string(job.workers),
+                                 "--quiet", "--places", "{places}"}});
         Database db = Database::open(elementDatabase(folder, job.elements.size()), Database::Mode::create);
         startGrid(db, shell.plugins(), spec, method, seed);
       }

@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
   commandLine.add_flag("--replay-best", arguments.replayBest,
                        "replay the best individual of the run's last generation");
   commandLine.add_option("--report", arguments.report, "folder of a gap report to open");
-  commandLine.add_option("--scene", arguments.scene, "game, scene or robot file to open on the scene page");
+  commandLine.add_option("--scene", arguments.scene,
+                         "game, scene or robot file, or a session's log, to open on the scene page");
   commandLine.add_option("--grid", arguments.grid, "number of the grid to show")->transform(btr::cli::wholeNumber(1));
   commandLine.add_option("--look", arguments.look, "for this start")->check(CLI::IsMember({"system", "light", "dark"}));
   commandLine.add_option("--screenshot", arguments.screenshot, "write a picture of the window to this file and quit");

@@ -30,7 +30,7 @@ class MainWindow : public QMainWindow {
   void selectRun(Id run) { bench_.selectRun(run); }
   /// Opens a gap report's folder in the gap page. False, with a message, keeps what was there.
   bool openReport(const QString& folder);
-  /// A game, scene or robot file on the scene page.
+  /// A game, scene or robot file, or a session's log, on the scene page.
   void openScene(const QString& file);
   /// One of "start", "analysis" and "grid" in place of the runs' docks; an empty name: the runs again.
   void showPage(const QString& page);

@@ -43,6 +43,8 @@ void printStates(const std::string& folder, const ArrayJob& job, const std::vect
   nlohmann::json all = nlohmann::json::array();
   const ArrayProgress progress = progressOf(states);
   std::vector<std::vector<std::string>> rows;
+  const bool areCases = job.what == "gap prove";
+  constexpr double hour_s = 3600;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const ElementState& s = states[i];
     all.push_back({{"element", i + 1},
@@ -53,7 +55,7 @@ void printStates(const std::string& folder, const ArrayJob& job, const std::vect
                    {"trials_per_second", s.trialsPerSecond},
                    {"note", s.note}});
     rows.push_back({std::to_string(i + 1), job.elements[i].name, s.state, tenthPercent(s.share), s.host,
-                    s.trialsPerSecond > 0 ? brief(s.trialsPerSecond) : "", s.note});
+                    s.trialsPerSecond > 0 ? brief(s.trialsPerSecond * (areCases ? hour_s : 1)) : "", s.note});
   }
   if (shell.json)
     return printJson({{"format", "uchilsim-array-status-1"},
@@ -66,7 +68,7 @@ void printStates(const std::string& folder, const ArrayJob& job, const std::vect
                       {"seconds_left", progress.secondsLeft},
                       {"trials_per_second", progress.trialsPerSecond},
                       {"elements", all}});
-  writeOut("", table({"element", "what", "state", "done", "host", "trials/s", ""}, rows));
+  writeOut("", table({"element", "what", "state", "done", "host", areCases ? "cases/h" : "trials/s", ""}, rows));
   std::printf("all: %s%s\n", tenthPercent(progress.share).c_str(), timeLeft(progress.secondsLeft).c_str());
 }
 

@@ -104,18 +104,20 @@ ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : im
   if (launch.size > mostRanksWithAWorkingFirst) options.foremen = 0;
   buildIdentity(shell.plugins());  // before MPI's libraries are among those that are loaded
   impl_->coordinator = std::make_unique<Coordinator>(openMpi(launch), shell.plugins(), options);
-  requireLocal(database);
+  if (!database.empty()) requireLocal(database);
 }
 
 ClusterJob::~ClusterJob() = default;
 
 Workforce* ClusterJob::workforce() const { return impl_->coordinator.get(); }
 
-void ClusterJob::tell() const {
+CaseForce* ClusterJob::caseForce() const { return impl_->coordinator.get(); }
+
+void ClusterJob::tell(const char* what) const {
   if (!impl_->coordinator) return;
   for (const auto& [host, sum] : hostsOf(*impl_->coordinator))
-    std::fprintf(stderr, "btr: %s: %d workers, %ld trials in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
-                 sum.places, sum.jobs, sum.pieces, sum.worked_s, sum.losses);
+    std::fprintf(stderr, "btr: %s: %d workers, %ld %s in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
+                 sum.places, sum.jobs, what, sum.pieces, sum.worked_s, sum.losses);
 }
 
 void ClusterJob::tellTo(const std::string& file) {
@@ -125,9 +127,9 @@ void ClusterJob::tellTo(const std::string& file) {
   impl_->shareBefore = -1;
 }
 
-void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond) const {
+void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond, bool isRare) const {
   const Clock::time_point now = Clock::now();
-  if (impl_->file.empty() || (now - impl_->told < betweenPlaces && share < 1)) return;
+  if (impl_->file.empty() || (now - impl_->told < betweenPlaces && share < 1 && !isRare)) return;
   impl_->told = now;
   if (impl_->shareBefore < 0) impl_->shareBefore = share;
   const double gained = share - impl_->shareBefore,
@@ -148,6 +150,17 @@ void ClusterJob::tellProgress(const std::string& stage, double share, double tri
                            {"trials_per_second", trialsPerSecond},
                            {"hosts", hosts}};
   writeFile(impl_->file, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+bool isNeedless(const char* command) {
+  const Launch launch = launchOfThisProcess();
+  if (launch.rank > 0) return true;
+  if (launch.size > 1)
+    throw InputError(
+        launch.by + " started " + std::to_string(launch.size) + " ranks, and btr " + command +
+        " works on one machine, with --jobs; start it alone, or set UCHILSIM_ALONE=1 for one of its own on "
+        "each rank");
+  return false;
 }
 
 void addPlacesOption(CLI::App* command, std::string& file) {

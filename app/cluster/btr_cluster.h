@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/btr_commands.h"
+#include "core/gap/proof/proof_request.h"
 #include "core/run/setup/workforce.h"
 
 namespace btr::cli {
@@ -10,9 +11,9 @@ namespace btr::cli {
 /// This process as one of the ranks that mpirun or srun started; nothing is loaded where it was started alone.
 class ClusterJob {
  public:
-  /// As `btr run` and others begin. On rank 0: the database must not be on a network file system (InputError), and the
-  /// workforce begins. On every other rank: works for rank 0 until that one ends. `jobs`: worker processes of each
-  /// rank, 0: this rank's share of its machine's processors.
+  /// As `btr run` and others begin. On rank 0: the database, if there is one, must not be on a network file system
+  /// (InputError), and the workforce begins. On every other rank: works for rank 0 until that one ends. `jobs`: worker
+  /// processes of each rank, 0: this rank's share of its machine's processors.
   ClusterJob(Shell& shell, const std::string& database, int jobs);
   ~ClusterJob();
   ClusterJob(const ClusterJob&) = delete;
@@ -21,19 +22,24 @@ class ClusterJob {
   /// True on the ranks that only work: what they were asked for is done.
   bool isDone() const { return isDone_; }
   Workforce* workforce() const;  ///< none where the process was started alone
-  /// Who did how much, on stderr: a line for each host.
-  void tell() const;
+  CaseForce* caseForce() const;  ///< the same
+  /// Who did how much, on stderr: a line for each host. `what`: its jobs are.
+  void tell(const char* what = "trials") const;
   /// From now on tellProgress() keeps a JSON file ("uchilsim-places-1") of who does how much; of rank 0. Throws
   /// InputError if it cannot be written.
   void tellTo(const std::string& file);
-  /// At most once a second: which part of all (0 to 1) is done.
-  void tellProgress(const std::string& stage, double share, double trialsPerSecond) const;
+  /// At most once a second: which part of all (0 to 1) is done. `isRare`: every time.
+  void tellProgress(const std::string& stage, double share, double trialsPerSecond, bool isRare = false) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
   bool isDone_ = false;
 };
+
+/// For a command that works in one process: of several ranks the first throws InputError, and on the others, which have
+/// nothing to do, this is true.
+bool isNeedless(const char* command);
 
 /// --places.
 void addPlacesOption(CLI::App* command, std::string& file);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/cluster/btr_cluster.h"
 #include "app/progress_line.h"
 #include "core/gap/fit/fitted_start.h"
 #include "core/gap/fit/gap_problem.h"
@@ -68,6 +69,8 @@ void residualCommand(const ResidualArguments& arguments, Shell& shell) {
 }
 
 void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
+  // Several would write the same folder.
+  if (isNeedless("gap analyse")) return;
   const ProgressLine progress(shell, lines);
   const EffectLibrary library{shell.plugins().effectFactory(), shell.plugins().effects()};
   try {

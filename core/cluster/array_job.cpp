@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/cluster/child.h"
+#include "core/gap/proof/proof_case.h"
+#include "core/gap/proof/proof_score.h"
+#include "core/gap/proof/proof_tally.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/store/database.h"
@@ -47,21 +50,90 @@ bool takeDatabase(const std::string& path, const std::string& into) {
   return true;
 }
 
-bool takeCases(const std::string& path, const std::string& into) {
-  fs::create_directories(into);
-  bool isNew = false;
-  const std::string list = outputOfChild({"tar", "-tf", path});
-  for (std::size_t at = 0; at < list.size();) {
-    const std::size_t end = std::min(list.find('\n', at), list.size());
-    const std::string name = list.substr(at, end - at);
-    if (name.ends_with("verdict.json") && !fs::exists(fs::path(into) / name)) isNew = true;
-    at = end + 1;
+/// A folder beside what it is moved into, gone in the end.
+class Arriving {
+ public:
+  explicit Arriving(fs::path path) : path_(std::move(path)) { fs::remove_all(path_); }
+  ~Arriving() {
+    std::error_code ignored;  // the next one begins with removing it
+    fs::remove_all(path_, ignored);
   }
-  if (isNew) outputOfChild({"tar", "-xf", path, "-C", into});
+  Arriving(const Arriving&) = delete;
+  Arriving& operator=(const Arriving&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// True if one of them was new. A case that was begun there and not finished gives way.
+bool takeCases(const std::string& tar, const std::string& into) try {
+  if (!fs::exists(tar)) return false;
+  const Arriving arriving(fs::path(into) / ".arriving");
+  unpackCases(tar, arriving.path().string());
+  const fs::path trial = arriving.path() / "trial.json", ours = fs::path(into) / "trial.json";
+  if (!fs::exists(trial)) return false;
+  if (!fs::exists(ours))
+    writeFile(ours.string(), readFile(trial.string()));
+  else if (readFile(ours.string()) != readFile(trial.string()))
+    throw InputError(ours.string(), "another trial", "the one that the job's cases belong to");
+  bool isNew = false;
+  for (const auto& entry : fs::directory_iterator(arriving.path())) {
+    const fs::path there = fs::path(into) / entry.path().filename();
+    if (!entry.is_directory() || !fs::exists(entry.path() / "verdict.json") || fs::exists(there / "verdict.json"))
+      continue;
+    fs::remove_all(there);
+    fs::rename(entry.path(), there);
+    isNew = true;
+  }
   return isNew;
+} catch (const fs::filesystem_error& error) {
+  throw InputError(into + ": cannot be written: " + error.code().message());
+}
+
+void countCases(const std::string& folder) {
+  if (!fs::exists(folder)) return;
+  const bool any = std::ranges::any_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    return entry.path().filename().string().starts_with("case_") && fs::exists(entry.path() / "verdict.json");
+  });
+  if (!any) return;
+  const std::vector<ProvedCase> cases = provedCasesIn(folder);
+  writeProof(folder, score(cases), cases);
 }
 
 }  // namespace
+
+std::string elementCases(const std::string& folder, std::size_t number) { return elementFile(folder, number, ".tar"); }
+
+void packCases(const std::string& trial, const std::string& tar) {
+  const std::string part = tar + ".part";
+  std::vector<std::string> words{"tar", "-cf", part, "-T", "/dev/null"};
+  if (!trial.empty() && fs::exists(fs::path(trial) / "trial.json")) {
+    words = {"tar", "-cf", part, "-C", trial, "trial.json"};
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(trial))
+      if (entry.path().filename().string().starts_with("case_") && fs::exists(entry.path() / "verdict.json"))
+        names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    words.insert(words.end(), names.begin(), names.end());
+  }
+  outputOfChild(words);
+  std::error_code error;
+  fs::rename(part, tar, error);
+  if (error) throw InputError(tar + ": cannot be written: " + error.message());
+}
+
+void unpackCases(const std::string& tar, const std::string& trial) {
+  std::error_code error;
+  fs::create_directories(trial, error);
+  if (error) throw InputError(trial + ": the folder cannot be made: " + error.message());
+  outputOfChild({"tar", "-xf", tar, "-C", trial});
+}
+
+std::size_t finishedCases(const std::string& trial, const std::vector<std::size_t>& cases) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(cases, [&](std::size_t number) { return fs::exists(verdictOfCase(trial, number)); }));
+}
 
 std::string elementFile(const std::string& folder, std::size_t number, const std::string& ending) {
   return (fs::path(folder) / (std::to_string(number) + ending)).string();
@@ -82,7 +154,11 @@ void claimArrayFolder(const std::string& folder) {
 
 void saveArrayJob(const std::string& folder, const ArrayJob& job) {
   json elements = json::array();
-  for (const ArrayElement& e : job.elements) elements.push_back({{"name", e.name}, {"arguments", e.arguments}});
+  for (const ArrayElement& e : job.elements) {
+    json element{{"name", e.name}, {"arguments", e.arguments}};
+    if (!e.cases.empty()) element["cases"] = e.cases;
+    elements.push_back(std::move(element));
+  }
   writeFile((fs::path(folder) / "job.json").string(), json{{"format", format},
                                                            {"what", job.what},
                                                            {"into", job.into},
@@ -107,7 +183,8 @@ ArrayJob loadArrayJob(const std::string& folder) {
     job.program = j.at("program").get<std::string>();
     job.workers = j.at("workers").get<int>();
     for (const json& e : j.at("elements"))
-      job.elements.push_back({e.at("name").get<std::string>(), e.at("arguments").get<std::vector<std::string>>()});
+      job.elements.push_back({e.at("name").get<std::string>(), e.at("arguments").get<std::vector<std::string>>(),
+                              e.value("cases", std::vector<std::size_t>())});
     job.build = j.at("build").get<Parts>();
     job.queueIds = j.at("queue_ids").get<std::vector<std::string>>();
     return job;
@@ -191,17 +268,18 @@ ArrayProgress progressOf(const std::vector<ElementState>& states) {
 
 Collected collectArray(const std::string& folder) {
   const ArrayJob job = loadArrayJob(folder);
+  const bool isTrial = job.what == "gap prove";
   Collected collected;
   for (std::size_t number = 1; number <= job.elements.size(); ++number) {
     const std::string state = loadElementState(folder, number).state;
-    if (state != "done" && state != "waiting") {
-      collected.missing.push_back(number);
-      continue;
-    }
-    const bool isNew = job.what == "gap prove" ? takeCases(elementFile(folder, number, ".tar"), job.into)
-                                               : takeDatabase(elementDatabase(folder, number), job.into);
-    ++(isNew ? collected.fresh : collected.before);
+    const bool isOver = state == "done" || state == "waiting";
+    if (!isOver) collected.missing.push_back(number);
+    if (!isOver && !isTrial) continue;
+    const bool isNew = isTrial ? takeCases(elementCases(folder, number), job.into)
+                               : takeDatabase(elementDatabase(folder, number), job.into);
+    if (isOver) ++(isNew ? collected.fresh : collected.before);
   }
+  if (isTrial) countCases(job.into);
   return collected;
 }
 

@@ -10,8 +10,10 @@ namespace btr {
 
 /// One part of an array job, which a machine works on for itself.
 struct ArrayElement {
-  std::string name;                    ///< "worn knee, seed 3"
-  std::vector<std::string> arguments;  ///< of btr; "{db}" is its database, "{out}" its folder
+  std::string name;  ///< "worn knee, seed 3"
+  /// Of btr; "{db}" is its database, "{out}" its folder, "{places}" a file in which btr keeps how fast it is.
+  std::vector<std::string> arguments;
+  std::vector<std::size_t> cases = {};  ///< of a blind trial: those that it proves
 };
 
 /// Runs of a comparison, grids or blind cases for a batch queue or for other machines over ssh, in a folder: job.json
@@ -41,7 +43,7 @@ struct ElementState {
   std::string note;                 ///< why it failed or what it waits for
   double share = 0;                 ///< of what is to be done, as far as it is known
   double gained = 0, worked_s = 0;  ///< the part of it that was done since it last began, and how long that took
-  double trialsPerSecond = 0;       ///< 0: not known
+  double trialsPerSecond = 0;       ///< of a blind trial cases, 0: not known
   std::string login = {};           ///< by which ssh reached its machine
   long process = 0;                 ///< there
 };
@@ -64,12 +66,24 @@ std::string elementFile(const std::string& folder, std::size_t number, const std
 /// The element's database in the job's folder, for startRun() and others to begin.
 std::string elementDatabase(const std::string& folder, std::size_t number);
 
+/// The cases of an element in the job's folder, "FOLDER/7.tar".
+std::string elementCases(const std::string& folder, std::size_t number);
+/// Packs the finished cases of a blind trial's folder, whole or not at all; none where there is no such folder. Throws
+/// InputError.
+void packCases(const std::string& trial, const std::string& tar);
+/// Unpacks them into a folder, which is made. Throws InputError.
+void unpackCases(const std::string& tar, const std::string& trial);
+/// Of these cases, how many are finished there.
+std::size_t finishedCases(const std::string& trial, const std::vector<std::size_t>& cases);
+
 /// What came of collecting.
 struct Collected {
   std::size_t fresh = 0, before = 0;  ///< elements taken now; those that had been taken
   std::vector<std::size_t> missing;   ///< elements that are not done
 };
-/// Takes the results of all elements that are done, once each: runs and grids into the database, cases into the folder.
+/// Takes the results of all elements that are done, once each: runs and grids into the database. Of a blind trial all
+/// finished cases, into the folder, of elements that are not done, too; then it counts what the folder holds as
+/// runProof() does.
 Collected collectArray(const std::string& folder);
 
 }  // namespace btr

@@ -61,6 +61,12 @@ Parts buildIdentity(const PluginHost& host) {
   return identity;
 }
 
+Parts buildIdentity(const PluginHost& host, const std::string& generator) {
+  Parts identity = buildIdentity(host);
+  identity.push_back("program conceal " + hashOfFile(generator));
+  return identity;
+}
+
 std::optional<std::string> difference(const Parts& ours, const Parts& theirs) {
   const auto has = [](const Parts& all, const std::string& name) {
     return std::ranges::any_of(all, [&](const std::string& entry) { return nameOf(entry) == name; });

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
 #include "core/cluster/schedule.h"
 #include "core/spec/error.h"
@@ -16,6 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// Cases are taken for so long until some have been measured: nobody keeps a second one waiting meanwhile.
+constexpr Pace paceOfCases{30, 0};
 
 /// A job that was lost so often is at fault, or the machines are.
 constexpr int mostTries = 3;
@@ -31,7 +35,7 @@ struct Place {
   PlaceReport report;
   bool begun = false, gone = false;
   std::string why;               ///< it was lost
-  long experiment = 0;           ///< the last one that it was told
+  long task = 0;                 ///< the last one that it was told
   std::deque<Piece> pieces;      ///< in the order in which it works on them
   Clock::time_point since = {};  ///< when it began with the first of them
 };
@@ -53,12 +57,15 @@ struct Coordinator::Impl {
   std::vector<Place> places;  ///< this rank's foremen first
   std::vector<bool> arrived;  ///< by rank: its crew is known
   bool allBegun = false;
-  long experiment = 0, lastPiece = 0;
-  Parts experimentText;  ///< as it was sent, without its number
-  Pace pace;
+  long task = 0, lastPiece = 0;
+  Parts taskText;         ///< as it was sent, without its number
+  std::string generator;  ///< that conceals the task's cases, if it has such
+  Pace paceOfTrials, paceOfBlindCases = paceOfCases;
 
   // Of the work that is done now.
-  std::vector<WorkerPool::Reply>* replies = nullptr;
+  std::function<void(std::size_t, WorkerPool::Reply)> settle;  ///< a job came to its end
+  Pace* pace = nullptr;
+  double secondsPerJob = 0;
   std::vector<int> tries;
   Schedule* schedule = nullptr;
   std::size_t finished = 0;
@@ -126,7 +133,7 @@ struct Coordinator::Impl {
   }
 
   void requireSame(const Place& place, Parts::const_iterator from, Parts::const_iterator to) const {
-    const Parts ours = experiment ? buildIdentity(host) : identity;
+    const Parts ours = task == 0 ? identity : generator.empty() ? buildIdentity(host) : buildIdentity(host, generator);
     if (const auto what = difference(ours, Parts(from, to)))
       throw InputError(nameOf(place) + ": " + *what + "; install the same build on every machine");
   }
@@ -134,13 +141,13 @@ struct Coordinator::Impl {
   void hear(Place& place, const Parts& parts) {
     const std::string& kind = parts.front();
     if (kind == "hello") {
-      // Of a foreman that was started anew, the plugins of the experiment are checked once it is ready.
+      // Of a foreman that was started anew, the plugins of the task are checked once it is ready.
       if (!allBegun) requireSame(place, parts.begin() + 1, parts.end());
       place.begun = true;
     } else if (kind == "ready") {
-      if (std::stol(parts[1]) == experiment) requireSame(place, parts.begin() + 2, parts.end());
+      if (std::stol(parts[1]) == task) requireSame(place, parts.begin() + 2, parts.end());
     } else if (kind == "refused") {
-      if (std::stol(parts[1]) == experiment) throw InputError(nameOf(place) + ": " + parts[2]);
+      if (std::stol(parts[1]) == task) throw InputError(nameOf(place) + ": " + parts[2]);
     } else if (kind == "done") {
       take(place, parts);
     } else if (kind == "lost" || kind == "gone") {
@@ -159,7 +166,7 @@ struct Coordinator::Impl {
     place.report.pieces += 1;
     place.report.jobs += static_cast<long>(piece.jobs.size());
     if (piece.abandoned) return;
-    pace.add(piece.jobs.size(), worked_s, secondsSince(piece.sent));
+    pace->add(piece.jobs.size(), worked_s, secondsSince(piece.sent));
     for (std::size_t i = 0; i < piece.jobs.size(); ++i) {
       const std::size_t job = piece.jobs[i];
       const std::string& state = parts[3 + 2 * i];
@@ -168,11 +175,12 @@ struct Coordinator::Impl {
         schedule->giveBack({job});
         continue;
       }
-      WorkerPool::Reply& reply = (*replies)[job];
+      WorkerPool::Reply reply;
       reply.ok = state == "R";
       reply.killed = state == "K";
       (reply.ok ? reply.bytes : reply.failure) = parts[4 + 2 * i];
       ++finished;
+      settle(job, std::move(reply));
     }
   }
 
@@ -180,7 +188,7 @@ struct Coordinator::Impl {
     place.why = parts.size() > 1 ? parts[1] : "";
     place.gone = parts.front() == "gone";
     place.begun = false;
-    place.experiment = 0;
+    place.task = 0;
     ++place.report.losses;
     bool first = true;
     for (const Piece& piece : std::exchange(place.pieces, {})) {
@@ -192,14 +200,14 @@ struct Coordinator::Impl {
               throw InputError(nameOf(place) +
                                ": the process that worked on a trial was lost, the third time for this "
                                "trial (" +
-                               place.why + "); nothing of this generation is stored: go on with btr run");
+                               place.why + "); what was stored before is kept: the same command goes on");
         schedule->giveBack(piece.jobs);
       }
       first = false;
     }
     if (place.gone && std::ranges::all_of(places, &Place::gone))
       throw InputError(nameOf(place) + ": no place is left that works (" + place.why +
-                       "); what was stored is kept: go on with btr run");
+                       "); what was stored is kept: the same command goes on");
   }
 
   bool haveAllBegun() const {
@@ -226,24 +234,48 @@ struct Coordinator::Impl {
     return true;
   }
 
-  void setExperiment(const PreparedExperiment& prepared) {
-    Parts text = experimentMessage(0, makeRunRecord(prepared, 0, 0));
-    if (experiment > 0 && text == experimentText) return;
-    experimentText = std::move(text);
-    ++experiment;
+  /// What all jobs are of; nothing new if it is the same as before.
+  void setTask(Parts text) {
+    if (task > 0 && text == taskText) return;
+    taskText = std::move(text);
+    ++task;
+  }
+
+  /// All jobs of the task; false if stopped.
+  bool work(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
+            const std::function<void(std::size_t)>& done) {
+    Schedule all(jobs.size(),
+                 static_cast<std::size_t>(std::ranges::count_if(places, [](const Place& p) { return !p.gone; })));
+    schedule = &all;
+    tries.assign(jobs.size(), 0);
+    finished = 0;
+    std::size_t told = 0;
+    while (finished < jobs.size()) {
+      if (stop) {
+        for (Place& place : places)
+          for (Piece& piece : place.pieces) piece.abandoned = true;
+        return false;
+      }
+      handOut(jobs);
+      listen();
+      restartTheHanging();
+      while (told < finished)
+        if (++told; done) done(told);
+    }
+    return true;
   }
 
   void handOut(const std::vector<std::string>& jobs) {
     for (Place& place : places) {
       if (place.gone || !place.begun) continue;
       while (true) {
-        std::vector<std::size_t> numbers = schedule->next(pace, place.pieces.size());
+        std::vector<std::size_t> numbers = schedule->next(*pace, place.pieces.size());
         if (numbers.empty()) break;
-        if (place.experiment != experiment) {
-          Parts text = experimentText;
-          text[1] = std::to_string(experiment);
+        if (place.task != task) {
+          Parts text = taskText;
+          text[1] = std::to_string(task);
           send(place, text);
-          place.experiment = experiment;
+          place.task = task;
         }
         Piece piece{++lastPiece, std::move(numbers), Clock::now(), false};
         Parts message{"piece", std::to_string(piece.number)};
@@ -258,8 +290,7 @@ struct Coordinator::Impl {
   void restartTheHanging() {
     for (Place& place : places) {
       if (place.pieces.empty()) continue;
-      const double most =
-          options.grace_s + 2 * options.secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      const double most = options.grace_s + 2 * secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
       if (secondsSince(place.since) < most) continue;
       place.since = Clock::now();
       restart(place);
@@ -290,28 +321,32 @@ std::vector<WorkerPool::Reply> Coordinator::run(const PreparedExperiment& experi
                                                 const std::function<void(std::size_t)>& done) {
   Impl& impl = *impl_;
   if (!impl.begin(stop)) return {};
-  impl.setExperiment(experiment);
+  impl.generator.clear();
+  impl.setTask(experimentMessage(0, makeRunRecord(experiment, 0, 0)));
+  impl.pace = &impl.paceOfTrials;
+  impl.secondsPerJob = impl.options.secondsPerJob;
   std::vector<WorkerPool::Reply> replies(jobs.size());
-  Schedule schedule(jobs.size(), static_cast<std::size_t>(
-                                     std::ranges::count_if(impl.places, [](const Place& p) { return !p.gone; })));
-  impl.replies = &replies;
-  impl.schedule = &schedule;
-  impl.tries.assign(jobs.size(), 0);
-  impl.finished = 0;
-  std::size_t told = 0;
-  while (impl.finished < jobs.size()) {
-    if (stop) {
-      for (Place& place : impl.places)
-        for (Piece& piece : place.pieces) piece.abandoned = true;
-      return {};
-    }
-    impl.handOut(jobs);
-    impl.listen();
-    impl.restartTheHanging();
-    while (told < impl.finished)
-      if (++told; done) done(told);
-  }
+  impl.settle = [&](std::size_t job, WorkerPool::Reply reply) { replies[job] = std::move(reply); };
+  if (!impl.work(jobs, stop, done)) return {};
   return replies;
+}
+
+void Coordinator::prove(const ProofRequest& request, const std::vector<std::size_t>& numbers,
+                        const std::atomic<bool>& stop,
+                        const std::function<void(std::size_t, const WorkerPool::Reply&)>& done) {
+  Impl& impl = *impl_;
+  if (!impl.begin(stop)) return;
+  impl.generator = request.generator;
+  impl.setTask({"cases", "0", toJsonText(request)});
+  impl.pace = &impl.paceOfBlindCases;
+  impl.secondsPerJob = longestCase_s;
+  std::vector<std::string> jobs;
+  for (const std::size_t number : numbers) jobs.push_back(std::to_string(number));
+  impl.settle = [&](std::size_t job, const WorkerPool::Reply& reply) {
+    if (reply.ok) takeCase(request.out, numbers[job], reply.bytes);
+    done(job, reply);
+  };
+  impl.work(jobs, stop, {});
 }
 
 }  // namespace btr

@@ -5,6 +5,7 @@
 
 #include "core/cluster/crew.h"
 #include "core/cluster/rank_link.h"
+#include "core/gap/proof/proof_request.h"
 #include "core/run/setup/workforce.h"
 
 namespace btr {
@@ -30,7 +31,7 @@ struct CoordinatorOptions {
 /// results together by the numbers of their jobs, so that they do not depend on who worked where, or when. A place that
 /// is lost or does not answer in time is started anew and its piece given to the next that is free. All must have the
 /// build that this process has. Belongs to one thread.
-class Coordinator : public Workforce {
+class Coordinator : public Workforce, public CaseForce {
  public:
   /// `link` may be none: only this rank's foremen. `host` must outlive it; its plugins are those that the others must
   /// have.
@@ -44,6 +45,10 @@ class Coordinator : public Workforce {
   std::vector<WorkerPool::Reply> run(const PreparedExperiment& experiment, const std::vector<std::string>& jobs,
                                      const std::atomic<bool>& stop,
                                      const std::function<void(std::size_t)>& done) override;
+  /// Cases are pieces of their own: proved where a place is free, in a folder of that machine, and brought back.
+  /// Throws InputError as run() does; a machine must have the same generator, too.
+  void prove(const ProofRequest& request, const std::vector<std::size_t>& numbers, const std::atomic<bool>& stop,
+             const std::function<void(std::size_t, const WorkerPool::Reply&)>& done) override;
   std::vector<PlaceReport> report() const;
 
  private:

@@ -12,11 +12,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/cluster/array_job.h"
 #include "core/cluster/build_identity.h"
 #include "core/cluster/child.h"
 #include "core/cluster/coordinator.h"
+#include "core/cluster/own_scratch.h"
+#include "core/gap/proof/proof_run.h"
 #include "core/run/grid/grid_cells.h"
 #include "core/run/loop/back_to_reality.h"
 #include "core/spec/error.h"
@@ -47,28 +51,37 @@ class Element {
   }
 
   void requireSameBuild(const PluginHost& host) {
-    const auto what = difference(job_.build, buildIdentity(host));
-    if (!what) return;
-    fail("host " + state_.host + ": " + *what + "; install the same build on every machine");
+    std::string why;
+    try {
+      const auto what = difference(job_.build, isTrial() ? buildIdentity(host, findGenerator()) : buildIdentity(host));
+      if (!what) return;
+      why = *what + "; install the same build on every machine";
+    } catch (const InputError& error) {  // no generator of blind cases
+      why = error.what();
+    }
+    fail("host " + state_.host + ": " + why);
     throw InputError(folder_ + ": element " + std::to_string(number_) + ": " + state_.note);
   }
 
   bool work(const std::atomic<bool>& stop) try {
     began_ = Clock::now();
     tell("running", "");
-    const ScratchFolder local("uchilsim-element");
-    const bool hasDatabase = fs::exists(elementDatabase(folder_, number_));
-    if (hasDatabase) copyFile(elementDatabase(folder_, number_), local.file("element.db"));
-    if (hasDatabase) shareBefore_ = shareOf(local.file("element.db"));
+    constexpr const char* scratch = "element";
+    removeAbandonedScratch(scratch);
+    const ScratchFolder local(ownScratchName(scratch));
+    if (!isTrial())
+      copyFile(elementDatabase(folder_, number_), local.file("element.db"));
+    else if (fs::exists(elementCases(folder_, number_)))
+      unpackCases(elementCases(folder_, number_), local.file("out"));
+    look(local);
+    shareBefore_ = state_.share;
     const std::string log = elementFile(folder_, number_, ".log");
     fs::remove(log);
     const pid_t child = startChild(words(local), log);
-    const int code = waitFor(child, stop, hasDatabase ? local.file("element.db") : "");
+    const int code = waitFor(child, stop, local);
     const std::string said = readFile(log);
-    if (hasDatabase)
-      bringBack(local.file("element.db"));
-    else
-      outputOfChild({"tar", "-cf", elementFile(folder_, number_, ".tar"), "-C", local.file("out"), "."});
+    look(local);
+    bringBack(local);
     return conclude(code, stop, lastLine(said));
   } catch (const std::exception& error) {
     fail("host " + state_.host + ": " + error.what());
@@ -76,6 +89,8 @@ class Element {
   }
 
  private:
+  bool isTrial() const { return !job_.elements[number_ - 1].cases.empty(); }
+
   void tell(const std::string& state, const std::string& note) {
     state_.state = state;
     state_.note = note;
@@ -94,7 +109,10 @@ class Element {
   std::vector<std::string> words(const ScratchFolder& local) const {
     std::vector<std::string> all{fs::read_symlink("/proc/self/exe").string()};
     for (const std::string& word : job_.elements[number_ - 1].arguments)
-      all.push_back(word == "{db}" ? local.file("element.db") : word == "{out}" ? local.file("out") : word);
+      all.push_back(word == "{db}"       ? local.file("element.db")
+                    : word == "{out}"    ? local.file("out")
+                    : word == "{places}" ? local.file("places.json")
+                                         : word);
     return all;
   }
 
@@ -107,13 +125,30 @@ class Element {
       throw InputError((in ? to + ": cannot be written: " : from + ": cannot be read: ") + std::strerror(errno));
   }
 
-  /// The database comes back under another name first: whole or not at all.
-  void bringBack(const std::string& from) const {
+  /// Comes back under another name first: whole or not at all.
+  void bringBack(const ScratchFolder& local) const {
+    if (isTrial()) return packCases(local.file("out"), elementCases(folder_, number_));
     const std::string to = elementDatabase(folder_, number_), part = to + ".part";
-    Database::open(from, Database::Mode::readOnly).backUp(part, true);
+    Database::open(local.file("element.db"), Database::Mode::readOnly).backUp(part, true);
     std::error_code error;
     fs::rename(part, to, error);
     if (error) throw InputError(to + ": cannot be written: " + error.message());
+  }
+
+  /// Which part is done, and how fast that goes.
+  void look(const ScratchFolder& local) {
+    const double elapsed_s = std::chrono::duration<double>(Clock::now() - began_).count();
+    if (isTrial()) {
+      const std::vector<std::size_t>& cases = job_.elements[number_ - 1].cases;
+      const std::size_t finished = finishedCases(local.file("out"), cases);
+      state_.share = static_cast<double>(finished) / static_cast<double>(cases.size());
+      if (!finishedBefore_) finishedBefore_ = finished;
+      state_.trialsPerSecond = elapsed_s > 0 ? static_cast<double>(finished - *finishedBefore_) / elapsed_s : 0;
+      return;
+    }
+    state_.share = shareOf(local.file("element.db"));
+    if (const std::string places = local.file("places.json"); fs::exists(places))
+      state_.trialsPerSecond = nlohmann::json::parse(readFile(places)).value("trials_per_second", 0.0);
   }
 
   /// Which part of the generations is done.
@@ -137,7 +172,7 @@ class Element {
     return all > 0 ? std::min(1.0, done / all) : 0;
   }
 
-  int waitFor(pid_t child, const std::atomic<bool>& stop, const std::string& database) {
+  int waitFor(pid_t child, const std::atomic<bool>& stop, const ScratchFolder& local) {
     bool asked = false;
     auto told = Clock::now(), copied = told;
     while (true) {
@@ -151,14 +186,14 @@ class Element {
         kill(child, SIGTERM);
         asked = true;
       }
-      if (!database.empty() && Clock::now() - told > betweenStates) {
+      if (Clock::now() - told > betweenStates) {
         told = Clock::now();
-        state_.share = shareOf(database);
+        look(local);
         save();
       }
-      if (!database.empty() && Clock::now() - copied > betweenCopies) {
+      if (Clock::now() - copied > betweenCopies) {
         copied = Clock::now();
-        bringBack(database);
+        bringBack(local);
       }
       constexpr useconds_t moment_us = 50'000;
       usleep(moment_us);
@@ -187,7 +222,8 @@ class Element {
   ArrayJob job_;
   ElementState state_;
   Clock::time_point began_ = Clock::now();
-  double shareBefore_ = 0;  ///< of what had been done when it began
+  double shareBefore_ = 0;                     ///< of what had been done when it began
+  std::optional<std::size_t> finishedBefore_;  ///< cases, the same
 };
 
 }  // namespace

@@ -10,8 +10,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
+#include "core/cluster/own_scratch.h"
 #include "core/cluster/parts.h"
+#include "core/gap/proof/proof_run.h"
 #include "core/run/setup/evaluator.h"
 #include "core/spec/child_process.h"
 #include "core/spec/error.h"
@@ -54,13 +57,16 @@ Pipe takeStandardStreams() {
   return pipe;
 }
 
-/// The experiment that is worked on, with its worker. The worker ends before what it works on.
+/// What is worked on, with its worker. The worker ends before what it works on.
 struct Task {
-  PreparedExperiment prepared;
+  PreparedExperiment prepared;  ///< whose trials the jobs are, unless they are blind cases
+  ProofRequest trial;
+  EffectLibrary library;
+  Parts identity;
   std::unique_ptr<WorkerPool> pool;
 };
 
-std::unique_ptr<Task> prepare(const Parts& message, const PluginHost& host, double secondsPerJob) {
+std::unique_ptr<Task> prepareExperiment(const Parts& message, const PluginHost& host, double secondsPerJob) {
   constexpr std::size_t head = 4, perFile = 3;
   if (message.size() < head) throw InputError("an experiment that is cut short");
   RunRecord record;
@@ -75,12 +81,28 @@ std::unique_ptr<Task> prepare(const Parts& message, const PluginHost& host, doub
   }
   auto task = std::make_unique<Task>();
   task->prepared = prepareFromRun(record, host);
+  task->identity = buildIdentity(host);
   task->pool = std::make_unique<WorkerPool>(1, trialWork(task->prepared), secondsPerJob);
   return task;
 }
 
-Parts withIdentity(Parts head, const PluginHost& host) {
-  for (std::string& entry : buildIdentity(host)) head.push_back(std::move(entry));
+std::unique_ptr<Task> prepareCases(const Parts& message, const PluginHost& host) {
+  constexpr std::size_t head = 3;
+  if (message.size() < head) throw InputError("a blind trial that is cut short");
+  removeAbandonedScratch(caseScratch);
+  auto task = std::make_unique<Task>();
+  task->trial = proofRequestFromJson(message[2]);
+  task->trial.generator = findGenerator();
+  task->library = {host.effectFactory(), host.effects()};
+  task->identity = buildIdentity(host, task->trial.generator);
+  const Task& of = *task;
+  task->pool = std::make_unique<WorkerPool>(
+      1, [&of](const std::string& job) { return proveAway(of.trial, std::stoul(job), of.library); }, longestCase_s);
+  return task;
+}
+
+Parts joined(Parts head, const Parts& rest) {
+  head.insert(head.end(), rest.begin(), rest.end());
   return head;
 }
 
@@ -106,18 +128,18 @@ void servePieces(const PluginHost& host, double secondsPerJob) {
   signal(SIGTERM, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const Pipe pipe = takeStandardStreams();
-  pipe.write(withIdentity({"hello"}, host));
+  pipe.write(joined({"hello"}, buildIdentity(host)));
   std::unique_ptr<Task> task;
   while (const auto message = pipe.read()) {
     if (message->size() < 2) continue;
     const std::string& kind = message->front();
     if (kind == "piece" && task) {
       pipe.write(workOn(*message, *task->pool));
-    } else if (kind == "experiment") {
+    } else if (kind == "experiment" || kind == "cases") {
       task.reset();
       try {
-        task = prepare(*message, host, secondsPerJob);
-        pipe.write(withIdentity({"ready", (*message)[1]}, host));
+        task = kind == "cases" ? prepareCases(*message, host) : prepareExperiment(*message, host, secondsPerJob);
+        pipe.write(joined({"ready", (*message)[1]}, task->identity));
       } catch (const std::exception& error) {
         pipe.write({"refused", (*message)[1], error.what()});
       }

@@ -6,10 +6,11 @@ namespace btr {
 /// The process that works for a rank: it reads on standard input what is to be done, has it done by a worker process of
 /// its own, which it replaces when it dies or hangs, and writes the results to standard output, until its input ends.
 /// A message is its length (8 bytes) and packed parts:
-///   →  experiment NUMBER SPEC SCENE [NAME HASH CONTENT]...      piece NUMBER JOB...
+///   →  experiment NUMBER SPEC SCENE [NAME HASH CONTENT]...      cases NUMBER REQUEST      piece NUMBER JOB...
 ///   ←  hello IDENTITY...      ready NUMBER IDENTITY...      refused NUMBER WHY
 ///      done NUMBER SECONDS [STATE BYTES]...   STATE: R a reply, F why there is none, K the worker was killed
-/// What plugins write to standard output goes to standard error.
+/// Jobs are trials of the experiment (Evaluator), or the numbers of blind cases (blind_cases.h) as they are asked for
+/// in REQUEST (proof_request.h). What plugins write to standard output goes to standard error.
 void servePieces(const PluginHost& host, double secondsPerJob);
 
 }  // namespace btr

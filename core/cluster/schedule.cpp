@@ -37,7 +37,8 @@ std::vector<std::size_t> Schedule::next(const Pace& pace, std::size_t held) {
     return {job};
   }
   const std::size_t rest = jobs_ - handedOut_;
-  if (rest == 0 || (held == 1 && rest <= places_)) return {};
+  // Beside a job that takes longer than a piece may, the journey is nothing; what waits behind it others could begin.
+  if (rest == 0 || (held == 1 && (rest <= places_ || pace.job_s > longestPiece_s))) return {};
   std::size_t size = 1;
   if (pace.job_s > 0) {
     const double share = shareOfTheRest * static_cast<double>(rest) / static_cast<double>(places_);

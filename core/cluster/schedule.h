@@ -21,7 +21,8 @@ class Schedule {
   Schedule(std::size_t jobs, std::size_t places);
 
   /// The next piece for a place that holds `held` pieces; empty: nothing for it now. A place gets a second piece before
-  /// it has ended the first, so that it need not wait for the journey, unless others have none.
+  /// it has ended the first, so that it need not wait for the journey, unless others have none or a job takes longer
+  /// than half a second.
   std::vector<std::size_t> next(const Pace& pace, std::size_t held);
   /// Jobs whose place was lost are handed out first, each in a piece of its own.
   void giveBack(const std::vector<std::size_t>& piece);

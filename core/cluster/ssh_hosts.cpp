@@ -228,9 +228,12 @@ void runOverSsh(const std::string& folder, const std::string& hostsFile, const s
       "parallel",  "--will-cite", "--line-buffer", "--sshloginfile", hosts,      "--jobs",    "100%",
       "--workdir", "...",         "--cleanup",     "--transferfile", "job.json", "--retries", "3"};
   const bool hasDatabase = fs::exists(elementDatabase(folder, numbers.front()));
-  if (hasDatabase) words.insert(words.end(), {"--transferfile", "{}.db"});
-  for (const char* result : {hasDatabase ? "{}.db" : "{}.tar", "{}.json", "{}.log"})
-    words.insert(words.end(), {"--return", result});
+  if (!hasDatabase)
+    for (const std::size_t number : numbers)
+      if (const std::string tar = elementCases(folder, number); !fs::exists(tar)) packCases("", tar);
+  const char* const result = hasDatabase ? "{}.db" : "{}.tar";
+  words.insert(words.end(), {"--transferfile", result});
+  for (const char* back : {result, "{}.json", "{}.log"}) words.insert(words.end(), {"--return", back});
   words.push_back("'" + job.program + "' element . {} --login \"$PARALLEL_SSHLOGIN\"");
   words.emplace_back(":::");
   for (const std::size_t number : numbers) words.push_back(std::to_string(number));

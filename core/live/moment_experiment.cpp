@@ -18,29 +18,29 @@ namespace fs = std::filesystem;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-Vector3d vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-std::array<double, 3> arrayOf(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vector3d vectorFrom(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+std::array<double, 3> arrayFrom(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 template <class Spec>
-Isometry3d poseOf(const Spec& spec) {
+Isometry3d poseFrom(const Spec& spec) {
   const auto& q = spec.orientation_wxyz;
-  return Eigen::Translation3d(vectorOf(spec.position_m)) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  return Eigen::Translation3d(vectorFrom(spec.position_m)) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
 /// Of a robot or an obstacle.
 template <class Spec>
-void move(Spec& spec, const Isometry3d& by) {
-  const Isometry3d pose = by * poseOf(spec);
+void moveBy(Spec& spec, const Isometry3d& by) {
+  const Isometry3d pose = by * poseFrom(spec);
   const Eigen::Quaterniond q(pose.linear());
-  spec.position_m = arrayOf(pose.translation());
+  spec.position_m = arrayFrom(pose.translation());
   spec.orientation_wxyz = {q.w(), q.x(), q.y(), q.z()};
 }
 
 /// Velocity and spin of a ball or an obstacle.
 template <class Spec>
 void turnMotion(Spec& spec, const Isometry3d& by) {
-  spec.velocity_m_s = arrayOf(by.linear() * vectorOf(spec.velocity_m_s));
-  spec.spin_rad_s = arrayOf(by.linear() * vectorOf(spec.spin_rad_s));
+  spec.velocity_m_s = arrayFrom(by.linear() * vectorFrom(spec.velocity_m_s));
+  spec.spin_rad_s = arrayFrom(by.linear() * vectorFrom(spec.spin_rad_s));
 }
 
 /// The scene with this robot first, on the z axis, looking along x.
@@ -49,23 +49,23 @@ SceneSpec seenFrom(SceneSpec scene, std::size_t robot) {
               scene.robots.begin() + static_cast<std::ptrdiff_t>(robot) + 1);
   const RobotSpec& first = scene.robots.front();
   if (first.base != "free" || !scene.floor) return scene;
-  const Isometry3d pose = poseOf(first);
+  const Isometry3d pose = poseFrom(first);
   const double heading = std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
   const Isometry3d by = Eigen::AngleAxisd(-heading, Vector3d::UnitZ()) *
                         Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
-  for (RobotSpec& each : scene.robots) move(each, by);
+  for (RobotSpec& each : scene.robots) moveBy(each, by);
   for (BallSpec& ball : scene.balls) {
-    ball.position_m = arrayOf(by * vectorOf(ball.position_m));
+    ball.position_m = arrayFrom(by * vectorFrom(ball.position_m));
     turnMotion(ball, by);
   }
   for (ObstacleSpec& obstacle : scene.obstacles) {
-    move(obstacle, by);
+    moveBy(obstacle, by);
     turnMotion(obstacle, by);
   }
   return scene;
 }
 
-std::size_t robotOf(const Session& session, const std::string& wanted) {
+std::size_t learnerOf(const Session& session, const std::string& wanted) {
   const Game& game = session.game();
   if (game.scene.robots.empty())
     throw InputError("robots", "none at this moment", "a robot that learns: add one first");
@@ -113,20 +113,24 @@ void choose(ExperimentSpec& experiment, const GameController& wanted, const Scen
     break;
   }
   if (fitness.empty()) throw InputError("fitness", "none", "a fitness that this scene is enough for");
-  const auto motion = controller->begin(arranged, wanted.settings, resolve(genotype, wanted.parameters, "parameters"));
-  experiment.controller = choiceOf(wanted.plugin, wanted.settings, controller->settings());
+  const double trial_s = find(stageParameters(), "trial_maximum_s")->byDefault;
+  Values settings = wanted.settings;
+  const std::vector<double> parameters = resolve(genotype, wanted.parameters, "parameters");
+  const auto duration_s = [&] { return controller->begin(arranged, settings, parameters)->duration(); };
+  // In a game a motion goes on for as long as the game does.
+  if (duration_s() > trial_s) settings.erase("duration_s");
+  experiment.controller = choiceOf(wanted.plugin, settings, controller->settings());
   experiment.fitness.name = fitness;
-  if (motion->duration() > find(stageParameters(), "trial_maximum_s")->byDefault)
-    experiment.stages["trial_maximum_s"] = motion->duration();
+  if (const double motion_s = duration_s(); motion_s > trial_s) experiment.stages["trial_maximum_s"] = motion_s;
   if (!wanted.parameters.empty()) experiment.start = SearchStart{wanted.parameters};
 }
 
-std::string firstOf(const std::vector<std::string>& names) { return names.empty() ? std::string() : names.front(); }
+std::string firstName(const std::vector<std::string>& names) { return names.empty() ? std::string() : names.front(); }
 
 }  // namespace
 
 MomentExperiment experimentOf(const Session& session, const PluginHost& host, const std::string& robot) {
-  const std::size_t index = robotOf(session, robot);
+  const std::size_t index = learnerOf(session, robot);
   const Game& game = session.game();
   const std::string name = game.scene.robots[index].name;
   MomentExperiment moment;
@@ -134,7 +138,7 @@ MomentExperiment experimentOf(const Session& session, const PluginHost& host, co
   ExperimentSpec& experiment = moment.experiment;
   experiment.name = name + " from " + toText(std::round(1000 * session.time_s()) / 1000) + " s on";
   experiment.simulator = game.simulator;
-  experiment.learner.name = experiment.adaptation.name = firstOf(inOrder({"ga"}, host.learners()));
+  experiment.learner.name = experiment.adaptation.name = firstName(inOrder({"ga"}, host.learners()));
 
   std::vector<GameController> candidates;
   if (const auto player = game.robots.find(name); player != game.robots.end()) {

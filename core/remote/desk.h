@@ -22,6 +22,7 @@ enum class Method : char {
   close = 'c',
   logFiles = 'l',
   picture = 'P',
+  pictureMemory = 'Q',
   robot = 'B',
   describeExperiment = 'D',
   evaluate = 'E',

@@ -55,6 +55,12 @@ bool isLoopback(const std::string& address) {
          std::ranges::all_of(address, [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
 }
 
+bool isOfThisMachine(const std::string& peer) {
+  const std::string address = addressOf(peer);
+  if (address.starts_with("ipv4:")) return isLoopback(address.substr(5));
+  return address.starts_with("unix:") || address == "ipv6:[::1]" || address == "ipv6:%5B::1%5D";
+}
+
 TokenBook::TokenBook(const std::string& path) {
   constexpr std::size_t shortest = 20, largestFile = 1u << 20;
   requirePrivate(path);

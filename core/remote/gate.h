@@ -17,6 +17,9 @@ const char* wordOf(Role role);
 /// True for an address that nobody but this machine reaches: 127.0.0.0/8, ::1, localhost.
 bool isLoopback(const std::string& address);
 
+/// True for a caller on this machine, `peer` as gRPC names it.
+bool isOfThisMachine(const std::string& peer);
+
 /// Who may do what. A line of the file is "ROLE TOKEN [NAME]", of which TOKEN has at least 20 characters; lines that
 /// begin with # are remarks.
 class TokenBook {

@@ -155,6 +155,15 @@ grpc::Status WorldsService::Picture(grpc::ServerContext* context, const v1::Pict
   return pass(context, Role::drive, Method::picture, *request, *reply);
 }
 
+grpc::Status WorldsService::PictureMemory(grpc::ServerContext* context, const v1::PictureMemoryRequest* request,
+                                          v1::PictureMemoryReply* reply) {
+  if (!isOfThisMachine(context->peer()))
+    return guardedCall(desks_, context, Role::drive, [](const Gate::Caller&) {
+      throw Refusal(Code::notNow, "only a client on the server's machine can read its memory; Picture sends frames");
+    });
+  return pass(context, Role::drive, Method::pictureMemory, *request, *reply);
+}
+
 grpc::Status WorldsService::Pictures(grpc::ServerContext* context, const v1::PictureRequest* request,
                                      grpc::ServerWriter<v1::PictureReply>* writer) {
   return guarded(desks_, context, Role::drive, [&](const Gate::Caller& caller) {

@@ -136,6 +136,7 @@ class WorldsService final : public v1::Worlds::Service {
   grpc::Status Log(grpc::ServerContext*, const v1::LogRequest*, grpc::ServerWriter<v1::LogPart>*) override;
   grpc::Status Robot(grpc::ServerContext*, const v1::RobotRequest*, v1::RobotReply*) override;
   grpc::Status Picture(grpc::ServerContext*, const v1::PictureRequest*, v1::PictureReply*) override;
+  grpc::Status PictureMemory(grpc::ServerContext*, const v1::PictureMemoryRequest*, v1::PictureMemoryReply*) override;
   grpc::Status Pictures(grpc::ServerContext*, const v1::PictureRequest*,
                         grpc::ServerWriter<v1::PictureReply>*) override;
   grpc::Status Open(grpc::ServerContext*, const v1::OpenRequest*, v1::World*) override;

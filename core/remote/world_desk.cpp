@@ -95,7 +95,7 @@ void WorldDesk::begin() {
   session_ = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
   ++episode_;
   speed_ = 0;
-  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}};
+  for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}, nullptr};
   if (channels_.empty()) {
     channels_ = session_->channels();
     channelsTold_ = ++channelsVersion_;  // by what opens the world
@@ -191,8 +191,7 @@ void WorldDesk::step(const v1::StepRequest& request) {
 
 bool WorldDesk::onePeriod() {
   session().step();
-  if (log_ && session().periods() % SessionLog::markEvery == 0)
-    log_->mark(session().periods(), session().mark());
+  if (log_ && session().periods() % SessionLog::markEvery == 0) log_->mark(session().periods(), session().mark());
   bool pictures = false;
   for (auto& each : cameras_) pictures = look(each.first) || pictures;
   return pictures;
@@ -268,6 +267,8 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
     }
     case Method::picture:
       return picture(messageOf<v1::PictureRequest>(message));
+    case Method::pictureMemory:
+      return pictureMemory(messageOf<v1::PictureMemoryRequest>(message));
     case Method::robot:
       return robot(messageOf<v1::RobotRequest>(message).robot());
     case Method::logFiles:

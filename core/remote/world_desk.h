@@ -10,9 +10,11 @@
 #include "core/live/session_log.h"
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
+#include "core/remote/picture_ring.h"
 
 namespace uchilsim::v1 {
 class OpenRequest;
+class PictureMemoryRequest;
 class PictureRequest;
 class State;
 class StepRequest;
@@ -58,6 +60,7 @@ class WorldDesk final : public Desk {
   bool look(const std::string& robot);  ///< the same
   std::string robot(const std::string& name);
   std::string picture(const uchilsim::v1::PictureRequest& request);
+  std::string pictureMemory(const uchilsim::v1::PictureMemoryRequest& request);
   void describe(uchilsim::v1::World& world);
   std::string state(const uchilsim::v1::Wanted& wanted);
   void fillRow(const uchilsim::v1::Wanted& wanted, uchilsim::v1::State& state);
@@ -80,8 +83,11 @@ class WorldDesk final : public Desk {
     std::unique_ptr<CameraEye> eye;  ///< none: it begins to look with the next call
     CameraPicture picture{};         ///< the last one, of this episode
     long number = 0, period = 0;
-    std::string why{};  ///< it looks no longer
+    std::string why{};                    ///< it looks no longer
+    std::unique_ptr<PictureRing> ring{};  ///< of this episode, from when it is asked for
   };
+  /// The camera of a robot, which looks. Throws InputError, Refusal.
+  Camera& camera(const std::string& robot);
   const CameraMaker makeCamera_;
   std::map<std::string, Camera> cameras_;  ///< by robot
   long episode_ = 0;

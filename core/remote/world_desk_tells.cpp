@@ -172,20 +172,23 @@ bool WorldDesk::look(const std::string& robot) {
     camera.picture = std::move(*picture);
     camera.period = session().periods();
     ++camera.number;
+    if (camera.ring && !camera.ring->fits(camera.picture)) camera.ring.reset();
+    if (camera.ring) camera.ring->write(camera.number, camera.period, camera.picture);
     return true;
   } catch (const InputError& error) {
     camera.eye.reset();
+    camera.ring.reset();
     camera.why = error.what();
     return false;
   }
 }
 
-std::string WorldDesk::picture(const v1::PictureRequest& request) {
+WorldDesk::Camera& WorldDesk::camera(const std::string& name) {
   if (!makeCamera_) throw Refusal(Code::notThere, "this server has no cameras; btr live --camera renders them");
   const auto& robots = session().scene().robots;
-  if (std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == request.robot(); }))
-    throw InputError("robot", "\"" + request.robot() + "\"", "a robot of this game");
-  if (!cameras_.contains(request.robot()) && cameras_.size() >= mostCameras) {
+  if (std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == name; }))
+    throw InputError("robot", "\"" + name + "\"", "a robot of this game");
+  if (!cameras_.contains(name) && cameras_.size() >= mostCameras) {
     // Those of robots that went.
     std::erase_if(cameras_, [&](const auto& each) {
       return std::ranges::none_of(robots, [&](const SceneRobot& r) { return r.name == each.first; });
@@ -193,12 +196,17 @@ std::string WorldDesk::picture(const v1::PictureRequest& request) {
     if (cameras_.size() >= mostCameras)
       throw Refusal(Code::tooMuch, "more than " + std::to_string(mostCameras) + " cameras of a world");
   }
-  Camera& camera = cameras_[request.robot()];
+  Camera& camera = cameras_[name];
   if (!camera.eye && camera.why.empty()) {
-    camera.eye = makeCamera_(request.robot());
-    look(request.robot());
+    camera.eye = makeCamera_(name);
+    look(name);
   }
   if (!camera.eye) throw Refusal(Code::notNow, std::exchange(camera.why, ""));  // the next call tries again
+  return camera;
+}
+
+std::string WorldDesk::picture(const v1::PictureRequest& request) {
+  const Camera& camera = this->camera(request.robot());
   v1::PictureReply reply;
   if (camera.number > request.after() && !camera.picture.rgb.empty()) {
     reply.set_number(camera.number);
@@ -207,6 +215,22 @@ std::string WorldDesk::picture(const v1::PictureRequest& request) {
     reply.set_height(camera.picture.height);
     reply.set_rgb(camera.picture.rgb.data(), camera.picture.rgb.size());
     reply.set_classes(camera.picture.classes.data(), camera.picture.classes.size());
+  }
+  return reply.SerializeAsString();
+}
+
+std::string WorldDesk::pictureMemory(const v1::PictureMemoryRequest& request) {
+  Camera& camera = this->camera(request.robot());
+  v1::PictureMemoryReply reply;
+  if (camera.number > 0 && !camera.picture.rgb.empty()) {
+    if (!camera.ring) {
+      camera.ring = std::make_unique<PictureRing>(camera.picture);
+      camera.ring->write(camera.number, camera.period, camera.picture);
+    }
+    reply.set_file(camera.ring->file());
+    reply.set_bytes(static_cast<std::int64_t>(camera.ring->bytes()));
+    reply.set_mark(camera.ring->mark());
+    reply.set_layout(1);
   }
   return reply.SerializeAsString();
 }

@@ -80,7 +80,7 @@ says out '"identical_until": 150'
 expect 2 "neither" "$btr" live
 expect 1 "beyond its end" "$btr" live --replay "$folder/log" --until 9
 says err "at most 1.2 s"
-sed '/"act":"throw"/s/2.0/1.5/' "$folder/log" > "$folder/other.log"
+sed 's/"velocity_m_s":\[2.0,/"velocity_m_s":[2.1,/' "$folder/log" > "$folder/other.log"
 expect 1 "another throw" "$btr" live --replay "$folder/other.log"
 says out "the first difference is between the steps 0 and 50"
 sed '1s/"directory":.*"game_sha256"/"game_sha256"/; 1s/^{/{"format":"uchilsim-log-1",/' "$folder/log" > "$folder/old.log"

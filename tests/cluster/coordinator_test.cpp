@@ -4,23 +4,22 @@
 #include <signal.h>
 
 #include <deque>
-#include <filesystem>
-#include <fstream>
-#include <set>
 #include <thread>
 
 #include "core/cluster/build_identity.h"
 #include "core/run/setup/evaluator.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/parameter.h"
+#include "tests/cluster/descendants.h"
+#include "tests/cluster/foremen.h"
 #include "tests/refusal.h"
 
 namespace {
 
 using namespace btr;
-namespace fs = std::filesystem;
-
-const std::atomic<bool> goOn{false};
+using test::descendants;
+using test::goOn;
+using test::withForemen;
 
 /// Kicks of a short experiment, drawn at random.
 class Kicks {
@@ -55,37 +54,6 @@ class Kicks {
   PreparedExperiment prepared_;
   std::vector<TrialJob> jobs_;
 };
-
-CoordinatorOptions withForemen(int foremen) {
-  CoordinatorOptions options;
-  options.foremen = foremen;
-  return options;
-}
-
-/// The processes that descend from this one, by their parents.
-std::vector<pid_t> descendants() {
-  std::vector<std::pair<pid_t, pid_t>> parents;  // process, its parent
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::string text;
-    std::getline(std::ifstream(entry.path() / "stat"), text);
-    if (text.empty()) continue;
-    std::istringstream rest(text.substr(text.rfind(')') + 1));
-    std::string state;
-    pid_t parent = 0;
-    rest >> state >> parent;
-    parents.emplace_back(std::stoi(name), parent);
-  }
-  std::set<pid_t> ours{getpid()};
-  for (std::size_t before = 0; before != ours.size();) {
-    before = ours.size();
-    for (const auto& [process, parent] : parents)
-      if (ours.contains(parent)) ours.insert(process);
-  }
-  ours.erase(getpid());
-  return {ours.begin(), ours.end()};
-}
 
 TEST(Coordinator, GivesTheBitsOfOneProcessWhateverTheNumberOfForemen) {
   const Kicks kicks(12);
@@ -168,8 +136,8 @@ TEST(Coordinator, SaysWhyItsForemenDoNotBegin) {
   options.command = {"/bin/false"};
   Coordinator coordinator(nullptr, kicks.host(), options);
   EXPECT_EQ("rank 0 (host " + hostName() +
-                "): no place is left that works (its process ended (exit code 1)); what was stored is kept: go on with "
-                "btr run",
+                "): no place is left that works (its process ended (exit code 1)); what was stored is kept: the same "
+                "command goes on",
             test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 

@@ -2,6 +2,7 @@
 # Array jobs in a real Slurm, started here: the results of one process, elements that fail, cancelled, killed, refused.
 . "$(dirname "$0")/../cli/common.sh"
 . "$(dirname "$0")/slurm_here.sh"
+. "$(dirname "$0")/trial.sh"
 slurm_begin || exit $?
 trap 'slurm_end; umount "$folder/tiny" 2> /dev/null; rm -rf "$folder"' EXIT
 
@@ -113,6 +114,61 @@ expect 0 "collecting the longer one" "$btr" array collect "$folder/long"
 expect 0 "its comparison" "$btr" compare "$folder/long.json" --db "$folder/long.db" --quiet --csv "$folder/long.csv"
 same "$folder/long-one.csv" "$folder/long.csv" "cancelled and killed"
 
+# A grid's element says how fast it is.
+python3 -c '
+import json, os, sys
+root, folder = sys.argv[1:]
+source = os.path.join(root, "resources/grids/kick-grid-short.json")
+grid = json.load(open(source))
+spec_path = os.path.join(os.path.dirname(source), grid["experiment"])
+spec = json.load(open(spec_path))
+spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(spec_path), spec["scene"]))
+spec["learner"]["settings"]["population"] = 4
+json.dump(spec, open(folder + "/cell.json", "w"))
+grid.update(experiment="cell.json", distances_m=[0.14], bearings_rad=[-0.3, 0, 0.3], directions_rad=[0],
+            methods=["similarity"], seeds=[1])
+grid["settings"] = dict(grid.get("settings", {}), generations=2, points=3)
+json.dump(grid, open(folder + "/grid.json", "w"))' "$root" "$folder"
+expect 0 "a grid" "$btr" grid "$folder/grid.json" --db "$folder/grid.db" --workers 1 --slurm "$folder/grid"
+until_over "$folder/grid"
+speeds() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(all(e["trials_per_second"] > 0 for e in json.load(sys.stdin)["elements"]))'; }
+[ "$(states "$folder/grid") $(speeds "$folder/grid")" = "done True" ] || { fail "the grid's element"; "$btr" --json array status "$folder/grid"; }
+
+# Blind cases, by the handful: the same files as of one process; cancelled and killed they go on with what is missing.
+if has_generator; then
+  expect 0 "a blind trial in one process" trial 5 --out "$folder/trial-one"
+  expect 0 "a blind trial as an array" trial 5 --out "$folder/trial" --slurm "$folder/trial-job" --per-element 2
+  says out "3 elements in"
+  until_over "$folder/trial-job"
+  [ "$(states "$folder/trial-job") $(speeds "$folder/trial-job")" = "done done done True" ] || { fail "the blind trial's elements"; "$btr" array status "$folder/trial-job"; }
+  expect 0 "collecting its cases" "$btr" array collect "$folder/trial-job"
+  says out "3 elements collected"
+  same_trial "$folder/trial-one" "$folder/trial" "a blind trial as an array"
+  expect 1 "a trial that is finished" trial 5 --out "$folder/trial" --slurm "$folder/trial-again"
+  says err "all its cases are finished"
+  one_line
+  expect 1 "another trial's folder" trial 5 --out "$folder/trial" --slurm "$folder/trial-again" --spoiled 1
+  one_line
+  # More cases of it, in one element.
+  expect 0 "more cases in one process" trial 15 --out "$folder/trial-one"
+  mkdir "$folder/work"
+  TMPDIR=$folder/work expect 0 "more cases as an array" trial 15 --out "$folder/trial" --slurm "$folder/trial-more" --per-element 100
+  says out "1 elements in"
+  until ls "$folder"/work/uchilsim-element-*/out/case_006/verdict.json > /dev/null 2>&1; do
+    [ "$(states "$folder/trial-more")" = failed ] && break
+    sleep 0.05
+  done
+  expect 0 "cancelling the cases" "$btr" array cancel "$folder/trial-more"
+  until_over "$folder/trial-more"
+  tar -tf "$folder/trial-more/1.tar" | grep -q case_006/verdict.json || fail "a cancelled element did not bring back the cases that it had finished"
+  expect 3 "collecting what a cancelled element has" "$btr" array collect "$folder/trial-more"
+  [ -f "$folder/trial/case_006/verdict.json" ] || fail "finished cases of a cancelled element were not collected"
+  expect 0 "its cases go on" "$btr" array resume "$folder/trial-more"
+  until_over "$folder/trial-more"
+  expect 0 "collecting the rest of its cases" "$btr" array collect "$folder/trial-more"
+  same_trial "$folder/trial-one" "$folder/trial" "a cancelled blind trial"
+fi
+
 # Ranks under srun.
 if [ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] && srun --mpi=list 2>&1 | grep -q pmix; then
   expect 0 "srun" srun --mpi=pmix -n 2 "$btr" run "$folder/little-2.json" --db "$folder/srun.db" --seed 1
@@ -120,6 +176,10 @@ if [ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] && srun --mpi=list 2>&1 | gre
   expect 0 "the same alone" "$btr" run "$folder/little-2.json" --db "$folder/alone.db" --seed 1 --jobs 1
   for db in srun alone; do "$btr" export --db "$folder/$db.db" --run 1 --what individuals > "$folder/$db.csv"; done
   same "$folder/alone.csv" "$folder/srun.csv" "srun"
+  if has_generator; then
+    expect 0 "srun of blind cases" srun --mpi=pmix -n 2 "$btr" gap prove --cases 15 --scene pendulum --kind nothing --seed 5 --out "$folder/trial-srun"
+    same_trial "$folder/trial-one" "$folder/trial-srun" "blind cases under srun"
+  fi
   expect 1 "srun without MPI" srun --mpi=none -n 2 "$btr" run "$folder/little-2.json" --db "$folder/none.db" --seed 1
   says err "start it with srun --mpi=pmix"
 fi

@@ -19,6 +19,9 @@ using testing::HasSubstr;
 
 TEST(MomentExperiments, LearnWhatMovesTheRobot) {
   std::optional<Session> session(std::in_place, dogs(), host());
+  GameController longer = *session->game().robots.at("red1").controller;
+  longer.settings["duration_s"] = 600;
+  session->apply(ControllerAct{"red1", longer});
   session->apply(ParameterAct{"red1", "length_m", 0.04});
   run(*session, 50);
   const TemporaryFolder folder;
@@ -29,6 +32,7 @@ TEST(MomentExperiments, LearnWhatMovesTheRobot) {
   EXPECT_EQ(experiment.controller.name, "walk");
   EXPECT_EQ(experiment.fitness.name, "walk_speed");
   EXPECT_EQ(experiment.scene, "from-here.scene.json");
+  EXPECT_FALSE(experiment.controller.settings.contains("duration_s"));  // not ten minutes a trial
   ASSERT_TRUE(experiment.start);
   EXPECT_EQ(experiment.start->parameters.at("length_m"), 0.04);
   // As a run would begin.

@@ -54,5 +54,22 @@ with tempfile.TemporaryDirectory() as folder:
             rate = per_second(lambda n: [vector.step(four * (1 + 0.01 * (i % 7))) for i in range(n)], 500)
             print(f"{name}: VectorEnv of four dogs: {4 * rate:.0f} steps of a dog/s")
             vector.close()
+    # Frames both ways, one after the other in each round: the same steps, so that what differs is how a frame comes.
+    address = f"127.0.0.1:{port}"
+    with uchilsim.Client(address) as sharing, uchilsim.Client(address, shared_pictures=False) as calling:
+        ways = {name: client.open(DOG, logged=False) for name, client in (("memory", sharing), ("calls", calling))}
+        for world in ways.values():
+            world.picture("dog")
+        rates = {(name, what): [] for name in ways for what in ("picture()", "step(4) and picture()")}
+        for _ in range(5):
+            for name, world in ways.items():
+                rates[name, "picture()"].append(per_second(lambda n: [world.picture("dog") for _ in range(n)], 500, 1))
+            for name, world in ways.items():
+                rates[name, "step(4) and picture()"].append(
+                    per_second(lambda n: [(world.step(4), world.picture("dog")) for _ in range(n)], 100, 1))
+        for (name, what), each in rates.items():
+            print(f"frames by {name}: {what} {np.median(each):.0f}/s")
+        for world in ways.values():
+            world.close()
     server.send_signal(2)
     server.wait()

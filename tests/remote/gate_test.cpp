@@ -131,6 +131,15 @@ TEST(Bucket, FillsAgainWithTime) {
   EXPECT_TRUE(bucket.isFull(102));
 }
 
+TEST(Loopback, ACallerIsOfThisMachineByItsAddress) {
+  for (const char* peer : {"ipv4:127.0.0.1:50051", "ipv4:127.3.2.1:9", "ipv6:[::1]:50051", "ipv6:%5B::1%5D:50051",
+                           "unix:/run/user/1000/uchilsim", "unix:"})
+    EXPECT_TRUE(isOfThisMachine(peer)) << peer;
+  for (const char* peer : {"ipv4:10.0.0.1:50051", "ipv4:127.evil.org:1", "ipv6:[2001:db8::1]:50051", "ipv6:[::11]:1",
+                           "", "127.0.0.1:50051", "dns:localhost"})
+    EXPECT_FALSE(isOfThisMachine(peer)) << peer;
+}
+
 TEST(Loopback, IsThisMachineAlone) {
   for (const char* own : {"127.0.0.1", "127.1.2.3", "::1", "localhost"}) EXPECT_TRUE(isLoopback(own)) << own;
   for (const char* other : {"0.0.0.0", "::", "192.168.1.2", "127.0.0.1.example.org", "127.example.org", "127.1", "",

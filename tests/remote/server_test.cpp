@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <random>
 #include <thread>
@@ -695,6 +697,58 @@ TEST_F(ServerTest, PicturesGoOnAfterAReset) {
   ASSERT_TRUE(caller.step(request.world(), 4).ok());
   EXPECT_EQ(3, ask());
   EXPECT_EQ(4, reply.period());
+}
+
+TEST_F(ServerTest, MemoryWithPicturesIsThereFromTheFirstOneUntilAReset) {
+  begin(
+      [](auto&, auto& passing) { passing.cameras = [](const std::string&) { return std::make_unique<NumberEye>(); }; });
+  const Caller caller(address);
+  v1::PictureMemoryRequest request;
+  request.set_world(caller.open("dog.json").world());
+  request.set_robot("red1");
+  v1::PictureMemoryReply reply;
+  const auto ask = [&] { return caller.call(&v1::Worlds::Stub::PictureMemory, *caller.worlds, request, reply); };
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ("", reply.file());
+  ASSERT_TRUE(caller.step(request.world(), 9).ok());
+  ASSERT_TRUE(ask().ok());
+  const auto word = [&](std::streamoff at) {
+    std::ifstream in(reply.file(), std::ios::binary);
+    std::uint64_t value = 0;
+    in.seekg(at).read(reinterpret_cast<char*>(&value), sizeof value);
+    return value;
+  };
+  const std::string file = reply.file();
+  const auto mark = reply.mark();
+  EXPECT_EQ(mark, word(24));
+  EXPECT_EQ(2u, word(32));
+  EXPECT_EQ(static_cast<std::uintmax_t>(reply.bytes()), std::filesystem::file_size(file));
+  ASSERT_TRUE(caller.step(request.world(), 4).ok());
+  EXPECT_EQ(3u, word(32));
+  // All clients read the same.
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ(mark, reply.mark());
+
+  v1::ResetRequest reset;
+  reset.set_world(request.world());
+  v1::State state;
+  ASSERT_TRUE(caller.call(&v1::Worlds::Stub::Reset, *caller.worlds, reset, state).ok());
+  EXPECT_FALSE(std::filesystem::exists(file));
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ("", reply.file());
+  ASSERT_TRUE(caller.step(request.world(), 4).ok());
+  ASSERT_TRUE(ask().ok());
+  EXPECT_NE(mark, reply.mark());
+  EXPECT_EQ(4u, word(32));
+
+  v1::CloseRequest close;
+  close.set_world(request.world());
+  v1::CloseReply closed;
+  const std::string last = reply.file();
+  ASSERT_TRUE(caller.call(&v1::Worlds::Stub::Close, *caller.worlds, close, closed).ok());
+  EXPECT_FALSE(ask().ok());
+  request.set_robot("red2");
+  EXPECT_FALSE(ask().ok());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 """The Python package against a server that is started for it.
    python3 test_python.py BTR RESOURCES"""
+import itertools
 import json
 import os
 import pathlib
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 import uchilsim
@@ -188,6 +190,61 @@ class Cameras(WithServer):
                 if len(periods) == 3:
                     break
             self.assertEqual(sorted(set(periods)), periods)
+
+    def test_frames_from_memory_are_those_that_calls_bring(self):
+        calling = uchilsim.Client(self.server.address, shared_pictures=False)
+        with self.client.open(DOG) as world:
+            other = calling.world(world.name)
+            world.picture("robot")
+            self.assertTrue(world._camera("robot").is_shared)
+            for seed in (None, 2):  # and after a reset
+                for _ in range(12):
+                    world.step(1)
+                    np.testing.assert_array_equal(other.picture("robot"), world.picture("robot"))
+                self.assertTrue(world._camera("robot").is_shared)
+                world.reset(seed)
+            self.assertFalse(other._camera("robot").is_shared)
+        with self.assertRaises(uchilsim.NotFound):  # not the last frame of a world that has ended
+            world.picture("robot")
+        calling.close()
+
+    def test_frames_from_memory_come_in_order_while_somebody_else_steps(self):
+        stepping = uchilsim.Client(self.server.address)
+        with self.client.open(DOG) as world:
+            world.picture("robot")
+            frames = world._camera("robot").frames()
+            first = next(frames)
+            other = stepping.world(world.name)
+            numbers = []
+            for _ in range(6):  # each frame as it comes
+                while other.step(1).fault == "" and world._camera("robot").last().number <= first.number + len(numbers):
+                    pass
+                numbers.append(next(frames).number)
+            self.assertEqual([first.number + i for i in range(1, 7)], numbers)
+            frames.close()
+        stepping.close()
+
+    def test_a_client_that_cannot_read_the_memory_is_sent_frames(self):
+        with mock.patch("os.open", side_effect=PermissionError("another user")), self.client.open(DOG) as world:
+            self.assertEqual((160, 208, 3), world.picture("robot").shape)
+            self.assertFalse(world._camera("robot").is_shared)
+            world.play(1)
+            self.assertEqual(3, len(list(itertools.islice(world.pictures("robot"), 3))))
+
+    def test_memory_with_frames_is_gone_with_its_world_however_that_ends(self):
+        server = Server()
+        client = uchilsim.Client(server.address)
+        world = client.open(DOG)
+        world.picture("robot")
+        file = world._camera("robot")._shared.file
+        self.assertTrue(os.path.exists(file))
+        os.kill(int(file.split("/")[2]), 9)
+        with self.assertRaises(uchilsim.Error):
+            while True:
+                world.picture("robot")
+        self.assertFalse(os.path.exists(file))
+        client.close()
+        server.close()
 
     def test_the_example_saves_a_picture(self):
         out = self.server.folder / "picture.png"

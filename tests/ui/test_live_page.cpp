@@ -64,9 +64,11 @@ class TestLivePage : public QObject {
     QVERIFY(log.open(QIODevice::WriteOnly));
     log.write("{\"format\":\"uchilsim-log-1\",\"version\":\"0.2.0\"}\n{\"act\":\"pull\",\"period\":2}\n");
     log.close();
+    const auto said = [&] { return open.page.findChild<MessageBanner*>()->text(); };
     open.page.openIfWorld(log.fileName());
-    const QString said = open.page.findChild<MessageBanner*>()->text();
-    QVERIFY2(said.contains("session.log") && said.contains("--replay"), qPrintable(said));
+    QVERIFY2(said().contains("session.log:1") && said().contains("game_sha256"), qPrintable(said()));
+    open.page.openIfWorld(SOURCE_DIR "/resources/experiments/kick.json");
+    QVERIFY2(said().contains("kick.json") && said().contains("session logs"), qPrintable(said()));
     QVERIFY(open.action("livePlay")->isEnabled());
     QVERIFY(open.isThere());
   }

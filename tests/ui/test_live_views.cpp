@@ -33,6 +33,35 @@ class TestLiveViews : public QObject {
   Q_OBJECT
 
  private slots:
+  // Whose file it is knows how large its robot is: it is seen whole and picked by any of its parts.
+  void aRobotLargerThanADogIsSeenWholeAndPickedByItsHand() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    const QString file = open.folder.filePath("arm.urdf");
+    const std::string body =
+        "<inertial><mass value='5'/><inertia ixx='1' iyy='1' izz='1'/></inertial>"
+        "<visual><origin xyz='0 0 0.5'/><geometry><box size='0.1 0.1 1'/></geometry></visual>";
+    writeFile(file.toStdString(),
+              "<robot name='arm'><link name='world'/><link name='upper'>" + body + "</link><link name='hand'>" + body +
+                  "</link><joint name='shoulder' type='continuous'><parent link='world'/><child link='upper'/></joint>"
+                  "<joint name='elbow' type='continuous'><parent link='upper'/><child link='hand'/>"
+                  "<origin xyz='0 0 1'/></joint></robot>");
+    open.page.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.world().indexOf("robot") >= 0 && !open.page.row().values.empty(), 20000);
+    LiveView& view = open.page.view();
+    QTRY_VERIFY(view.camera().distance > 2);
+    for (const double z : {0.0, 1.0, 2.0}) {
+      const auto pixel = view.camera().project({0, 0, z}, view.size());
+      QVERIFY(pixel && QRectF(view.rect()).contains(*pixel));
+    }
+    const auto hand = view.camera().project({0, 0, 1.8}, view.size());
+    QCOMPARE(view.objectAt(*hand), open.page.world().indexOf("robot"));
+    QCOMPARE(view.objectAt(*hand + QPointF(60, 0)), -1);
+    view.setCamera({});
+    view.goHome();
+    QVERIFY(view.camera().distance > 2);
+  }
+
   void aRobotsCameraShowsFrames();
   void aStageChangesThePicture();
   void viewsFollowTheirObjects();

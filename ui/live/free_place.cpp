@@ -29,7 +29,7 @@ std::vector<Footprint> footprintsOf(const LiveWorld& world) {
       print.half_m = object.half_m.head<2>();
       print.heading_rad = headingOf(pose);
     } else {
-      print.radius_m = object.kind == LiveObject::Kind::robot ? dogRadius_m : object.radius_m;
+      print.radius_m = object.kind == LiveObject::Kind::robot ? object.footprint_m : object.radius_m;
     }
     taken.push_back(print);
   }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/live/session_log.h"
 #include "core/spec/error.h"
 #include "core/spec/file_kind.h"
 #include "ui/common/format.h"
@@ -23,11 +24,13 @@
 #include "ui/live/drawn/object_copies.h"
 #include "ui/live/live_desk.h"
 #include "ui/live/live_hands.h"
+#include "ui/live/live_replayer.h"
 #include "ui/live/live_tools.h"
 #include "ui/live/live_world.h"
 #include "ui/live/panels/joints_panel.h"
 #include "ui/live/panels/object_tree.h"
 #include "ui/live/panels/parameter_sets.h"
+#include "ui/live/panels/replay_bar.h"
 #include "ui/live/panels/selection_panel.h"
 #include "ui/live/panels/signals_panel.h"
 #include "ui/live/panels/simulator_panel.h"
@@ -46,6 +49,8 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
       world_(new LiveWorld(host, *process_, this)),
       hands_(new LiveHands(*world_, this)),
       tools_(new LiveTools(this)),
+      bar_(new ReplayBar(this)),
+      replayer_(new LiveReplayer(*world_, *bar_, this)),
       view_(new LiveView(this)),
       desk_(new LiveDesk(*world_, view_, this)),
       banner_(new MessageBanner(this)),
@@ -58,6 +63,7 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
   middle->setStretchFactor(0, 1);
   middle->setCollapsible(0, false);
   signals_->hide();
+  bar_->hide();
   split->addWidget(middle);
   split->addWidget(makeSide());
   split->setStretchFactor(0, 1);
@@ -65,10 +71,11 @@ LivePage::LivePage(const PluginHost& host, const QString& program, const QString
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
   layout->addWidget(tools_);
+  layout->addWidget(bar_);
   layout->addWidget(banner_);
   layout->addWidget(split, 1);
   view_->setGround(Ground::plain);
-  view_->setCaption({tr("Open a game, a scene or a robot file; or drop one here.")});
+  view_->setCaption({tr("Open a game, a scene or a robot file; or drop one here, or a session\'s log.")});
   fillAdd(tools_->addMenu());
   fillViews(tools_->viewMenu());
   connectTools();
@@ -88,7 +95,7 @@ void LivePage::connectTools() {
   connect(tools_, &LiveTools::playChosen, process_, &LiveProcess::play);
   connect(tools_, &LiveTools::stepChosen, process_, [this] { process_->step(1); });
   connect(tools_, &LiveTools::resetChosen, this, &LivePage::reset);
-  connect(tools_, &LiveTools::speedChosen, process_, &LiveProcess::setSpeed);
+  connect(tools_, &LiveTools::speedChosen, replayer_, &LiveReplayer::setSpeed);
   connect(tools_, &LiveTools::removeChosen, hands_, &LiveHands::removeSelected);
   connect(tools_, &LiveTools::duplicateChosen, this, &LivePage::duplicate);
   connect(tools_, &LiveTools::undoChosen, this, &LivePage::undo);
@@ -96,6 +103,16 @@ void LivePage::connectTools() {
   connect(tools_, &LiveTools::kickOffChosen, process_, &LiveProcess::kickOff);
   connect(tools_, &LiveTools::followChosen, view_, &LiveView::setFollowing);
   connect(tools_, &LiveTools::saveChosen, this, &LivePage::saveGame);
+  connect(tools_, &LiveTools::saveSceneChosen, this, &LivePage::saveScene);
+  connect(tools_, &LiveTools::experimentChosen, this, &LivePage::saveExperiment);
+  connect(tools_, &LiveTools::replayFileChosen, this, &LivePage::replayWithDialog);
+  connect(tools_, &LiveTools::replaySessionChosen, this, &LivePage::replaySession);
+  connect(replayer_, &LiveReplayer::goneOn, this, [this] {
+    showReplaying();
+    banner_->showMessage(MessageBanner::Kind::information,
+                         tr("A session again, from %1 s on. Undo leads back to the replay.")
+                             .arg(world_->scene().time_s(row()), 0, 'f', 2));
+  });
   connect(tools_, &LiveTools::signalsChosen, signals_, &QWidget::setVisible);
   connect(signals_, &SignalsPanel::problem, banner_,
           [this](const QString& why) { banner_->showMessage(MessageBanner::Kind::warning, why); });
@@ -113,7 +130,17 @@ void LivePage::connectWorld() {
   });
   connect(world_, &LiveWorld::gameChanged, this, &LivePage::showGame);
   connect(world_, &LiveWorld::handsChanged, this, &LivePage::showHands);
-  connect(process_, &LiveProcess::undoTold, tools_, &LiveTools::setUndo);
+  connect(process_, &LiveProcess::undoTold, this, [this](const QString& undo, const QString& redo) {
+    undo_ = undo;
+    redo_ = redo;
+    showUndo();
+  });
+  connect(world_, &LiveWorld::handsRefused, this, [this] {
+    banner_->showMessage(MessageBanner::Kind::warning,
+                         tr("Hands are off while a session is played again; “Go on from here” makes it one of yours."));
+    process_->askGame();  // what was not done is shown as it is
+    showSelected();
+  });
   connect(view_, &LiveView::dropped, this, [this](int thing, const Eigen::Vector2d& at) {
     if (thing >= 0 && thing < palette_->count()) add(palette_->thing(thing), at);
   });
@@ -126,8 +153,9 @@ void LivePage::connectWorld() {
   });
   connect(process_, &LiveProcess::hangs, banner_,
           [this](const QString& who) { banner_->showMessage(MessageBanner::Kind::warning, who); });
-  connect(process_, &LiveProcess::saved, this, [this](const QString& path) {
+  connect(process_, &LiveProcess::saved, this, [this](const QString& path, const QString& what) {
     banner_->showMessage(MessageBanner::Kind::information, tr("Saved: %1").arg(path));
+    if (what == "experiment") emit experimentMade(path);
   });
   connect(process_, &LiveProcess::failed, this, [this](const QString& why) {
     banner_->showMessage(MessageBanner::Kind::error, why);
@@ -208,19 +236,82 @@ QWidget* LivePage::makeSide() {
   return side;
 }
 
-void LivePage::open(const QString& file) {
-  file_ = file;
-  log_.clear();
-  if (!logs_.isEmpty() && QDir().mkpath(logs_))
-    log_ = QDir(logs_).filePath(QDateTime::currentDateTime().toString("yyyy-MM-dd'T'HH-mm-ss-zzz") + ".log");
+/// Of the session that is about to begin; "" where none is written.
+QString LivePage::newLog() const {
+  if (logs_.isEmpty() || !QDir().mkpath(logs_)) return {};
+  return QDir(logs_).filePath(QDateTime::currentDateTime().toString("yyyy-MM-dd'T'HH-mm-ss-zzz") + ".log");
+}
+
+/// For another world.
+void LivePage::prepare() {
+  log_ = newLog();
   banner_->clear();
-  tools_->setUndo({}, {});
+  undo_.clear();
+  redo_.clear();
   world_->forget();
   fresh_ = true;
   if (isVisible()) view_->setFocus();  // whoever opens a world goes on with its keys: Space plays it
+}
+
+void LivePage::open(const QString& file) {
+  if (isSessionLog(file.toStdString())) return openReplay(file);
+  replayer_->stop();
+  file_ = file;
+  prepare();
   process_->start(file, log_);
-  showSelected();
+  showReplaying();
   emit opened(file);
+}
+
+void LivePage::openReplay(const QString& log, long at) {
+  QString game;
+  try {
+    const LogHead head = headOfSessionLog(log.toStdString());
+    if (!head.hasGame) {
+      QStringList files{file_};
+      for (const QString& folder : {QFileInfo(log).path(), resourceDirectory() + "/games"})
+        for (const QFileInfo& file : QDir(folder).entryInfoList({"*.json"}, QDir::Files)) files << file.filePath();
+      game = gameWithHash(head.gameSha256, files);
+      if (game.isEmpty())
+        game = QFileDialog::getOpenFileName(this, tr("Which game was it a session of?"), QFileInfo(log).path(),
+                                            tr("Games, scenes, robots (*.json *.wrl *.urdf)"));
+      if (game.isEmpty()) return;
+    }
+  } catch (const InputError& error) {
+    return banner_->showMessage(MessageBanner::Kind::error, QString::fromUtf8(error.what()));
+  }
+  file_ = log;
+  prepare();
+  replayer_->start(log, game, log_, at);
+  replayer_->setSpeed(tools_->speed());
+  showReplaying();
+}
+
+void LivePage::replayWithDialog() {
+  const QString log = QFileDialog::getOpenFileName(this, tr("Replay a session"), logs_.isEmpty() ? QString() : logs_,
+                                                   tr("Session logs (*.log);;All files (*)"));
+  if (!log.isEmpty()) openReplay(log);
+}
+
+/// The log is whole once its session has ended.
+void LivePage::replaySession() {
+  const QString log = log_;
+  process_->end();
+  openReplay(log);
+}
+
+/// Hands are off, or on.
+void LivePage::showReplaying() {
+  const bool hands = world_->handsAreOn();
+  for (QWidget* panel : std::initializer_list<QWidget*>{selection_, joints_, simulator_, palette_})
+    panel->setEnabled(hands);
+  showUndo();
+  showSelected();
+}
+
+void LivePage::showUndo() {
+  const bool back = undo_.isEmpty() && replayer_->wentOnAt();
+  tools_->setUndo(back ? tr("go on from here") : undo_, redo_);
 }
 
 void LivePage::showEvent(QShowEvent* event) {
@@ -237,6 +328,7 @@ void LivePage::setDatabase(DatabaseReader& reader) { selection_->setDatabase(&re
 void LivePage::reset() {
   if (file_.isEmpty()) return;
   open(file_);
+  if (replayer_->isOn()) return;  // it knows the speed
   connect(
       process_, &LiveProcess::gameTold, this, [this] { process_->setSpeed(tools_->speed()); },
       Qt::SingleShotConnection);
@@ -245,19 +337,19 @@ void LivePage::reset() {
 void LivePage::openWithDialog() {
   const QString file =
       QFileDialog::getOpenFileName(this, tr("Open a game, a scene or a robot"), resourceDirectory() + "/games",
-                                   tr("Games, scenes, robots (*.json *.wrl *.urdf)"));
+                                   tr("Games, scenes, robots, session logs (*.json *.wrl *.urdf *.log)"));
   if (!file.isEmpty()) openIfWorld(file);
 }
 
 void LivePage::openIfWorld(const QString& file) {
   const std::string plain = file.toStdString();
   const FileKind kind = kindOfFile(plain);
-  if (kind == FileKind::game || kind == FileKind::scene || kind == FileKind::robot) return open(file);
+  if (isSessionLog(plain) || kind == FileKind::game || kind == FileKind::scene || kind == FileKind::robot)
+    return open(file);
   const std::string words = kindInWords(plain);
-  QString why = tr("%1 is %2; games, scenes and robots are opened here.").arg(file, QString::fromStdString(words));
-  if (words.find("uchilsim-log") != std::string::npos)
-    why += tr(" A session log plays again with its game: btr live GAME --replay LOG");
-  banner_->showMessage(MessageBanner::Kind::error, why);
+  banner_->showMessage(
+      MessageBanner::Kind::error,
+      tr("%1 is %2; games, scenes, robots and session logs are opened here.").arg(file, QString::fromStdString(words)));
 }
 
 void LivePage::saveGame() {
@@ -265,6 +357,23 @@ void LivePage::saveGame() {
   if (file.isEmpty()) return;
   if (!file.endsWith(".json")) file += ".json";
   process_->save(file, desk_->state());
+}
+
+void LivePage::saveScene() {
+  QString file =
+      QFileDialog::getSaveFileName(this, tr("Save this moment as scene"), "moment.json", tr("Scenes (*.json)"));
+  if (file.isEmpty()) return;
+  if (!file.endsWith(".json")) file += ".json";
+  process_->saveScene(file);
+}
+
+void LivePage::saveExperiment() {
+  QString file = QFileDialog::getSaveFileName(this, tr("Start an experiment from here"), "from-here.json",
+                                              tr("Experiments (*.json)"));
+  if (file.isEmpty()) return;
+  if (!file.endsWith(".json")) file += ".json";
+  const LiveObject* selected = world_->selectedObject();
+  process_->saveExperiment(file, selected && selected->kind == LiveObject::Kind::robot ? selected->name : "");
 }
 
 void LivePage::saveLog() {
@@ -310,25 +419,13 @@ void LivePage::showSelected() {
   view_->select(world_->selection());
   tree_->showSelected();
   tools_->setState(process_->isReady(), !file_.isEmpty(), !log_.isEmpty(),
-                   world_->isReady() && world_->selectedObject());
+                   world_->isReady() && world_->selectedObject(), world_->handsAreOn());
   selection_->showSelected();
   joints_->showRobot();
   simulator_->showSelected();
 }
 
-/// From above one corner, near enough to see a dog and far enough to see all.
-void LivePage::lookAtAll() {
-  Eigen::AlignedBox3d all;
-  for (const LiveObject& object : world_->objects()) all.extend(world_->poseOf(object.name).translation());
-  ViewCamera camera;
-  if (!all.isEmpty()) {
-    camera.focus = all.center();
-    constexpr double perRadius = 2.2;
-    camera.distance = std::clamp(perRadius * (all.diagonal().norm() / 2 + 0.3), camera.distance, 15.0);
-    if (camera.distance > 3) camera.elevation = 0.6;
-  }
-  view_->setCamera(camera);
-}
+void LivePage::lookAtAll() { view_->setCamera(view_->homeCamera()); }
 
 void LivePage::pick(const std::string& object, bool toggle) {
   if (!toggle) return world_->select({object});
@@ -358,6 +455,7 @@ void LivePage::rename(const std::string& object, const std::string& name) {
 
 // Numbers may have changed that only the game tells.
 void LivePage::undo() {
+  if (undo_.isEmpty() && replayer_->wentOnAt()) return openReplay(replayer_->log(), *replayer_->wentOnAt());
   process_->undo();
   process_->askGame();
 }
@@ -366,7 +464,26 @@ void LivePage::redo() {
   process_->askGame();
 }
 
+bool LivePage::replayKey(const QKeyEvent& event) {
+  const bool acts = event.modifiers() & Qt::ShiftModifier;
+  switch (event.key()) {
+    case Qt::Key_Left:
+    case Qt::Key_Right: {
+      const bool on = event.key() == Qt::Key_Right;
+      acts ? bar_->chooseAct(on) : bar_->chooseTime(on ? 1 : -1);
+      return true;
+    }
+    case Qt::Key_Home:
+    case Qt::Key_End:
+      bar_->chooseEnd(event.key() == Qt::Key_End);
+      return true;
+    default:
+      return false;
+  }
+}
+
 void LivePage::keyPressEvent(QKeyEvent* event) {
+  if (replayer_->isOn() && replayKey(*event)) return;
   const bool far = event->modifiers() & Qt::ShiftModifier;
   const double way = far ? 0.1 : 0.01, turn = (far ? 45 : 5) / inDegrees;
   if (event->matches(QKeySequence::Undo)) return tools_->trigger(tools_->undoAction());

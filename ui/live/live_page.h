@@ -15,9 +15,11 @@ class DatabaseReader;
 class JointsPanel;
 class LiveDesk;
 class LiveHands;
+class LiveReplayer;
 class LiveTools;
 class LiveWorld;
 class ObjectTree;
+class ReplayBar;
 class MessageBanner;
 class SelectionPanel;
 class SignalsPanel;
@@ -29,16 +31,22 @@ struct ThingToAdd;
 /// objects added, led with the mouse, thrown and taken away; controllers changed and tuned while they run; simulator,
 /// joints and signals beside it. Keys: Space plays, . steps, Delete removes, Ctrl+D duplicates, Ctrl+Z undoes, X
 /// changes between two sets of parameters. Arrows, Page up and down move what is selected (Shift: ten times as far), by
-/// a spring while it runs, which Esc lets go of; [ and ] turn it.
+/// a spring while it runs, which Esc lets go of; [ and ] turn it. A session's log is played again here, too: hands are
+/// off, left and right go a second back and on, with Shift to the acts, Home and End to its ends.
 class LivePage : public QWidget {
   Q_OBJECT
  public:
   /// `program` is btr, "" beside this executable. Logs of sessions are written into `logs`, "": none.
   LivePage(const PluginHost& host, const QString& program, const QString& logs, QWidget* parent = nullptr);
 
+  /// A session's log is played again.
   void open(const QString& file);
-  /// Open it where it is a game, a scene or a robot; else it is said what it is, and the world that is there goes on.
+  /// Open it where it is a game, a scene, a robot or a log; else it is said what it is, and the world that is there
+  /// goes on.
   void openIfWorld(const QString& file);
+  /// A log that has no game in it is asked for one if none of those at hand is its game. `at`: a control period.
+  void openReplay(const QString& log, long at = -1);
+  void replayWithDialog();
   /// Opened when the page is first shown, unless another one is by then.
   void openWhenShown(const QString& file) { later_ = file; }
   /// Whose individuals can play.
@@ -47,6 +55,7 @@ class LivePage : public QWidget {
   LiveProcess& process() { return *process_; }
   LiveWorld& world() { return *world_; }
   LiveDesk& desk() { return *desk_; }
+  LiveReplayer& replayer() { return *replayer_; }
   SignalsPanel& signalsPanel() { return *signals_; }
   const Game& game() const;
   const LiveRow& row() const;
@@ -58,6 +67,7 @@ class LivePage : public QWidget {
 
  signals:
   void opened(const QString& file);
+  void experimentMade(const QString& file);
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
@@ -72,7 +82,15 @@ class LivePage : public QWidget {
   void openWithDialog();
   void reset();
   void saveGame();
+  void saveScene();
+  void saveExperiment();
   void saveLog();
+  QString newLog() const;
+  void prepare();
+  void replaySession();
+  void showReplaying();
+  void showUndo();
+  bool replayKey(const QKeyEvent& event);
 
   void showObjects();
   void showGame();
@@ -89,10 +107,13 @@ class LivePage : public QWidget {
   void redo();
 
   QString logs_, file_, log_, later_;
+  QString undo_, redo_;  ///< as the session says
   LiveProcess* process_;
   LiveWorld* world_;
   LiveHands* hands_;
   LiveTools* tools_;
+  ReplayBar* bar_;
+  LiveReplayer* replayer_;
   LiveView* view_;
   LiveDesk* desk_;
   MessageBanner* banner_;

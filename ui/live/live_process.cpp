@@ -36,7 +36,7 @@ LiveProcess::~LiveProcess() {
   end();
 }
 
-void LiveProcess::start(const QString& file, const QString& log) {
+void LiveProcess::start(const QString& file, const QString& log, const QString& replay) {
   {
     const QSignalBlocker quiet(this);  // its end was asked for
     end();
@@ -45,7 +45,10 @@ void LiveProcess::start(const QString& file, const QString& log) {
   words_.clear();
   told_.clear();
   models_.clear();  // their files may have changed
-  QStringList arguments{"live", file, "--steered"};
+  QStringList arguments{"live"};
+  if (!file.isEmpty()) arguments << file;
+  arguments << "--steered";
+  if (!replay.isEmpty()) arguments << "--replay" << replay;
   if (!log.isEmpty()) arguments << "--log" << log;
   process_.start(program_, arguments);
 }
@@ -104,6 +107,18 @@ void LiveProcess::save(const QString& path, const std::string& view) {
   send(QByteArray::fromStdString(line.dump()));
 }
 
+void LiveProcess::saveScene(const QString& path) {
+  send(QByteArray::fromStdString(json{{"do", "save_scene"}, {"path", path.toStdString()}}.dump()));
+}
+void LiveProcess::saveExperiment(const QString& path, const std::string& robot) {
+  send(QByteArray::fromStdString(
+      json{{"do", "save_experiment"}, {"path", path.toStdString()}, {"robot", robot}}.dump()));
+}
+void LiveProcess::goTo(long period) {
+  send(QByteArray::fromStdString(json{{"do", "go_to"}, {"period", period}}.dump()));
+}
+void LiveProcess::goOn() { send(R"({"do": "go_on"})"); }
+
 void LiveProcess::setContacts(bool on) {
   contacts_ = on;
   send(QByteArray::fromStdString(json{{"do", "contacts"}, {"on", on}}.dump()));
@@ -136,7 +151,8 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("refused")) return emit refused(QString::fromStdString(line.at("refused")));
     if (line.contains("hangs")) return emit hangs(wordsOf(line.at("hangs")));
     if (line.contains("fault")) return;  // why it ends; its last words on standard error say it, too
-    if (line.contains("saved")) return emit saved(QString::fromStdString(line.at("saved")));
+    if (line.contains("saved")) return emit saved(wordsOf(line.at("saved")), wordsOf(line.value("what", json("game"))));
+    if (line.contains("log")) return tellLog(line.at("log"));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
     if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
@@ -153,6 +169,16 @@ void LiveProcess::tellGame(const json& line) {
   if (first && !signals_.empty()) sendSignals();
   if (first && contacts_) setContacts(true);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+}
+
+void LiveProcess::tellLog(const json& line) {
+  LiveLog log;
+  log.from = line.at("from").get<long>();
+  log.until = line.at("until").get<long>();
+  log.marks = line.at("marks").get<long>();
+  for (const json& act : line.at("acts"))
+    log.acts.push_back({act.at(0).get<long>(), act.at(1).get<long>(), wordsOf(act.at(2))});
+  emit logTold(log);
 }
 
 void LiveProcess::tellSamples(const json& line) {

@@ -18,6 +18,19 @@ struct LiveSamples {
   std::vector<double> values;  ///< period by period, channels.size() numbers each; NaN where there is no such channel
 };
 
+/// Acts of the same name that followed each other in a log, by the control periods before which they were done.
+struct LoggedActs {
+  long from = 0, to = 0;
+  QString name;
+};
+
+/// A session's log that is played again.
+struct LiveLog {
+  long from = 0, until = 0;  ///< control periods
+  long marks = 0;            ///< places where bits can be compared
+  std::vector<LoggedActs> acts;
+};
+
 /// A session in a process of its own (btr live --steered): the window never waits for it, and survives it. What it
 /// tells comes as signals; of rows that came together only the newest, and those
 /// that tell what happened once.
@@ -28,8 +41,9 @@ class LiveProcess : public QObject {
   explicit LiveProcess(const QString& program = {}, QObject* parent = nullptr);
   ~LiveProcess() override;
 
-  /// Ends what runs and starts this game, scene or robot file, paused. `log` is written.
-  void start(const QString& file, const QString& log);
+  /// Ends what runs and starts this game, scene or robot file, paused. `log` is written. `replay` is a session's log
+  /// that is played again; its game may be in it, then `file` is "".
+  void start(const QString& file, const QString& log, const QString& replay = {});
   void end();
   bool isRunning() const { return process_.state() != QProcess::NotRunning; }
   /// Whether act() and ask() are obeyed: from the first game on until it ends.
@@ -41,6 +55,12 @@ class LiveProcess : public QObject {
   void setSpeed(double times);  ///< 0: as fast as possible
   /// `view`: what the window wants to find again, JSON; "" nothing.
   void save(const QString& path, const std::string& view = {});
+  void saveScene(const QString& path);
+  /// An experiment in which this robot learns, "": one that suits, and its scene beside it.
+  void saveExperiment(const QString& path, const std::string& robot = {});
+  /// Of a log that is played again: as fast as possible to a later period; what is left of it is given up.
+  void goTo(long period);
+  void goOn();
   /// Whether rows tell the contacts of their step.
   void setContacts(bool on);
   /// The game is told again.
@@ -68,7 +88,10 @@ class LiveProcess : public QObject {
   void refused(const QString& why);
   /// Somebody does not answer; the world waits for him.
   void hangs(const QString& who);
-  void saved(const QString& path);
+  /// `what`: "game", "scene" or "experiment".
+  void saved(const QString& path, const QString& what);
+  /// Once, of a log that is played again.
+  void logTold(const btr::ui::LiveLog& log);
   /// It ended by itself: why.
   void failed(const QString& why);
 
@@ -77,6 +100,7 @@ class LiveProcess : public QObject {
   void read();
   void tell(const QByteArray& line);
   void tellGame(const nlohmann::json& line);
+  void tellLog(const nlohmann::json& line);
   void tellSamples(const nlohmann::json& line);
   ModelSet modelsOf(const SceneSpec& scene);
   void sendSignals();

@@ -31,6 +31,11 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   QAction* open = add("liveOpen", "document-open", tr("&Open…"), tr("A game, a scene or a robot file"));
   connect(open, &QAction::triggered, this, &LiveTools::openChosen);
   auto* examples = new QMenu(this);
+  QAction* replay = examples->addAction(themeIcon("media-playback-start"), tr("&Replay a session…"));
+  replay->setObjectName("liveReplayFile");
+  replay->setToolTip(tr("Plays a session's log again, with the same bits"));
+  connect(replay, &QAction::triggered, this, &LiveTools::replayFileChosen);
+  examples->addSeparator();
   for (const QFileInfo& file : QDir(resourceDirectory() + "/games").entryInfoList({"*.json"}, QDir::Files))
     connect(examples->addAction(file.completeBaseName()), &QAction::triggered, this,
             [this, path = file.filePath()] { emit gameChosen(path); });
@@ -82,13 +87,7 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   follow->setCheckable(true);
   connect(follow, &QAction::triggered, this, &LiveTools::followChosen);
   addSeparator();
-  save_ =
-      add("liveSave", "document-save", tr("Sa&ve game…"), tr("The game as it is now: it goes on with the same bits"));
-  connect(save_, &QAction::triggered, this, &LiveTools::saveChosen);
-  saveLog_ =
-      add("liveSaveLog", "document-save-as", tr("Save &log…"),
-          tr("What was done since it was opened: “btr live GAME --replay LOG” plays it again with the same bits"));
-  connect(saveLog_, &QAction::triggered, this, &LiveTools::saveLogChosen);
+  makeSaves();
   signals_ =
       add("liveShowSignals", "office-chart-line", tr("Si&gnals"), tr("Plots of angles, torques, contacts, speeds"));
   signals_->setCheckable(true);
@@ -96,7 +95,7 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   QAction* views = add("liveViews", "view-preview", tr("Vie&ws"), tr("Further views, robots' cameras, what is drawn"));
   views->setMenu(views_);
   qobject_cast<QToolButton*>(widgetForAction(views))->setPopupMode(QToolButton::InstantPopup);
-  for (QAction* action : {undo_, redo_, remove_, duplicate_, follow, save_, saveLog_}) iconOnly(action);
+  for (QAction* action : {undo_, redo_, remove_, duplicate_, follow}) iconOnly(action);
   addSeparator();
   kickOff_ = add("liveKickOff", "media-playback-start", tr("&Kick-off"),
                  tr("Robots and ball to their places, the clock goes on"));
@@ -115,6 +114,37 @@ QAction* LiveTools::add(const QString& name, const QString& icon, const QString&
   action->setObjectName(name);
   action->setToolTip(tip);
   return action;
+}
+
+/// What a moment, or the session up to it, becomes.
+void LiveTools::makeSaves() {
+  QAction* all = add("liveSaves", "document-save", tr("Sa&ve"), tr("This moment, or all that was done until now"));
+  auto* menu = new QMenu(this);
+  menu->setToolTipsVisible(true);
+  const auto entry = [&](const char* name, const char* icon, const QString& text, const QString& tip, auto chosen) {
+    QAction* action = menu->addAction(themeIcon(icon), text);
+    action->setObjectName(name);
+    action->setToolTip(tip);
+    connect(action, &QAction::triggered, this, chosen);
+    return action;
+  };
+  save_ = entry("liveSave", "document-save", tr("This moment as &game…"),
+                tr("The game as it is now: it goes on with the same bits"), &LiveTools::saveChosen);
+  saveScene_ = entry("liveSaveScene", "document-save-as", tr("This moment as &scene…"),
+                     tr("Where everything is, with the robots' joints as they are; robots begin at rest"),
+                     &LiveTools::saveSceneChosen);
+  experiment_ =
+      entry("liveExperiment", "run-build", tr("Start an &experiment from here…"),
+            tr("The selected robot learns, from this moment's scene; opens in the form"), &LiveTools::experimentChosen);
+  menu->addSeparator();
+  saveLog_ = entry("liveSaveLog", "document-save-as", tr("The session's &log…"),
+                   tr("What was done since it was opened: it plays again with the same bits, here or with “btr live "
+                      "--replay LOG”"),
+                   &LiveTools::saveLogChosen);
+  replay_ = entry("liveReplaySession", "media-playback-start", tr("&Replay this session"),
+                  tr("From its start, with the same bits; it ends here"), &LiveTools::replaySessionChosen);
+  all->setMenu(menu);
+  qobject_cast<QToolButton*>(widgetForAction(all))->setPopupMode(QToolButton::InstantPopup);
 }
 
 double LiveTools::speed() const { return speed_->currentData().toDouble(); }
@@ -141,17 +171,17 @@ void LiveTools::showRow(const LiveRow& row, double time_s) {
                         .arg(seconds % 60, 2, 10, QChar('0')));
   }
   const bool goesOn = row.fault.isEmpty();
-  play_->setEnabled(goesOn);
-  step_->setEnabled(goesOn && !row.playing);
+  const bool more = goesOn && !(row.replay && row.replay->over);
+  play_->setEnabled(more);
+  step_->setEnabled(more && !row.playing);
 }
 
-void LiveTools::setState(bool ready, bool opened, bool logged, bool selected) {
-  for (QAction* action : {play_, step_, add_, save_}) action->setEnabled(ready);
+void LiveTools::setState(bool ready, bool opened, bool logged, bool selected, bool hands) {
+  for (QAction* action : {play_, step_, save_, saveScene_, experiment_}) action->setEnabled(ready);
   reset_->setEnabled(opened);
-  saveLog_->setEnabled(logged);
-  remove_->setEnabled(selected);
-  duplicate_->setEnabled(selected);
-  kickOff_->setEnabled(ready);
+  for (QAction* action : {saveLog_, replay_}) action->setEnabled(logged && hands);
+  for (QAction* action : {remove_, duplicate_}) action->setEnabled(selected && hands);
+  for (QAction* action : {add_, kickOff_}) action->setEnabled(ready && hands);
 }
 
 void LiveTools::setUndo(const QString& undo, const QString& redo) {

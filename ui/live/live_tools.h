@@ -16,8 +16,9 @@ class LiveTools : public QToolBar {
   explicit LiveTools(QWidget* parent = nullptr);
 
   void showRow(const LiveRow& row, double time_s);
-  /// Whether a world runs (or waits), whether one was opened, whether it has a log, whether something is selected.
-  void setState(bool ready, bool opened, bool logged, bool selected);
+  /// Whether a world runs (or waits), whether one was opened, whether it has a log, whether something is selected,
+  /// whether hands are on.
+  void setState(bool ready, bool opened, bool logged, bool selected, bool hands);
   void setFailed();
   /// What would be undone and redone; empty: nothing.
   void setUndo(const QString& undo, const QString& redo);
@@ -47,15 +48,20 @@ class LiveTools : public QToolBar {
   void followChosen(bool on);
   void saveChosen();
   void saveLogChosen();
+  void saveSceneChosen();
+  void experimentChosen();
+  void replayFileChosen();     ///< which one is to be asked
+  void replaySessionChosen();  ///< this one
   void signalsChosen(bool on);
 
  private:
   void iconOnly(QAction* action);
+  void makeSaves();
   QAction* add(const QString& name, const QString& icon, const QString& text, const QString& tip);
 
   QMenu *things_, *views_;
-  QAction *play_, *step_, *reset_, *add_, *remove_, *save_, *saveLog_, *signals_, *undo_, *redo_, *duplicate_,
-      *kickOff_;
+  QAction *play_, *step_, *reset_, *add_, *remove_, *save_, *saveScene_, *experiment_, *saveLog_, *replay_, *signals_,
+      *undo_, *redo_, *duplicate_, *kickOff_;
   QComboBox* speed_;
   QLabel *clock_, *score_;
   QAction* scoreAction_;

@@ -69,6 +69,7 @@ void LiveWorld::forget() {
 }
 
 void LiveWorld::act(const Act& act) {
+  if (!hands_) return emit handsRefused();
   process_.act(act);
   changePlayers(game_, act);
   takeHands(act);
@@ -121,8 +122,8 @@ void LiveWorld::takeGame(const Game& game, const ModelSet& models, const std::ve
 void LiveWorld::takeRow(const LiveRow& row) {
   const bool first = row_.values.empty();
   row_ = row;
-  if (first) emit firstRow();
   emit rowChanged();
+  if (first) emit firstRow();
 }
 
 int LiveWorld::indexOf(const std::string& object) const {

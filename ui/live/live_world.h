@@ -32,8 +32,11 @@ class LiveWorld : public QObject {
   /// Another game is opened: what is known is of the one before.
   void forget();
 
-  /// Sends it, and changes the game that is known here accordingly.
+  /// Sends it, and changes the game that is known here accordingly. Where hands are off it is only said.
   void act(const Act& act);
+  /// Off while a log is played again.
+  void setHands(bool on) { hands_ = on; }
+  bool handsAreOn() const { return hands_; }
 
   const std::vector<LiveObject>& objects() const { return scene_.objects(); }
   int indexOf(const std::string& object) const;  ///< −1: there is none
@@ -68,6 +71,7 @@ class LiveWorld : public QObject {
   void selectionChanged();
   void acted(const btr::Act& act);
   void handsChanged();
+  void handsRefused();  ///< an act while they are off
 
  private:
   void takeGame(const Game& game, const ModelSet& models, const std::vector<std::string>& channels);
@@ -82,6 +86,7 @@ class LiveWorld : public QObject {
   LiveRow row_;
   std::vector<std::string> channels_, selection_;
   std::vector<std::string> later_;
+  bool hands_ = true;
   std::map<std::string, Values> held_;    ///< by robot and joint
   std::map<std::string, PullAct> pulls_;  ///< by object
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/scene3d/link_boxes.h"
+
 namespace btr::ui {
 namespace {
 
@@ -22,25 +24,12 @@ void addCross(LineSegments& lines, const Vector3d& at, double half) {
     addLine(lines, at - half * Vector3d::Unit(axis), at + half * Vector3d::Unit(axis));
 }
 
-void addBox(LineSegments& lines, const Link& link) {
-  TriangleMesh mesh;
-  for (const Shape& shape : link.shapes)
-    if (shape.drawn) mesh.addShape(shape, shape.pose, {1, 1, 1, 1});
-  if (mesh.positions.empty()) return;
-  Eigen::Vector3f low = mesh.positions.front(), high = low;
-  for (const Eigen::Vector3f& place : mesh.positions) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  const auto corner = [&](int bits) {
-    return Eigen::Vector3f(bits & 1 ? high.x() : low.x(), bits & 2 ? high.y() : low.y(), bits & 4 ? high.z() : low.z());
-  };
+void addBox(LineSegments& lines, const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return;
+  const auto corner = [&](int bits) { return box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(bits)); };
   for (int from = 0; from < 8; ++from)
     for (int axis = 1; axis < 8; axis *= 2)
-      if (!(from & axis)) {
-        lines.push_back(corner(from));
-        lines.push_back(corner(from | axis));
-      }
+      if (!(from & axis)) addLine(lines, corner(from), corner(from | axis));
 }
 
 /// The turning joint's own direction of "zero": at right angles to its axis.
@@ -67,8 +56,9 @@ void addLimits(LineSegments& lines, const Joint& joint) {
 
 std::vector<LinkMarks> marksOf(const RobotModel& model) {
   std::vector<LinkMarks> marks(model.links.size());
+  const std::vector<Eigen::AlignedBox3d> boxes = linkBoxes(model);
   for (std::size_t i = 0; i < model.links.size(); ++i) {
-    addBox(marks[i].box, model.links[i]);
+    addBox(marks[i].box, boxes[i]);
     if (const Inertial& inertial = model.links[i].inertial; inertial.mass_kg > 0)
       addCross(marks[i].centre, inertial.centreOfMass_m, 0.02 * std::cbrt(inertial.mass_kg));
   }

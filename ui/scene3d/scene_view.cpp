@@ -1,4 +1,5 @@
 #include "ui/scene3d/scene_view.h"
+#include "ui/scene3d/link_boxes.h"
 
 #include <QAction>
 #include <QElapsedTimer>
@@ -115,6 +116,7 @@ void SceneView::makeMarkActions() {
 QList<QAction*> SceneView::viewActions() const { return {home_, followAction_, shadows_, show_, jacket_, save_}; }
 
 void SceneView::setRobot(std::shared_ptr<const RobotModel> model) {
+  boxes_ = model ? linkBoxes(*model) : std::vector<Eigen::AlignedBox3d>();
   scene_.setRobot(std::move(model));
   redraw();
 }
@@ -195,16 +197,20 @@ void SceneView::setCamera(const ViewCamera& camera) {
   emit cameraChanged();
 }
 
-void SceneView::goHome() {
-  // Home looks at the robot wherever it stands now.
+ViewCamera SceneView::homeCamera() const {
   ViewCamera home;
   if (const auto& links = scene_.pose().links; !links.empty() && links.front().matrix().allFinite()) {
     const Eigen::Vector3d base = links.front().translation();
     home.focus += Eigen::Vector3d(base.x(), base.y(), 0);
+    home.showWhole(boxOf(boxes_, links));
   }
+  return home;
+}
+
+void SceneView::goHome() {
   follow_ = Follow::nothing;
   followAction_->setText(tr("Follow"));
-  setCamera(home);
+  setCamera(homeCamera());
 }
 
 void SceneView::setMoving(bool moving) {

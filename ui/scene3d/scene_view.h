@@ -48,6 +48,8 @@ class SceneView : public QWidget {
   const ViewCamera& camera() const { return camera_; }
   void setCamera(const ViewCamera& camera);
   void goHome();
+  /// The first point of view: on the robot wherever it stands now, whole.
+  virtual ViewCamera homeCamera() const;
 
   /// While true the view may draw coarsely where the machine is slow; it redraws finely afterwards.
   void setMoving(bool moving);
@@ -97,6 +99,7 @@ class SceneView : public QWidget {
   void draw(QSize pixels);
 
   SceneBuilder scene_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the robot's links
   OffscreenRenderer renderer_;
   ViewCamera camera_;
   Follow follow_ = Follow::nothing;

@@ -52,6 +52,13 @@ double ViewCamera::metresPerPixel(int height) const {
   return 2 * distance * std::tan(fieldOfView / 2) / std::max(1, height);
 }
 
+void ViewCamera::showWhole(const Eigen::AlignedBox3d& box) {
+  constexpr double dog_m = 0.7;
+  if (box.isEmpty() || box.diagonal().norm() < dog_m) return;
+  focus = box.center();
+  distance = std::clamp(box.diagonal().norm() / 2 / std::sin(fieldOfView / 2), distance, 15.0);
+}
+
 void ViewCamera::orbit(QPointF pixels) {
   constexpr double radiansPerPixel = 0.006;
   azimuth = std::remainder(azimuth - radiansPerPixel * pixels.x(), 2 * std::numbers::pi);

@@ -27,6 +27,8 @@ struct ViewCamera {
   /// Metres that one pixel spans at the focus.
   double metresPerPixel(int height) const;
 
+  /// Where it looks from the same side, a box that is larger than a dog is seen whole; smaller ones change nothing.
+  void showWhole(const Eigen::AlignedBox3d& box);
   /// Mouse movements in pixels of a view of that height.
   void orbit(QPointF pixels);
   void pan(QPointF pixels, int height);

@@ -5,6 +5,7 @@
 #include <QUrl>
 #include <QWidget>
 
+#include "core/live/session_log.h"
 #include "core/spec/file_kind.h"
 
 namespace btr::ui {
@@ -63,15 +64,19 @@ void FileDrops::open(const QStringList& paths) {
         emit reportGiven(path);
         break;
       default:
+        if (isSessionLog(plain)) {
+          emit sessionGiven(path);
+          break;
+        }
         unknown << tr("%1 is %2").arg(path, QString::fromStdString(kindInWords(plain)));
     }
   }
   if (!recordings.isEmpty()) emit recordingsGiven(recordings);
   if (!unknown.isEmpty())
-    emit refused(
-        tr("%1; the window opens databases, experiments, scenes, games, robot models, recordings (CSV) and the "
-           "folders of gap reports.")
-            .arg(unknown.join("; ")));
+    emit refused(tr("%1; the window opens databases, experiments, scenes, games, session logs, robot models, "
+                    "recordings (CSV) and the "
+                    "folders of gap reports.")
+                     .arg(unknown.join("; ")));
 }
 
 }  // namespace btr::ui

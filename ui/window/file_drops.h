@@ -18,6 +18,7 @@ class FileDrops : public QObject {
   void experimentGiven(const QString& file);
   void sceneGiven(const QString& file);
   void gameGiven(const QString& file);
+  void sessionGiven(const QString& file);  ///< the log of one
   void robotGiven(const QString& file);
   void recordingsGiven(const QStringList& files);
   void reportGiven(const QString& folder);

@@ -94,6 +94,7 @@ void linkScene(const WindowLinks& to) {
   page->openWhenShown(bench.settings().lastGame());
   QObject::connect(page, &LivePage::opened, &bench,
                    [&bench](const QString& file) { bench.settings().setLastGame(file); });
+  QObject::connect(page, &LivePage::experimentMade, &to.drafts, &DraftController::open);
 }
 
 void linkDrops(const WindowLinks& to) {
@@ -121,6 +122,7 @@ void linkDrops(const WindowLinks& to) {
     launcher.checkModel(file);
   });
   QObject::connect(drops, &FileDrops::gameGiven, &window, &MainWindow::openScene);
+  QObject::connect(drops, &FileDrops::sessionGiven, &window, &MainWindow::openScene);
   QObject::connect(&launcher, &RunLauncher::modelChecked, &window, [&window](const QString& file, const QString& text) {
     auto* box = new QMessageBox(QMessageBox::Information, MainWindow::tr("Robot model"),
                                 MainWindow::tr("%1 is a robot model. A scene names it under “robots”.").arg(file),

@@ -26,6 +26,7 @@
 #include "ui/controllers/machines_controller.h"
 #include "ui/controllers/replay_controller.h"
 #include "ui/controllers/run_controller.h"
+#include "ui/live/live_page.h"
 #include "ui/remote/interface_dialog.h"
 #include "ui/remote/interface_server.h"
 #include "ui/window/dock_layout.h"
@@ -121,6 +122,11 @@ void Menus::makeFile() {
       [this] { to_.runs.mergeWithDialog(); });
   add(file, "backUpDatabase", "document-save", tr("Back &up the database…"), {},
       [this] { to_.runs.backUpWithDialog(); });
+  file->addSeparator();
+  add(file, "replaySession", "media-playback-start", tr("Replay a sess&ion…"), {}, [this] {
+    to_.layout.showPage("live");
+    to_.pages.livePage->replayWithDialog();
+  });
   file->addSeparator();
   makeExports(*file);
   file->addSeparator();

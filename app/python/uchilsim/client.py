@@ -111,11 +111,13 @@ class Client:
     address: "127.0.0.1:50051", or "unix:/path" of a Unix socket.
     token: the caller's token, where the server wants one; sent only over TLS, loopback or a Unix socket.
     certificate: file with the certificate (PEM) that the server's is signed by; then the connection is TLS.
+    shared_pictures: a camera's frames are read from the server's memory where that is on this machine and of this user;
+        where it is not, or if False, they come by calls.
     timeout: the longest time for one call [s]; a step of many periods has more, evaluations as long as they take.
     """
 
     def __init__(self, address: str = "127.0.0.1:50051", token: str | None = None,
-                 certificate: str | pathlib.Path | None = None, timeout: float = 60.0):
+                 certificate: str | pathlib.Path | None = None, timeout: float = 60.0, shared_pictures: bool = True):
         options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0),
                    # A server that vanishes without a word is noticed, however long a call may take.
                    ("grpc.keepalive_time_ms", 60000), ("grpc.keepalive_timeout_ms", 20000)]
@@ -125,6 +127,7 @@ class Client:
             credentials = grpc.ssl_channel_credentials(pathlib.Path(certificate).read_bytes())
             self._channel = grpc.secure_channel(address, credentials, options)
         self._timeout = timeout
+        self.shared_pictures = shared_pictures
         self._metadata = (("authorization", "Bearer " + token),) if token else ()
         self._worlds = services.WorldsStub(self._channel)
         self._learning = services.LearningStub(self._channel)

@@ -13,6 +13,7 @@ import numpy as np
 from . import uchilsim_pb2 as pb
 from .errors import Error, error_of, sentences
 from .numbers import Number
+from .pictures import Camera
 
 if TYPE_CHECKING:
     from .client import Client
@@ -149,6 +150,7 @@ class World:
 
     def __post_init__(self):
         self._steps: _Steps | None = None
+        self._cameras: dict[str, Camera] = {}
         self._take(self._message)
 
     def _take(self, message) -> None:
@@ -213,28 +215,23 @@ class World:
         pixel first. The camera begins to look with the first call; while it has no frame yet the world goes on by a
         control period at a time."""
         while True:
-            reply = self._client._call(self._client._worlds.Picture, pb.PictureRequest(world=self.name, robot=robot))
-            if reply.number:
-                return self._picture(reply)
+            frame = self._camera(robot).last()
+            if frame is not None:
+                return frame.picture
             state = self.step(1)
             if state.fault:
                 raise Error(f"the world has stopped: {state.fault}")
 
-    @staticmethod
-    def _picture(reply) -> np.ndarray:
-        return np.frombuffer(reply.rgb, np.uint8).reshape(reply.height, reply.width, 3)
+    def _camera(self, robot: str) -> Camera:
+        if robot not in self._cameras:
+            self._cameras[robot] = Camera(self._client, self.name, robot)
+        return self._cameras[robot]
 
     def pictures(self, robot: str) -> Iterator[tuple[int, np.ndarray]]:
         """Each new frame as the world goes on, by another client's steps or the server's clock: the control period at
         its end, and the frame as of picture()."""
-        stream = self._client._worlds.Pictures(pb.PictureRequest(world=self.name, robot=robot),
-                                               metadata=self._client._metadata)
-        try:
-            with sentences():
-                for reply in stream:
-                    yield reply.period, self._picture(reply)
-        finally:
-            stream.cancel()
+        for frame in self._camera(robot).frames():
+            yield frame.period, frame.picture
 
     def log(self) -> dict[str, str]:
         """The log so far and the game that it is bound to: texts by file. `btr live GAME --replay LOG` plays it again."""

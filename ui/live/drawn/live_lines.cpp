@@ -63,6 +63,12 @@ LiveRow liveRowFrom(const json& line) {
       (*row.programs)[robot] =
           state.at("running").get<bool>() ? QString() : QString::fromStdString(state.at("what").get<std::string>());
   }
+  if (const auto replay = line.find("replay"); replay != line.end()) {
+    row.replay.emplace();
+    row.replay->sameUntil = replay->at("same_until").get<long>();
+    row.replay->over = replay->at("over").get<bool>();
+    if (replay->contains("differs_by")) row.replay->differsBy = replay->at("differs_by").get<long>();
+  }
   if (line.contains("contacts"))
     for (const json& contact : line.at("contacts")) {
       const auto n = contact.get<std::array<double, 6>>();

@@ -4,6 +4,8 @@
 
 #include "core/model/kinematics.h"
 #include "core/sim/contact/obstacle_shape.h"
+#include "ui/live/free_place.h"
+#include "ui/scene3d/link_boxes.h"
 
 namespace btr::ui {
 namespace {
@@ -47,8 +49,19 @@ LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector
     models_.push_back(model);
     const auto player = game.robots.find(robot.name);
     jackets_.push_back(player == game.robots.end() || player->second.team.empty() ? "red" : player->second.team);
+    boxes_.push_back(btr::ui::linkBoxes(*model));
+    const std::vector<double> atZero(model->joints.size(), 0.0);
+    const Eigen::AlignedBox3d box = boxOf(boxes_.back(), forwardKinematics(*model, Isometry3d::Identity(), atZero));
+    // What holds a dog with its head and paws, and most of it; a larger robot in proportion.
     constexpr double dog_m = 0.13;
-    objects_.push_back({robot.name, LiveObject::Kind::robot, dog_m, {0, 0, 0}, robot.base == "free"});
+    double covers_m = dogRadius_m;
+    if (!box.isEmpty()) covers_m = std::max(covers_m, 0.7 * box.sizes().head<2>().norm());
+    objects_.push_back({robot.name,
+                        LiveObject::Kind::robot,
+                        dog_m * covers_m / dogRadius_m,
+                        {0, 0, 0},
+                        robot.base == "free",
+                        covers_m});
   }
   for (const BallSpec& ball : game.scene.balls) {
     numbers_.push_back(balls_.size());
@@ -114,6 +127,23 @@ Values LiveScene::jointsOf(std::size_t object, const LiveRow& row) const {
   return joints;
 }
 
+std::vector<Isometry3d> LiveScene::linksOf(std::size_t object, const LiveRow& row) const {
+  const std::size_t number = numbers_[object];
+  std::vector<double> joints;
+  for (const int column : robots_[number].joints)
+    joints.push_back(column < 0 ? 0 : row.values.at(static_cast<std::size_t>(column)));
+  return forwardKinematics(*models_[number], poseOf(object, row), joints);
+}
+
+Eigen::AlignedBox3d LiveScene::box(const LiveRow& row) const {
+  Eigen::AlignedBox3d all;
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    all.extend(poseOf(i, row).translation());
+    if (objects_[i].kind == LiveObject::Kind::robot) all.extend(boxOf(boxes_[numbers_[i]], linksOf(i, row)));
+  }
+  return all;
+}
+
 ScenePose LiveScene::pose(const LiveRow& row) const {
   ScenePose pose;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
@@ -123,10 +153,7 @@ ScenePose LiveScene::pose(const LiveRow& row) const {
     } else if (objects_[i].kind == LiveObject::Kind::obstacle) {
       pose.others.push_back({own});
     } else {
-      std::vector<double> joints;
-      for (const int column : robots_[numbers_[i]].joints)
-        joints.push_back(column < 0 ? 0 : row.values.at(static_cast<std::size_t>(column)));
-      pose.others.push_back(forwardKinematics(*models_[numbers_[i]], own, joints));
+      pose.others.push_back(linksOf(i, row));
     }
   }
   return pose;

@@ -19,6 +19,13 @@ struct ProgramLine {
   QString robot, object, text;
 };
 
+/// Of a log that is played again, see LogReplay.
+struct LiveReplay {
+  long sameUntil = 0;
+  std::optional<long> differsBy;
+  bool over = false;
+};
+
 /// What a running session tells of one moment.
 struct LiveRow {
   std::vector<double> values;  ///< by channel
@@ -34,6 +41,7 @@ struct LiveRow {
   QStringList events;                              ///< since the last row: "goal of red" …
   std::map<std::string, Orders> orders;            ///< by robot with a program: motor power and lamps
   std::vector<ProgramLine> console;                ///< since the last row
+  std::optional<LiveReplay> replay;                ///< none of a session that hands reach into
   /// By robot with a program, when that changed: "" it runs, else why no longer.
   std::optional<std::map<std::string, QString>> programs;
 };
@@ -46,6 +54,7 @@ struct LiveObject {
   double radius_m = 0.05;                            ///< of a sphere about its place that holds most of it
   Eigen::Vector3d half_m = Eigen::Vector3d::Zero();  ///< of an obstacle: half the edges of the box around it
   bool moves = true;
+  double footprint_m = 0;  ///< of a robot: radius of the disc about its place that it covers
 };
 
 /// A game's objects as the 3D view draws them, and the columns of its rows. Robots come first, then obstacles, as
@@ -58,6 +67,12 @@ class LiveScene {
   const std::vector<LiveObject>& objects() const { return objects_; }
   const std::vector<std::shared_ptr<const RobotModel>>& models() const { return models_; }
   const std::vector<std::string>& jackets() const { return jackets_; }  ///< of each of the models
+  /// Of the links of a robot, each in its link's frame.
+  const std::vector<Eigen::AlignedBox3d>& linkBoxes(std::size_t object) const { return boxes_.at(numbers_[object]); }
+  /// Where the links of a robot are.
+  std::vector<Eigen::Isometry3d> linksOf(std::size_t object, const LiveRow& row) const;
+  /// What all objects fill.
+  Eigen::AlignedBox3d box(const LiveRow& row) const;
   const std::vector<double>& radii() const { return radii_; }
   const std::optional<CarpetSpec>& carpet() const { return carpet_; }
 
@@ -84,6 +99,7 @@ class LiveScene {
   std::vector<int> balls_, obstacles_;
   std::vector<std::shared_ptr<const RobotModel>> models_;
   std::vector<std::string> jackets_;
+  std::vector<std::vector<Eigen::AlignedBox3d>> boxes_;  ///< by robot and link
   std::vector<double> radii_;
   std::optional<CarpetSpec> carpet_;
 };

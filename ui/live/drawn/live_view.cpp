@@ -89,6 +89,35 @@ void LiveView::setFollowing(bool on) {
   if (on && !row_.values.empty()) setRow(row_);
 }
 
+ViewCamera LiveView::homeCamera() const {
+  ViewCamera camera;
+  if (row_.values.empty()) return camera;
+  Eigen::AlignedBox3d places;
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) places.extend(scene_.poseOf(i, row_).translation());
+  if (places.isEmpty()) return camera;
+  camera.focus = places.center();
+  constexpr double perRadius = 2.2;
+  camera.distance = std::clamp(perRadius * (places.diagonal().norm() / 2 + 0.3), camera.distance, 15.0);
+  // Robots may be larger than dogs.
+  if (const Eigen::AlignedBox3d all = scene_.box(row_); all.diagonal().norm() > places.diagonal().norm() + 0.7)
+    camera.showWhole(all);
+  if (camera.distance > 3) camera.elevation = 0.6;
+  return camera;
+}
+
+double LiveView::wayToRobot(std::size_t object, const Vector3d& eye, const Vector3d& ray) const {
+  const std::vector<Eigen::AlignedBox3d>& boxes = scene_.linkBoxes(object);
+  const std::vector<Eigen::Isometry3d> links = scene_.linksOf(object, row_);
+  double nearest = -1;
+  for (std::size_t l = 0; l < boxes.size(); ++l) {
+    if (boxes[l].isEmpty()) continue;
+    const Eigen::Isometry3d centre = links[l] * Eigen::Translation3d(boxes[l].center());
+    const double way = wayToBox(centre, boxes[l].sizes() / 2, eye, ray);
+    if (way > 0 && (nearest < 0 || way < nearest)) nearest = way;
+  }
+  return nearest;
+}
+
 int LiveView::objectAt(QPointF pixel) const {
   if (row_.values.empty()) return -1;
   const Vector3d eye = camera().eye(), ray = camera().ray(pixel, size());
@@ -96,6 +125,12 @@ int LiveView::objectAt(QPointF pixel) const {
   double nearest = 1e30;
   for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
     const Eigen::Isometry3d pose = scene_.poseOf(i, row_);
+    if (scene_.objects()[i].kind == LiveObject::Kind::robot)
+      if (const double way = wayToRobot(i, eye, ray); way > 0 && way < nearest) {
+        nearest = way;
+        best = static_cast<int>(i);
+        continue;
+      }
     if (const Vector3d& half = scene_.objects()[i].half_m; half.z() > 0) {
       if (const double way = wayToBox(pose, half, eye, ray); way > 0 && way < nearest) {
         nearest = way;

@@ -33,6 +33,9 @@ class LiveView : public SceneView {
   /// Keeps what is selected in the middle.
   void setFollowing(bool on);
 
+  /// From above one corner, near enough to see a dog and far enough to see all.
+  ViewCamera homeCamera() const override;
+
   /// The object under a pixel, the nearest one to the eye; −1 none.
   int objectAt(QPointF pixel) const;
 
@@ -56,6 +59,8 @@ class LiveView : public SceneView {
   void dropEvent(QDropEvent* event) override;
 
  private:
+  /// Along a ray of unit length; negative if it passes by.
+  double wayToRobot(std::size_t object, const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) const;
   void paintRing(QPainter& painter, const LiveObject& object, const Eigen::Vector3d& at);
   void paintLamps(QPainter& painter);
   void paintHand(QPainter& painter, const std::string& object, const Eigen::Vector3d& from, const Eigen::Vector3d& to);

@@ -71,7 +71,7 @@ bool isNamedBySimulator(const LiveWorld& world, const std::string& object) {
 }
 
 double radiusOf(const LiveObject& object) {
-  if (object.kind == LiveObject::Kind::robot) return dogRadius_m;
+  if (object.kind == LiveObject::Kind::robot) return object.footprint_m;
   return object.kind == LiveObject::Kind::ball ? object.radius_m : object.half_m.head<2>().norm();
 }
 

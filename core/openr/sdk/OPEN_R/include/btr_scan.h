@@ -54,8 +54,8 @@ class btr_scan_format {
   char own_[512];
 };
 
-#define BTR_OPENR_SCAN_FORMAT                                               \
-  const unsigned char widths[] = {btr_scan_width(arguments)..., 0};         \
+#define BTR_OPENR_SCAN_FORMAT                                       \
+  const unsigned char widths[] = {btr_scan_width(arguments)..., 0}; \
   const btr_scan_format now(format, widths, (int)sizeof...(Arguments))
 
 template <class... Arguments>

@@ -94,7 +94,7 @@ bool takeCases(const std::string& tar, const std::string& into) try {
 void countCases(const std::string& folder) {
   if (!fs::exists(folder)) return;
   const bool any = std::ranges::any_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
-    return fs::exists(entry.path() / "verdict.json");
+    return entry.path().filename().string().starts_with("case_") && fs::exists(entry.path() / "verdict.json");
   });
   if (!any) return;
   const std::vector<ProvedCase> cases = provedCasesIn(folder);
@@ -112,7 +112,8 @@ void packCases(const std::string& trial, const std::string& tar) {
     words = {"tar", "-cf", part, "-C", trial, "trial.json"};
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(trial))
-      if (fs::exists(entry.path() / "verdict.json")) names.push_back(entry.path().filename().string());
+      if (entry.path().filename().string().starts_with("case_") && fs::exists(entry.path() / "verdict.json"))
+        names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     words.insert(words.end(), names.begin(), names.end());
   }

@@ -1,14 +1,10 @@
 #include "core/cluster/blind_cases.h"
 
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <filesystem>
 
 #include "core/cluster/coordinator.h"
+#include "core/cluster/own_scratch.h"
 #include "core/cluster/parts.h"
 #include "core/gap/proof/proof_case.h"
 #include "core/gap/report/run_analysis.h"
@@ -20,9 +16,6 @@ namespace btr {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Followed by the number of the process.
-constexpr const char* scratchName = "uchilsim-case-";
 
 /// What the first of the parts says of the rest.
 constexpr const char *isProved = "proved", *hasNoRoom = "no room";
@@ -59,7 +52,7 @@ Parts filesIn(const fs::path& folder) {
 }  // namespace
 
 std::string proveAway(ProofRequest request, std::size_t number, const EffectLibrary& library) {
-  const ScratchFolder scratch(scratchName + std::to_string(getpid()));
+  const ScratchFolder scratch(ownScratchName(caseScratch));
   request.out = scratch.path().string();
   try {
     proveCase(request, number, library,
@@ -74,7 +67,7 @@ std::string proveAway(ProofRequest request, std::size_t number, const EffectLibr
 }
 
 void takeCase(const std::string& out, std::size_t number, const std::string& bytes) {
-  const fs::path folder = fs::path(out) / nameOfCase(number), part = folder.string() + ".part";
+  const fs::path folder = fs::path(out) / nameOfCase(number), part = fs::path(out) / ("." + nameOfCase(number));
   std::error_code error;
   fs::remove_all(part, error);
   const Parts files = unpack(bytes);
@@ -89,18 +82,6 @@ void takeCase(const std::string& out, std::size_t number, const std::string& byt
   fs::remove_all(folder, error);  // what an interrupted trial left
   fs::rename(part, folder, error);
   if (error) throw InputError(folder.string() + ": cannot be written: " + error.message());
-}
-
-void removeAbandonedCases() {
-  std::error_code error;
-  const std::string beginning = scratchName;
-  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(beginning)) continue;
-    pid_t maker = 0;
-    std::from_chars(name.data() + beginning.size(), name.data() + name.size(), maker);
-    if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH) fs::remove_all(entry.path(), error);
-  }
 }
 
 }  // namespace btr

@@ -12,7 +12,7 @@ std::string proveAway(ProofRequest request, std::size_t number, const EffectLibr
 /// say that the other machine had no room.
 void takeCase(const std::string& out, std::size_t number, const std::string& bytes);
 
-/// Removes what processes that were killed have left of cases on this machine.
-void removeAbandonedCases();
+/// Where cases are proved (own_scratch.h).
+constexpr const char* caseScratch = "case";
 
 }  // namespace btr

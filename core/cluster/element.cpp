@@ -19,6 +19,7 @@
 #include "core/cluster/build_identity.h"
 #include "core/cluster/child.h"
 #include "core/cluster/coordinator.h"
+#include "core/cluster/own_scratch.h"
 #include "core/gap/proof/proof_run.h"
 #include "core/run/grid/grid_cells.h"
 #include "core/run/loop/back_to_reality.h"
@@ -65,7 +66,9 @@ class Element {
   bool work(const std::atomic<bool>& stop) try {
     began_ = Clock::now();
     tell("running", "");
-    const ScratchFolder local("uchilsim-element");
+    constexpr const char* scratch = "element";
+    removeAbandonedScratch(scratch);
+    const ScratchFolder local(ownScratchName(scratch));
     if (!isTrial())
       copyFile(elementDatabase(folder_, number_), local.file("element.db"));
     else if (fs::exists(elementCases(folder_, number_)))

@@ -12,6 +12,7 @@
 
 #include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
+#include "core/cluster/own_scratch.h"
 #include "core/cluster/parts.h"
 #include "core/gap/proof/proof_run.h"
 #include "core/run/setup/evaluator.h"
@@ -88,7 +89,7 @@ std::unique_ptr<Task> prepareExperiment(const Parts& message, const PluginHost& 
 std::unique_ptr<Task> prepareCases(const Parts& message, const PluginHost& host) {
   constexpr std::size_t head = 3;
   if (message.size() < head) throw InputError("a blind trial that is cut short");
-  removeAbandonedCases();
+  removeAbandonedScratch(caseScratch);
   auto task = std::make_unique<Task>();
   task->trial = proofRequestFromJson(message[2]);
   task->trial.generator = findGenerator();

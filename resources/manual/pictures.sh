@@ -54,6 +54,19 @@ if wants openr; then
   sed "s#\.\./openr/BallHead/MS#$folder/MS#; s#\.\./robots#$root/resources/robots#" resources/games/ball-follower.json > "$folder/follower.json"
 fi
 
+if wants replay; then
+  "$bin/btr" live resources/games/match-2004.json --steered --log "$folder/session.log" > /dev/null <<'L'
+{"do": "step", "periods": 150}
+{"act": "throw", "object": "ball", "velocity_m_s": [0.7, 0.5, 0.6]}
+{"do": "step", "periods": 120}
+{"act": "parameter", "robot": "red1", "name": "length_m", "value": 0.03}
+{"do": "step", "periods": 200}
+{"act": "remove", "object": "blue1"}
+{"do": "step", "periods": 200}
+{"do": "end"}
+L
+fi
+
 # picture NAME "KEYS" ARGUMENT…: the window as it looks after these keys
 cat > "$folder/picture.sh" <<'S'
 name=$1 keys=$2 folder=$3
@@ -112,6 +125,7 @@ picture form "ctrl+n" 1440x900 "$folder/shipped.db"
 picture sheet "" 1440x900 "$folder/person.db" --select-run 1
 picture grid "" 1440x900 "$folder/grid.db" --grid 1
 picture scene "" 1440x900 "$folder/shipped.db" --scene resources/games/match-2004.json
+picture replay "Right Right Right" 1440x900 "$folder/shipped.db" --scene "$folder/session.log"
 picture openr "@363,113" 1440x900 "$folder/shipped.db" --scene "$folder/follower.json"
 picture gap-setup "F8" 1440x900 "$folder/shipped.db" --select-run "$short_kick"
 picture report "" 1440x900 "$folder/shipped.db" --report "$folder/report"

@@ -72,6 +72,21 @@ TEST(MergedTopics, ARecordingBeginsWhereItsCommandsDo) {
   EXPECT_THAT(read.notes, Contains("1 row before the first value of leg.knee.command_rad left out"));
 }
 
+// Exported topics rarely share their stamps.
+TEST(MergedTopics, WhoseTimesAllDifferBeginWhereTheLastCommandDoes) {
+  const TemporaryFolder folder;
+  const Recording read =
+      loadRecording(folder.write("log.csv",
+                                 "time_s,leg.knee.command_rad,leg.hip.command_rad,leg.knee.position_rad\n"
+                                 "0,,,5\n0.1,1,,\n0.15,2,,\n0.2,,,6\n0.3,,7,\n0.4,,,8\n0.5,3,,\n"));
+  EXPECT_EQ(read.columns[0], (std::vector<double>{0.3, 0.4, 0.5}));
+  EXPECT_EQ(read.columns[1][0], 2) << "the command that held by then";
+  EXPECT_EQ(read.columns[2][0], 7);
+  EXPECT_TRUE(std::isnan(read.columns[3][0]));
+  EXPECT_THAT(read.notes, Contains("4 rows before the first value of leg.hip.command_rad left out"));
+  EXPECT_THAT(read.at(3, 1), HasSubstr("line 7,"));
+}
+
 /// Topics at any rates, split, merged and shuffled as blocks, are what they were before.
 TEST(MergedTopics, AreTheirTopicsHoweverTheyWereMerged) {
   Random random(5);

@@ -19,8 +19,14 @@ constexpr const char* strangeUrdf = R"(<robot name="rig">
   <link name="bob"><inertial><origin xyz="0 0 -0.2"/><mass value="0.5"/>
     <inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)";
 
-/// The rig as its owner describes it: a link, a rotor, a servo whose gains are not trusted.
-GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int trials) {
+/// What its owner believes of the servo; the gains are not trusted, `limit` says whether its torque is.
+struct Believed {
+  double p = 6, d = 0.3, maxTorque = 3;
+  bool limit = true;
+};
+
+/// The rig as its owner describes it: a link, a rotor, a servo.
+GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int trials, const Believed& believed = {}) {
   const TemporaryFolder folder;
   folder.write("rig.urdf", strangeUrdf);
   GapProblem problem;
@@ -30,6 +36,11 @@ GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int t
     "calibrate": [{"path": "robots.rig.servos.hinge.p", "min": 3, "max": 12},
                   {"path": "robots.rig.servos.hinge.d", "min": 0.1, "max": 0.9}]})",
                                 "scene", folder.file("."));
+  Values& servo = problem.scene.robots[0].servos.at("hinge").numbers;
+  servo["p"] = believed.p;
+  servo["d"] = believed.d;
+  servo["max_torque_nm"] = believed.maxTorque;
+  if (!believed.limit) problem.scene.calibrate.push_back({"robots.rig.servos.hinge.max_torque_nm", 0.5, 4});
   problem.models = loadModels(problem.scene);
   std::mt19937_64 random(seed);
   for (int trial = 0; trial < trials; ++trial) {
@@ -45,10 +56,12 @@ GapProblem strangeProblem(const strange::Plant& plant, std::uint64_t seed, int t
   return problem;
 }
 
-GapReport reportOn(const strange::Plant& plant, std::uint64_t seed, const std::vector<std::string>& among = {}) {
+GapReport reportOn(const strange::Plant& plant, std::uint64_t seed, const std::vector<std::string>& among = {},
+                   const Believed& believed = {}) {
   AnalysisOptions options;
   options.effects = among;
-  return analyse(strangeProblem(plant, seed, 4), {test::host().effectFactory(), test::host().effects()}, options);
+  return analyse(strangeProblem(plant, seed, 4, believed), {test::host().effectFactory(), test::host().effects()},
+                 options);
 }
 
 /// What is named, first its rivals are asked for that it cannot be told from.
@@ -174,6 +187,20 @@ TEST(StrangeServo, ThatHoldsItsTorqueBetweenTwoLooksIsSaidTo) {
   plant.loopPeriod = 0.01;
   const GapReport report =
       reportOn(plant, 12, {"sampled_loop", "joint_spring", "position_offset", "command_filter", "rotor_inertia"});
+  const Values found = sizesOf(report, "sampled_loop");
+  ASSERT_TRUE(found.contains("period_ms")) << toPlainText(report);
+  EXPECT_EQ(found.at("period_ms"), 1e3 * plant.loopPeriod);
+  EXPECT_NEAR(found.at("share"), 1, 0.05);
+}
+
+// Half the period beside less damping is nearly the same, and calibration has taken the damping away.
+TEST(StrangeServo, ThatHoldsItsTorqueAndIsOftenAtItsLimitIsSaidToForTheWholePeriod) {
+  strange::Plant plant;
+  plant.p = 6.5;
+  plant.d = 0.2;
+  plant.maxTorque = 1.5;
+  plant.loopPeriod = 0.01;
+  const GapReport report = reportOn(plant, 14, {"sampled_loop"}, {6.1, 0.177, 1.39, false});
   const Values found = sizesOf(report, "sampled_loop");
   ASSERT_TRUE(found.contains("period_ms")) << toPlainText(report);
   EXPECT_EQ(found.at("period_ms"), 1e3 * plant.loopPeriod);

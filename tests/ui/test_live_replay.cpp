@@ -174,7 +174,7 @@ class TestLiveReplay : public QObject {
     QVERIFY(!open.page.row().replay);
     open.go(40);
     QCOMPARE(open.count(), std::size_t(3));
-    open.select("crate");
+    open.page.world().select({"crate"});
     open.action("liveRemove")->trigger();
     QTRY_COMPARE(open.count(), std::size_t(2));
     // Its own log has all of it, from the first step.
@@ -211,7 +211,7 @@ class TestLiveReplay : public QObject {
     open.select("dog");
     chooseFile(experiment);
     open.action("liveExperiment")->trigger();
-    QTRY_COMPARE(made.count(), 1);
+    QTRY_VERIFY2(made.count() == 1, qPrintable(open.said()));
     const SceneSpec is = loadScene(scene.toStdString());
     QCOMPARE(is.obstacles.size(), std::size_t(0));
     QVERIFY(is.robots.at(0).jointStart.size() >= 15);
@@ -249,7 +249,7 @@ class TestLiveReplay : public QObject {
     const QString bad = open.folder.filePath("bad.log");
     writeFile(bad.toStdString(), text);
     open.page.openIfWorld(bad);
-    QTRY_VERIFY_WITH_TIMEOUT(open.said().contains("bad.log:2"), patience_ms);
+    QTRY_VERIFY2(open.said().contains("bad.log:2"), qPrintable(open.said()));
     QVERIFY(!open.said().contains('\n'));
     QVERIFY(!open.action("livePlay")->isEnabled());
   }
@@ -267,10 +267,12 @@ class TestLiveReplay : public QObject {
     window.show();
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(played.log)});
+    QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&window, &enter);
     QDropEvent event(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QApplication::sendEvent(&window, &event);
     auto* page = window.findChild<LivePage*>();
-    QTRY_VERIFY_WITH_TIMEOUT(page->row().replay, patience_ms);
+    QTRY_VERIFY2(page->row().replay, qPrintable(page->findChild<MessageBanner*>()->text()));
     QVERIFY(page->isVisible());
     const QString experiment = played.folder.filePath("learn.json");
     chooseFile(experiment);

@@ -155,7 +155,7 @@ void LivePage::connectWorld() {
           [this](const QString& who) { banner_->showMessage(MessageBanner::Kind::warning, who); });
   connect(process_, &LiveProcess::saved, this, [this](const QString& path, const QString& what) {
     banner_->showMessage(MessageBanner::Kind::information, tr("Saved: %1").arg(path));
-    if (what == "_experiment") emit experimentMade(path);
+    if (what == "experiment") emit experimentMade(path);
   });
   connect(process_, &LiveProcess::failed, this, [this](const QString& why) {
     banner_->showMessage(MessageBanner::Kind::error, why);

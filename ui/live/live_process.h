@@ -88,7 +88,7 @@ class LiveProcess : public QObject {
   void refused(const QString& why);
   /// Somebody does not answer; the world waits for him.
   void hangs(const QString& who);
-  /// `what`: "game", "_scene" or "_experiment".
+  /// `what`: "game", "scene" or "experiment".
   void saved(const QString& path, const QString& what);
   /// Once, of a log that is played again.
   void logTold(const btr::ui::LiveLog& log);

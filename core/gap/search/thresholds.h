@@ -76,7 +76,8 @@ struct SearchThresholds {
     double alongInReach = 1.02;                 ///< by cost, with the effect held: with more it is not set free [hand]
     std::array<double, 3> farSizes{0.5, 2, 4};  ///< far off, as from a quarter of a play's width [case: play]
     double farBetter = 0.98;                    ///< [hand]
-    std::array<double, 6> neighbours{-3, -2, -1, 1, 2, 3};     ///< of a whole number [hand]
+    std::array<double, 6> neighbours{-3, -2, -1, 1, 2, 3};  ///< of a whole number [hand]
+    std::array<double, 2> harmonics{0.5, 2};  ///< times it: what repeats is taken for these [case: held loops]
     int neighbourIterations = 3, neighbourBestIterations = 8;  ///< of each, of the best two [time]
     std::size_t neighboursFittedOn = 2;
     int neighbourRounds = 6;       ///< moves at most [time]
@@ -100,6 +101,7 @@ struct SearchThresholds {
     int phases = 16;         ///< of numbers without a neutral value, over their range [hand]
     double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
     std::size_t fitted = 3;  ///< numbers that are fitted [time]
+    double inReach = 2;      ///< by cost in windows, of the best: fitted on in longer ones [time]
   };
 
   /// An effect's own numbers drawn all over their ranges in short windows. [case: large play was called friction]
@@ -107,6 +109,9 @@ struct SearchThresholds {
     double leastLeft = 1.3;  ///< error that the best candidate leaves, from which it is done [hand]
     double window_s = 0.4;   ///< rough over whole trials, one hollow over all widths of play in these [case]
     double inReach = 1.5;    ///< by squared error in windows, of the best [time]
+    int raceFrom = 2;        ///< rounds of draws, after which candidates that are out of the race are left [time]
+    double race = 2.25;      ///< by squared error, of the best so far: out of it [time]
+    double helps = 0.95;     ///< by squared error in windows, of that without it, before anything is fitted [time]
     double mostLeft = 4;     ///< error of what may be the cause; of other laws a better fit says nothing [case]
     double hopeless = 4;     ///< times mostLeft in short windows: whole trials leave more [time]
   };

@@ -62,6 +62,7 @@ ReplayBar::ReplayBar(QWidget* parent)
   upper->addWidget(time_);
   upper->addWidget(goOn_);
   auto* lower = new QHBoxLayout;
+  lower->setSpacing(14);
   lower->addWidget(what_);
   lower->addWidget(same_);
   lower->addWidget(last_, 1);

@@ -98,7 +98,7 @@ std::size_t arrange(Recording& trial, const std::vector<std::size_t>& rows,
   return rows.size() - groups.size();
 }
 
-/// A replay begins where its inputs do.
+/// A replay begins where its inputs do: with the last value of each that has begun by then.
 void beginWithInputs(Recording& trial) {
   std::size_t first = 0;
   std::string channel;
@@ -111,6 +111,12 @@ void beginWithInputs(Recording& trial) {
     channel = trial.channels[column];
   }
   if (first == 0) return;
+  for (std::size_t column = 1; column < trial.channels.size(); ++column) {
+    if (!isInputChannel(trial.channels[column])) continue;
+    auto& values = trial.columns[column];
+    for (std::size_t row = first; !std::isfinite(values[first]) && row-- > 0;)
+      if (std::isfinite(values[row])) values[first] = values[row];
+  }
   for (std::vector<double>& column : trial.columns)
     column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(first));
   if (auto& lines = trial.places.line; !lines.empty())
@@ -127,16 +133,7 @@ bool complement(const Recording& trial, const std::vector<std::size_t>& known, s
   return trial.columns[0][a] == trial.columns[0][b] && std::ranges::none_of(known, clash);
 }
 
-}  // namespace
-
-bool isInputChannel(const std::string& channel) {
-  const auto name = parseChannel(channel);
-  if (!name) return false;
-  constexpr std::array inputs{"command_rad", "command_m", "command_nm", "command_n", "duty", "voltage_v", "enabled"};
-  return std::ranges::find(inputs, name->quantity) != inputs.end();
-}
-
-void orderRows(Recording& trial, bool retimed) {
+void joinTopics(Recording& trial, bool retimed) {
   const std::vector<double>& time = trial.columns[0];
   const auto unordered = std::ranges::adjacent_find(time, std::greater_equal<>());
   if (unordered == time.end()) return;
@@ -158,7 +155,20 @@ void orderRows(Recording& trial, bool retimed) {
     trial.notes.push_back(std::to_string(joined) + (joined == 1 ? " row was" : " rows were") +
                           " joined with the one before of the same time: several topics in one table");
   if (!sorted) trial.notes.push_back("rows of several topics were put in the order of time");
-  if (joined > 0 || !sorted) beginWithInputs(trial);
+}
+
+}  // namespace
+
+bool isInputChannel(const std::string& channel) {
+  const auto name = parseChannel(channel);
+  if (!name) return false;
+  constexpr std::array inputs{"command_rad", "command_m", "command_nm", "command_n", "duty", "voltage_v", "enabled"};
+  return std::ranges::find(inputs, name->quantity) != inputs.end();
+}
+
+void orderRows(Recording& trial, bool retimed) {
+  joinTopics(trial, retimed);
+  beginWithInputs(trial);
 }
 
 }  // namespace btr

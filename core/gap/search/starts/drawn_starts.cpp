@@ -23,39 +23,61 @@ double drawn(const FitParameter& p, double from, double to, Random& random, doub
   return byMagnitude ? std::exp(random.uniform(std::log(from), std::log(to))) : random.uniform(from, to);
 }
 
-}  // namespace
+/// Draws of a model in rounds, each in half the width of the one before, around the best so far.
+class Draws {
+ public:
+  Draws(const FitService& service, const FitModel& start, const std::vector<std::vector<double>>& shifts,
+        std::vector<std::size_t> which, std::string purpose)
+      : service_(&service),
+        start_(start),
+        best_(start),
+        shifts_(shifts),
+        which_(std::move(which)),
+        purpose_(std::move(purpose)),
+        least_(errorOf(start)) {}
 
-FitModel drawnAround(const FitService& service, const FitModel& start, const std::vector<std::vector<double>>& shifts,
-                     const std::vector<std::size_t>& which, const std::string& purpose, const std::string& stage,
-                     double at) {
-  const SearchThresholds::Restarts& limits = service.thresholds().restarts;
-  const std::size_t draws = limits.draws;
-  // Of the error's size, not its square: one foot that slips must not outweigh all that fits well.
-  const auto errorOf = [&](const FitModel& model) { return residualsOf(service.problem(), model, shifts).lpNorm<1>(); };
-  FitModel best = start;
-  double least = errorOf(best), width = 1;
-  for (int round = 0; round < limits.drawRounds; ++round, width *= limits.drawCloser) {
-    Random random = Random::forPurpose(service.options().seed, purpose, static_cast<std::uint64_t>(round));
-    std::vector<FitModel> models(draws, best);
+  const FitModel& best() const { return best_; }
+  /// Of the error's size, not its square: one foot that slips must not outweigh all that fits well.
+  double least() const { return least_; }
+
+  void drawRound(const std::string& stage, double at) {
+    const SearchThresholds::Restarts& limits = service_->thresholds().restarts;
+    const std::size_t draws = limits.draws;
+    Random random = Random::forPurpose(service_->options().seed, purpose_, static_cast<std::uint64_t>(round_));
+    std::vector<FitModel> models(draws, best_);
     for (FitModel& model : models)
-      for (const std::size_t i : which) {
-        const FitParameter& p = start.parameters[i];
-        const double half = width / 2 * (p.maximum - p.minimum);
-        const double from = round == 0 ? p.minimum : std::max(p.minimum, best.values[i] - half);
-        const double to = round == 0 ? p.maximum : std::min(p.maximum, best.values[i] + half);
+      for (const std::size_t i : which_) {
+        const FitParameter& p = start_.parameters[i];
+        const double half = width_ / 2 * (p.maximum - p.minimum);
+        const double from = round_ == 0 ? p.minimum : std::max(p.minimum, best_.values[i] - half);
+        const double to = round_ == 0 ? p.maximum : std::min(p.maximum, best_.values[i] + half);
         model.values[i] = drawn(p, from, to, random, limits.decade);
       }
     const auto replays = parallel(
-        service.options().jobs, draws, [&](std::size_t i) { return std::vector<double>{errorOf(models[i])}; },
-        service.reporter(stage, draws, at, at));
+        service_->options().jobs, draws, [&](std::size_t i) { return std::vector<double>{errorOf(models[i])}; },
+        service_->reporter(stage, draws, at, at));
     for (std::size_t i = 0; i < draws; ++i)
-      if (replays[i].ok() && replays[i].numbers[0] < least) {
-        least = replays[i].numbers[0];
-        best = models[i];
+      if (replays[i].ok() && replays[i].numbers[0] < least_) {
+        least_ = replays[i].numbers[0];
+        best_ = models[i];
       }
+    ++round_;
+    width_ *= limits.drawCloser;
   }
-  return best;
-}
+
+ private:
+  double errorOf(const FitModel& model) const { return residualsOf(service_->problem(), model, shifts_).lpNorm<1>(); }
+
+  const FitService* service_;
+  FitModel start_, best_;
+  std::vector<std::vector<double>> shifts_;
+  std::vector<std::size_t> which_;
+  std::string purpose_;
+  double least_, width_ = 1;
+  int round_ = 0;
+};
+
+}  // namespace
 
 /// A foot that lands a step earlier, or that holds instead of sliding, makes the error rough over the numbers, and
 /// derivatives lead into the next hollow. A replay costs a tenth of a Jacobian: the numbers are drawn all over their
@@ -63,7 +85,9 @@ FitModel drawnAround(const FitService& service, const FitModel& start, const std
 void restartFromDraws(const FitService& service, Fit& fit, const std::string& stage, double at) {
   std::vector<std::size_t> all(fit.model.parameters.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const FitModel best = drawnAround(service, fit.model, fit.shifts, all, "calibration scatter", stage, at);
+  Draws draws(service, fit.model, fit.shifts, all, "calibration scatter");
+  for (int round = 0; round < service.thresholds().restarts.drawRounds; ++round) draws.drawRound(stage, at);
+  const FitModel& best = draws.best();
   if (best.values == fit.model.values) return;
   const std::optional<Fit> fitted =
       service.tryFits({{best, fit.shifts}}, service.thresholds().calibration.drawnIterations, stage, at, at)[0];
@@ -84,8 +108,11 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
     std::vector<std::vector<double>> shifts;  // of whole trials
     double error;
   };
-  std::vector<Begun> begun;
-  double least = INFINITY;
+  struct Racer {
+    std::size_t tried, base;
+    Draws draws;
+  };
+  std::vector<Racer> race;
   for (const std::size_t k : which) {
     const FitModel& fitted = tried[k].fit.model;
     if (service.problem().library.make(fitted.effects.back().effect)->place() != Effect::Place::joint) continue;
@@ -93,16 +120,35 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
     for (std::size_t i = 0; i < fitted.parameters.size(); ++i)
       if (fitted.parameters[i].effect + 1 == static_cast<int>(fitted.effects.size())) own.push_back(i);
     // All other numbers as they were without it: the fit has bent them to what it is not.
-    Begun best{k, {}, {}, INFINITY};
-    for (const Fit& base : without) {
+    for (std::size_t base = 0; base < without.size(); ++base) {
       FitModel model = fitted;
-      std::ranges::copy(base.model.values, model.values.begin());
-      model = drawnAround(windows, model, {}, own, "effect scatter", stage, at);
-      const double error = residualsOf(windows.problem(), model, {}).squaredNorm();
-      if (error < best.error) best = {k, model, base.shifts, error};
+      std::ranges::copy(without[base].model.values, model.values.begin());
+      race.push_back({k, base, Draws(windows, model, {}, own, "effect scatter")});
     }
-    least = std::min(least, best.error);
-    begun.push_back(std::move(best));
+  }
+  for (int round = 0; round < service.thresholds().restarts.drawRounds; ++round) {
+    double least = INFINITY;
+    for (Racer& each : race) {
+      each.draws.drawRound(stage, at);
+      least = std::min(least, each.draws.least());
+    }
+    if (round + 1 >= limits.raceFrom)
+      std::erase_if(race, [&](const Racer& each) { return each.draws.least() > std::sqrt(limits.race) * least; });
+  }
+  std::vector<Begun> begun;
+  double least = INFINITY;
+  for (const Racer& each : race) {
+    const FitModel& model = each.draws.best();
+    const double error = residualsOf(windows.problem(), model, {}).squaredNorm();
+    // What helps nothing in any size that was drawn begins nowhere better than where it is.
+    if (error > limits.helps * residualsOf(windows.problem(), without[each.base].model, {}).squaredNorm()) continue;
+    least = std::min(least, error);
+    const Begun begins{each.tried, model, without[each.base].shifts, error};
+    const auto known = std::ranges::find(begun, each.tried, &Begun::tried);
+    if (known == begun.end())
+      begun.push_back(begins);
+    else if (error < known->error)
+      *known = begins;
   }
   for (const Begun& each : begun) {
     if (!(each.error <= limits.inReach * least)) continue;

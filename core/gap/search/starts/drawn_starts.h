@@ -13,10 +13,6 @@ namespace btr {
 // Where a fit begins decides where it ends: beginnings drawn all over the ranges, judged by mere replays. `at`: share
 // of the search, for progress.
 
-/// The best of replays with these parameters drawn all over their ranges and then ever closer around the best.
-FitModel drawnAround(const FitService& service, const FitModel& start, const std::vector<std::vector<double>>& shifts,
-                     const std::vector<std::size_t>& which, const std::string& purpose, const std::string& stage,
-                     double at);
 /// Of a walk: the calibrated numbers begun where mere replays, all over their ranges, say that it is best.
 void restartFromDraws(const FitService& service, Fit& fit, const std::string& stage, double at);
 /// Candidates at joints, where none explains it yet: an effect's own numbers begun so in short windows, all others as

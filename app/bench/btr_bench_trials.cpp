@@ -73,7 +73,7 @@ std::vector<BenchRow> setUpRows(const BenchTask& kick, const BenchWork& work) {
 std::vector<BenchRow> batchRows(const BenchWork& work) {
   const PreparedExperiment prepared =
       prepareFromFiles(loadExperiment(work.resources + "/experiments/kick-short.json"), work.host);
-  const SimulatorSpec simulator = firstSimulator(prepared.spec).simulator;
+  const SimulatorSpec simulator = firstSimulator(prepared).simulator;
   Random random(1);
   std::vector<TrialJob> jobs(populationOfABatch);
   for (TrialJob& job : jobs) {

@@ -110,7 +110,7 @@ void EvaluationDesk::prepare(const v1::Experiment& experiment, Id run) {
   if (spec) files_ = filesOf(*spec, host_);
   prepared_ =
       std::make_unique<PreparedExperiment>(record ? prepareFromRun(*record, host_) : prepareFromFiles(*spec, host_));
-  simulator_ = record ? simulator : firstSimulator(prepared_->spec).simulator;
+  simulator_ = record ? simulator : firstSimulator(*prepared_).simulator;
   seed_ = record ? record->seed : prepared_->spec.seed;
   known_ = made;
 }

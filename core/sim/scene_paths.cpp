@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sim/scene_parameters.h"
 #include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 
@@ -142,7 +143,7 @@ void setGroupMass(Scene& scene, const std::string& group, const std::string& nam
       any = true;
     }
   }
-  if (!any) noSuch(name, "only for robots whose model has a " + group);
+  if (!any) noSuch(name, whoHas(name));
 }
 
 /// The joint whose servo the parameters describe: the first of a leg.
@@ -185,7 +186,7 @@ void setServos(Scene& scene, const SceneSpec& spec, const std::string& name, dou
         drive.maxTorque = value * ratio(own.maxTorque_nm, first.maxTorque_nm, 0.85);
     }
   }
-  if (!any) noSuch(name, "only for robots with legs");
+  if (!any) noSuch(name, whoHas(name));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ double cpuOf(int who) {
 std::vector<double> trialTimes(const std::string& experiment, int count, const PluginHost& host) {
   const PreparedExperiment prepared =
       prepareFromFiles(loadExperiment(std::string(SOURCE_DIR "/resources/experiments/") + experiment), host);
-  const SimulatorSpec simulator = firstSimulator(prepared.spec).simulator;
+  const SimulatorSpec simulator = firstSimulator(prepared).simulator;
   Random random(3);
   std::vector<double> times;
   for (int i = 0; i <= count; ++i) {

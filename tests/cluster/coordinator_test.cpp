@@ -30,7 +30,7 @@ class Kicks {
     Random random(5);
     for (int i = 0; i < count; ++i) {
       TrialJob job;
-      job.simulator = firstSimulator(prepared_.spec).simulator;
+      job.simulator = firstSimulator(prepared_).simulator;
       for (const Parameter& p : prepared_.genotype)
         job.parameters.push_back(p.minimum + (p.maximum - p.minimum) * random.uniform());
       job.seed = 11;

@@ -168,7 +168,7 @@ TEST_F(Rival, LargePlayIsFoundInRecordingsOfWalksThatHang) {
   options.maximumEffects = 1;
   options.designNext = options.learnRest = false;
   const GapProblem problem =
-      recordedProblem(prepared, firstSimulator(walk).simulator, std::move(recordings), RobotPose::hungUp);
+      recordedProblem(prepared, firstSimulator(prepared).simulator, std::move(recordings), RobotPose::hungUp);
   const GapReport report = analyse(problem, {host_.effectFactory(), host_.effects()}, options);
   ASSERT_EQ(report.after.effects.size(), 1u) << report.sentence;
   EXPECT_EQ(report.after.effects[0].effect, "backlash") << report.sentence;

@@ -57,6 +57,45 @@ TEST(RunRecord, ItsHashTellsSpecificationsSceneAndModelsApartAndSeedsNot) {
   EXPECT_NE(makeRunRecord(other, 1, 1).specSha256, hash);
 }
 
+ExperimentSpec ownRobot() { return loadExperiment(SOURCE_DIR "/resources/experiments/own-robot-walk.json"); }
+
+std::vector<std::string> namesOf(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+// A robot of one's own has neither an AIBO's head nor its legs.
+TEST(AnotherRobot, HasTheParametersThatMeanSomethingInItsScene) {
+  const std::vector<std::string> floors{"friction", "gravity_m_s2", "slip1_m_s_n", "slip2_m_s_n"};
+  ExperimentSpec spec = ownRobot();
+  spec.adapted.clear();
+  const PreparedExperiment prepared = prepareFromFiles(spec, host());
+  EXPECT_EQ(namesOf(prepared.parameters), floors);
+  EXPECT_EQ(namesOf(prepared.adapted), floors);
+  for (const auto& [name, value] : firstSimulator(prepared).simulator.values)
+    EXPECT_THAT(floors, testing::Contains(name));
+  EXPECT_EQ(namesOf(kick().parameters), namesOf(simulatorParameters()));
+}
+
+TEST(AnotherRobot, WhatSaysOnlyTheUsualOfAnAiboIsPassedOver) {
+  ExperimentSpec spec = ownRobot();
+  for (const Parameter& p : simulatorParameters()) spec.simulator.values[p.name] = p.byDefault;
+  EXPECT_EQ(4u, prepareFromFiles(spec, host()).spec.simulator.values.size());
+  spec.simulator.values["body_mass_kg"] = 0.7;
+  EXPECT_THAT(test::refusal([&] { prepareFromFiles(spec, host()); }),
+              testing::AllOf(HasSubstr("experiment /simulator/values: body_mass_kg is not allowed"),
+                             HasSubstr("only for robots whose model has a body")));
+}
+
+TEST(AnotherRobot, AParameterThatMeansNothingCannotBeAdapted) {
+  ExperimentSpec spec = ownRobot();
+  spec.adapted.push_back("servo_p_nm_rad");
+  EXPECT_THAT(test::refusal([&] { prepareFromFiles(spec, host()); }),
+              testing::AllOf(HasSubstr("experiment /adaptation/parameters: servo_p_nm_rad is not allowed"),
+                             HasSubstr("only for robots with legs")));
+}
+
 TEST(PreparedExperiment, FromItsRunIsTheSameToTheLastBit) {
   const PreparedExperiment first = kick();
   const RunRecord run = makeRunRecord(first, 1, 5);

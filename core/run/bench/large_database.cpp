@@ -204,7 +204,7 @@ void makeLargeDatabase(const std::string& path, const PluginHost& host, const st
       experiment = database.addExperiment(record);
     }
     const auto seed = static_cast<std::uint64_t>(1 + k % size.runsOfAnExperiment);
-    const Id run = database.addRun(makeRunRecord(named, experiment, seed), firstSimulator(named.spec));
+    const Id run = database.addRun(makeRunRecord(named, experiment, seed), firstSimulator(named));
     MadeRun made(database, prepared, size, run);
     int stage = 0;
     for (int number = 1; number <= size.generations; ++number) {

@@ -57,7 +57,7 @@ GridStart gridStart(const PreparedExperiment& base, const GridSpec& spec, GridSp
   // The same chance for a cell whatever the method: their differences are the methods'.
   const std::uint64_t own = Random::forPurpose(seed, "grid cell", static_cast<std::uint64_t>(cell.number)).next() >> 11;
   begun.run = makeRunRecord(prepared, experiment, own);
-  begun.simulator = firstSimulator(prepared.spec);
+  begun.simulator = firstSimulator(prepared);
   begun.note = nameOfTask(cell.task) + ", seed " + std::to_string(seed);
   if (cell.mirrorOf) begun.note += ", mirror image of cell " + std::to_string(cell.mirrorOf);
   return begun;

@@ -75,7 +75,7 @@ Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& sp
     experiment.createdAt = utcNow();
     record.experiment = database.addExperiment(experiment);
   }
-  const Id begins = database.addRun(record, firstSimulator(spec));
+  const Id begins = database.addRun(record, firstSimulator(prepared));
   if (old) *edited = saidOf(*old, record, begins);
   return begins;
 }

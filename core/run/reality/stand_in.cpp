@@ -143,7 +143,7 @@ Concealed drawConcealed(const PreparedExperiment& prepared, const PluginHost& ho
   while (true) {
     Concealed concealed{prepared.spec.simulator, setting("noise_m"), seed};
     const double error = setting("parameter_error");
-    for (const Parameter& p : simulatorParameters()) {
+    for (const Parameter& p : prepared.parameters) {
       const double start = valueOf(simulatorParameters(), prepared.spec.simulator.values, p.name);
       const double size = start != 0 ? std::abs(start) : 0.25 * (p.maximum - p.minimum);
       concealed.simulator.values[p.name] = std::clamp(start + error * size * random.normal(), p.minimum, p.maximum);

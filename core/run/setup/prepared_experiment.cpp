@@ -11,6 +11,7 @@
 #include "core/run/setup/reality_settings.h"
 #include "core/sim/engine/ode_session.h"
 #include "core/sim/model_losses.h"
+#include "core/sim/scene_parameters.h"
 #include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
@@ -105,6 +106,26 @@ ModelSet parseModels(const SceneSpec& scene, const std::vector<StoredFile>& file
   return models;
 }
 
+/// Which simulator parameters mean something in the scene, and which of them L3 may change. Another robot has no head
+/// or legs of an AIBO: what says nothing but the usual of them is passed over, the rest is an error.
+void settleParameters(PreparedExperiment& prepared) {
+  prepared.parameters = simulatorParametersOf(makeScene(prepared.sceneSpec, prepared.models, {}, prepared.effects));
+  const std::vector<std::string>& wanted = prepared.spec.adapted;
+  for (const Parameter& p : simulatorParameters()) {
+    const bool isHere = find(prepared.parameters, p.name) != nullptr;
+    const bool named = std::ranges::find(wanted, p.name) != wanted.end();
+    if (named && !isHere) throw InputError("experiment /adaptation/parameters", p.name, whoHas(p.name));
+    if (isHere && (wanted.empty() || named)) prepared.adapted.push_back(p);
+    Values& values = prepared.spec.simulator.values;
+    const auto value = values.find(p.name);
+    if (value == values.end()) continue;
+    check(p, value->second, "simulator " + p.name);
+    if (isHere) continue;
+    if (value->second != p.byDefault) throw InputError("experiment /simulator/values", p.name, whoHas(p.name));
+    values.erase(value);
+  }
+}
+
 /// Everything but reading files: plugins, settings, models and a first scene.
 PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std::vector<StoredFile> files,
                            const PluginHost& host, bool fromFiles) {
@@ -121,12 +142,9 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   prepared.genotype = prepared.controller->genotype();
   if (spec.start) prepared.start = resolve(prepared.genotype, spec.start->parameters, "start/parameters");
 
-  for (const Parameter& p : simulatorParameters()) {
-    const bool named = std::find(spec.adapted.begin(), spec.adapted.end(), p.name) != spec.adapted.end();
-    if (spec.adapted.empty() || named) prepared.adapted.push_back(p);
-    if (const auto value = spec.simulator.values.find(p.name); value != spec.simulator.values.end())
-      check(p, value->second, "simulator " + p.name);
-  }
+  prepared.models = parseModels(prepared.sceneSpec, prepared.files);
+  if (prepared.sceneSpec.robots.empty()) throw InputError(spec.scene, "no robot", "a scene with at least one robot");
+  settleParameters(prepared);
 
   // Each plugin with what may be set on it: a learner's settings may depend on what it searches.
   const auto learner = host.learner(spec.learner.name);
@@ -158,9 +176,7 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   adaptation->start(prepared.adapted, prepared.spec.adaptation.settings, unused);
   if (inReality) realityLearner->start(prepared.genotype, prepared.spec.realityLearner.settings, unused);
 
-  prepared.models = parseModels(prepared.sceneSpec, prepared.files);
-  if (prepared.sceneSpec.robots.empty()) throw InputError(spec.scene, "no robot", "a scene with at least one robot");
-  prepared.scene(spec.simulator);
+  prepared.scene(prepared.spec.simulator);
   return prepared;
 }
 
@@ -259,7 +275,7 @@ PreparedExperiment prepareFromFiles(const ExperimentSpec& spec, const PluginHost
     std::ranges::move(meshes, std::back_inserter(files));
   }
   PreparedExperiment prepared = prepare(spec, std::move(scene), std::move(files), host, true);
-  const Scene arranged = prepared.scene(spec.simulator);
+  const Scene arranged = prepared.scene(prepared.spec.simulator);
   requireNoCamera(prepared);
   requireTimeForTheMotion(prepared, arranged);
   prepared.fitness->check(arranged);
@@ -277,10 +293,10 @@ std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host)
   return modelLosses(prepared.sceneSpec, prepared.models);
 }
 
-SimulatorRecord firstSimulator(const ExperimentSpec& spec) {
+SimulatorRecord firstSimulator(const PreparedExperiment& prepared) {
   SimulatorRecord first;
-  first.simulator = spec.simulator;
-  for (const Parameter& p : simulatorParameters()) first.simulator.values.try_emplace(p.name, p.byDefault);
+  first.simulator = prepared.spec.simulator;
+  for (const Parameter& p : prepared.parameters) first.simulator.values.try_emplace(p.name, p.byDefault);
   first.madeBy = "start";
   first.createdAt = utcNow();
   return first;

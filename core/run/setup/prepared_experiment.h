@@ -25,8 +25,9 @@ struct PreparedExperiment {
   std::shared_ptr<const Fitness> fitness;
   std::shared_ptr<const Reality> reality;
   EffectFactory effects;
-  std::vector<Parameter> genotype;  ///< of the controller
-  std::vector<Parameter> adapted;   ///< simulator parameters that L3 may change
+  std::vector<Parameter> genotype;    ///< of the controller
+  std::vector<Parameter> parameters;  ///< simulator parameters that mean something in the scene
+  std::vector<Parameter> adapted;     ///< those that L3 may change
 
   std::vector<double> start;  ///< the genotype's vector that L1 begins around; empty if it begins anywhere
 
@@ -57,8 +58,8 @@ PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
 /// What the run's robots lack of what their files say; see modelLosses().
 std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host);
 
-/// The simulator version 0 of a run: what the experiment says, start values for the rest.
-SimulatorRecord firstSimulator(const ExperimentSpec& spec);
+/// The simulator version 0 of a run: what the experiment says, start values for the rest of the scene's parameters.
+SimulatorRecord firstSimulator(const PreparedExperiment& prepared);
 
 /// The record that stores a prepared experiment as a run, ready to start.
 RunRecord makeRunRecord(const PreparedExperiment& prepared, Id experiment, std::uint64_t seed);

@@ -1,0 +1,62 @@
+#include "core/sim/scene_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/spec/simulator_spec.h"
+
+namespace btr {
+namespace {
+
+constexpr std::array groups{"head", "neck", "body", "leg"};
+
+/// The group whose mass a parameter is; none for another parameter.
+std::optional<std::string> groupOf(const std::string& parameter) {
+  for (const std::string group : groups)
+    if (parameter == group + "_mass_kg") return group;
+  return std::nullopt;
+}
+
+bool isOfFloor(const std::string& parameter) {
+  return parameter == "friction" || parameter == "slip1_m_s_n" || parameter == "slip2_m_s_n";
+}
+
+bool hasGroup(const RobotModel& model, const std::string& group) {
+  return std::ranges::any_of(model.links, [&](const Link& link) {
+    return link.massGroup == group || link.massGroup.starts_with(group + ":");
+  });
+}
+
+/// The servo that the parameters describe is the first of a leg.
+bool hasLegServo(const RobotModel& model) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (model.joints[i].type == Joint::Type::rotate && model.links[i + 1].massGroup.starts_with("leg")) return true;
+  return false;
+}
+
+bool isIn(const Scene& scene, const std::string& parameter) {
+  if (parameter == "gravity_m_s2") return true;
+  if (isOfFloor(parameter)) return scene.floor.has_value();
+  const auto group = groupOf(parameter);
+  return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
+    return group ? hasGroup(robot.model, *group) : hasLegServo(robot.model);
+  });
+}
+
+}  // namespace
+
+std::vector<Parameter> simulatorParametersOf(const Scene& scene) {
+  std::vector<Parameter> all;
+  for (const Parameter& parameter : simulatorParameters())
+    if (isIn(scene, parameter.name)) all.push_back(parameter);
+  return all;
+}
+
+std::string whoHas(const std::string& parameter) {
+  if (isOfFloor(parameter)) return "only in a scene with a floor";
+  if (const auto group = groupOf(parameter)) return "only for robots whose model has a " + *group;
+  return "only for robots with legs";
+}
+
+}  // namespace btr

@@ -35,14 +35,6 @@ QTableWidgetItem* putCell(QTableWidget& table, int row, int column, const QStrin
   return item;
 }
 
-// Every number of a simulator: a run's twelve parameters with their defaults, then paths into the scene.
-Values allValues(const SimulatorRecord& version) {
-  Values values = version.simulator.values;
-  if (version.rig == 0)
-    for (const Parameter& parameter : simulatorParameters()) values.emplace(parameter.name, parameter.byDefault);
-  return values;
-}
-
 QString effectText(const PlacedEffect& effect) {
   QStringList parts;
   for (const auto& [name, value] : effect.parameters)
@@ -165,8 +157,9 @@ void SimulatorsPage::showDifference() {
     return;
   }
   const SimulatorRecord* parent = byId(simulator->parent);
-  const Values values = allValues(*simulator);
-  const Values old = allValues(parent ? *parent : *simulator);
+  // A run's first version has all parameters that mean something for its robot, and paths come later.
+  const Values& values = simulator->simulator.values;
+  const Values& old = parent ? parent->simulator.values : values;
 
   // The declared parameters in their order, then the paths.
   std::vector<std::pair<QString, std::string>> rows;

@@ -83,7 +83,7 @@ Coordination coordination(const PluginHost& host) {
   const std::atomic<bool> goOn{false};
 
   TrialJob job;
-  job.simulator = firstSimulator(spec).simulator;
+  job.simulator = firstSimulator(prepared).simulator;
   for (const Parameter& p : prepared.genotype) job.parameters.push_back(p.byDefault);
   Evaluator evaluator(prepared, 1, &coordinator);
   evaluator.evaluate({job, job}, goOn);  // the foremen are there

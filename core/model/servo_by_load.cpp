@@ -141,6 +141,10 @@ class Servos {
 
 }  // namespace
 
-void chooseServosByLoad(RobotModel& model) { Servos(model).choose(); }
+void chooseServosByLoad(RobotModel& model) {
+  // Every joint asks every link; a file of more is no robot.
+  constexpr std::size_t mostLinks = 1000;
+  if (model.links.size() <= mostLinks) Servos(model).choose();
+}
 
 }  // namespace btr

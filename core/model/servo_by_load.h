@@ -11,7 +11,7 @@ namespace btr {
 /// weight. In a free robot the joints of limbs that reach down to its lowest point also carry half of what is in front
 /// of them: it stands on them. The servo gives way by 0.02 rad (1 mm on a slide joint) under that load, is critically
 /// damped for the inertia that it moves, and has up to three times the torque; what the file gives stays.
-/// Adds one warning that says for how many joints, if there are any.
+/// Adds one warning that says for how many joints, if there are any. A model of more than 1000 links is left as it is.
 void chooseServosByLoad(RobotModel& model);
 
 }  // namespace btr

@@ -231,7 +231,7 @@ class UrdfReader {
   UrdfTree tree_;
 };
 
-/// What servos get whose effort is 0, before what else is said of their lines.
+/// What servos get whose effort is 0. Of one line, what is said of limits comes first, then of efforts.
 void sayEffortless(const std::map<std::string, int>& effortless, RobotModel& model) {
   for (const auto& [name, line] : effortless) {
     const int number = model.findJoint(name);
@@ -240,8 +240,13 @@ void sayEffortless(const std::map<std::string, int>& effortless, RobotModel& mod
     const double torque = joint.servo.maxTorque_nm.value_or(defaultServoLimit(joint.type));
     const std::string text = "joint " + UrdfXml::shown(name) + ": effort 0 is taken as not given: its servo gets " +
                              brief(torque) + (joint.type == Joint::Type::slide ? " N" : " N m");
-    model.warnings.insert(model.warnings.begin(), {line, text, Loss::effort, name});
+    model.warnings.push_back({line, text, Loss::effort, name});
   }
+  const auto place = [](const Warning& warning) {
+    const int kind = warning.loss == Loss::limits ? 0 : warning.loss == Loss::effort ? 1 : 2;
+    return std::pair(warning.line, kind);
+  };
+  std::ranges::stable_sort(model.warnings, {}, place);
 }
 
 }  // namespace
@@ -255,7 +260,6 @@ RobotModel parseUrdf(const std::string& text, const std::string& place, const Mo
   checkModel(model, place);
   chooseServosByLoad(model);
   sayEffortless(effortless, model);
-  std::ranges::stable_sort(model.warnings, {}, &Warning::line);
   return model;
 }
 

@@ -10,6 +10,7 @@ using namespace btr::ui;
 
 namespace {
 
+/// Of a run of a robot for which all parameters mean something.
 std::vector<SimulatorRecord> twoVersions() {
   SimulatorRecord first, second;
   first.id = 11;
@@ -19,7 +20,9 @@ std::vector<SimulatorRecord> twoVersions() {
   second.parent = 11;
   second.madeBy = "L3";
   second.madeAfterGeneration = 50;
-  second.simulator.values = {{"friction", 0.5}};
+  for (const Parameter& p : simulatorParameters()) first.simulator.values[p.name] = p.byDefault;
+  second.simulator = first.simulator;
+  second.simulator.values["friction"] = 0.5;
   return {first, second};
 }
 
@@ -108,10 +111,24 @@ class TestSimulatorsPage : public QObject {
     QVERIFY(page.findChild<QLabel*>("effects")->text().contains("<b>backlash at dog.LF_J1 (width_rad = 0.05)</b>"));
   }
 
+  // An arm has neither an AIBO's legs nor its head.
+  void aRobotOfOnesOwnHasTheNumbersThatItsVersionsHave() {
+    auto simulators = twoVersions();
+    for (SimulatorRecord& version : simulators)
+      std::erase_if(version.simulator.values, [](const auto& value) { return value.first.ends_with("_kg"); });
+    SimulatorsPage page;
+    page.setSimulators(simulators);
+    auto* difference = page.findChild<QTableWidget*>("difference");
+    QVERIFY(rowOf(*difference, "friction") >= 0);
+    QCOMPARE(rowOf(*difference, "head_mass_kg"), -1);
+    page.findChild<QTableWidget*>("versions")->setCurrentCell(0, 0);
+    QCOMPARE(rowOf(*difference, "head_mass_kg"), -1);
+  }
+
   // A rig has none of a run's twelve parameters: what a version does not name is the scene's own.
   void ofARigItShowsWhatItsVersionsName() {
     auto simulators = twoVersions();
-    for (SimulatorRecord& version : simulators) version.rig = 5;
+    for (SimulatorRecord& version : simulators) version.rig = 5, version.simulator = {};
     simulators[1].simulator.values = {{"robots.arm.servos.elbow.p", 3.5}};
     SimulatorRecord back = simulators[1];
     back.id = 13;

@@ -43,7 +43,7 @@ TEST(MomentExperiments, LearnWhatMovesTheRobot) {
 TEST(MomentExperiments, SeeTheWorldFromTheRobotThatLearns) {
   Session session(dogs(), host());
   run(session, 5);
-  const auto ball = session.world().ballPose(0).translation();
+  const Eigen::Vector3d ball = session.world().ballPose(0).translation();
   const auto blue = session.world().linkPoses(1).front();
   const MomentExperiment moment = experimentOf(session, host(), "blue1");
   ASSERT_EQ(moment.scene.robots.front().name, "blue1");

@@ -82,7 +82,8 @@ void checkLink(const Link& link, bool mayBeMassless, const std::string& place, s
   if (!(inertial.mass_kg >= lightest_kg && inertial.mass_kg <= largestNumber))
     throw InputError(place, link.line,
                      "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; " +
-                         toText(lightest_kg) + " to " + toText(largestNumber) + " kg is expected");
+                         toText(lightest_kg) + " to " + toText(largestNumber) + " kg is expected" +
+                         (inertial.mass_kg == 0 ? " of what moves (a mass of its own, or a fixed joint)" : ""));
   if (!inertial.centreOfMass_m.allFinite())
     throw InputError(place, link.line, "link " + link.name + ": centre of mass must be finite");
   checkLargest(inertial.centreOfMass_m.cwiseAbs().maxCoeff(), "link " + link.name + ": the centre of mass [m]",

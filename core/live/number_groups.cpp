@@ -4,14 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/sim/scene_parameters.h"
 #include "core/sim/world/scene_build.h"
 
 namespace btr {
 namespace {
-
-bool isOfGroup(const std::string& massGroup, const std::string& group) {
-  return massGroup == group || massGroup.starts_with(group + ":");
-}
 
 /// Mass of the first of a model's groups of that name; none if it has none.
 std::optional<double> groupMass(const RobotModel& model, const std::string& group) {
@@ -27,14 +24,6 @@ std::optional<double> groupMass(const RobotModel& model, const std::string& grou
   return first.empty() ? std::nullopt : std::optional(std::round(sum * perKilogram) / perKilogram);
 }
 
-/// The servo that the simulator's servo parameters describe: the first one of a leg.
-const Drive* referenceDrive(const SceneRobot& robot) {
-  for (std::size_t i = 0; i < robot.model.joints.size(); ++i)
-    if (robot.model.joints[i].type == Joint::Type::rotate && robot.model.links[i + 1].massGroup.starts_with("leg"))
-      return &robot.drives[i];
-  return nullptr;
-}
-
 /// What scene and models say of one of simulatorParameters(); none where it means nothing.
 std::optional<double> usualOf(const Scene& scene, const SceneRobot* robot, const std::string& name, bool shared) {
   if (shared) {
@@ -46,8 +35,9 @@ std::optional<double> usualOf(const Scene& scene, const SceneRobot* robot, const
   if (!robot) return std::nullopt;
   for (const char* group : {"head", "neck", "body", "leg"})
     if (name == std::string(group) + "_mass_kg") return groupMass(robot->model, group);
-  const Drive* drive = referenceDrive(*robot);
-  if (!drive) return std::nullopt;
+  const int reference = referenceJoint(robot->model);
+  if (reference < 0) return std::nullopt;
+  const Drive* drive = &robot->drives[static_cast<std::size_t>(reference)];
   if (name == "servo_p_nm_rad") return drive->p;
   if (name == "servo_i_nm_rad_s") return drive->i;
   if (name == "servo_d_nm_s_rad") return drive->d;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "core/model/servo_by_load.h"
 #include "core/model/urdf_shapes.h"
@@ -255,7 +256,7 @@ RobotModel parseUrdf(const std::string& text, const std::string& place, const Mo
                      const MeshSource& meshes) {
   UrdfXml xml(place, budget);
   UrdfTree tree = UrdfReader(xml, meshes).read(text);
-  const std::map<std::string, int> effortless = tree.effortless;
+  const std::map<std::string, int> effortless = std::exchange(tree.effortless, {});
   RobotModel model = makeModel(std::move(tree), place);
   checkModel(model, place);
   chooseServosByLoad(model);

@@ -23,16 +23,7 @@ bool isOfFloor(const std::string& parameter) {
 }
 
 bool hasGroup(const RobotModel& model, const std::string& group) {
-  return std::ranges::any_of(model.links, [&](const Link& link) {
-    return link.massGroup == group || link.massGroup.starts_with(group + ":");
-  });
-}
-
-/// The servo that the parameters describe is the first of a leg.
-bool hasLegServo(const RobotModel& model) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (model.joints[i].type == Joint::Type::rotate && model.links[i + 1].massGroup.starts_with("leg")) return true;
-  return false;
+  return std::ranges::any_of(model.links, [&](const Link& link) { return isOfGroup(link.massGroup, group); });
 }
 
 bool isIn(const Scene& scene, const std::string& parameter) {
@@ -40,11 +31,22 @@ bool isIn(const Scene& scene, const std::string& parameter) {
   if (isOfFloor(parameter)) return scene.floor.has_value();
   const auto group = groupOf(parameter);
   return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
-    return group ? hasGroup(robot.model, *group) : hasLegServo(robot.model);
+    return group ? hasGroup(robot.model, *group) : referenceJoint(robot.model) >= 0;
   });
 }
 
 }  // namespace
+
+bool isOfGroup(const std::string& massGroup, const std::string& group) {
+  return massGroup == group || massGroup.starts_with(group + ":");
+}
+
+int referenceJoint(const RobotModel& model) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (model.joints[i].type == Joint::Type::rotate && model.links[i + 1].massGroup.starts_with("leg"))
+      return static_cast<int>(i);
+  return -1;
+}
 
 std::vector<Parameter> simulatorParametersOf(const Scene& scene) {
   std::vector<Parameter> all;

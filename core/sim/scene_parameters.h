@@ -7,6 +7,12 @@
 
 namespace btr {
 
+/// A link of this mass group belongs to "leg" if its own is "leg" or "leg:…".
+bool isOfGroup(const std::string& massGroup, const std::string& group);
+
+/// The joint whose servo the simulator's servo parameters describe, the first of a leg; −1: the robot has none.
+int referenceJoint(const RobotModel& model);
+
 /// Those of simulatorParameters() that mean something in a scene: masses of groups that a robot has, servos of robots
 /// with legs, the floor's where there is one, and gravity.
 std::vector<Parameter> simulatorParametersOf(const Scene& scene);

@@ -123,16 +123,13 @@ Target targetOf(Scene& scene, const std::string& path) {
   noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls or gravity_m_s2");
 }
 
-bool startsWith(const std::string& text, const std::string& begin) { return text.compare(0, begin.size(), begin) == 0; }
-
 /// "leg" names every group that begins with "leg:"; each is scaled by itself.
 void setGroupMass(Scene& scene, const std::string& group, const std::string& name, double value) {
   bool any = false;
   for (auto& robot : scene.robots) {
     std::vector<std::string> groups;
     for (const auto& link : robot.model.links)
-      if ((link.massGroup == group || startsWith(link.massGroup, group + ":")) &&
-          std::find(groups.begin(), groups.end(), link.massGroup) == groups.end())
+      if (isOfGroup(link.massGroup, group) && std::find(groups.begin(), groups.end(), link.massGroup) == groups.end())
         groups.push_back(link.massGroup);
     for (const auto& each : groups) {
       double sum = 0;
@@ -144,14 +141,6 @@ void setGroupMass(Scene& scene, const std::string& group, const std::string& nam
     }
   }
   if (!any) noSuch(name, whoHas(name));
-}
-
-/// The joint whose servo the parameters describe: the first of a leg.
-int referenceJoint(const RobotModel& model) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (model.joints[i].type == Joint::Type::rotate && startsWith(model.links[i + 1].massGroup, "leg"))
-      return static_cast<int>(i);
-  return -1;
 }
 
 /// Every servo whose number the scene file leaves to the model keeps its ratio to the reference joint's.

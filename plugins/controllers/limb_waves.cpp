@@ -28,14 +28,6 @@ struct Swing {
   double sign = 1;
 };
 
-/// By joint of the model: the pose of its frame in the root link's, all joints at 0.
-std::vector<Eigen::Isometry3d> framesOf(const btr::RobotModel& model) {
-  std::vector<Eigen::Isometry3d> links{Eigen::Isometry3d::Identity()};
-  for (const btr::Joint& joint : model.joints)
-    links.push_back(links[static_cast<std::size_t>(joint.parentLink)] * joint.origin);
-  return {links.begin() + 1, links.end()};
-}
-
 /// Lateral axes swing alike on both sides; about the others a limb and its mirror image turn against each other.
 double signOf(const Eigen::Vector3d& axis, bool right) {
   Eigen::Index largest = 0;
@@ -45,7 +37,9 @@ double signOf(const Eigen::Vector3d& axis, bool right) {
 }
 
 std::vector<Swing> swingsOf(const btr::RobotModel& model) {
-  const std::vector<Eigen::Isometry3d> frames = framesOf(model);
+  // A joint's frame is its child link's at position 0.
+  const std::vector<Eigen::Isometry3d> links =
+      btr::forwardKinematics(model, Eigen::Isometry3d::Identity(), std::vector<double>(model.joints.size(), 0.0));
   std::vector<Swing> swings;
   std::vector<int> limb(model.links.size(), -1), depth(model.links.size(), 0);  // by link; its swing's place, if any
   std::vector<double> ahead;
@@ -55,7 +49,7 @@ std::vector<Swing> swingsOf(const btr::RobotModel& model) {
     limb[j + 1] = limb[parent];
     depth[j + 1] = depth[parent];
     if (joint.type == btr::Joint::Type::fixed || joint.mimic) continue;
-    const Eigen::Vector3d place = frames[j].translation();
+    const Eigen::Vector3d place = links[j + 1].translation();
     Swing swing{j, ++depth[j + 1]};
     if (limb[parent] < 0) {
       limb[j + 1] = static_cast<int>(swings.size());
@@ -64,7 +58,7 @@ std::vector<Swing> swingsOf(const btr::RobotModel& model) {
     } else {
       swing.right = swings[static_cast<std::size_t>(limb[parent])].right;
     }
-    swing.sign = signOf(frames[j].linear() * joint.axis, swing.right);
+    swing.sign = signOf(links[j + 1].linear() * joint.axis, swing.right);
     swings.push_back(swing);
   }
   if (swings.empty()) return swings;
@@ -72,7 +66,7 @@ std::vector<Swing> swingsOf(const btr::RobotModel& model) {
   const double middle = (rearmost + foremost) / 2;
   for (Swing& swing : swings) {
     const Swing& first = swings[static_cast<std::size_t>(limb[swing.joint + 1])];
-    swing.rear = frames[first.joint].translation().x() < middle;
+    swing.rear = links[first.joint + 1].translation().x() < middle;
   }
   return swings;
 }

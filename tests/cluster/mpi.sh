@@ -44,22 +44,11 @@ for n in 2 3; do
 done
 
 # Cells of a grid, and a comparison.
+small_grid
 python3 -c '
-import json, os, sys
-root, folder = sys.argv[1:]
-source = os.path.join(root, "resources/grids/kick-grid-short.json")
-grid = json.load(open(source))
-spec_path = os.path.join(os.path.dirname(source), grid["experiment"])
-spec = json.load(open(spec_path))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(spec_path), spec["scene"]))
-spec["learner"]["settings"]["population"] = 4
-json.dump(spec, open(folder + "/cell.json", "w"))
-grid.update(experiment="cell.json", distances_m=[0.14], bearings_rad=[-0.3, 0, 0.3], directions_rad=[0],
-            methods=["similarity"], seeds=[1])
-grid["settings"] = dict(grid.get("settings", {}), generations=2, points=3)
-json.dump(grid, open(folder + "/grid.json", "w"))
+import json, sys
 json.dump({"format": "uchilsim-comparison-1", "name": "c", "seeds": [1], "arms": [{"name": "a", "experiment": "kick.json"}]},
-          open(folder + "/compare.json", "w"))' "$root" "$folder"
+          open(sys.argv[1] + "/compare.json", "w"))' "$folder"
 expect 0 "a grid in one process" "$btr" grid "$folder/grid.json" --db "$folder/grid-one.db" --workers 1 --quiet --csv "$folder/one"
 expect 0 "a grid on 2 ranks" ranks 2 "$btr" grid "$folder/grid.json" --db "$folder/grid-two.db" --quiet --csv "$folder/other"
 same "a grid on 2 ranks"

@@ -115,20 +115,7 @@ expect 0 "its comparison" "$btr" compare "$folder/long.json" --db "$folder/long.
 same "$folder/long-one.csv" "$folder/long.csv" "cancelled and killed"
 
 # A grid's element says how fast it is.
-python3 -c '
-import json, os, sys
-root, folder = sys.argv[1:]
-source = os.path.join(root, "resources/grids/kick-grid-short.json")
-grid = json.load(open(source))
-spec_path = os.path.join(os.path.dirname(source), grid["experiment"])
-spec = json.load(open(spec_path))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(spec_path), spec["scene"]))
-spec["learner"]["settings"]["population"] = 4
-json.dump(spec, open(folder + "/cell.json", "w"))
-grid.update(experiment="cell.json", distances_m=[0.14], bearings_rad=[-0.3, 0, 0.3], directions_rad=[0],
-            methods=["similarity"], seeds=[1])
-grid["settings"] = dict(grid.get("settings", {}), generations=2, points=3)
-json.dump(grid, open(folder + "/grid.json", "w"))' "$root" "$folder"
+small_grid
 expect 0 "a grid" "$btr" grid "$folder/grid.json" --db "$folder/grid.db" --workers 1 --slurm "$folder/grid"
 until_over "$folder/grid"
 speeds() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(all(e["trials_per_second"] > 0 for e in json.load(sys.stdin)["elements"]))'; }

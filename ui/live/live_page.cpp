@@ -352,26 +352,24 @@ void LivePage::openIfWorld(const QString& file) {
       tr("%1 is %2; games, scenes, robots and session logs are opened here.").arg(file, QString::fromStdString(words)));
 }
 
+QString LivePage::askJson(const QString& title, const QString& proposed, const QString& kind) {
+  const QString file = QFileDialog::getSaveFileName(this, title, proposed, kind + " (*.json)");
+  return file.isEmpty() || file.endsWith(".json") ? file : file + ".json";
+}
+
 void LivePage::saveGame() {
-  QString file = QFileDialog::getSaveFileName(this, tr("Save game"), "game.json", tr("Games (*.json)"));
-  if (file.isEmpty()) return;
-  if (!file.endsWith(".json")) file += ".json";
-  process_->save(file, desk_->state());
+  const QString file = askJson(tr("Save game"), "game.json", tr("Games"));
+  if (!file.isEmpty()) process_->save(file, desk_->state());
 }
 
 void LivePage::saveScene() {
-  QString file =
-      QFileDialog::getSaveFileName(this, tr("Save this moment as scene"), "moment.json", tr("Scenes (*.json)"));
-  if (file.isEmpty()) return;
-  if (!file.endsWith(".json")) file += ".json";
-  process_->saveScene(file);
+  const QString file = askJson(tr("Save this moment as scene"), "moment.json", tr("Scenes"));
+  if (!file.isEmpty()) process_->saveScene(file);
 }
 
 void LivePage::saveExperiment() {
-  QString file = QFileDialog::getSaveFileName(this, tr("Start an experiment from here"), "from-here.json",
-                                              tr("Experiments (*.json)"));
+  const QString file = askJson(tr("Start an experiment from here"), "from-here.json", tr("Experiments"));
   if (file.isEmpty()) return;
-  if (!file.endsWith(".json")) file += ".json";
   const LiveObject* selected = world_->selectedObject();
   process_->saveExperiment(file, selected && selected->kind == LiveObject::Kind::robot ? selected->name : "");
 }

@@ -81,6 +81,8 @@ class LivePage : public QWidget {
   void fillViews(QMenu& menu);
   void openWithDialog();
   void reset();
+  /// Of a file to be written; "" where nobody wants one.
+  QString askJson(const QString& title, const QString& proposed, const QString& kind);
   void saveGame();
   void saveScene();
   void saveExperiment();

@@ -135,13 +135,16 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
     if (round + 1 >= limits.raceFrom)
       std::erase_if(race, [&](const Racer& each) { return each.draws.least() > std::sqrt(limits.race) * least; });
   }
+  if (race.empty()) return;
+  std::vector<double> errorsWithout;
+  for (const Fit& base : without) errorsWithout.push_back(residualsOf(windows.problem(), base.model, {}).squaredNorm());
   std::vector<Begun> begun;
   double least = INFINITY;
   for (const Racer& each : race) {
     const FitModel& model = each.draws.best();
     const double error = residualsOf(windows.problem(), model, {}).squaredNorm();
     // What helps nothing in any size that was drawn begins nowhere better than where it is.
-    if (error > limits.helps * residualsOf(windows.problem(), without[each.base].model, {}).squaredNorm()) continue;
+    if (error > limits.helps * errorsWithout[each.base]) continue;
     least = std::min(least, error);
     const Begun begins{each.tried, model, without[each.base].shifts, error};
     const auto known = std::ranges::find(begun, each.tried, &Begun::tried);

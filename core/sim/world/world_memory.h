@@ -26,7 +26,7 @@ struct JointMemory {
   double motorAhead = 0, motorRate = 0, couplingLoad = 0;
   double middleRate = 0, endRate = 0;  ///< of a robot in joint coordinates
   bool fresh = true, enabled = true;
-  bool dryRow = false, passiveRow = false;        ///< see JointDrive; not in files
+  bool dryRow = false, passiveRow = false;     ///< see JointDrive; not in files
   std::vector<std::vector<double>> effects{};  ///< states, in the order of the simulator's list
 };
 

@@ -24,7 +24,7 @@ std::vector<SessionLog::Entry> busyActs() {
       {90, R"({"act": "hold", "robot": "blue1", "joint": "LF_J1", "position": 0.4})"},
       {110, R"({"act": "number", "name": "floor.friction", "value": 0.7})"},
       {130, R"({"act": "parameter", "robot": "red1", "name": "length_m", "value": 0.05})"},
-      {150, R"({"act": "effect", "effect": {"effect": "coulomb_friction", "at": "red1.LF_J1"}})"},
+      {150, R"({"act": "effect", "effect": "coulomb_friction", "at": "red1.LF_J1"})"},
       {170, R"({"act": "remove", "object": "crate"})"}};
   std::vector<SessionLog::Entry> entries;
   for (const auto& [period, text] : acts) entries.push_back({period, actFromJson(text, "act")});

@@ -88,6 +88,19 @@ TEST_F(Records, ARunThatCannotBeStoredLeavesNothingBehind) {
   EXPECT_EQ(1u, db_.runs().size());
 }
 
+// As with a full disk: the run cannot be stored after its experiment was.
+TEST_F(Records, ARunThatCannotBeStoredLeavesNoExperiment) {
+  Database database = create();
+  RunRecord run = runOf(0);
+  run.files = {{"robot.wrl", "not its hash", "content"}};
+  EXPECT_NE(refusal([&] { database.addRun(kickExperiment(), run, SimulatorRecord{}); }), "accepted");
+  EXPECT_TRUE(database.experiments().empty());
+  run.files.clear();
+  const Id id = database.addRun(kickExperiment(), run, SimulatorRecord{});
+  ASSERT_EQ(database.experiments().size(), 1u);
+  EXPECT_EQ(database.run(id).experiment, database.experiments().front().id);
+}
+
 TEST_F(Records, GenerationsReadBackBitByBit) {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double infinity = std::numeric_limits<double>::infinity();

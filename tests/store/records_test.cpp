@@ -90,15 +90,15 @@ TEST_F(Records, ARunThatCannotBeStoredLeavesNothingBehind) {
 
 // As with a full disk: the run cannot be stored after its experiment was.
 TEST_F(Records, ARunThatCannotBeStoredLeavesNoExperiment) {
-  Database database = create();
+  const std::size_t before = db_.experiments().size();
   RunRecord run = runOf(0);
-  run.files = {{"robot.wrl", "not its hash", "content"}};
-  EXPECT_NE(refusal([&] { database.addRun(kickExperiment(), run, SimulatorRecord{}); }), "accepted");
-  EXPECT_TRUE(database.experiments().empty());
+  run.files = {{"leg.urdf", "0123", "<robot/>"}};
+  EXPECT_THAT(refusal([&] { db_.addRun(kickExperiment(), run, {}); }), HasSubstr("leg.urdf"));
+  EXPECT_EQ(before, db_.experiments().size());
   run.files.clear();
-  const Id id = database.addRun(kickExperiment(), run, SimulatorRecord{});
-  ASSERT_EQ(database.experiments().size(), 1u);
-  EXPECT_EQ(database.run(id).experiment, database.experiments().front().id);
+  const Id id = db_.addRun(kickExperiment(), run, {});
+  ASSERT_EQ(before + 1, db_.experiments().size());
+  EXPECT_EQ(db_.experiments().back().id, db_.run(id).experiment);
 }
 
 TEST_F(Records, GenerationsReadBackBitByBit) {

@@ -21,6 +21,7 @@ constexpr double kMovingPicture_s = 0.030;  ///< finer pictures that would take 
 }  // namespace
 
 SceneView::SceneView(QWidget* parent, GlContextFactory factory) : QWidget(parent), renderer_(std::move(factory)) {
+  scene_.setLevels(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setAccessibleName(tr("3D view of robot, ball and field"));

@@ -6,12 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/openr/runtime/network/ip_sockets.h"
 
 namespace btr::openr {
 
-IpStack::IpStack(System& system) : system_(system) {}
+IpStack::IpStack(System& system) : system_(system), settings_(system.stick) {}
 
 IpStack::~IpStack() { closeAll(); }
 
@@ -96,11 +97,11 @@ bool IpStack::stackOperation(antEnvMsg* message) {
     }
     case antEnv_Operation_CreateEndpoint: {
       auto* create = static_cast<antEnvCreateEndpointMsg*>(message);
-      const bool known =
-          create->type == EndpointType_TCP || create->type == EndpointType_UDP || create->type == EndpointType_DNS;
+      const bool known = create->protocol == EndpointType_TCP || create->protocol == EndpointType_UDP ||
+                         create->protocol == EndpointType_DNS;
       create->error = known ? ANT_SUCCESS : ANT_ENDPOINT_NOFACTORY;
       if (!known) return true;
-      endpoints_[nextEndpoint_].type = create->type;
+      endpoints_[nextEndpoint_].type = create->protocol;
       create->moduleRef = antModuleRef(nullptr, nextEndpoint_++);
       return true;
     }
@@ -111,6 +112,24 @@ bool IpStack::stackOperation(antEnvMsg* message) {
       if (at == endpoints_.end()) return true;
       closeEndpoint(at->second);
       endpoints_.erase(at);
+      return true;
+    }
+    case antEnv_Operation_InitSetParam: {
+      auto* set = static_cast<antEnvInitSetParamMsg*>(message);
+      settings_.set(set->key,
+                    set->paramType == antEnv_InitParam_Int32 ? std::to_string(set->value.i32) : set->value.str);
+      set->error = ANT_SUCCESS;
+      return true;
+    }
+    case antEnv_Operation_InitGetParam: {
+      auto* get = static_cast<antEnvInitGetParamMsg*>(message);
+      const std::string key = get->key;
+      // Whatever the stick says, the robot is found at this computer's own address.
+      const std::string value =
+          key == "ETHER_IP" ? IPAddress(loopbackAddress).GetAsString(get->value.str) : settings_.value(key);
+      get->error = key == "ETHER_IP" || settings_.has(key) ? ANT_SUCCESS : ANT_REGISTRY_NO_KEY;
+      get->paramType = antEnv_InitParam_String;
+      std::snprintf(get->value.str, sizeof(get->value.str), "%s", value.c_str());
       return true;
     }
     default:
@@ -133,7 +152,7 @@ void IpStack::submit(antEnvMsg* message, std::function<void()> done) {
     return done();
   }
   if (at->second.type == EndpointType_DNS) {
-    dns(message);
+    dns(message, at->second);
     return done();
   }
   const bool isTcp = at->second.type == EndpointType_TCP;

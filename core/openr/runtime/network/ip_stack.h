@@ -1,5 +1,6 @@
 #pragma once
 #include <EndpointTypes.h>
+#include <IPAddress.h>
 #include <antEnvMsg.h>
 
 #include <list>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/openr/runtime/network/network_settings.h"
 #include "core/openr/runtime/objects/system.h"
 
 namespace btr::openr {
@@ -25,14 +27,16 @@ class IpStack {
   /// Goes on with what waits.
   void poll();
   void closeAll();
+  const NetworkSettings& settings() const { return settings_; }
 
  private:
   struct Endpoint {
     int type = 0;
     int socket = -1;
     bool connected = false, closed = false;
-    Port bound = 0;  ///< of the robot
-    int closes = 0;  ///< how often it was closed
+    Port bound = 0;                ///< of the robot
+    int closes = 0;                ///< how often it was closed
+    std::vector<IPAddress> found;  ///< by the last question for a name
   };
   struct Listener {
     int socket = -1;
@@ -51,7 +55,8 @@ class IpStack {
   /// Whether it has ended.
   bool tcp(Operation& operation, Endpoint& endpoint);
   bool udp(Operation& operation, Endpoint& endpoint);
-  void dns(antEnvMsg* message);
+  bool isOwnName(std::string name) const;
+  void dns(antEnvMsg* message, Endpoint& endpoint);
   bool isShared(const void* address, int size) const;
   Listener* listener(Port port);
   static void beginConnect(Endpoint& endpoint, Port actual);
@@ -68,6 +73,7 @@ class IpStack {
   std::map<Port, Port> datagramPorts_;
   std::map<const byte*, int> buffers_;
   std::list<Operation> operations_;
+  NetworkSettings settings_;
 };
 
 }  // namespace btr::openr

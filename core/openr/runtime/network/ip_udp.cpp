@@ -1,12 +1,9 @@
-// What a UDP endpoint is asked for, and names of machines.
-#include <DNSEndpointMsg.h>
+// What a UDP endpoint is asked for.
 #include <UDPEndpointMsg.h>
 #include <arpa/inet.h>
 #include <errno.h>
 #include <poll.h>
 #include <sys/socket.h>
-
-#include <cstring>
 
 #include "core/openr/runtime/network/ip_sockets.h"
 #include "core/openr/runtime/network/ip_stack.h"
@@ -97,29 +94,6 @@ bool IpStack::udp(Operation& operation, Endpoint& endpoint) {
       return answer(UDP_SUCCESS);
     default:
       return answer(UDP_OPERATION_UNKNOWN);
-  }
-}
-
-void IpStack::dns(antEnvMsg* message) {
-  auto* base = static_cast<DNSEndpointBaseMsg*>(message);
-  base->error = DNS_SUCCESS;
-  if (message->dstOperation == DNSEndpoint_Operation_GetHostByName) {
-    auto* query = static_cast<DNSEndpointGetHostByNameMsg*>(base);
-    in_addr address{};
-    if (std::strcmp(query->name, "localhost") == 0)
-      query->address = IPAddress(loopbackAddress);
-    else if (inet_pton(AF_INET, query->name, &address) == 1)
-      query->address = IPAddress(ntohl(address.s_addr));
-    else
-      base->error = DNS_HOST_NOT_FOUND;
-    query->addresses[0] = query->address;
-    query->numAddresses = base->error == DNS_SUCCESS ? 1 : 0;
-  } else if (message->dstOperation == DNSEndpoint_Operation_GetHostByAddr) {
-    auto* query = static_cast<DNSEndpointGetHostByAddrMsg*>(base);
-    if (query->address.InLoop())
-      std::strcpy(query->name, "localhost");
-    else
-      base->error = DNS_HOST_NOT_FOUND;
   }
 }
 

@@ -195,9 +195,9 @@ OStatus OSubject::SetData(MemoryRegionID memID, std::size_t size) {
 }
 
 OStatus OSubject::SetData(const OObserverInfo& info, RCRegion* r) { return SetData(info.id, r); }
-OStatus OSubject::SetData(const OObserverInfo& info, const OShmPtrBase& p) { return SetData(info.id, p.GetRCRegion()); }
-OStatus OSubject::SetData(const ObserverID& id, const OShmPtrBase& p) { return SetData(id, p.GetRCRegion()); }
-OStatus OSubject::SetData(const OShmPtrBase& p) { return SetData(p.GetRCRegion()); }
+OStatus OSubject::SetData(const OObserverInfo& info, const OShmPtrBase& p) { return SetData(info.id, p.RCRPtr()); }
+OStatus OSubject::SetData(const ObserverID& id, const OShmPtrBase& p) { return SetData(id, p.RCRPtr()); }
+OStatus OSubject::SetData(const OShmPtrBase& p) { return SetData(p.RCRPtr()); }
 OStatus OSubject::SetData(const OObserverInfo& info, const void* buf, std::size_t size) {
   return SetData(info.id, buf, size);
 }
@@ -205,10 +205,10 @@ OStatus OSubject::SetData(const OObserverInfo& info, MemoryRegionID mid, u_int o
   return SetData(info.id, mid, offset);
 }
 OStatus OSubject::SetData(const OObserverInfo& info, const OMemoryLocator& l) {
-  return SetData(info.id, l.memID, l.offset);
+  return SetData(info.id, l.mid, l.offset);
 }
-OStatus OSubject::SetData(const ObserverID& id, const OMemoryLocator& l) { return SetData(id, l.memID, l.offset); }
-OStatus OSubject::SetData(const OMemoryLocator& l) { return SetData(l.memID, l.size); }
+OStatus OSubject::SetData(const ObserverID& id, const OMemoryLocator& l) { return SetData(id, l.mid, l.offset); }
+OStatus OSubject::SetData(const OMemoryLocator& l) { return SetData(l.mid, btr::openr::regionMemory(l.mid).size); }
 
 OStatus OSubject::NotifyObserver(const OObserverInfo& observer) { return NotifyObserver(observer.id); }
 
@@ -317,7 +317,7 @@ int OSubject::IsAnyReady() const {
 int OSubject::NumberOfReference(const OMemoryLocator& locator) const {
   int count = 0;
   for (const OObserverInfo& info : observers_)
-    for (const RCRegion* region : info.buffer->pending) count += region->MemID() == locator.memID ? 1 : 0;
+    for (const RCRegion* region : info.buffer->pending) count += region->MemID() == locator.mid ? 1 : 0;
   return count;
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/openr/runtime/objects/regions.h"
 
-RCRegion::RCRegion() : references_(1), base_(nullptr), size_(0), memID_(0), offset_(0), type_(UNDEF_REGION) {}
+RCRegion::RCRegion() : references_(0), base_(nullptr), size_(0), memID_(0), offset_(0), type_(REFERENCE_V10) {}
 
 RCRegion::RCRegion(std::size_t size)
     : references_(1),
@@ -13,7 +13,7 @@ RCRegion::RCRegion(std::size_t size)
       size_(size),
       memID_(0),
       offset_(0),
-      type_(RCREGION) {}
+      type_(SELF_ALLOCATED) {}
 
 RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::size_t size)
     : references_(1),
@@ -21,10 +21,10 @@ RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::s
       size_(size),
       memID_(memID),
       offset_(offset),
-      type_(SYSTEM_REGION) {
+      type_(REFERENCE_V20) {
   const auto memory = btr::openr::regionMemory(memID);
   if (memory.address == nullptr) {
-    type_ = UNDEF_REGION;  // somebody else's memory
+    type_ = REFERENCE_V10;  // somebody else's memory
     return;
   }
   if (base_ == nullptr) base_ = static_cast<char*>(memory.address) + offset;
@@ -33,8 +33,8 @@ RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::s
 }
 
 RCRegion::~RCRegion() {
-  if (type_ == RCREGION) std::free(base_);
-  if (type_ == SYSTEM_REGION) btr::openr::releaseRegion(memID_);
+  if (type_ == SELF_ALLOCATED) std::free(base_);
+  if (type_ == REFERENCE_V20) btr::openr::releaseRegion(memID_);
 }
 
 void RCRegion::RemoveReference() {

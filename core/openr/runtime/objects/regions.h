@@ -9,8 +9,8 @@ struct RegionMemory {
   std::size_t size = 0;
 };
 
-/// Zeroed memory of `size` bytes, aligned to 16; its number is not 0.
-MemoryRegionID newRegion(std::size_t size);
+/// Zeroed memory of `size` bytes, aligned to 16; its number is not 0. Writing to one that is `readOnly` is a fault.
+MemoryRegionID newRegion(std::size_t size, bool readOnly = false);
 /// Nothing if there is no such region.
 RegionMemory regionMemory(MemoryRegionID id);
 /// It is gone once nobody holds it. False if there is none.

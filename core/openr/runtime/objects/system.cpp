@@ -19,6 +19,13 @@ constexpr int messagesPerFrame = 2000;
 /// More than this is not printed in one frame.
 constexpr std::size_t printedPerFrame = 1u << 20;
 
+template <class T>
+void setParameter(OReasonMessage& message, const T& parameter) {
+  static_assert(sizeof(T) <= oreasonPARAM_MAX_SIZE);
+  message.paramSize = sizeof(T);
+  std::memcpy(message.param, &parameter, sizeof(T));
+}
+
 }  // namespace
 
 std::string RunningObject::methodName(Selector selector) const {
@@ -74,6 +81,10 @@ void System::sendToAll(Selector selector, OReason reason) {
     if (object->native || object->entries.empty()) continue;
     auto message = std::make_shared<OReasonMessage>();
     message->reason = reason;
+    if (reason == oreasonBOOT)
+      setParameter(*message, OBootParam(omemorystickWRITABLE));
+    else
+      setParameter(*message, OShutdownParam(true));
     send(OServiceEntry(object->oid, selector), message);
   }
 }

@@ -1,11 +1,14 @@
 // printf() and its kin. On the robot a `long` has 32 bits and programs print a longword by "%ld"; here it has 64, and
-// what stands above the 32 bits that were passed is nothing of the program's. So "%ld" prints 32 bits, as there.
+// what stands above the 32 bits that were passed is nothing of the program's. So "%ld" prints 32 bits, as there, and
+// strtol() and its kin end where those of 32 bits do.
 #include "core/openr/runtime/process/formats.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 
+#include <cstdint>
 #include <cstring>
 
 #include "core/openr/runtime/objects/system.h"
@@ -80,5 +83,25 @@ int sprintf(char* to, const char* format, ...) noexcept { BTR_OPENR_FORMATTED(vs
 int snprintf(char* to, size_t size, const char* format, ...) noexcept {
   BTR_OPENR_FORMATTED(vsnprintf(to, size, format, arguments));
 }
+
+long strtol(const char* text, char** end, int base) noexcept {
+  static const auto real = own<long (*)(const char*, char**, int)>("strtol");
+  const long value = real(text, end, base);
+  if (!inMethod() || (value >= INT32_MIN && value <= INT32_MAX)) return value;
+  errno = ERANGE;
+  return value < 0 ? INT32_MIN : INT32_MAX;
+}
+
+unsigned long strtoul(const char* text, char** end, int base) noexcept {
+  static const auto real = own<unsigned long (*)(const char*, char**, int)>("strtoul");
+  const unsigned long value = real(text, end, base);
+  if (!inMethod()) return value;
+  const unsigned long size = static_cast<long>(value) < 0 ? 0 - value : value;  // "-1" is the largest one
+  if (size <= UINT32_MAX) return value & UINT32_MAX;
+  errno = ERANGE;
+  return UINT32_MAX;
+}
+
+long atol(const char* text) noexcept { return strtol(text, nullptr, 10); }
 
 }  // extern "C"

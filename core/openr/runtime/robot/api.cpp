@@ -172,6 +172,7 @@ OStatus GetMemoryStickStatus(OMemoryStickStatus* status) {
 
 OStatus Fatal(OFatal fatal) {
   System& system = System::instance();
+  if (fatal == ofatalPAUSE_SW) return Shutdown(OBootCondition(obcbPAUSE_SW));
   if (auto* object = system.current())
     system.end(btr::openr::Ended::Why::crash, object->name, object->methodName(object->running.selector),
                "it called OPENR::Fatal(" + std::to_string(fatal) + ")");
@@ -311,13 +312,13 @@ OStatus OCalendarTime::Set(const OTime& time) {
   if (gmtime_r(&seconds, &parts) == nullptr || parts.tm_year < otimeSTART_YEAR - 1900 ||
       parts.tm_year > otimeSTART_YEAR - 1900 + 255)
     return oOUT_OF_RANGE;
-  year_ = static_cast<byte>(parts.tm_year + 1900 - otimeSTART_YEAR);
-  month_ = static_cast<byte>(parts.tm_mon + 1);
-  day_ = static_cast<byte>(parts.tm_mday);
-  hour_ = static_cast<byte>(parts.tm_hour);
-  min_ = static_cast<byte>(parts.tm_min);
-  sec_ = static_cast<byte>(parts.tm_sec);
-  dow_ = static_cast<byte>(parts.tm_wday);
+  year_ = parts.tm_year + 1900 - otimeSTART_YEAR;
+  month_ = parts.tm_mon + 1;
+  day_ = parts.tm_mday;
+  hour_ = parts.tm_hour;
+  min_ = parts.tm_min;
+  sec_ = parts.tm_sec;
+  dow_ = parts.tm_wday;
   timeDif_ = time.GetTimeDif();
   return oSUCCESS;
 }
@@ -353,8 +354,39 @@ time_t OCalendarTime::GetTime() const {
   return time.GetClock();
 }
 
+bool OCalendarTime::ProperDate() const {
+  static const int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  if (year_ < 0 || month_ < 1 || month_ > 12) return false;
+  const int last = month_ == 2 && LeapYear(GetYear()) ? 29 : days[month_ - 1];
+  return day_ >= 1 && day_ <= last && hour_ >= 0 && hour_ <= 23 && min_ >= 0 && min_ <= 59 && sec_ >= 0 && sec_ <= 59;
+}
+
+OStatus OCalendarTime::CorrectDayOfTheWeek() {
+  if (!ProperDate()) return oINVALID_ARG;
+  OCalendarTime same(*this);
+  same.Set(OTime(GetTime(), timeDif_));
+  dow_ = same.dow_;
+  return oSUCCESS;
+}
+
 void OCalendarTime::Print() const {
   OSysprint("%04d-%02d-%02d %02d:%02d:%02d\n", GetYear(), month_, day_, hour_, min_, sec_);
+}
+
+void OCalendarTime::Sprint(char* text) const {
+  std::sprintf(text, "%04d-%02d-%02d %02d:%02d:%02d", GetYear() % 10000, month_ % 100, day_ % 100, hour_ % 100,
+               min_ % 100, sec_ % 100);
+}
+
+void OCalendarTime::RFC2822(char* text) const {
+  static const char* const days[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+  static const char* const months[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                       "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  const int ahead = timeDif_ == otimeTIME_DIF_UNDEF ? 0 : timeDif_;
+  const bool proper = ProperDate() && dow_ >= 0 && dow_ <= 6;
+  std::sprintf(text, "%s, %02d %s %04d %02d:%02d:%02d %c%02d00", proper ? days[dow_] : "???", day_ % 100,
+               proper ? months[month_ - 1] : "???", GetYear() % 10000, hour_ % 100, min_ % 100, sec_ % 100,
+               ahead < 0 ? '-' : '+', ahead < 0 ? -ahead : ahead);
 }
 
 std::ostream& operator<<(std::ostream& out, const OCalendarTime& time) {
@@ -368,7 +400,8 @@ RelativeTime ConvertToRelativeTime(const SystemTime& time) {
   SystemTime now;
   GetSystemTime(&now);
   const long long us = (static_cast<long long>(time.seconds) - now.seconds) * 1000000 + time.useconds - now.useconds;
-  return RelativeTime(static_cast<slongword>(us / 1000000), static_cast<slongword>(us % 1000000 / 1000));
+  return us < 0 ? RelativeTime()
+                : RelativeTime(static_cast<longword>(us / 1000000), static_cast<longword>(us % 1000000 / 1000));
 }
 
 SystemTime ConvertToSystemTime(const RelativeTime& time) {
@@ -381,16 +414,32 @@ SystemTime ConvertToSystemTime(const RelativeTime& time) {
 
 // ---- memory and objects -----------------------------------------------------------------------------------------
 
-sError NewRegion(size_t size, void** address) { return NewSharedMemoryRegion(size, address, nullptr); }
+sError NewRegion(size_t size, void** address) {
+  MemoryRegionID id;
+  return NewSharedMemoryRegion(size, MEMPROTINFO_RW, &id, address);
+}
 
-sError NewSharedMemoryRegion(size_t size, void** address, MemoryRegionID* id) {
-  if (address == nullptr || size == 0 || size > (1u << 30)) return sINVALID_ARG;
-  const MemoryRegionID made = newRegion(size);
+sError NewSharedMemoryRegion(size_t size, MemoryProtectionInfo info, MemoryRegionID* id, void** address) {
+  constexpr std::size_t largest = 1u << 30;
+  if (address == nullptr || id == nullptr || size == 0 || size > largest) return sINVALID_ARG;
+  if (info != MEMPROTINFO_R && info != MEMPROTINFO_RW) return sINVALID_ARG;
+  const MemoryRegionID made = newRegion(size, info == MEMPROTINFO_R);
   if (made == 0) return sNO_MEMORY;
   *address = regionMemory(made).address;
-  if (id != nullptr) *id = made;
+  *id = made;
   return sSUCCESS;
 }
+
+sError AttachMemoryRegion(MemoryRegionID id, MemoryProtectionInfo, void** address) {
+  const auto memory = regionMemory(id);
+  if (memory.address == nullptr || address == nullptr) return sINVALID_ARG;
+  *address = memory.address;
+  return sSUCCESS;
+}
+
+sError DetachMemoryRegion(MemoryRegionID id) { return regionMemory(id).address == nullptr ? sINVALID_ARG : sSUCCESS; }
+
+sError AllowToAttachMemoryRegion(MemoryRegionID id, MemoryProtectionInfo, OID, bool) { return DetachMemoryRegion(id); }
 
 sError DeleteRegion(void* address) { return deleteRegion(btr::openr::regionAt(address)) ? sSUCCESS : sINVALID_ARG; }
 sError DeleteSharedMemoryRegion(MemoryRegionID id) { return deleteRegion(id) ? sSUCCESS : sINVALID_ARG; }

@@ -156,6 +156,7 @@ void Services::begin() {
 void Services::sense() {
   readFrame();
   ip_->poll();
+  timers.send(system_);
   watchPower();
   publishMicrophone();
   publishSensors();

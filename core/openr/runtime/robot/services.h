@@ -18,6 +18,7 @@
 #include "core/openr/runtime/robot/image_layers.h"
 #include "core/openr/runtime/robot/primitives.h"
 #include "core/openr/runtime/robot/sound_out.h"
+#include "core/openr/runtime/robot/timers.h"
 #include "core/openr/runtime/robot/vector_player.h"
 
 namespace btr::openr {
@@ -39,6 +40,7 @@ class Services {
 
   const Primitives primitives;
   SyncKeys keys;
+  Timers timers;
   IpStack& ip() { return *ip_; }
 
   // Joints
@@ -69,6 +71,7 @@ class Services {
 
   // Design data
   OStatus findDesignData(const std::string& keyword, ODesignDataID* id, byte** data, std::size_t* size);
+  OStatus keepDesignData(std::vector<char> content, ODesignDataID* id, byte** data, std::size_t* size);
   OStatus deleteDesignData(ODesignDataID id);
 
   static constexpr std::int64_t epoch_s = 1072915200;     ///< the robot is switched on at 2004-01-01 00:00:00 UTC

@@ -8,6 +8,18 @@
 #include "core/openr/runtime/robot/services.h"
 
 namespace btr::openr {
+namespace {
+
+/// As Sony published it.
+OCPUInfo processorOf(const std::string& design) {
+  constexpr longword bus_hz = 96000000, fast_hz = 576000000, slow_hz = 192000000;
+  OCPUInfo info{};
+  info.sclk = bus_hz;
+  info.pclk = design == "ERS-7" ? fast_hz : slow_hz;
+  return info;
+}
+
+}  // namespace
 
 void Services::setMotorPower(bool on) {
   motorPower_ = on;
@@ -88,6 +100,11 @@ void Services::setTime(const OTime& time) {
 }
 
 OStatus Services::findDesignData(const std::string& keyword, ODesignDataID* id, byte** data, std::size_t* size) {
+  if (keyword == odesignkeywordCPUINFO) {
+    const OCPUInfo info = processorOf(system_.design.name);
+    const auto* bytes = reinterpret_cast<const char*>(&info);
+    return keepDesignData({bytes, bytes + sizeof(info)}, id, data, size);
+  }
   const auto entry = system_.config.designData.find(keyword);
   if (entry == system_.config.designData.end()) return oNOT_FOUND;
   const OwnAccess own;
@@ -95,6 +112,10 @@ OStatus Services::findDesignData(const std::string& keyword, ODesignDataID* id, 
   std::vector<char> content;
   if (path.empty() || !unpackedFile(path, content)) return oOPEN_FAILURE;
   if (content.empty()) return oDESIGNDATA_SIZE_ZERO;
+  return keepDesignData(std::move(content), id, data, size);
+}
+
+OStatus Services::keepDesignData(std::vector<char> content, ODesignDataID* id, byte** data, std::size_t* size) {
   *id = nextDesignData_++;
   auto& kept = designData_[*id] = std::move(content);
   *data = reinterpret_cast<byte*>(kept.data());

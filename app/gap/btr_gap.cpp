@@ -125,8 +125,9 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
       analyse->add_option("--out", request->out, "folder for report.json, report.html, simulator.json")->required();
   shell.writesFolder(analyse, out,
                      {"report.json", "report.html", "simulator.json", "next_command.csv", "remainder.csv"});
-  analyse->add_option("--jobs", request->options.jobs,
-                      "worker processes (as many as processors, if not said); of each rank under mpirun or srun")
+  analyse
+      ->add_option("--jobs", request->options.jobs,
+                   "worker processes (as many as processors, if not said); of each rank under mpirun or srun")
       ->transform(wholeNumber(1, 256));
   analyse->add_option("--seed", request->options.seed, "of the fits' starting points")->transform(seedNumber());
   analyse->add_option("--effects", request->options.effects, "consider only these")->take_all();

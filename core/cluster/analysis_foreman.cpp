@@ -119,8 +119,8 @@ void takePart(const Parts& message, const ForemanPipe& pipe, const PluginHost& h
   const EffectLibrary library{host.effectFactory(), host.effects()};
   refuseUnknownEffects(request.options, library);
   const GapProblem problem = loadProblem(request);
-  pipe.write(joined({"ready", message[1], std::to_string(workers), pack(inputsOf(request, problem))},
-                    buildIdentity(host)));
+  pipe.write(
+      joined({"ready", message[1], std::to_string(workers), pack(inputsOf(request, problem))}, buildIdentity(host)));
   for (Parts begin = nextMessage(pipe);; begin = nextMessage(pipe))
     if (begin[0] == "begin") {
       request.options.jobs = std::stoi(begin.at(1));

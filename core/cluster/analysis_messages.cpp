@@ -13,7 +13,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-std::string nameAndHash(const fs::path& file) { return "file " + file.filename().string() + ' ' + sha256(readFile(file)); }
+std::string nameAndHash(const fs::path& file) {
+  return "file " + file.filename().string() + ' ' + sha256(readFile(file));
+}
 
 /// Everything that a recording's file and its mapping made of it.
 std::string numbersOf(const Recording& recording) {

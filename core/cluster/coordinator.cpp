@@ -179,8 +179,8 @@ struct Coordinator::Impl {
   /// All jobs of the task; false if stopped.
   bool work(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
             const std::function<void(std::size_t)>& done) {
-    Schedule all(jobs.size(),
-                 static_cast<std::size_t>(std::ranges::count_if(ranks.members(), [](const Member& m) { return !m.gone; })));
+    Schedule all(jobs.size(), static_cast<std::size_t>(
+                                  std::ranges::count_if(ranks.members(), [](const Member& m) { return !m.gone; })));
     schedule = &all;
     tries.assign(jobs.size(), 0);
     finished = 0;
@@ -225,7 +225,8 @@ struct Coordinator::Impl {
   void restartTheHanging() {
     for (Place& place : places) {
       if (place.pieces.empty()) continue;
-      const double most = ranks.options().grace_s + 2 * secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      const double most =
+          ranks.options().grace_s + 2 * secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
       if (secondsSince(place.since) < most) continue;
       place.since = Clock::now();
       ranks.restart(numberOf(place));

@@ -19,6 +19,7 @@ namespace btr {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 /// A job whose foreman was lost so often is at fault, or the machines are.
 constexpr int mostLosses = 3;
@@ -37,9 +38,9 @@ struct Analyst {
   bool isReady = false, hasLeft = false;
   bool isAnew = false;  ///< it was lost before, and nobody waits for it
   Parts inputs;
-  long call = 0;                    ///< that it has come to
-  std::map<long, OpenPiece> pieces; ///< that it works on
-  std::string found;                ///< hash of its report
+  long call = 0;                     ///< that it has come to
+  std::map<long, OpenPiece> pieces;  ///< that it works on
+  std::string found;                 ///< hash of its report
 };
 
 /// What a call of parallel() came to.
@@ -69,12 +70,14 @@ struct SharedAnalysis::Impl {
   std::vector<Call> calls;  ///< that are over, all of them
   Call now;                 ///< the present one
   std::size_t open = 0;     ///< jobs of it that are not known
+  std::size_t begunBy = 0;  ///< who came to it first
   std::vector<int> losses;  ///< of each job of it
   std::unique_ptr<Schedule> schedule;
   Pace pace;
   long lastPiece = 0;
 
   std::map<std::size_t, std::string> failedToLoad;  ///< why
+  Clock::time_point foundAt;                        ///< by the first
   bool isWriting = false;
   double toldShare = 0;
   std::optional<Report> written;
@@ -117,7 +120,7 @@ struct SharedAnalysis::Impl {
     else if (kind == "progress")
       tell(k, parts.at(1), std::stod(parts.at(2)));
     else if (kind == "found")
-      analysts[k].found = parts.at(1);
+      find(k, parts.at(1));
     else if (kind == "written")
       written = Report{parts.at(1), parts.at(2)};
     else if (kind == "failed")
@@ -170,10 +173,12 @@ struct SharedAnalysis::Impl {
     std::size_t expected = index < calls.size() ? calls[index].replies.size() : now.replies.size();
     if (number == presentCall() && !schedule) {
       beginCall(count);
+      begunBy = k;
       expected = count;
     }
     if (number > presentCall() || expected != count)
-      throw InputError(nameOf(k) + ": its analysis went another way than that of the others; take this machine out");
+      throw InputError(nameOf(k > 0 ? k : begunBy) +
+                       ": its analysis went another way than that of rank 0; it computes otherwise, take it out");
     if (number == presentCall() && open == 0) endCall();
   }
 
@@ -221,9 +226,8 @@ struct SharedAnalysis::Impl {
     if (found == analyst.pieces.end()) return;
     const OpenPiece piece = std::move(found->second);
     analyst.pieces.erase(found);
-    const double worked_s = std::stod(parts.at(2)),
-                 away_s = std::chrono::duration<double>(Clock::now() - piece.sent).count();
-    pace.add(piece.jobs.size(), worked_s, away_s);
+    const double worked_s = std::stod(parts.at(2));
+    pace.add(piece.jobs.size(), worked_s, secondsSince(piece.sent));
     analyst.report.worked_s += worked_s;
     ++analyst.report.pieces;
     analyst.report.jobs += static_cast<long>(piece.jobs.size());
@@ -265,8 +269,9 @@ struct SharedAnalysis::Impl {
     for (const auto& [number, piece] : analyst.pieces)
       for (const std::size_t job : piece.jobs)
         if (++losses[job] >= mostLosses)
-          throw JobFault(nameOf(k) + ": the process that worked on the analysis was lost, the third time for this job (" +
-                         why + ")");
+          throw JobFault(nameOf(k) +
+                         ": the process that worked on the analysis was lost, the third time for this job (" + why +
+                         ")");
     giveBack(k);
     analyst.wasTold = analyst.isReady = false;
     analyst.isAnew = true;
@@ -286,7 +291,7 @@ struct SharedAnalysis::Impl {
       for (const auto& [number, piece] : analyst.pieces) held += piece.jobs.size();
       const double most = ranks.options().grace_s + 2 * ranks.options().secondsPerJob * static_cast<double>(held);
       OpenPiece& oldest = analyst.pieces.begin()->second;
-      if (std::chrono::duration<double>(Clock::now() - oldest.sent).count() < most) continue;
+      if (secondsSince(oldest.sent) < most) continue;
       oldest.sent = Clock::now();
       ranks.restart(k);
     }
@@ -296,7 +301,9 @@ struct SharedAnalysis::Impl {
   void begin() {
     if (!ranks.begin(*stop, [this](std::size_t k, const Parts& parts) { hear(k, parts); })) throw Cancelled{};
     knowAnalysts();
-    const auto isSettled = [this](std::size_t k) { return analysts[k].isReady || failedToLoad.contains(k) || !isThere(k); };
+    const auto isSettled = [this](std::size_t k) {
+      return analysts[k].isReady || failedToLoad.contains(k) || !isThere(k);
+    };
     const auto allSettled = [&] {
       for (std::size_t k = 0; k < analysts.size(); ++k)
         if (!isSettled(k)) return false;
@@ -316,12 +323,22 @@ struct SharedAnalysis::Impl {
       if (isThere(k)) ranks.send(k, {"begin", std::to_string(jobs)});
   }
 
+  void find(std::size_t k, const std::string& hash) {
+    analysts[k].found = hash;
+    if (k == 0) foundAt = Clock::now();
+  }
+
   /// The first writes when all who were there from the beginning have come to its report.
   void letWrite() {
     if (isWriting || analysts[0].found.empty()) return;
+    const bool isPatient = secondsSince(foundAt) < ranks.options().patience_s;
     for (std::size_t k = 1; k < analysts.size(); ++k) {
       if (!isThere(k) || analysts[k].isAnew) continue;
-      if (analysts[k].found.empty()) return;
+      if (analysts[k].found.empty() && isPatient) return;
+      if (analysts[k].found.empty()) {
+        notes.push_back(nameOf(k) + ": it did not come to its report in time");
+        continue;
+      }
       if (analysts[k].found != analysts[0].found)
         throw InputError(nameOf(k) + ": it came to another report than rank 0; it computes otherwise, take it out");
     }

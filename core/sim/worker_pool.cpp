@@ -222,9 +222,7 @@ bool WorkerPool::inWorker() { return thisIsAWorker; }
 
 int WorkerPool::workers() const { return static_cast<int>(impl_->workers.size()); }
 
-void WorkerPool::add(std::size_t number, std::string job) {
-  impl_->waiting.push_back({number, std::move(job), 0});
-}
+void WorkerPool::add(std::size_t number, std::string job) { impl_->waiting.push_back({number, std::move(job), 0}); }
 
 std::vector<WorkerPool::Ended> WorkerPool::wait(int milliseconds, int file) {
   std::vector<Ended> ended;

@@ -62,7 +62,9 @@ JobResult unpacked(const WorkerPool::Reply& reply) {
 /// Of worker processes: of this process, or of all that make this analysis together.
 std::vector<WorkerPool::Reply> repliesOf(int jobs, std::size_t count, const Job& f,
                                          const std::function<bool(std::size_t)>& goOn) {
-  if (JobShare* share = SharedJobs::now()) return share->run(count, [&](std::size_t i) { return packed(f, i); }, goOn);
+  if (JobShare* share = SharedJobs::now())
+    return share->run(
+        count, [&](std::size_t i) { return packed(f, i); }, goOn);
   WorkerPool pool(
       std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
       longestAnalysisJob_s);

@@ -19,10 +19,10 @@ namespace btr {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+double sinceThen(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
 /// A job whose foreman was lost so often is at fault, or the machines are.
-constexpr int mostLosses = 3;
+constexpr int mostLossesOfAJob = 3;
 /// There is one analysis.
 constexpr const char* theOnly = "1";
 
@@ -227,7 +227,7 @@ struct SharedAnalysis::Impl {
     const OpenPiece piece = std::move(found->second);
     analyst.pieces.erase(found);
     const double worked_s = std::stod(parts.at(2));
-    pace.add(piece.jobs.size(), worked_s, secondsSince(piece.sent));
+    pace.add(piece.jobs.size(), worked_s, sinceThen(piece.sent));
     analyst.report.worked_s += worked_s;
     ++analyst.report.pieces;
     analyst.report.jobs += static_cast<long>(piece.jobs.size());
@@ -268,7 +268,7 @@ struct SharedAnalysis::Impl {
     ++analyst.report.losses;
     for (const auto& [number, piece] : analyst.pieces)
       for (const std::size_t job : piece.jobs)
-        if (++losses[job] >= mostLosses)
+        if (++losses[job] >= mostLossesOfAJob)
           throw JobFault(nameOf(k) +
                          ": the process that worked on the analysis was lost, the third time for this job (" + why +
                          ")");
@@ -291,7 +291,7 @@ struct SharedAnalysis::Impl {
       for (const auto& [number, piece] : analyst.pieces) held += piece.jobs.size();
       const double most = ranks.options().grace_s + 2 * ranks.options().secondsPerJob * static_cast<double>(held);
       OpenPiece& oldest = analyst.pieces.begin()->second;
-      if (secondsSince(oldest.sent) < most) continue;
+      if (sinceThen(oldest.sent) < most) continue;
       oldest.sent = Clock::now();
       ranks.restart(k);
     }
@@ -331,7 +331,7 @@ struct SharedAnalysis::Impl {
   /// The first writes when all who were there from the beginning have come to its report.
   void letWrite() {
     if (isWriting || analysts[0].found.empty()) return;
-    const bool isPatient = secondsSince(foundAt) < ranks.options().patience_s;
+    const bool isPatient = sinceThen(foundAt) < ranks.options().patience_s;
     for (std::size_t k = 1; k < analysts.size(); ++k) {
       if (!isThere(k) || analysts[k].isAnew) continue;
       if (analysts[k].found.empty() && isPatient) return;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double mutation = 0.05;  ///< of a gene's range
 
-double allowed(double value, const Parameter& gene) {
+double withinGene(double value, const Parameter& gene) {
   const double within = std::clamp(value, gene.minimum, gene.maximum);
   return gene.integer ? std::round(within) : within;
 }
@@ -20,14 +20,14 @@ std::vector<double> mutant(const std::vector<double>& parent, const std::vector<
   std::vector<double> child = parent;
   for (std::size_t i = 0; i < child.size(); ++i) {
     const double range = genes[i].maximum - genes[i].minimum;
-    child[i] = allowed(child[i] + mutation * range * random.normal(), genes[i]);
+    child[i] = withinGene(child[i] + mutation * range * random.normal(), genes[i]);
   }
   return child;
 }
 
 std::vector<double> drawn(const std::vector<Parameter>& genes, Random& random) {
   std::vector<double> genotype;
-  for (const Parameter& gene : genes) genotype.push_back(allowed(random.uniform(gene.minimum, gene.maximum), gene));
+  for (const Parameter& gene : genes) genotype.push_back(withinGene(random.uniform(gene.minimum, gene.maximum), gene));
   return genotype;
 }
 

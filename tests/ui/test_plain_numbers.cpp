@@ -54,7 +54,9 @@ class TestPlainNumbers : public QObject {
       auto* edit = box->findChild<QLineEdit*>();
       QString typed = "0,1";
       int position = 3;
-      QVERIFY2(box->validate(typed, position) != QValidator::Invalid, qPrintable(box->objectName()));
+      // A field of whole numbers has no use for it.
+      QVERIFY2(box->decimals() == 0 || box->validate(typed, position) != QValidator::Invalid,
+               qPrintable(box->objectName()));
       QVERIFY(edit);
       ++seen;
     }

@@ -136,6 +136,7 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
         std::vector<double> list = scored.blocks;
         list.insert(list.end(), scored.heldOut.begin(), scored.heldOut.end());
         list.insert(list.end(), scored.sizes.begin(), scored.sizes.end());
+        list.insert(list.end(), {scored.aligned.shift_s, scored.aligned.took});
         return list;
       },
       reporter(stage, fits.size(), from, to));
@@ -147,12 +148,14 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
     }
     const std::vector<double>& numbers = results[i].numbers;
     const auto blocks = static_cast<std::ptrdiff_t>(problem_.blocks), sizes = std::ssize(fits[i].model.effects);
+    const auto end = numbers.end() - 2;  // of the sizes
     scored[i] = Scored{fits[i],
                        {numbers.begin(), numbers.begin() + blocks},
                        Eigen::VectorXd(static_cast<Eigen::Index>(problem_.residuals())),
-                       {numbers.end() - sizes, numbers.end()},
-                       problem_.scene.step_s};
-    std::copy(numbers.begin() + blocks, numbers.end() - sizes, scored[i]->heldOut.begin());
+                       {end - sizes, end},
+                       problem_.scene.step_s,
+                       {end[0], end[1]}};
+    std::copy(numbers.begin() + blocks, end - sizes, scored[i]->heldOut.begin());
   }
   return scored;
 }

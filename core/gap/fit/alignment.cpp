@@ -14,31 +14,43 @@ bool isOfAJoint(const FitTrial& trial, std::size_t channel) {
   return what == What::position || what == What::rate;
 }
 
+/// How long a servo's damping holds it back behind its command.
+double damps_s(const Scene& scene, const Binding::Measured& measured) {
+  const Drive& drive = scene.robots[measured.object].drives[measured.part];
+  return drive.kind == Drive::Kind::servo && drive.p > 0 ? drive.d / drive.p : 0;
+}
+
 }  // namespace
 
 Eigen::VectorXd clockColumn(const FitProblem& problem, const Eigen::VectorXd& residuals) {
   Eigen::VectorXd column = Eigen::VectorXd::Zero(residuals.size());
   if (problem.walks || problem.impacts) return column;
+  std::vector<Scene> scenes;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) scenes.push_back(problem.sceneOf(problem.given, t));
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments) {
     const FitTrial& trial = problem.trials[segment.trial];
     const std::vector<double>& time = trial.recording.columns[0];
     const std::size_t count = segment.row.size();
+    const auto residual = [&](std::size_t k) { return residuals[at + static_cast<Eigen::Index>(k)]; };
     const auto simulated = [&](std::size_t k) {
       const std::size_t c = segment.channel[k];
-      return trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] / trial.noiseFloor[c] +
-             residuals[at + static_cast<Eigen::Index>(k)];
+      const double recorded = trial.recording.columns[trial.binding.measured[c].column][segment.row[k]];
+      return recorded / trial.noiseFloor[c] + residual(k);
     };
-    // Rows of a channel follow one another.
-    for (std::size_t k = 0; k < count; ++k) {
+    // Rows of a channel follow one another; between three of them, the parabola.
+    for (std::size_t k = 1; k + 1 < count; ++k) {
       const std::size_t c = segment.channel[k];
-      if (!isOfAJoint(trial, c)) continue;
-      const std::size_t before = k > 0 && segment.channel[k - 1] == c ? k - 1 : k;
-      const std::size_t after = k + 1 < count && segment.channel[k + 1] == c ? k + 1 : k;
-      const auto isFaulty = [&](std::size_t i) { return residuals[at + static_cast<Eigen::Index>(i)] == afterFault; };
-      if (before == after || isFaulty(before) || isFaulty(k) || isFaulty(after)) continue;
+      if (!isOfAJoint(trial, c) || segment.channel[k - 1] != c || segment.channel[k + 1] != c) continue;
+      if (residual(k - 1) == afterFault || residual(k) == afterFault || residual(k + 1) == afterFault) continue;
+      const double now = time[segment.row[k]];
+      const double earlier_s = now - time[segment.row[k - 1]], later_s = time[segment.row[k + 1]] - now;
+      const double before = (simulated(k) - simulated(k - 1)) / earlier_s;
+      const double after = (simulated(k + 1) - simulated(k)) / later_s;
+      const double first = (before * later_s + after * earlier_s) / (earlier_s + later_s);
+      const double second = 2 * (after - before) / (earlier_s + later_s);
       column[at + static_cast<Eigen::Index>(k)] =
-          (simulated(after) - simulated(before)) / (time[segment.row[after]] - time[segment.row[before]]);
+          first + damps_s(scenes[segment.trial], trial.binding.measured[c]) * second;
     }
     at += static_cast<Eigen::Index>(count);
   }

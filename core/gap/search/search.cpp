@@ -110,7 +110,8 @@ void StructureSearch::addEffects() {
   for (int stage = 0; stage < most(); ++stage) {
     // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
     const double ofOthers = selection_.final.aligned.numericalFloor();
-    if (selection_.final.mean() < limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
+    if (selection_.final.mean() <
+        limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
       break;
     Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;

@@ -27,17 +27,6 @@ constexpr std::chrono::seconds betweenPlaces(1);
 /// With more ranks than this, rank 0 has enough to do without evaluating trials itself.
 constexpr int mostRanksWithAWorkingFirst = 8;
 
-/// This rank's share of its machine's processors. Launchers bind their ranks to processors, or say how many ranks are
-/// on the machine.
-int shareOfProcessors(const Launch& launch) {
-  int here = launch.size;
-  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"})
-    if (const char* text = std::getenv(variable)) here = std::max(1, std::atoi(text));
-  if (const char* text = std::getenv("SLURM_CPUS_PER_TASK")) return std::max(1, std::atoi(text));
-  if (launch.by == "srun") return 1;
-  return std::max(1, processorCount() / here);
-}
-
 /// What this process was asked for, without the program's name.
 std::string ownWords() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -51,11 +40,11 @@ struct HostSum {
   double worked_s = 0;
 };
 
-std::map<std::string, HostSum> hostsOf(const Coordinator& coordinator) {
+std::map<std::string, HostSum> hostsOf(const std::vector<PlaceReport>& places) {
   std::map<std::string, HostSum> hosts;
-  for (const PlaceReport& place : coordinator.report()) {
+  for (const PlaceReport& place : places) {
     HostSum& sum = hosts[place.host];
-    ++sum.places;
+    sum.places += place.workers;
     sum.pieces += place.pieces;
     sum.jobs += place.jobs;
     sum.losses += place.losses;
@@ -72,6 +61,50 @@ void requireLocal(const std::string& database) {
 
 }  // namespace
 
+int shareOfProcessors() {
+  const Launch launch = launchOfThisProcess();
+  // Launchers bind their ranks to processors, or say how many ranks are on the machine.
+  int here = launch.size;
+  for (const char* variable : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"})
+    if (const char* text = std::getenv(variable)) here = std::max(1, std::atoi(text));
+  if (const char* text = std::getenv("SLURM_CPUS_PER_TASK")) return std::max(1, std::atoi(text));
+  if (launch.by == "srun") return 1;
+  return std::max(1, processorCount() / here);
+}
+
+RankRole takeRole(Shell& shell, CoordinatorOptions options) {
+  RankRole role;
+  const Launch launch = launchOfThisProcess();
+  if (launch.size <= 1) return role;
+  role.isAlone = false;
+  role.options = std::move(options);
+  role.options.words = ownWords();
+  if (launch.rank == 0) {
+    buildIdentity(shell.plugins());  // before MPI's libraries are among those that are loaded
+    role.link = openMpi(launch);
+    return role;
+  }
+  role.isDone = true;
+  std::unique_ptr<RankLink> link;
+  try {
+    link = openMpi(launch);
+  } catch (const InputError&) {
+    // What keeps every rank from joining is said once, by rank 0.
+    if (launch.by != "srun") throw;
+    shell.exitCode = badInput;
+    return role;
+  }
+  serveRank(*link, role.options);
+  link->finish();
+  return role;
+}
+
+void tellHosts(const std::vector<PlaceReport>& places, const char* what) {
+  for (const auto& [host, sum] : hostsOf(places))
+    std::fprintf(stderr, "btr: %s: %d workers, %ld %s in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
+                 sum.places, sum.jobs, what, sum.pieces, sum.worked_s, sum.losses);
+}
+
 struct ClusterJob::Impl {
   std::unique_ptr<Coordinator> coordinator;
   std::string file;  ///< of tellTo()
@@ -80,30 +113,14 @@ struct ClusterJob::Impl {
 };
 
 ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : impl_(new Impl) {
-  const Launch launch = launchOfThisProcess();
-  if (launch.size <= 1) return;
   CoordinatorOptions options;
   options.secondsPerJob = longestJob_s;
-  options.foremen = jobs > 0 ? jobs : shareOfProcessors(launch);
-  options.words = ownWords();
-  if (launch.rank > 0) {
-    isDone_ = true;
-    std::unique_ptr<RankLink> link;
-    try {
-      link = openMpi(launch);
-    } catch (const InputError&) {
-      // What keeps every rank from joining is said once, by rank 0.
-      if (launch.by != "srun") throw;
-      shell.exitCode = badInput;
-      return;
-    }
-    serveRank(*link, options);
-    link->finish();
-    return;
-  }
-  if (launch.size > mostRanksWithAWorkingFirst) options.foremen = 0;
-  buildIdentity(shell.plugins());  // before MPI's libraries are among those that are loaded
-  impl_->coordinator = std::make_unique<Coordinator>(openMpi(launch), shell.plugins(), options);
+  options.foremen = jobs > 0 ? jobs : shareOfProcessors();
+  RankRole role = takeRole(shell, std::move(options));
+  isDone_ = role.isDone;
+  if (role.isAlone || isDone_) return;
+  if (role.link->size() > mostRanksWithAWorkingFirst) role.options.foremen = 0;
+  impl_->coordinator = std::make_unique<Coordinator>(std::move(role.link), shell.plugins(), role.options);
   if (!database.empty()) requireLocal(database);
 }
 
@@ -114,10 +131,7 @@ Workforce* ClusterJob::workforce() const { return impl_->coordinator.get(); }
 CaseForce* ClusterJob::caseForce() const { return impl_->coordinator.get(); }
 
 void ClusterJob::tell(const char* what) const {
-  if (!impl_->coordinator) return;
-  for (const auto& [host, sum] : hostsOf(*impl_->coordinator))
-    std::fprintf(stderr, "btr: %s: %d workers, %ld %s in %ld pieces, %.1f s of work, %ld lost\n", host.c_str(),
-                 sum.places, sum.jobs, what, sum.pieces, sum.worked_s, sum.losses);
+  if (impl_->coordinator) tellHosts(impl_->coordinator->report(), what);
 }
 
 void ClusterJob::tellTo(const std::string& file) {
@@ -136,7 +150,7 @@ void ClusterJob::tellProgress(const std::string& stage, double share, double tri
                elapsed_s = std::chrono::duration<double>(now - impl_->begun).count();
   nlohmann::json hosts = nlohmann::json::array();
   if (impl_->coordinator)
-    for (const auto& [host, sum] : hostsOf(*impl_->coordinator))
+    for (const auto& [host, sum] : hostsOf(impl_->coordinator->report()))
       hosts.push_back({{"host", host},
                        {"workers", sum.places},
                        {"pieces", sum.pieces},
@@ -152,27 +166,18 @@ void ClusterJob::tellProgress(const std::string& stage, double share, double tri
   writeFile(impl_->file, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-bool isNeedless(const char* command) {
-  const Launch launch = launchOfThisProcess();
-  if (launch.rank > 0) return true;
-  if (launch.size > 1)
-    throw InputError(
-        launch.by + " started " + std::to_string(launch.size) + " ranks, and btr " + command +
-        " works on one machine, with --jobs; start it alone, or set UCHILSIM_ALONE=1 for one of its own on "
-        "each rank");
-  return false;
-}
-
 void addPlacesOption(CLI::App* command, std::string& file) {
   command->add_option("--places", file, "keep this JSON file: which machine does how much, how far all is");
 }
 
 void addPiecesCommand(CLI::App& app, Shell& shell) {
   auto seconds = std::make_shared<double>(longestJob_s);
+  auto workers = std::make_shared<int>(1);
   CLI::App* command = app.add_subcommand("pieces", "work for a rank of btr run under mpirun");
   command->group("");
   command->add_option("--seconds-per-trial", *seconds);
-  command->callback([seconds, &shell] { servePieces(shell.plugins(), *seconds); });
+  command->add_option("--workers", *workers);
+  command->callback([seconds, workers, &shell] { servePieces(shell.plugins(), *seconds, *workers); });
 }
 
 }  // namespace btr::cli

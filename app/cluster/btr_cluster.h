@@ -1,12 +1,28 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/btr_commands.h"
+#include "core/cluster/coordinator.h"
 #include "core/gap/proof/proof_request.h"
 #include "core/run/setup/workforce.h"
 
 namespace btr::cli {
+
+/// What this process is among the ranks that mpirun or srun started.
+struct RankRole {
+  bool isAlone = true;
+  bool isDone = false;              ///< it worked for rank 0 until that one ended
+  std::unique_ptr<RankLink> link;   ///< of rank 0
+  CoordinatorOptions options = {};  ///< of rank 0
+};
+/// Worker processes of a rank that was not told how many: its share of its machine's processors.
+int shareOfProcessors();
+/// Takes part, as `options` say: a rank other than the first returns when rank 0 lets it. MPI is loaded on the way.
+RankRole takeRole(Shell& shell, CoordinatorOptions options);
+/// Who did how much, on stderr: a line for each host.
+void tellHosts(const std::vector<PlaceReport>& places, const char* what);
 
 /// This process as one of the ranks that mpirun or srun started; nothing is loaded where it was started alone.
 class ClusterJob {
@@ -36,10 +52,6 @@ class ClusterJob {
   std::unique_ptr<Impl> impl_;
   bool isDone_ = false;
 };
-
-/// For a command that works in one process: of several ranks the first throws InputError, and on the others, which have
-/// nothing to do, this is true.
-bool isNeedless(const char* command);
 
 /// --places.
 void addPlacesOption(CLI::App* command, std::string& file);

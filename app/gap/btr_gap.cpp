@@ -8,8 +8,10 @@
 #include "app/btr_commands.h"
 #include "app/cluster/btr_cluster.h"
 #include "app/progress_line.h"
+#include "core/cluster/shared_analysis.h"
 #include "core/gap/fit/fitted_start.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/job_share.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/inverse.h"
 #include "core/gap/replay/inverse_text.h"
@@ -68,15 +70,37 @@ void residualCommand(const ResidualArguments& arguments, Shell& shell) {
   if (stopped) shell.exitCode = stoppedEarly;
 }
 
-void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
-  // Several would write the same folder.
-  if (isNeedless("gap analyse")) return;
-  const ProgressLine progress(shell, lines);
+/// Of one of several ranks: rank 0 hands out the work and prints, the others return when it lets them.
+void analyseOnRanks(const AnalysisRequest& request, const ProgressLine& progress, Shell& shell) {
+  const int workers = request.options.jobs > 0 ? request.options.jobs : shareOfProcessors();
+  CoordinatorOptions options;
+  options.secondsPerJob = longestAnalysisJob_s;
+  options.command.insert(options.command.end(), {"--workers", std::to_string(workers)});
+  RankRole role = takeRole(shell, std::move(options));
+  if (role.isDone) return;
+  SharedAnalysis analysis(std::move(role.link), shell.plugins(), role.options);
+  const auto text = analysis.run(request, progress, *shell.stop);
+  progress.end();
+  for (const std::string& note : analysis.notes()) std::fprintf(stderr, "btr: %s\n", note.c_str());
+  tellHosts(analysis.report(), "parts of the analysis");
+  std::cout << (shell.json ? text.json : text.plain);
+}
+
+void analyseHere(AnalysisRequest request, const ProgressLine& progress, Shell& shell) {
+  if (request.options.jobs == 0) request.options.jobs = processorCount();
   const EffectLibrary library{shell.plugins().effectFactory(), shell.plugins().effects()};
+  const GapReport report = runAnalysis(request, library, progress);
+  progress.end();
+  std::cout << (shell.json ? toJsonText(report) : toPlainText(report));
+}
+
+void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
+  const ProgressLine progress(shell, lines);
   try {
-    const GapReport report = runAnalysis(request, library, progress);
-    progress.end();
-    std::cout << (shell.json ? toJsonText(report) : toPlainText(report));
+    if (launchOfThisProcess().size > 1)
+      analyseOnRanks(request, progress, shell);
+    else
+      analyseHere(request, progress, shell);
   } catch (const Cancelled&) {
     progress.end();
     std::fprintf(stderr, "stopped; nothing was written\n");
@@ -87,7 +111,7 @@ void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
 void addAnalyse(CLI::App& gap, Shell& shell) {
   auto request = std::make_shared<AnalysisRequest>();
   auto lines = std::make_shared<bool>(false);
-  request->options.jobs = processorCount();
+  request->options.jobs = 0;
   CLI::App* analyse = gap.add_subcommand("analyse", "find the physics that the simulator left out");
   analyse->add_option("SCENE.json", request->scene, "scene file; its \"calibrate\" list is what a fit may change")
       ->required();
@@ -101,7 +125,10 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
       analyse->add_option("--out", request->out, "folder for report.json, report.html, simulator.json")->required();
   shell.writesFolder(analyse, out,
                      {"report.json", "report.html", "simulator.json", "next_command.csv", "remainder.csv"});
-  analyse->add_option("--jobs", request->options.jobs, "worker processes")->transform(wholeNumber(1, 256));
+  analyse
+      ->add_option("--jobs", request->options.jobs,
+                   "worker processes (as many as processors, if not said); of each rank under mpirun or srun")
+      ->transform(wholeNumber(1, 256));
   analyse->add_option("--seed", request->options.seed, "of the fits' starting points")->transform(seedNumber());
   analyse->add_option("--effects", request->options.effects, "consider only these")->take_all();
   analyse->add_option("--maximum-effects", request->options.maximumEffects, "at most so many are added")

@@ -15,6 +15,7 @@
 #include "core/live/log_replay.h"
 #include "core/live/moment.h"
 #include "core/live/moment_experiment.h"
+#include "core/live/replay_checkpoints.h"
 #include "core/live/session.h"
 #include "core/live/session_log.h"
 #include "core/sim/model_losses.h"
@@ -116,6 +117,9 @@ class LiveRun {
     work.programs = [this] { return openr_.get(); };
     work.replay = [this] { return replay_.get(); };
     work.goOn = [this] { goOn(); };
+    work.goesBack = [this] { return replay_ && session_.checkpoint().has_value(); };
+    work.goBack = [this](long period) { return goBack(period); };
+    checkpoints_.emplace();
     LiveSteering(session_, std::move(work)).run(stop);
   }
 
@@ -186,13 +190,36 @@ class LiveRun {
   /// What the log that is played again has here; true if the game's numbers are others now.
   bool act() {
     if (!replay_) return false;
-    return replay_->act(session_, [this](long period, const std::string& mark) { keepMark(period, mark); });
+    const long written = written_ ? written_->place() : 0;
+    bool changed = false;
+    if (checkpoints_ && !checkpoints_->pass(session_, *replay_, written, marked_)) {
+      // Where it was gone back to, it did not go on as before: what it shows is made anew.
+      const long period = session_.periods();
+      changed = goBack(replay_->from());
+      while (session_.periods() < period && session_.fault().empty()) {
+        act();
+        step();
+      }
+    }
+    return replay_->act(session_, [this](long period, const std::string& mark) { keepMark(period, mark); }) || changed;
+  }
+
+  /// To the last checkpoint before that period; false where there is none.
+  bool goBack(long period) {
+    const ReplayCheckpoints::Kept* kept = replay_ && checkpoints_ ? checkpoints_->goBack(period) : nullptr;
+    if (!kept) return false;
+    session_.returnTo(kept->session);
+    replay_->returnTo(kept->replay);
+    if (written_) written_->returnTo(kept->written);
+    marked_ = kept->marked;
+    return true;
   }
 
   /// What is left of the log is given up: hands and programs have it from here.
   void goOn() {
     openr_ = std::make_unique<OpenrRobots>(session_, programDog_.get());
     replay_.reset();
+    checkpoints_.reset();
   }
 
   void tellSameness(nlohmann::json& result, const std::string& sha) const {
@@ -245,6 +272,7 @@ class LiveRun {
   std::unique_ptr<Watchdog> dog_, programDog_;
   Session session_;
   std::unique_ptr<LogReplay> replay_;
+  std::optional<ReplayCheckpoints> checkpoints_;  ///< while a log is played again and somebody may go back in it
   std::unique_ptr<SessionLogWriter> written_;
   std::unique_ptr<OpenrRobots> openr_;  ///< none while a log is played again
   std::unique_ptr<LiveCamera> camera_;

@@ -148,8 +148,18 @@ void LiveSteering::requireHands() const {
 void LiveSteering::goTo(JsonReader& reader) {
   const LogReplay* replay = work_.replay();
   if (!replay) reader.refuse("do", "go_to while a log is played again");
-  goal_ = static_cast<long>(
-      reader.integer("period", session_.periods(), std::max(session_.periods(), replay->log().periods)));
+  const long from = work_.goesBack() || !session_.fault().empty() ? replay->from() : session_.periods();
+  const auto period =
+      static_cast<long>(reader.integer("period", from, std::max(session_.periods(), replay->log().periods)));
+  if (period < session_.periods()) goBack(period);
+  goal_ = period;
+}
+
+void LiveSteering::goBack(long period) {
+  if (!work_.goBack(period)) throw InputError("period", std::to_string(period), "a later one");
+  if (session_.referee()) eventsTold_ = session_.referee()->seen;
+  over_ = session_.referee() && session_.referee()->over;
+  tellGame();
 }
 
 void LiveSteering::act(JsonReader& reader) {
@@ -274,6 +284,7 @@ void LiveSteering::tellLog() {
         {{"from", replay.from()},
          {"until", replay.log().periods},
          {"marks", replay.log().marks.size()},
+         {"goes_back", work_.goesBack()},
          {"acts", std::move(acts)}}}});
 }
 

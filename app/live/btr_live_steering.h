@@ -29,6 +29,8 @@ class LiveSteering {
     std::function<OpenrRobots*()> programs;  ///< null while a log is played again
     std::function<LogReplay*()> replay;      ///< null while hands are on
     std::function<void()> goOn;              ///< ends the replay
+    std::function<bool()> goesBack;          ///< whether a replay can go back
+    std::function<bool(long)> goBack;        ///< to that period or one before it; false where it cannot
   };
   LiveSteering(Session& session, Work work);
   void run(const std::atomic<bool>& stop);
@@ -44,6 +46,7 @@ class LiveSteering {
   /// Hands are off while a log is played again.
   void requireHands() const;
   void goTo(JsonReader& reader);
+  void goBack(long period);
   void tellLog();
   void replayActs();
   void tellGame();

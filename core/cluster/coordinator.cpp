@@ -33,7 +33,6 @@ struct Piece {
 
 struct Place {
   PlaceReport report;
-  bool begun = false, gone = false;
   std::string why;               ///< it was lost
   long task = 0;                 ///< the last one that it was told
   std::deque<Piece> pieces;      ///< in the order in which it works on them
@@ -49,14 +48,9 @@ Parts experimentMessage(long number, const RunRecord& record) {
 }  // namespace
 
 struct Coordinator::Impl {
-  std::unique_ptr<RankLink> link;
   const PluginHost& host;
-  const CoordinatorOptions options;
-  const Parts identity;
-  std::unique_ptr<Crew> crew;
-  std::vector<Place> places;  ///< this rank's foremen first
-  std::vector<bool> arrived;  ///< by rank: its crew is known
-  bool allBegun = false;
+  Ranks ranks;
+  std::vector<Place> places;  ///< by member
   long task = 0, lastPiece = 0;
   Parts taskText;         ///< as it was sent, without its number
   std::string generator;  ///< that conceals the task's cases, if it has such
@@ -70,84 +64,45 @@ struct Coordinator::Impl {
   Schedule* schedule = nullptr;
   std::size_t finished = 0;
 
-  Impl(std::unique_ptr<RankLink> ranks, const PluginHost& plugins, CoordinatorOptions wanted)
-      : link(std::move(ranks)), host(plugins), options(std::move(wanted)), identity(buildIdentity(plugins)) {
-    arrived.assign(link ? static_cast<std::size_t>(link->size()) : 1, false);
-    arrived[0] = true;
-    for (int k = 0; k < options.foremen; ++k) addPlace(0, k, hostName());
+  Impl(std::unique_ptr<RankLink> link, const PluginHost& plugins, CoordinatorOptions wanted)
+      : host(plugins), ranks(std::move(link), plugins, std::move(wanted)) {
+    knowPlaces();
   }
 
-  void addPlace(int rank, int foreman, const std::string& name) {
-    Place place;
-    place.report.rank = rank;
-    place.report.foreman = foreman;
-    place.report.host = name;
-    places.push_back(std::move(place));
-  }
-
-  static std::string nameOf(const Place& place) {
-    return "rank " + std::to_string(place.report.rank) + " (host " + place.report.host + ")";
-  }
-
-  void send(const Place& place, const Parts& parts) {
-    if (place.report.rank == 0) return crew->send(place.report.foreman, parts);
-    Parts whole{"to", std::to_string(place.report.foreman)};
-    whole.insert(whole.end(), parts.begin(), parts.end());
-    link->send(place.report.rank, pack(whole));
-  }
-
-  void restart(const Place& place) {
-    if (place.report.rank == 0) return crew->restart(place.report.foreman);
-    link->send(place.report.rank, pack({"restart", std::to_string(place.report.foreman)}));
-  }
-
-  /// Takes what has come, waiting a moment for it.
-  void listen() {
-    if (crew)
-      for (Crew::Event& event : crew->wait(link ? 1 : 100))
-        hear(places[static_cast<std::size_t>(event.foreman)], event.parts);
-    if (!link) return;
-    int from = 0;
-    std::string bytes;
-    bool any = false;
-    while (link->receive(from, bytes)) {
-      any = true;
-      Parts parts = unpack(bytes);
-      if (parts.size() == 4 && parts[0] == "crew") {
-        if (parts[3] != options.words)
-          throw InputError("rank " + std::to_string(from) + " (host " + parts[1] +
-                           "): it was started with other words than rank 0; for a run of its own on each rank set "
-                           "UCHILSIM_ALONE=1");
-        const int foremen = std::stoi(parts[2]);
-        for (int k = 0; k < foremen; ++k) addPlace(from, k, parts[1]);
-        arrived[static_cast<std::size_t>(from)] = true;
-        continue;
-      }
-      const int foreman = std::stoi(parts.front());
-      const auto place = std::ranges::find_if(
-          places, [&](const Place& p) { return p.report.rank == from && p.report.foreman == foreman; });
-      parts.erase(parts.begin());
-      if (place != places.end()) hear(*place, parts);
+  /// Every member is a place.
+  void knowPlaces() {
+    for (std::size_t k = places.size(); k < ranks.members().size(); ++k) {
+      const Member& member = ranks.members()[k];
+      Place place;
+      place.report.rank = member.rank;
+      place.report.foreman = member.foreman;
+      place.report.host = member.host;
+      places.push_back(std::move(place));
     }
-    if (!crew && !any) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  void requireSame(const Place& place, Parts::const_iterator from, Parts::const_iterator to) const {
-    const Parts ours = task == 0 ? identity : generator.empty() ? buildIdentity(host) : buildIdentity(host, generator);
-    if (const auto what = difference(ours, Parts(from, to)))
-      throw InputError(nameOf(place) + ": " + *what + "; install the same build on every machine");
+  const Member& memberOf(const Place& place) const {
+    return ranks.members()[static_cast<std::size_t>(&place - places.data())];
+  }
+  std::size_t numberOf(const Place& place) const { return static_cast<std::size_t>(&place - places.data()); }
+
+  void listen() {
+    for (Place& place : places) ranks.members()[numberOf(place)].isIdle = place.pieces.empty();
+    ranks.listen([this](std::size_t member, const Parts& parts) { hear(member, parts); });
   }
 
-  void hear(Place& place, const Parts& parts) {
+  void requireSame(std::size_t member, Parts::const_iterator from, Parts::const_iterator to) const {
+    ranks.requireSame(member, generator.empty() ? buildIdentity(host) : buildIdentity(host, generator), from, to);
+  }
+
+  void hear(std::size_t member, const Parts& parts) {
+    knowPlaces();
+    Place& place = places[member];
     const std::string& kind = parts.front();
-    if (kind == "hello") {
-      // Of a foreman that was started anew, the plugins of the task are checked once it is ready.
-      if (!allBegun) requireSame(place, parts.begin() + 1, parts.end());
-      place.begun = true;
-    } else if (kind == "ready") {
-      if (std::stol(parts[1]) == task) requireSame(place, parts.begin() + 2, parts.end());
+    if (kind == "ready") {
+      if (std::stol(parts[1]) == task) requireSame(member, parts.begin() + 2, parts.end());
     } else if (kind == "refused") {
-      if (std::stol(parts[1]) == task) throw InputError(nameOf(place) + ": " + parts[2]);
+      if (std::stol(parts[1]) == task) throw InputError(memberOf(place).name() + ": " + parts[2]);
     } else if (kind == "done") {
       take(place, parts);
     } else if (kind == "lost" || kind == "gone") {
@@ -186,8 +141,6 @@ struct Coordinator::Impl {
 
   void lose(Place& place, const Parts& parts) {
     place.why = parts.size() > 1 ? parts[1] : "";
-    place.gone = parts.front() == "gone";
-    place.begun = false;
     place.task = 0;
     ++place.report.losses;
     bool first = true;
@@ -197,7 +150,7 @@ struct Coordinator::Impl {
         if (first)
           for (const std::size_t job : piece.jobs)
             if (++tries[job] >= mostTries)
-              throw InputError(nameOf(place) +
+              throw InputError(memberOf(place).name() +
                                ": the process that worked on a trial was lost, the third time for this "
                                "trial (" +
                                place.why + "); what was stored before is kept: the same command goes on");
@@ -205,33 +158,15 @@ struct Coordinator::Impl {
       }
       first = false;
     }
-    if (place.gone && std::ranges::all_of(places, &Place::gone))
-      throw InputError(nameOf(place) + ": no place is left that works (" + place.why +
+    if (ranks.areAllGone())
+      throw InputError(memberOf(place).name() + ": no place is left that works (" + place.why +
                        "); what was stored is kept: the same command goes on");
   }
 
-  bool haveAllBegun() const {
-    return std::ranges::all_of(arrived, [](bool a) { return a; }) &&
-           std::ranges::all_of(places, [](const Place& p) { return p.begun || p.gone; });
-  }
-
-  /// Every rank is there and has the same build. False if stopped.
   bool begin(const std::atomic<bool>& stop) {
-    if (allBegun) return true;
-    if (!crew && options.foremen > 0) crew = std::make_unique<Crew>(options.foremen, options.command);
-    const auto begun = Clock::now();
-    while (!haveAllBegun()) {
-      if (stop) return false;
-      listen();
-      if (secondsSince(begun) < options.patience_s) continue;
-      for (std::size_t rank = 0; rank < arrived.size(); ++rank)
-        if (!arrived[rank]) throw InputError("rank " + std::to_string(rank) + " did not begin in time");
-      for (const Place& place : places)
-        if (!place.begun && !place.gone) throw InputError(nameOf(place) + ": its workers did not begin in time");
-    }
-    if (std::ranges::all_of(places, &Place::gone)) throw InputError("no rank has a worker");
-    allBegun = true;
-    return true;
+    const bool isThere = ranks.begin(stop, [this](std::size_t member, const Parts& parts) { hear(member, parts); });
+    knowPlaces();
+    return isThere;
   }
 
   /// What all jobs are of; nothing new if it is the same as before.
@@ -244,8 +179,8 @@ struct Coordinator::Impl {
   /// All jobs of the task; false if stopped.
   bool work(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
             const std::function<void(std::size_t)>& done) {
-    Schedule all(jobs.size(),
-                 static_cast<std::size_t>(std::ranges::count_if(places, [](const Place& p) { return !p.gone; })));
+    Schedule all(jobs.size(), static_cast<std::size_t>(
+                                  std::ranges::count_if(ranks.members(), [](const Member& m) { return !m.gone; })));
     schedule = &all;
     tries.assign(jobs.size(), 0);
     finished = 0;
@@ -267,20 +202,20 @@ struct Coordinator::Impl {
 
   void handOut(const std::vector<std::string>& jobs) {
     for (Place& place : places) {
-      if (place.gone || !place.begun) continue;
+      if (memberOf(place).gone || !memberOf(place).begun) continue;
       while (true) {
         std::vector<std::size_t> numbers = schedule->next(*pace, place.pieces.size());
         if (numbers.empty()) break;
         if (place.task != task) {
           Parts text = taskText;
           text[1] = std::to_string(task);
-          send(place, text);
+          ranks.send(numberOf(place), text);
           place.task = task;
         }
         Piece piece{++lastPiece, std::move(numbers), Clock::now(), false};
         Parts message{"piece", std::to_string(piece.number)};
         for (const std::size_t job : piece.jobs) message.push_back(jobs[job]);
-        send(place, message);
+        ranks.send(numberOf(place), message);
         if (place.pieces.empty()) place.since = piece.sent;
         place.pieces.push_back(std::move(piece));
       }
@@ -290,10 +225,11 @@ struct Coordinator::Impl {
   void restartTheHanging() {
     for (Place& place : places) {
       if (place.pieces.empty()) continue;
-      const double most = options.grace_s + 2 * secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
+      const double most =
+          ranks.options().grace_s + 2 * secondsPerJob * static_cast<double>(place.pieces.front().jobs.size());
       if (secondsSince(place.since) < most) continue;
       place.since = Clock::now();
-      restart(place);
+      ranks.restart(numberOf(place));
     }
   }
 };
@@ -301,12 +237,7 @@ struct Coordinator::Impl {
 Coordinator::Coordinator(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
     : impl_(new Impl(std::move(link), host, std::move(options))) {}
 
-Coordinator::~Coordinator() {
-  impl_->crew.reset();
-  if (!impl_->link) return;
-  for (int rank = 1; rank < impl_->link->size(); ++rank) impl_->link->send(rank, pack({"quit"}));
-  impl_->link->finish();
-}
+Coordinator::~Coordinator() = default;
 
 int Coordinator::workers() const { return std::max(1, static_cast<int>(impl_->places.size())); }
 
@@ -324,7 +255,7 @@ std::vector<WorkerPool::Reply> Coordinator::run(const PreparedExperiment& experi
   impl.generator.clear();
   impl.setTask(experimentMessage(0, makeRunRecord(experiment, 0, 0)));
   impl.pace = &impl.paceOfTrials;
-  impl.secondsPerJob = impl.options.secondsPerJob;
+  impl.secondsPerJob = impl.ranks.options().secondsPerJob;
   std::vector<WorkerPool::Reply> replies(jobs.size());
   impl.settle = [&](std::size_t job, WorkerPool::Reply reply) { replies[job] = std::move(reply); };
   if (!impl.work(jobs, stop, done)) return {};

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/cluster/crew.h"
 #include "core/cluster/rank_link.h"
+#include "core/cluster/ranks.h"
 #include "core/gap/proof/proof_request.h"
 #include "core/run/setup/workforce.h"
 
@@ -13,18 +13,10 @@ namespace btr {
 /// How the work goes at one place: a foreman of a rank.
 struct PlaceReport {
   int rank = 0, foreman = 0;
+  int workers = 1;  ///< its worker processes
   std::string host;
   long pieces = 0, jobs = 0, losses = 0;
   double worked_s = 0;  ///< in its worker, by the clock
-};
-
-struct CoordinatorOptions {
-  int foremen = 1;             ///< of this rank; 0: it only coordinates
-  double secondsPerJob = 120;  ///< as WorkerPool
-  double grace_s = 30;         ///< a foreman that tries each job of its piece twice may take this long beyond that
-  double patience_s = 120;     ///< how long ranks may take to begin
-  ForemanCommand command = ownForeman();
-  std::string words = {};  ///< what this process was asked for; every rank must have been asked for the same
 };
 
 /// The workforce of rank 0: its own foremen and those of the other ranks. Hands out pieces as Schedule says and puts
@@ -55,12 +47,5 @@ class Coordinator : public Workforce, public CaseForce {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// The life of every other rank: starts its foremen and passes on what is said to them and what they say, until rank 0
-/// lets it end.
-void serveRank(RankLink& link, const CoordinatorOptions& options);
-
-/// This machine's name.
-std::string hostName();
 
 }  // namespace btr

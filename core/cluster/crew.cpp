@@ -191,7 +191,7 @@ void Crew::restart(int number) {
   impl_->lost(k, "it did not answer in time");
 }
 
-std::vector<Crew::Event> Crew::wait(int milliseconds) {
+std::vector<Crew::Event> Crew::wait(std::chrono::microseconds most) {
   std::vector<pollfd> files;
   std::vector<std::size_t> whose;
   for (std::size_t k = 0; k < impl_->foremen.size(); ++k) {
@@ -200,7 +200,10 @@ std::vector<Crew::Event> Crew::wait(int milliseconds) {
     files.push_back({foreman.socket, static_cast<short>(POLLIN | (foreman.leaving.empty() ? 0 : POLLOUT)), 0});
     whose.push_back(k);
   }
-  poll(files.data(), files.size(), impl_->waiting.empty() ? milliseconds : 0);
+  const auto wait_us = impl_->waiting.empty() ? most.count() : 0;
+  constexpr long perSecond = 1000000, perMicro = 1000;
+  const timespec limit{static_cast<time_t>(wait_us / perSecond), static_cast<long>(wait_us % perSecond) * perMicro};
+  ppoll(files.data(), files.size(), &limit, nullptr);
   std::vector<Event> events = std::move(impl_->waiting);
   impl_->waiting.clear();
   for (std::size_t i = 0; i < files.size(); ++i) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,7 +36,7 @@ class Crew {
   /// Ends one that no longer answers, whose "lost" follows.
   void restart(int foreman);
   /// What has arrived, after at most so long (0: what is there).
-  std::vector<Event> wait(int milliseconds);
+  std::vector<Event> wait(std::chrono::microseconds most);
 
  private:
   struct Impl;

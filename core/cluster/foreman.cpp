@@ -1,61 +1,23 @@
 #include "core/cluster/foreman.h"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstdint>
-#include <optional>
 
+#include "core/cluster/analysis_foreman.h"
 #include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
+#include "core/cluster/foreman_pipe.h"
 #include "core/cluster/own_scratch.h"
 #include "core/cluster/parts.h"
 #include "core/gap/proof/proof_run.h"
 #include "core/run/setup/evaluator.h"
-#include "core/spec/child_process.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
 namespace {
-
-/// Where messages come from and go to. Ends the process when nobody is there any more.
-struct Pipe {
-  int in = -1, out = -1;
-
-  std::optional<Parts> read() const {
-    std::uint64_t size = 0;
-    if (!readAll(in, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
-    std::string bytes(size, '\0');
-    if (!readAll(in, bytes.data(), size)) return std::nullopt;
-    return unpack(bytes);
-  }
-  void write(const Parts& parts) const {
-    const std::string bytes = pack(parts);
-    const std::uint64_t size = bytes.size();
-    std::string all(reinterpret_cast<const char*>(&size), sizeof size);
-    all += bytes;
-    for (std::size_t done = 0; done < all.size();) {
-      const ssize_t n = ::write(out, all.data() + done, all.size() - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) _exit(0);
-      done += static_cast<std::size_t>(n);
-    }
-  }
-};
-
-Pipe takeStandardStreams() {
-  Pipe pipe{fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10), fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10)};
-  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  dup2(nothing, STDIN_FILENO);
-  close(nothing);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  return pipe;
-}
 
 /// What is worked on, with its worker. The worker ends before what it works on.
 struct Task {
@@ -101,11 +63,6 @@ std::unique_ptr<Task> prepareCases(const Parts& message, const PluginHost& host)
   return task;
 }
 
-Parts joined(Parts head, const Parts& rest) {
-  head.insert(head.end(), rest.begin(), rest.end());
-  return head;
-}
-
 Parts workOn(const Parts& message, WorkerPool& pool) {
   const std::vector<std::string> jobs(message.begin() + 2, message.end());
   const std::atomic<bool> never{false};
@@ -122,12 +79,12 @@ Parts workOn(const Parts& message, WorkerPool& pool) {
 
 }  // namespace
 
-void servePieces(const PluginHost& host, double secondsPerJob) {
+void servePieces(const PluginHost& host, double secondsPerJob, int workers) {
   // Who started it decides when it ends, Ctrl-C reaches the whole group.
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const Pipe pipe = takeStandardStreams();
+  const ForemanPipe pipe = takeStandardStreams();
   pipe.write(joined({"hello"}, buildIdentity(host)));
   std::unique_ptr<Task> task;
   while (const auto message = pipe.read()) {
@@ -135,6 +92,9 @@ void servePieces(const PluginHost& host, double secondsPerJob) {
     const std::string& kind = message->front();
     if (kind == "piece" && task) {
       pipe.write(workOn(*message, *task->pool));
+    } else if (kind == "analysis") {
+      task.reset();
+      serveAnalysis(*message, pipe, host, workers);
     } else if (kind == "experiment" || kind == "cases") {
       task.reset();
       try {

@@ -10,7 +10,8 @@ namespace btr {
 ///   ←  hello IDENTITY...      ready NUMBER IDENTITY...      refused NUMBER WHY
 ///      done NUMBER SECONDS [STATE BYTES]...   STATE: R a reply, F why there is none, K the worker was killed
 /// Jobs are trials of the experiment (Evaluator), or the numbers of blind cases (blind_cases.h) as they are asked for
-/// in REQUEST (proof_request.h). What plugins write to standard output goes to standard error.
-void servePieces(const PluginHost& host, double secondsPerJob);
+/// in REQUEST (proof_request.h). What plugins write to standard output goes to standard error. What is said of an
+/// analysis that all foremen make together, with `workers` processes each, is in analysis_foreman.h.
+void servePieces(const PluginHost& host, double secondsPerJob, int workers = 1);
 
 }  // namespace btr

@@ -1,9 +1,9 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <thread>
 
-#include "core/cluster/coordinator.h"
+#include "core/cluster/ranks.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -27,13 +27,15 @@ std::string hostName() {
 void serveRank(RankLink& link, const CoordinatorOptions& options) {
   Crew crew(options.foremen, options.command);
   link.send(0, pack({"crew", hostName(), std::to_string(crew.size()), options.words}));
-  // A rank that has had nothing to do for a while looks less often whether there is something.
-  constexpr int busy_ms = 2, idle_ms = 5;
-  constexpr std::chrono::seconds soon(1);
   auto last = std::chrono::steady_clock::now();
+  std::vector<int> open(static_cast<std::size_t>(crew.size()), 0);  ///< by foreman: what it was told to do
   while (true) {
     const auto now = std::chrono::steady_clock::now();
-    for (const Crew::Event& event : crew.wait(now - last < soon ? busy_ms : idle_ms)) {
+    const bool isIdle = std::ranges::all_of(open, [](int pieces) { return pieces <= 0; });
+    for (const Crew::Event& event : crew.wait(momentToWait(now - last, isIdle))) {
+      int& pieces = open[static_cast<std::size_t>(event.foreman)];
+      const std::string& kind = event.parts.front();
+      pieces = kind == "done" ? pieces - 1 : kind == "lost" || kind == "gone" ? 0 : pieces;
       passOn(link, event);
       last = now;
     }
@@ -46,8 +48,11 @@ void serveRank(RankLink& link, const CoordinatorOptions& options) {
       const int foreman = std::stoi(parts[1]);
       if (parts.front() == "restart")
         crew.restart(foreman);
-      else
+      else {
+        const bool isWork = parts[2] == "piece" || parts[2] == "jobs";
+        if (isWork) ++open[static_cast<std::size_t>(foreman)];
         crew.send(foreman, Parts(parts.begin() + 2, parts.end()));
+      }
     }
   }
 }

@@ -46,14 +46,13 @@ bool hasFourLegs(const RobotModel& model) {
 
 /// On its feet with these joints, the others at rest.
 void takeStance(SceneRobot& robot, const Values& joints, const std::string& who) {
-  robot.jointStart = restPositions(robot.model);
+  std::vector<double> positions = restPositions(robot.model);
   for (const auto& [name, position] : joints) {
     const int j = robot.model.findJoint(name);
     if (j < 0) throw InputError(who + "/posture", "\"" + name + "\"", "joints of the robot");
-    robot.jointStart[static_cast<std::size_t>(j)] = position;
+    positions[static_cast<std::size_t>(j)] = position;
   }
-  robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
-  robot.start = standing(robot.model, robot.jointStart, who);
+  standStill(robot, std::move(positions), who);
 }
 
 /// The posture at the place of the scene: x, y and heading from there, height and tilt from the posture.
@@ -65,6 +64,8 @@ void takePosture(SceneRobot& robot, const SceneRobot& arranged) {
   posture.translation().x() = posture.translation().y() = 0;
   robot.jointStart = arranged.jointStart;
   robot.jointStartRate = arranged.jointStartRate;
+  robot.startVelocity_m_s = arranged.startVelocity_m_s;
+  robot.startSpin_rad_s = arranged.startSpin_rad_s;
   robot.start =
       Eigen::Translation3d(place.x(), place.y(), 0) * Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * posture;
 }
@@ -81,7 +82,8 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
     const GameRobot plays = player == game.robots.end() ? GameRobot{} : player->second;
     if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
     SceneRobot& robot = scene.robots[i];
-    if (!plays.posture || !robot.freeBase || !scene.floor) continue;
+    // What the scene has in motion is not put on its feet.
+    if (!plays.posture || game.scene.robots[i].moves() || !robot.freeBase || !scene.floor) continue;
     const bool stands = !plays.hasPlugin() && !plays.stance.empty();
     if (!plays.hasPlugin() && !stands && (!game.scene.robots[i].jointStart.empty() || !hasFourLegs(robot.model)))
       continue;

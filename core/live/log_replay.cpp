@@ -35,6 +35,13 @@ bool LogReplay::isOver(const Session& session) const {
   return nextAct_ >= log_.acts.size() && nextMark_ >= log_.marks.size() && session.periods() >= log_.periods;
 }
 
+void LogReplay::returnTo(const Place& place) {
+  sameUntil_ = place.sameUntil;
+  differsBy_ = place.differsBy;
+  nextAct_ = place.nextAct;
+  nextMark_ = place.nextMark;
+}
+
 void LogReplay::compare(const SessionLog::Mark& was, const std::string& mark) {
   if (differsBy_) return;
   if (was.mark == mark)

@@ -23,6 +23,15 @@ class LogReplay {
   /// Where neither act nor mark is left and the session has gone as far as the logged one.
   bool isOver(const Session& session) const;
 
+  /// How far it has been played, to come back to.
+  struct Place {
+    long sameUntil = 0;
+    std::optional<long> differsBy{};
+    std::size_t nextAct = 0, nextMark = 0;
+  };
+  Place place() const { return {sameUntil_, differsBy_, nextAct_, nextMark_}; }
+  void returnTo(const Place& place);
+
   /// Without marks, nothing is known before the end.
   bool hasMarks() const { return !log_.marks.empty(); }
   /// Before this period the sessions were surely the same: their marks were.

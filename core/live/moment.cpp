@@ -15,20 +15,33 @@ void place(Spec& spec, const Eigen::Isometry3d& pose) {
   spec.orientation_wxyz = {q.w(), q.x(), q.y(), q.z()};
 }
 
-void bend(RobotSpec& spec, const RobotModel& model, const std::vector<double>& positions) {
+/// Angles and velocities of the joints that follow no other one, and of the base where it is free.
+void bend(RobotSpec& spec, const RobotModel& model, const RobotMemory& memory, const RobotReadings& now) {
   spec.jointStart.clear();
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    if (model.joints[j].type != Joint::Type::fixed) spec.jointStart[model.joints[j].name] = positions[j];
+  spec.jointRate.clear();
+  std::size_t moving = 0;
+  for (const Joint& joint : model.joints) {
+    if (joint.type == Joint::Type::fixed) continue;
+    // Not what its sensors say.
+    const JointMemory& at = memory.joints.at(moving++);
+    if (joint.mimic) continue;
+    spec.jointStart[joint.name] = at.position;
+    if (at.driveRate != 0) spec.jointRate[joint.name] = at.driveRate;
+  }
+  if (spec.base != "free") return;
+  spec.velocity_m_s = arrayOf(now.baseVelocity_m_s);
+  spec.spin_rad_s = arrayOf(now.baseSpin_rad_s);
 }
 
 }  // namespace
 
 SceneSpec momentOf(const Session& session) {
   const World& world = session.world();
+  const WorldMemory memory = world.memory();
   SceneSpec scene = session.game().scene;
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     place(scene.robots[i], world.linkPoses(i).front());
-    bend(scene.robots[i], session.scene().robots[i].model, world.jointPositions(i));
+    bend(scene.robots[i], session.scene().robots[i].model, memory.robots.at(i), world.robot(i));
   }
   for (std::size_t i = 0; i < scene.balls.size(); ++i) {
     const BallState state = world.ball(i);

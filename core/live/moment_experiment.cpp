@@ -36,7 +36,7 @@ void moveBy(Spec& spec, const Isometry3d& by) {
   spec.orientation_wxyz = {q.w(), q.x(), q.y(), q.z()};
 }
 
-/// Velocity and spin of a ball or an obstacle.
+/// Velocity and spin of anything.
 template <class Spec>
 void turnMotion(Spec& spec, const Isometry3d& by) {
   spec.velocity_m_s = arrayFrom(by.linear() * vectorFrom(spec.velocity_m_s));
@@ -53,7 +53,10 @@ SceneSpec seenFrom(SceneSpec scene, std::size_t robot) {
   const double heading = std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
   const Isometry3d by = Eigen::AngleAxisd(-heading, Vector3d::UnitZ()) *
                         Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
-  for (RobotSpec& each : scene.robots) moveBy(each, by);
+  for (RobotSpec& each : scene.robots) {
+    moveBy(each, by);
+    turnMotion(each, by);
+  }
   for (BallSpec& ball : scene.balls) {
     ball.position_m = arrayFrom(by * vectorFrom(ball.position_m));
     turnMotion(ball, by);
@@ -138,6 +141,7 @@ MomentExperiment experimentOf(const Session& session, const PluginHost& host, co
   ExperimentSpec& experiment = moment.experiment;
   experiment.name = name + " from " + toText(std::round(1000 * session.time_s()) / 1000) + " s on";
   experiment.simulator = game.simulator;
+  experiment.stages["begins"] = 1;  // as the scene says, which is this moment
   experiment.learner.name = experiment.adaptation.name = firstName(inOrder({"ga"}, host.learners()));
 
   std::vector<GameController> candidates;

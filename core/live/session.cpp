@@ -357,6 +357,7 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   game_ = std::move(game);
   models_ = std::move(models);
   scene_ = std::move(scene);
+  keptScene_.reset();
   players_ = std::move(players);
   std::erase_if(lamps_, [&](const auto& each) { return !players_.contains(each.first); });
   std::erase_if(eyes_, [&](const auto& each) { return !players_.contains(each.first); });

@@ -2,6 +2,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/live/act.h"
 #include "core/live/camera_eye.h"
 #include "core/live/game.h"
+#include "core/live/session_checkpoint.h"
 #include "core/live/watchdog.h"
 #include "core/plugin/plugin_host.h"
 #include "core/sim/scene.h"
@@ -43,6 +45,13 @@ class Session {
   /// world remembers now.
   Game saved() const;
 
+  /// All that decides how it goes on, to come back to with returnTo(): with the same bits, as far as motions remember
+  /// nothing that Motion::memory() does not tell. Nothing where it stopped, or where a controller looks through a
+  /// camera.
+  std::optional<SessionCheckpoint> checkpoint() const;
+  /// A checkpoint of this session.
+  void returnTo(const SessionCheckpoint& then);
+
   const Game& game() const { return game_; }
   const Scene& scene() const { return scene_; }
   const World& world() const { return *world_; }
@@ -65,6 +74,8 @@ class Session {
   const std::string& fault() const { return fault_; }
   /// SHA-256 over the traces' rows since the session began (or was loaded); call it once, at the end.
   std::string traceSha256() { return hash_.finish(); }
+  /// The same at any time.
+  std::string traceSha256SoFar() const { return Sha256(hash_).finish(); }
   /// SHA-256 over the rows since the mark before, with that mark, so that two sessions can be compared as they go:
   /// the same up to here if they are the same at marks of the same periods.
   std::string mark();
@@ -142,6 +153,7 @@ class Session {
   Game game_;
   ModelSet models_;
   Scene scene_;
+  mutable std::shared_ptr<const Scene> keptScene_;  ///< the same for checkpoints, once there was one
   std::unique_ptr<World> world_;
   std::map<std::string, Player> players_;
   std::map<std::string, PullAct> pulls_;  ///< by object

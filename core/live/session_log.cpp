@@ -1,5 +1,7 @@
 #include "core/live/session_log.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -66,6 +68,13 @@ void SessionLogWriter::act(long period, const Act& act) {
 
 void SessionLogWriter::mark(long period, const std::string& mark) {
   write(nlohmann::json{{"mark", mark}, {"period", period}}.dump());
+}
+
+long SessionLogWriter::place() const { return std::ftell(file_); }
+
+void SessionLogWriter::returnTo(long place) {
+  if (std::fflush(file_) != 0 || ftruncate(fileno(file_), place) != 0 || std::fseek(file_, place, SEEK_SET) != 0)
+    throw InputError(path_, std::strerror(errno), "a session's log that can be shortened");
 }
 
 void SessionLogWriter::end(long period, const std::string& traceSha256) {

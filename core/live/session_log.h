@@ -23,6 +23,9 @@ class SessionLogWriter {
   void act(long period, const Act& act);
   /// Session::mark() before this period; none a second time for the same one.
   void mark(long period, const std::string& mark);
+  /// Where the file ends now [bytes], and that end again: what was written since is taken back.
+  long place() const;
+  void returnTo(long place);
   /// The session ended before this period.
   void end(long period, const std::string& traceSha256);
 

@@ -147,9 +147,7 @@ void BehaviourController::arrange(btr::Scene& scene, const Values& settings) con
   const std::unique_ptr<Behaviour> behaviour = make_();
   btr::SceneRobot& robot = scene.robots.front();
   if (std::vector<double> posture = behaviour->posture(robot.model); !posture.empty()) {
-    robot.jointStart = std::move(posture);
-    robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
-    robot.start = btr::standing(robot.model, robot.jointStart, name_);
+    btr::standStill(robot, std::move(posture), name_);
   } else if (robot.freeBase && scene.floor && hasFourLegs(robot.model)) {
     btr::arrangeStance(scene, name_);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/spec/error.h"
 #include "core/spec/require.h"
@@ -114,11 +115,17 @@ std::vector<double> stanceOf(const RobotModel& model, const std::string& who) {
   return stance;
 }
 
-void arrangeStance(Scene& scene, const std::string& who) {
-  SceneRobot& robot = firstRobot(scene, who);
-  robot.jointStart = stanceOf(robot.model, who);
+void standStill(SceneRobot& robot, std::vector<double> joints, const std::string& who) {
+  robot.jointStart = std::move(joints);
   robot.jointStartRate.assign(robot.model.joints.size(), 0.0);
   robot.start = standing(robot.model, robot.jointStart, who);
+  robot.startVelocity_m_s.setZero();
+  robot.startSpin_rad_s.setZero();
+}
+
+void arrangeStance(Scene& scene, const std::string& who) {
+  SceneRobot& robot = firstRobot(scene, who);
+  standStill(robot, stanceOf(robot.model, who), who);
 }
 
 GaitSteps::GaitSteps(double controlPeriod_s, std::vector<double> start, const FourLegs& dog, const GaitTask& task,

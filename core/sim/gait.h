@@ -71,6 +71,9 @@ class FootPlaces {
 /// The posture in which walking begins, by joint of the model: the feet under the body, other joints at rest. Throws
 /// InputError, beginning with `who`, for a robot without such legs.
 std::vector<double> stanceOf(const RobotModel& model, const std::string& who);
+/// Puts a robot on its feet over the origin with these joints, at rest, looking along x. Throws InputError, beginning
+/// with `who`, for one that cannot stand.
+void standStill(SceneRobot& robot, std::vector<double> joints, const std::string& who);
 /// Puts the scene's first robot over the origin in that stance, looking along x. Throws InputError, beginning with
 /// `who`, for a scene without a robot too.
 void arrangeStance(Scene& scene, const std::string& who);

@@ -86,6 +86,8 @@ void Trot::arrange(Scene& scene, const Values& settings) const {
   robot.jointStart = motion.positions(0);
   robot.jointStartRate.assign(robot.model.joints.size(), 0);
   robot.start.setIdentity();
+  robot.startVelocity_m_s.setZero();
+  robot.startSpin_rad_s.setZero();
   // As high as the lowest foot wants.
   const auto poses = forwardKinematics(robot.model, robot.start, robot.jointStart);
   double lowest = 1e9;

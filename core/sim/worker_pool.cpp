@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <exception>
 #include <optional>
 
@@ -89,11 +90,19 @@ std::string howItEnded(int status) {
   return "the worker ended (exit code " + std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : -1) + ")";
 }
 
+/// What a worker is to do.
+struct Task {
+  std::size_t number = 0;
+  std::string job;
+  int tries = 0;
+};
+
 struct Worker {
   pid_t pid = -1;
   int socket = -1;
-  long job = -1;  // index of the job it works on, −1 idle
+  std::optional<Task> task;  // that it works on
   Clock::time_point since;
+  double busy_s() const { return std::chrono::duration<double>(Clock::now() - since).count(); }
 };
 
 }  // namespace
@@ -102,6 +111,7 @@ struct WorkerPool::Impl {
   Work work;
   double secondsPerJob;
   std::vector<Worker> workers;
+  std::deque<Task> waiting;  ///< for a worker
 
   void start(Worker& worker) {
     int pair[2];
@@ -127,7 +137,7 @@ struct WorkerPool::Impl {
                         static_cast<suseconds_t>((std::min(secondsPerJob, 1e6) - whole_s) * perSecond)};
     setsockopt(pair[0], SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     setsockopt(pair[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-    worker = Worker{pid, pair[0], -1, Clock::now()};
+    worker = Worker{pid, pair[0], std::nullopt, Clock::now()};
   }
 
   /// Ends a worker and says how it ended; nothing of one that should have ended by itself and had to be killed.
@@ -144,12 +154,64 @@ struct WorkerPool::Impl {
 
   ~Impl() {
     for (Worker& worker : workers)
-      if (worker.pid > 0) finish(worker, worker.job >= 0);
+      if (worker.pid > 0) finish(worker, worker.task.has_value());
+  }
+
+  static bool isLate() { return errno == EAGAIN || errno == EWOULDBLOCK; }
+  std::string noAnswer() const { return "no answer within " + std::to_string(static_cast<int>(secondsPerJob)) + " s"; }
+
+  /// Nobody waits any more for what is worked on.
+  void abandon() {
+    waiting.clear();
+    for (Worker& worker : workers)
+      if (worker.task) {
+        finish(worker, true);
+        start(worker);
+      }
+  }
+
+  /// A worker that is lost. Its job is tried again, or fails when it has had its second try.
+  void replace(Worker& worker, bool force, const std::string& why, std::vector<Ended>& ended) {
+    Task task = std::move(*worker.task);
+    const double seconds = worker.busy_s();
+    const std::optional<int> status = finish(worker, force);
+    start(worker);
+    if (task.tries < 2) return waiting.push_front(std::move(task));
+    Ended lost{task.number, {}, seconds};
+    lost.reply.killed = why.empty() && status && WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL;
+    lost.reply.failure = !why.empty() ? why : status ? howItEnded(*status) : "the worker hung up and did not end";
+    ended.push_back(std::move(lost));
+  }
+
+  void handOut(std::vector<Ended>& ended) {
+    for (Worker& worker : workers) {
+      if (worker.task || waiting.empty()) continue;
+      worker.task = std::move(waiting.front());
+      waiting.pop_front();
+      ++worker.task->tries;
+      worker.since = Clock::now();
+      errno = 0;
+      if (!sendMessage(worker.socket, worker.task->job)) replace(worker, true, isLate() ? noAnswer() : "", ended);
+    }
+  }
+
+  /// An answer that has arrived, or the end of a worker.
+  void take(Worker& worker, std::vector<Ended>& ended) {
+    std::string bytes;
+    errno = 0;
+    if (!receiveMessage(worker.socket, bytes) || bytes.empty())
+      return replace(worker, isLate(), isLate() ? noAnswer() : "", ended);
+    if (bytes[0] == 'C') return replace(worker, false, bytes.substr(1), ended);
+    Ended answered{worker.task->number, {}, worker.busy_s()};
+    answered.reply.ok = bytes[0] == 'R';
+    (answered.reply.ok ? answered.reply.bytes : answered.reply.failure) = bytes.substr(1);
+    worker.task.reset();
+    ended.push_back(std::move(answered));
   }
 };
 
 WorkerPool::WorkerPool(int workers, Work work, double secondsPerJob)
-    : impl_(new Impl{std::move(work), secondsPerJob, {}}) {
+    : impl_(new Impl{std::move(work), secondsPerJob, {}, {}}) {
   impl_->workers.resize(static_cast<std::size_t>(workers));
   for (Worker& worker : impl_->workers) impl_->start(worker);
 }
@@ -160,92 +222,44 @@ bool WorkerPool::inWorker() { return thisIsAWorker; }
 
 int WorkerPool::workers() const { return static_cast<int>(impl_->workers.size()); }
 
+void WorkerPool::add(std::size_t number, std::string job) { impl_->waiting.push_back({number, std::move(job), 0}); }
+
+std::vector<WorkerPool::Ended> WorkerPool::wait(int milliseconds, int file) {
+  std::vector<Ended> ended;
+  impl_->handOut(ended);
+  std::vector<pollfd> files;
+  std::vector<Worker*> whose;
+  for (Worker& worker : impl_->workers)
+    if (worker.task) {
+      files.push_back({worker.socket, POLLIN, 0});
+      whose.push_back(&worker);
+    }
+  if (file >= 0) files.push_back({file, POLLIN, 0});
+  poll(files.data(), files.size(), ended.empty() ? milliseconds : 0);
+  for (std::size_t i = 0; i < whose.size(); ++i) {
+    if (files[i].revents != 0)
+      impl_->take(*whose[i], ended);
+    else if (whose[i]->busy_s() > impl_->secondsPerJob)
+      impl_->replace(*whose[i], true, impl_->noAnswer(), ended);
+  }
+  return ended;
+}
+
 std::vector<WorkerPool::Reply> WorkerPool::run(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
                                                const std::function<void(std::size_t)>& done) {
+  impl_->abandon();
+  for (std::size_t i = 0; i < jobs.size(); ++i) add(i, jobs[i]);
   std::vector<Reply> replies(jobs.size());
-  std::vector<int> tries(jobs.size(), 0);
-  std::vector<std::size_t> again;  // jobs whose worker died once
-  std::size_t next = 0, finished = 0;
-  const std::string noAnswer = "no answer within " + std::to_string(static_cast<int>(impl_->secondsPerJob)) + " s";
-  const auto isLate = [] { return errno == EAGAIN || errno == EWOULDBLOCK; };
-
-  // Gives the job back, or fails it when it has had its second try.
-  const auto lost = [&](std::size_t job, const std::string& why, bool killed) {
-    if (tries[job] < 2) {
-      again.push_back(job);
-      return;
-    }
-    replies[job].failure = why;
-    replies[job].killed = killed;
-    ++finished;
-    if (done) done(finished);
-  };
-  const auto replace = [&](Worker& worker, bool force, const std::string& why) {
-    const auto job = static_cast<std::size_t>(worker.job);
-    const std::optional<int> status = Impl::finish(worker, force);
-    impl_->start(worker);
-    const bool killed = why.empty() && status && WIFSIGNALED(*status) && WTERMSIG(*status) == SIGKILL;
-    lost(job, !why.empty() ? why : status ? howItEnded(*status) : "the worker hung up and did not end", killed);
-  };
-
-  while (finished < jobs.size()) {
+  constexpr int lookForStop_ms = 100;
+  for (std::size_t finished = 0; finished < jobs.size();) {
     if (stop) {
-      for (Worker& worker : impl_->workers)
-        if (worker.job >= 0) {
-          Impl::finish(worker, true);
-          impl_->start(worker);
-        }
+      impl_->abandon();
       return {};
     }
-    // Hand out work.
-    for (Worker& worker : impl_->workers) {
-      if (worker.job >= 0) continue;
-      std::size_t job;
-      if (!again.empty()) {
-        job = again.back();
-        again.pop_back();
-      } else if (next < jobs.size()) {
-        job = next++;
-      } else {
-        break;
-      }
-      ++tries[job];
-      worker.job = static_cast<long>(job);
-      worker.since = Clock::now();
-      errno = 0;
-      if (!sendMessage(worker.socket, jobs[job])) replace(worker, true, isLate() ? noAnswer : "");
-    }
-    // Wait for answers.
-    std::vector<pollfd> waiting;
-    std::vector<Worker*> whose;
-    for (Worker& worker : impl_->workers)
-      if (worker.job >= 0) {
-        waiting.push_back({worker.socket, POLLIN, 0});
-        whose.push_back(&worker);
-      }
-    poll(waiting.data(), waiting.size(), 100);
-    for (std::size_t i = 0; i < waiting.size(); ++i) {
-      Worker& worker = *whose[i];
-      if (waiting[i].revents != 0) {
-        std::string bytes;
-        errno = 0;
-        if (!receiveMessage(worker.socket, bytes) || bytes.empty()) {
-          replace(worker, isLate(), isLate() ? noAnswer : "");
-          continue;
-        }
-        if (bytes[0] == 'C') {
-          replace(worker, false, bytes.substr(1));
-          continue;
-        }
-        Reply& reply = replies[static_cast<std::size_t>(worker.job)];
-        reply.ok = bytes[0] == 'R';
-        (reply.ok ? reply.bytes : reply.failure) = bytes.substr(1);
-        worker.job = -1;
-        ++finished;
-        if (done) done(finished);
-      } else if (std::chrono::duration<double>(Clock::now() - worker.since).count() > impl_->secondsPerJob) {
-        replace(worker, true, noAnswer);
-      }
+    for (Ended& ended : wait(lookForStop_ms)) {
+      replies[ended.number] = std::move(ended.reply);
+      ++finished;
+      if (done) done(finished);
     }
   }
   return replies;

@@ -21,6 +21,12 @@ class WorkerPool {
     std::string failure;  ///< why there is no reply, e.g. "the worker died (signal 11)"
     bool killed = false;  ///< the worker was killed from outside (signal 9), as by a machine without memory
   };
+  /// A job that came to its end.
+  struct Ended {
+    std::size_t number = 0;  ///< as it was added
+    Reply reply;
+    double seconds = 0;  ///< in its worker, by the clock
+  };
 
   /// `workers` ≥ 1. `secondsPerJob` is wall time, meant as a last resort. Throws InputError if no process can be made.
   WorkerPool(int workers, Work work, double secondsPerJob = 120);
@@ -35,6 +41,12 @@ class WorkerPool {
   /// `done(n)` is called in this thread after each finished job.
   std::vector<Reply> run(const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
                          const std::function<void(std::size_t)>& done = {});
+
+  /// Where jobs come while others are worked on, in place of run(): one more, which wait() names by its number.
+  void add(std::size_t number, std::string job);
+  /// Hands out what was added, and returns what has come to its end: after at most so long, or as soon as `file` (−1:
+  /// none) can be read.
+  std::vector<Ended> wait(int milliseconds, int file = -1);
 
  private:
   struct Impl;

@@ -67,7 +67,8 @@ class World {
   Eigen::Vector3d pullForce_n(std::size_t pull) const;
 
   /// See WorldMemory. Belongs between two calls of advance().
-  WorldMemory memory() const;
+  enum class Detail { forFiles, everything };  ///< everything: attitudes, too
+  WorldMemory memory(Detail detail = Detail::forFiles) const;
   /// Takes over what is remembered of the objects with the same names (and, of robots, with as many bodies and joints);
   /// others stay as they are. Only a world that was just built goes on with the bits that another one has, which got
   /// the same. Throws std::logic_error where a robot of the same name is another one.

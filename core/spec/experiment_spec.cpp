@@ -131,6 +131,15 @@ const std::vector<Parameter>& stageParameters() {
        {},
        false,
        {"last_generation", "since_update"}},
+      {"begins",
+       "",
+       "a trial begins in the controller's posture with its task's ball in place, or exactly as the scene says",
+       0,
+       1,
+       0,
+       {},
+       false,
+       {"posture", "scene"}},
       {"trial_maximum_s", "s", "longest simulated time of one trial", 0.1, 600, 20},
   };
   return parameters;

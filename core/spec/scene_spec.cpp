@@ -15,6 +15,9 @@ namespace {
 
 using nlohmann::json;
 constexpr double farthest_m = 1000;
+constexpr double fastest_m_s = 50, fastest_rad_s = 500;  // as the world bears
+
+constexpr std::array<double, 3> atRest{0, 0, 0};
 
 template <std::size_t N>
 std::array<double, N> vectorOf(JsonReader& reader, const std::string& key, double largest,
@@ -72,6 +75,21 @@ std::map<std::string, Values> entriesFrom(JsonReader& reader, const std::string&
   return entries;
 }
 
+/// How a robot moves at the start.
+void readMotion(JsonReader& reader, RobotSpec& robot) {
+  robot.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", fastest_m_s, robot.velocity_m_s);
+  robot.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", fastest_rad_s, robot.spin_rad_s);
+  if (robot.base == "fixed")
+    for (const char* key : {"velocity_m_s", "spin_rad_s"})
+      if (reader.has(key)) reader.refuse(key, "nothing for a robot whose base is fixed");
+  robot.jointRate = reader.anyValues("joint_velocity");
+  for (const auto& [joint, rate] : robot.jointRate)
+    if (!(std::abs(rate) <= fastest_rad_s))
+      reader.refuse("joint_velocity", "velocities from -" + toText(fastest_rad_s) + " to " + toText(fastest_rad_s) +
+                                          " rad/s, from -" + toText(fastest_m_s) + " to " + toText(fastest_m_s) +
+                                          " m/s of a slide joint");
+}
+
 RobotSpec robotFrom(JsonReader& reader, std::set<std::string>& taken) {
   RobotSpec robot;
   robot.name = nameOf(reader, taken);
@@ -86,6 +104,7 @@ RobotSpec robotFrom(JsonReader& reader, std::set<std::string>& taken) {
   robot.jointStart = reader.anyValues("joint_start");
   for (const auto& [joint, start] : robot.jointStart)
     if (std::abs(start) > 100) reader.refuse("joint_start", "positions from -100 to 100 rad or m");
+  readMotion(reader, robot);
   robot.links = entriesFrom(reader, "links", linkNumbers());
   robot.joints = entriesFrom(reader, "joints", jointNumbers());
   reader.finish();
@@ -101,8 +120,8 @@ BallSpec ballFrom(JsonReader& reader, std::set<std::string>& taken) {
   ball.rollingDeceleration_m_s2 = reader.number("rolling_deceleration_m_s2", 0, 100, ball.rollingDeceleration_m_s2);
   ball.restitution = reader.number("restitution", 0, 1, ball.restitution);
   ball.position_m = vectorOf<3>(reader, "position_m", farthest_m, {0, 0, ball.radius_m});
-  ball.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, ball.velocity_m_s);
-  ball.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, ball.spin_rad_s);
+  ball.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", fastest_m_s, ball.velocity_m_s);
+  ball.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", fastest_rad_s, ball.spin_rad_s);
   reader.finish();
   return ball;
 }
@@ -129,8 +148,8 @@ ObstacleSpec obstacleFrom(JsonReader& reader, std::set<std::string>& taken) {
   const double below = obstacle.shape == "sphere" ? obstacle.radius_m : obstacle.size_m[2] / 2;
   obstacle.position_m = vectorOf<3>(reader, "position_m", farthest_m, {0, 0, below});
   obstacle.orientation_wxyz = orientationOf(reader);
-  obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", 50, obstacle.velocity_m_s);
-  obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", 500, obstacle.spin_rad_s);
+  obstacle.velocity_m_s = vectorOf<3>(reader, "velocity_m_s", fastest_m_s, obstacle.velocity_m_s);
+  obstacle.spin_rad_s = vectorOf<3>(reader, "spin_rad_s", fastest_rad_s, obstacle.spin_rad_s);
   obstacle.colour = colourFromReader(reader, "colour", obstacle.colour);
   reader.finish();
   return obstacle;
@@ -173,6 +192,10 @@ json robotToJson(const RobotSpec& robot) {
     object["servos"][joint] = std::move(entry);
   }
   if (!robot.jointStart.empty()) object["joint_start"] = robot.jointStart;
+  // Left out where there is nothing to say: scenes that are stored keep their text.
+  if (robot.velocity_m_s != atRest) object["velocity_m_s"] = robot.velocity_m_s;
+  if (robot.spin_rad_s != atRest) object["spin_rad_s"] = robot.spin_rad_s;
+  if (!robot.jointRate.empty()) object["joint_velocity"] = robot.jointRate;
   for (const auto& [link, numbers] : robot.links) object["links"][link] = toJson(numbers, linkNumbers());
   for (const auto& [joint, numbers] : robot.joints) object["joints"][joint] = toJson(numbers, jointNumbers());
   return object;
@@ -208,6 +231,11 @@ json obstacleToJson(const ObstacleSpec& obstacle) {
 }
 
 }  // namespace
+
+bool RobotSpec::moves() const {
+  return velocity_m_s != atRest || spin_rad_s != atRest ||
+         std::ranges::any_of(jointRate, [](const auto& rate) { return rate.second != 0; });
+}
 
 RobotSpec robotFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);

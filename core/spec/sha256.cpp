@@ -17,6 +17,10 @@ Sha256::Sha256() : impl_(std::make_unique<Impl>()) {
     throw std::runtime_error("SHA-256 is not available");
 }
 Sha256::~Sha256() = default;
+Sha256::Sha256(const Sha256& other) : Sha256() {
+  if (EVP_MD_CTX_copy_ex(impl_->context, other.impl_->context) != 1) throw std::runtime_error("SHA-256 failed");
+}
+Sha256& Sha256::operator=(const Sha256& other) { return *this = Sha256(other); }
 Sha256::Sha256(Sha256&&) noexcept = default;
 Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 

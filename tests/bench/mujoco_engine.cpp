@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/sim/drive_law.h"
+#include "core/sim/trial.h"
 #include "tests/rival/mjcf.h"
 
 namespace btr::bench {
@@ -18,7 +19,7 @@ struct MujocoEngine::Impl {
   mjModel* model = nullptr;
   mjData* data = nullptr;
   std::vector<int> position, velocity;  ///< by joint of the model: addresses, −1 fixed
-  int ballBody = -1, ballGeom = -1;
+  int ballBody = -1, ballGeom = -1, floorGeom = -1;
 
   explicit Impl(const BenchTask& given) : task(given) {
     const std::string xml = rival::mjcf(task.scene);
@@ -38,6 +39,7 @@ struct MujocoEngine::Impl {
     }
     ballBody = mj_name2id(model, mjOBJ_BODY, "ball0");
     ballGeom = mj_name2id(model, mjOBJ_GEOM, "ball0");
+    floorGeom = mj_name2id(model, mjOBJ_GEOM, "floor");
   }
   ~Impl() {
     mj_deleteData(data);
@@ -61,6 +63,33 @@ struct MujocoEngine::Impl {
       if (x * x + y * y + z * z < reach * reach) return true;
     }
     return false;
+  }
+
+  bool touches(int geom) const {
+    return std::any_of(data->contact, data->contact + data->ncon, [&](const mjContact& at) {
+      return (at.geom1 == ballGeom && at.geom2 == geom) || (at.geom2 == ballGeom && at.geom1 == geom);
+    });
+  }
+
+  /// As core/sim/trial.cpp ends a trial: the ball rolls freely on the floor, away from the robot, or lies.
+  bool ballRollsOut() const {
+    if (ballGeom < 0) return true;
+    for (int i = 0; i < data->ncon; ++i) {
+      const mjContact& at = data->contact[i];
+      if ((at.geom1 == ballGeom && at.geom2 != floorGeom) || (at.geom2 == ballGeom && at.geom1 != floorGeom))
+        return false;
+    }
+    const mjtNum* v = data->qvel + model->body_dofadr[ballBody];
+    const double speed = std::hypot(v[0], v[1]);
+    if (!touches(floorGeom) || std::abs(v[2]) > 0.02) return false;
+    if (std::hypot(speed, v[2]) < 2e-3) return true;
+    const double radius = model->geom_size[3 * ballGeom];
+    const mjtNum* p = data->xpos + 3 * ballBody;
+    const bool away = v[0] * (p[0] - data->qpos[0]) + v[1] * (p[1] - data->qpos[1]) > 0;
+    // A free joint's spin is in the body's frame.
+    mjtNum spin[3];
+    mju_rotVecQuat(spin, v + 3, data->xquat + 4 * ballBody);
+    return away && std::hypot(v[0] - spin[1] * radius, v[1] + spin[0] * radius) <= 0.05 * speed;
   }
 
   void step(const std::vector<JointInput>& inputs, const MujocoWay& way, double h) {
@@ -108,8 +137,10 @@ MujocoOutcome MujocoEngine::run(std::span<const double> parameters, const Mujoco
   if (e.ballBody >= 0) std::copy_n(e.data->xpos + 3 * e.ballBody, 2, ball);
 
   const long periods = std::lround(motion->duration() / scene.controlPeriod_s);
-  for (long period = 0; period < periods; ++period) {
-    motion->command(static_cast<double>(period) * scene.controlPeriod_s, {}, inputs);
+  const long last = periods + std::lround(TrialOptions{}.settle_s / scene.controlPeriod_s);
+  long period = 0;
+  for (; period < periods || (period < last && !e.ballRollsOut()); ++period) {
+    if (period < periods) motion->command(static_cast<double>(period) * scene.controlPeriod_s, {}, inputs);
     const long steps = std::lround(scene.controlPeriod_s / way.step_s);
     for (long i = 0; i < steps; ++i) {
       const long parts = way.nearStep_s > 0 && e.near(inputs) ? std::lround(way.step_s / way.nearStep_s) : 1;
@@ -117,7 +148,7 @@ MujocoOutcome MujocoEngine::run(std::span<const double> parameters, const Mujoco
     }
   }
   MujocoOutcome outcome;
-  outcome.simulated_s = static_cast<double>(periods) * scene.controlPeriod_s;
+  outcome.simulated_s = static_cast<double>(period) * scene.controlPeriod_s;
   if (e.data->warning[mjWARN_BADQACC].number + e.data->warning[mjWARN_BADQPOS].number > 0) {
     outcome.way_m = NAN;
   } else if (e.ballBody < 0) {

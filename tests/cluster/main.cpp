@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "pieces") {
     btr::beginProgram();
     const btr::PluginHost host(PLUGIN_DIR);
-    btr::servePieces(host, argc > 2 ? std::atof(argv[2]) : 120);
+    const bool hasWorkers = argc > 3 && std::string(argv[2]) == "--workers";
+    btr::servePieces(host, 120, hasWorkers ? std::atoi(argv[3]) : 1);
     return 0;
   }
   testing::InitGoogleTest(&argc, argv);

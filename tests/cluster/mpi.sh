@@ -1,4 +1,4 @@
-# btr run under mpirun: the bits of one process whatever the number of ranks, killed ranks and workers, other builds.
+# btr run and btr gap analyse under mpirun: the bits of one process whatever the number of ranks, killed ranks and workers, other builds.
 . "$(dirname "$0")/../cli/common.sh"
 . "$(dirname "$0")/trial.sh"
 skip() { echo "skipped: $*"; exit 77; }
@@ -90,10 +90,57 @@ assert places["share"] == 1 and places["trials_per_second"] > 0 and sum(h["trial
   [ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "no generator: more than one sentence"
 fi
 
-# What works on one machine alone does not write the same folder from every rank.
-expect 1 "an analysis on 2 ranks" ranks 2 "$btr" gap analyse "$root/resources/scenes/xl330.json" --recording "$folder/none.csv" --out "$folder/analysis"
-says err "btr: mpirun started 2 ranks, and btr gap analyse works on one machine, with --jobs"
-[ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "an analysis on 2 ranks: more than one sentence"
+# A gap analysis: the report of one process, with a worker that is killed as well; nothing where it is stopped.
+mkdir "$folder/recording"
+head -n 400 "$root/resources/recordings/xl330-made/made_kp200_sines.csv" > "$folder/recording/made_kp200_sines.csv"
+cp "$root/resources/recordings/xl330-made/made_kp200_sines.mapping.json" "$folder/recording"
+analysis() { "$btr" gap analyse "$root/resources/scenes/xl330.json" --recording "$folder/recording/made_kp200_sines.csv" --effects viscous_friction backlash coulomb_friction "$@"; }
+on_ranks() { local count=$1; shift; ranks "$count" "$btr" gap analyse "$root/resources/scenes/xl330.json" --recording "$folder/recording/made_kp200_sines.csv" --effects viscous_friction backlash coulomb_friction "$@"; }
+# report_content FOLDER: all its files and what was printed, but times
+report_content() {
+  (cd "$1" && find . -type f | sort | while read -r file; do echo "== $file"; cat "$file"; done) |
+    sed -E 's/"wall_time_s": [0-9.e-]*//; s/, seed [0-9]+, [0-9.e-]+ s//; s/^[0-9.e-]+ s$//'
+}
+same_report() {
+  report_content "$folder/$1" > "$folder/other"
+  cmp -s "$folder/report" "$folder/other" || { fail "$2: another report than of one process"; diff "$folder/report" "$folder/other" | cut -c1-200 | head -6; }
+}
+expect 0 "an analysis in one process" analysis --jobs 1 --out "$folder/analysis-one"
+cp "$folder/out" "$folder/analysis-one/printed"
+report_content "$folder/analysis-one" > "$folder/report"
+grep -q coulomb_friction "$folder/report" || fail "the analysis found nothing to compare"
+for words in "1 1" "2 1" "3 1" "2 2"; do
+  n=${words% *} jobs=${words#* }
+  expect 0 "an analysis on $n ranks" on_ranks $n --jobs $jobs --out "$folder/analysis-$n-$jobs"
+  cp "$folder/out" "$folder/analysis-$n-$jobs/printed"
+  same_report "analysis-$n-$jobs" "an analysis on $n ranks with $jobs workers each"
+done
+says err "parts of the analysis in"
+for ((kill = 0; kill < 3; kill++)); do
+  on_ranks 2 --jobs 1 --progress --out "$folder/analysis-killed-$kill" > "$folder/out" 2> "$folder/err" &
+  job=$!
+  until grep -q "0\\.[3-9]" "$folder/err" || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
+  victims=()
+  for process in $(below $job); do grep -qzx pieces "/proc/$process/cmdline" 2> /dev/null && victims+=("$process"); done
+  [ ${#victims[@]} -gt 0 ] && kill -9 "${victims[kill % ${#victims[@]}]}" 2> /dev/null # a foreman or a worker of it
+  wait $job || fail "an analysis of which a process was killed: exit code $?"
+  cp "$folder/out" "$folder/analysis-killed-$kill/printed"
+  same_report "analysis-killed-$kill" "an analysis of which a process was killed"
+done
+on_ranks 2 --jobs 1 --progress --out "$folder/analysis-stopped" > "$folder/out" 2> "$folder/err" &
+job=$!
+until grep -q "0\\.[3-9]" "$folder/err" || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
+for process in $(below $job); do
+  grep -qzx OMPI_COMM_WORLD_RANK=0 "/proc/$process/environ" 2> /dev/null && kill -INT "$process" # as Ctrl-C
+done
+wait $job
+end=$?
+[ $end = 3 ] || fail "a stopped analysis: exit code $end instead of 3"
+says err "stopped; nothing was written"
+[ -e "$folder/analysis-stopped/report.json" ] && fail "a stopped analysis wrote a report"
+expect 1 "an analysis without its recording" ranks 2 "$btr" gap analyse "$root/resources/scenes/xl330.json" --recording "$folder/none.csv" --out "$folder/none"
+says err "btr: $folder/none.csv: there is no such file"
+[ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "an analysis without its recording: more than one sentence"
 
 # A rank with another build is refused by name. It is a whole copy of which one plugin was changed.
 mkdir -p "$folder/copy"
@@ -107,6 +154,12 @@ LD_LIBRARY_PATH=$folder/copy/lib expect 1 "another build" mpirun --oversubscribe
 says err "btr: rank 1 (host $(hostname)): its "
 says err "is another one; install the same build on every machine"
 [ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "another build: more than one sentence"
+analysis_words="gap analyse $root/resources/scenes/xl330.json --recording $folder/recording/made_kp200_sines.csv --out $folder/none"
+LD_LIBRARY_PATH=$folder/copy/lib expect 1 "an analysis with another build" mpirun --oversubscribe --bind-to none \
+  -n 1 "$btr" $analysis_words : -n 1 env LD_LIBRARY_PATH="$folder/copy/lib" "$folder/copy/bin/btr" $analysis_words
+says err "btr: rank 1 (host $(hostname)): its "
+[ "$(grep -c '^btr: ' "$folder/err")" = 1 ] || fail "an analysis with another build: more than one sentence"
+[ -e "$folder/none" ] && fail "an analysis with another build wrote something"
 
 # Killed at moments drawn at random, ranks and workers and all: the database is whole, and what goes on has the same bits.
 RANDOM=${SEED:-7}

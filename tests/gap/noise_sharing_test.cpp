@@ -90,6 +90,45 @@ TEST(NoiseSharing, CountsSpeedTimesJitterInAllTrialsWhereOneShowsIt) {
   for (const FitTrial& trial : trials) EXPECT_NEAR(trial.noiseFloor[0], std::sqrt(squares / 4), 1.5e-4);
 }
 
+// Known worse where it moves faster, and no other than before where stamps are right.
+TEST(NoiseSharing, GivesEachSampleThePartOfItsOwnSpeedWhereStampsJitter) {
+  std::vector<FitTrial> trials{jittering(0.6, 1), jittering(0.6, 2)};
+  shared(trials);
+  double squares = 0;
+  for (const FitTrial& trial : trials) {
+    ASSERT_TRUE(trial.hasSampleFloors(0));
+    for (std::size_t row = 1; row + 1 < 400; ++row) {
+      const double speed = 0.6 * 5 * std::cos(0.05 * static_cast<double>(row));
+      EXPECT_NEAR(trial.floorAt(0, row), std::hypot(0.001, 0.001 * speed), 4e-4) << row;
+    }
+    for (std::size_t row = 0; row < 400; ++row) squares += std::pow(trial.floorAt(0, row), 2);
+  }
+  EXPECT_NEAR(trials[0].noiseFloor[0], std::sqrt(squares / 800), 1e-12);
+  std::vector<FitTrial> even{trialOf({{"leg.knee.position_rad", noisy(0.001)}})};
+  shared(even);
+  EXPECT_FALSE(even[0].hasSampleFloors(0));
+  EXPECT_EQ(even[0].floorAt(0, 7), even[0].noiseFloor[0]);
+}
+
+// The command is replayed at a stamp that is off, too: what follows a step is late as a whole, what follows many small
+// changes is not.
+TEST(NoiseSharing, CountsTheJitterOfACommandTwiceAfterAStepOnly) {
+  FitTrial step = jittering(0.6, 1);
+  step.binding.inputs.push_back({Binding::Input::What::command, 0, 0, 2});
+  step.recording.channels.push_back("leg.knee.command_rad");
+  step.recording.columns.push_back(std::vector<double>(400, 0));
+  FitTrial ramp = step;
+  for (std::size_t row = 0; row < 400; ++row) {
+    step.recording.columns[2][row] = row < 100 ? 0 : 1;
+    ramp.recording.columns[2][row] = 0.01 * static_cast<double>(row);
+  }
+  std::vector<FitTrial> trials{step, ramp};
+  shared(trials);
+  constexpr std::size_t fast = 126;  // a crossing of zero: 3 rad/s
+  EXPECT_NEAR(trials[0].floorAt(0, fast), std::hypot(0.001, std::sqrt(2.0) * 0.003), 5e-4);
+  EXPECT_NEAR(trials[1].floorAt(0, fast), std::hypot(0.001, 0.003), 4e-4);
+}
+
 TEST(NoiseSharing, CountsSpeedTimesJitterWhereValuesAreTooSparseToTell) {
   std::vector<FitTrial> trials;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

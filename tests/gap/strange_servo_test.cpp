@@ -229,5 +229,32 @@ TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
   EXPECT_TRUE(names(report, "gear_elasticity")) << toPlainText(report);
 }
 
+// Its stamps are off by up to 1.2 ms, so that fast samples lie a few times the sensor's noise off. The recordings that
+// no fit sees move twice as fast.
+TEST(StrangeServo, WhoseStampsJitterLacksNothingHoweverFastItMoves) {
+  strange::Plant plant;
+  plant.p = 5.6;
+  plant.d = 0.33;
+  GapProblem problem = strangeProblem(plant, 15, 4);
+  std::mt19937_64 random(16);
+  std::uniform_real_distribution<double> off(-0.0012, 0.0012);
+  for (Recording& recording : problem.recordings)
+    for (std::size_t row = 1; row < recording.rows(); ++row) recording.columns[0][row] += off(random);
+  Recording fast = problem.recordings[0];
+  const auto command = [](double t) { return t < 0.3 ? 0.0 : 1.5 * std::sin(12 * (t - 0.3)); };
+  const strange::Trial made = strange::Servo(plant).run(command, 4, 0.005, 5e-4, random);
+  fast.source = "fast.csv";
+  fast.columns = {made.time, made.command, made.position};
+  for (std::size_t row = 1; row < fast.rows(); ++row) fast.columns[0][row] += off(random);
+  problem.heldOut = {fast};
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "command_delay", "torque_speed_limit"};
+  const GapReport report = analyse(problem, {test::host().effectFactory(), test::host().effects()}, options);
+  EXPECT_EQ(report.verdict, GapReport::Verdict::parametersSuffice) << toPlainText(report);
+  ASSERT_EQ(report.channels.size(), 1u);
+  EXPECT_GT(report.channels[0].heldoutFloor(), 1.2 * report.channels[0].noiseFloor);
+  EXPECT_LT(report.channels[0].heldoutWithEffects, 1.5 * report.channels[0].heldoutFloor()) << toPlainText(report);
+}
+
 }  // namespace
 }  // namespace btr

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 
 namespace {
@@ -128,6 +129,51 @@ TEST(WorkerPool, CountsFinishedJobsUpToTheirNumber) {
   std::size_t last = 0;
   pool.run(numbers(20), goOn, [&](std::size_t done) { EXPECT_EQ(++last, done); });
   EXPECT_EQ(20u, last);
+}
+
+TEST(WorkerPool, TakesJobsWhileOthersAreWorkedOnAndTellsThemByTheirNumbers) {
+  WorkerPool pool(2, square);
+  for (std::size_t i = 0; i < 5; ++i) pool.add(100 + i, std::to_string(i));
+  std::map<std::size_t, std::string> got;
+  while (got.size() < 10)
+    for (const WorkerPool::Ended& ended : pool.wait(1000)) {
+      EXPECT_GE(ended.seconds, 0);
+      got[ended.number] = ended.reply.bytes;
+      if (ended.number < 105) pool.add(ended.number + 100, std::to_string(ended.number));
+    }
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(std::to_string(i * i), got[100 + i]);
+    EXPECT_EQ(std::to_string((100 + i) * (100 + i)), got[200 + i]);
+  }
+  EXPECT_TRUE(pool.wait(0).empty());
+}
+
+TEST(WorkerPool, WaitsNoLongerThanUntilAFileCanBeRead) {
+  int ends[2];
+  ASSERT_EQ(0, pipe(ends));
+  WorkerPool pool(1, [](const std::string&) -> std::string {
+    while (true) pause();
+  });
+  pool.add(0, "never");
+  ASSERT_EQ(1, write(ends[1], "x", 1));
+  EXPECT_TRUE(pool.wait(1000000, ends[0]).empty());
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST(WorkerPool, TriesAnAddedJobTwiceAndThenSaysHowItsWorkerDied) {
+  WorkerPool pool(1, [](const std::string& job) {
+    if (job == "die") _exit(7);
+    return square(job);
+  });
+  pool.add(7, "die");
+  pool.add(8, "3");
+  std::map<std::size_t, WorkerPool::Reply> got;
+  while (got.size() < 2)
+    for (const WorkerPool::Ended& ended : pool.wait(1000)) got[ended.number] = ended.reply;
+  EXPECT_FALSE(got[7].ok);
+  EXPECT_EQ("the worker ended (exit code 7)", got[7].failure);
+  EXPECT_EQ("9", got[8].bytes);
 }
 
 }  // namespace

@@ -111,6 +111,7 @@ class TestMachines : public QObject {
   void elementsOverSshAreDoneAndCollected();
   void aJobIsCancelledAndResumed();
   void aHostThatIsNotThereIsNamed();
+  void elementsInSlurmsQueueAreDoneAndCollected();
   void aSlurmThatIsNotThereIsOneSentence();
   void ranksWorkOnAnExperiment();
   void whatKeepsRanksFromBeginningIsOneSentence();
@@ -154,6 +155,8 @@ void TestMachines::aStatusIsReadAndAnotherDocumentIsOneSentence() {
     "hosts": [{"host": "lab1", "workers": 2, "pieces": 7, "trials": 70, "lost": 1, "worked_s": 14}]})",
                                        "places.json");
   QVERIFY(ranks.kind == JobStatus::Kind::ranks);
+  QVERIFY(!status.areCases() && !ranks.areCases());
+  QVERIFY(placesStatus(R"({"format": "uchilsim-places-1", "stage": "blind cases", "hosts": []})", "p").areCases());
   QCOMPARE(ranks.secondsLeft, -1.0);
   QCOMPARE(ranks.parts.front().lost, 1L);
   QCOMPARE(ranks.parts.front().trialsPerSecond, 10.0);
@@ -260,6 +263,32 @@ void TestMachines::aHostThatIsNotThereIsNamed() {
   QCOMPARE(bench.controller.status().count("not begun"), 1);
 }
 
+// In a Slurm that tests/cluster/slurm_window.sh starts, and says so.
+void TestMachines::elementsInSlurmsQueueAreDoneAndCollected() {
+  if (!qEnvironmentVariableIsSet("UCHILSIM_TEST_SLURM")) QSKIP("no Slurm was started: tests/cluster/slurm_window.sh");
+  Bench bench;
+  bench.write(2, {1, 2});
+  bench.order.way = MachinesOrder::Way::slurm;
+  bench.order.hosts.clear();
+  bench.order.options = "--partition=all --time=10";
+  MachinesDialog dialog(bench.controller, [&] { return bench.order.database; });
+  dialog.show();
+  QVERIFY(bench.controller.start(bench.order));
+  QTRY_VERIFY_WITH_TIMEOUT(bench.isOver() && bench.controller.status().count("done") == 2, longest_ms);
+  QVERIFY2(bench.told.join('\n').contains("in Slurm's queue"), qPrintable(bench.told.join('\n')));
+  const JobStatus& status = bench.controller.status();
+  QVERIFY(status.isSlurms);
+  QCOMPARE(status.share, 1.0);
+  QVERIFY(!status.parts[1].host.isEmpty());
+  QVERIFY(dialog.findChild<QLabel*>("machines.job")->text().contains("2 elements, 2 done, 0 running, 0 failed"));
+  QSignalSpy collected(&bench.controller, &MachinesController::collected);
+  bench.controller.collect();
+  QVERIFY(collected.wait(longest_ms));
+  QVERIFY2(bench.told.join('\n').contains("2 elements collected"), qPrintable(bench.told.join('\n')));
+  QCOMPARE(bench.problems, QStringList());
+  QCOMPARE(Database::open(bench.order.database.toStdString(), Database::Mode::readOnly).runs().size(), std::size_t(2));
+}
+
 void TestMachines::aSlurmThatIsNotThereIsOneSentence() {
   Bench bench;
   bench.write(1, {1});
@@ -360,6 +389,14 @@ void TestMachines::theDialogShowsAJobAndFitsASmallScreen() {
   QVERIFY(dialog.findChild<QLabel*>("machines.job")->text().contains("2 elements, 1 done, 0 running, 1 failed"));
   QVERIFY(!button("machines.cancel")->isEnabled());
   QVERIFY(button("machines.resume")->isEnabled() && button("machines.collect")->isEnabled());
+
+  // A blind trial counts cases.
+  QCOMPARE(parts->horizontalHeaderItem(4)->text(), QString("Trials/s"));
+  json trial = job;
+  trial["what"] = "gap prove";
+  writeFile((bench.order.folder + "/job.json").toStdString(), trial.dump());
+  bench.controller.open(bench.order.folder);
+  QTRY_COMPARE_WITH_TIMEOUT(parts->horizontalHeaderItem(4)->text(), QString("Cases/h"), longest_ms);
 }
 
 QTEST_MAIN(TestMachines)

@@ -30,6 +30,8 @@ struct JobStatus {
   std::vector<JobPart> parts;
 
   int count(const QString& state) const;
+  /// It is a blind trial: what is counted are cases, not trials.
+  bool areCases() const { return what == QStringLiteral("gap prove") || stage == QStringLiteral("blind cases"); }
   /// Something of it is queued or running.
   bool isGoing() const;
   /// Elements that `btr array resume` would work on: failed, stopped or not begun.

@@ -28,7 +28,14 @@ namespace {
 
 QString percent(double share) { return QStringLiteral("%1 %").arg(100 * share, 0, 'f', 1); }
 
-QString speed(double trialsPerSecond) { return trialsPerSecond > 0 ? shortNumber(trialsPerSecond) : QString(); }
+/// What a job's speed is given in: trials a second, blind cases an hour.
+double inItsUnit(const JobStatus& status, double perSecond) {
+  constexpr double hour_s = 3600;
+  return status.areCases() ? hour_s * perSecond : perSecond;
+}
+QString speed(const JobStatus& status, double perSecond) {
+  return perSecond > 0 ? shortNumber(inItsUnit(status, perSecond)) : QString();
+}
 
 void setRow(QTableWidget& table, int row, const QStringList& texts) {
   for (int column = 0; column < texts.size(); ++column) {
@@ -262,22 +269,28 @@ void MachinesDialog::showWay() {
   hosts_->viewport()->update();
 }
 
+QString MachinesDialog::speedTitle(const JobStatus& status) const {
+  return status.areCases() ? tr("Cases/h") : tr("Trials/s");
+}
+
 void MachinesDialog::showArray(const JobStatus& status) {
-  setColumns(*parts_, {tr("Element"), tr("State"), tr("Done"), tr("Host"), tr("Trials/s"), tr("Why")},
+  setColumns(*parts_, {tr("Element"), tr("State"), tr("Done"), tr("Host"), speedTitle(status), tr("Why")},
              int(status.parts.size()));
   for (int row = 0; const JobPart& part : status.parts)
     setRow(*parts_, row++,
            {part.name, part.state, percent(part.share), part.host,
-            part.state == "running" ? speed(part.trialsPerSecond) : QString(), part.note});
+            part.state == "running" ? speed(status, part.trialsPerSecond) : QString(), part.note});
 }
 
 void MachinesDialog::showRanks(const JobStatus& status) {
-  setColumns(*parts_, {tr("Host"), tr("Workers"), tr("Pieces"), tr("Trials"), tr("Trials/s"), tr("Lost"), QString()},
+  setColumns(*parts_,
+             {tr("Host"), tr("Workers"), tr("Pieces"), status.areCases() ? tr("Cases") : tr("Trials"),
+              speedTitle(status), tr("Lost"), QString()},
              int(status.parts.size()));
   for (int row = 0; const JobPart& part : status.parts)
     setRow(*parts_, row++,
            {part.name, QString::number(part.workers), QString::number(part.pieces), QString::number(part.trials),
-            speed(part.trialsPerSecond), QString::number(part.lost), QString()});
+            speed(status, part.trialsPerSecond), QString::number(part.lost), QString()});
 }
 
 void MachinesDialog::showJob(const JobStatus& status) {
@@ -290,7 +303,9 @@ void MachinesDialog::showJob(const JobStatus& status) {
   QString text = tr("%p %");
   if (!status.stage.isEmpty()) text = QString(status.stage).replace('%', "%%") + QStringLiteral(" · ") + text;
   if (controller_.isGoing()) {
-    if (status.trialsPerSecond > 0) text += tr(" · %1 trials/s").arg(shortNumber(status.trialsPerSecond));
+    if (status.trialsPerSecond > 0)
+      text +=
+          (status.areCases() ? tr(" · %1 cases/h") : tr(" · %1 trials/s")).arg(speed(status, status.trialsPerSecond));
     if (status.secondsLeft > 0) text += tr(" · about %1 left").arg(duration(status.secondsLeft));
   }
   progress_->setFormat(text);

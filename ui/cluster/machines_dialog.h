@@ -35,6 +35,7 @@ class MachinesDialog : public QDialog {
   void showWay();
   void suggestFolder();
   void showJob(const JobStatus& status);
+  QString speedTitle(const JobStatus& status) const;
   void showArray(const JobStatus& status);
   void showRanks(const JobStatus& status);
   void refresh();

@@ -176,6 +176,7 @@ void LiveProcess::tellLog(const json& line) {
   log.from = line.at("from").get<long>();
   log.until = line.at("until").get<long>();
   log.marks = line.at("marks").get<long>();
+  log.goesBack = line.at("goes_back").get<bool>();
   for (const json& act : line.at("acts"))
     log.acts.push_back({act.at(0).get<long>(), act.at(1).get<long>(), wordsOf(act.at(2))});
   emit logTold(log);

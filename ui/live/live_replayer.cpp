@@ -12,11 +12,16 @@ LiveReplayer::LiveReplayer(LiveWorld& world, ReplayBar& bar, QObject* parent)
   constexpr int patience_ms = 120;
   back_.setSingleShot(true);
   back_.setInterval(patience_ms);
-  connect(&back_, &QTimer::timeout, this, &LiveReplayer::begin);
+  connect(&back_, &QTimer::timeout, this, [this] {
+    if (!goesBack_ || !process_.isReady()) return begin();
+    process_.goTo(goal_);
+    if (playing_) process_.play(true);
+  });
   connect(&bar_, &ReplayBar::jumpWanted, this, &LiveReplayer::jumpTo);
   connect(&bar_, &ReplayBar::goOnWanted, this, &LiveReplayer::goOn);
   connect(&process_, &LiveProcess::gameTold, this, [this] { takeGame(); });
   connect(&process_, &LiveProcess::logTold, this, [this](const LiveLog& log) {
+    goesBack_ = log.goesBack;
     if (on_) bar_.showLog(log, world_.game().scene.controlPeriod_s);
   });
   connect(&process_, &LiveProcess::rowTold, this, &LiveReplayer::takeRow);
@@ -39,6 +44,7 @@ void LiveReplayer::start(const QString& log, const QString& game, const QString&
 void LiveReplayer::begin() {
   back_.stop();
   starting_ = true;
+  goesBack_ = false;
   process_.start(game_, newLog_, log_);
 }
 

@@ -10,7 +10,8 @@ class LiveWorld;
 class ReplayBar;
 
 /// A session's log that is played again on the page: begun, gone to and fro in, and left. Back in time is the log from
-/// its start, as fast as possible: a world cannot run backwards, and nothing in between is kept.
+/// a moment that is kept before, as fast as possible: a world cannot run backwards. Where none can be kept (a controller
+/// looks through a camera), from its start.
 class LiveReplayer : public QObject {
   Q_OBJECT
  public:
@@ -48,7 +49,7 @@ class LiveReplayer : public QObject {
   QTimer back_;  ///< of several wishes that follow each other only the last is played to
   QString log_, game_, newLog_;
   double speed_ = 1;
-  bool on_ = false, starting_ = false, playing_ = false;
+  bool on_ = false, starting_ = false, playing_ = false, goesBack_ = false;
   long goal_ = -1;  ///< once it has started; −1: its start
   std::optional<long> wentOnAt_;
 };

@@ -55,11 +55,21 @@ struct Segment {
 struct FitTrial {
   Recording recording;
   Binding binding;
-  std::vector<double> noiseFloor;   ///< by measured channel [its unit]; 0: not compared
-  bool jitters = false;             ///< what motion makes of stamps that jitter is part of the floors
+  std::vector<double> noiseFloor;  ///< by measured channel [its unit], r.m.s. over all trials; 0: not compared
+  bool jitters = false;            ///< what motion makes of stamps that jitter is part of the floors
+  /// By measured channel and row, where stamps jitter: how well a sample is known, worse where it moves faster. Empty:
+  /// all as well as the channel's floor says.
+  std::vector<std::vector<double>> sampleFloor;
   std::vector<double> pause_s;      ///< by measured channel: longer between two samples is a pause; of cutSegments()
   std::size_t compared = SIZE_MAX;  ///< rows from here on are not compared: of a walk, what nobody can foretell
   std::size_t rows() const { return std::min(compared, recording.rows()); }
+  bool hasSampleFloors(std::size_t channel) const {
+    return channel < sampleFloor.size() && !sampleFloor[channel].empty();
+  }
+  /// Of one sample of a measured channel: what its residual is counted in [its unit].
+  double floorAt(std::size_t channel, std::size_t row) const {
+    return hasSampleFloors(channel) ? sampleFloor[channel][row] : noiseFloor[channel];
+  }
 };
 
 /// Recordings made ready for fits: bound to the scene, cut into segments, blocks and folds.

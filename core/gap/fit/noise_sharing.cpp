@@ -11,6 +11,7 @@
 #include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/sample_speed.h"
 #include "core/gap/replay/residual.h"
 
 namespace btr {
@@ -46,14 +47,24 @@ struct Known {
   std::vector<double> calm;    ///< those of them without fast motion in it
   double least = 1e-9;         ///< a millionth of what it moves
   double lastDigit = 0;
-  bool few = false;      ///< numbers in a trial
-  bool jitters = false;  ///< speed times jitter is part of a level
+  bool few = false;                      ///< numbers in a trial
+  bool jitters = false;                  ///< speed times jitter is part of a level
+  std::vector<double> sensor, jitter_s;  ///< of the trials where it is: what is left of a level, and of the stamps
+};
+
+struct Squares {
+  double sum = 0, count = 0;
+  void add(double value) {
+    sum += value * value;
+    ++count;
+  }
+  double rms() const { return std::sqrt(sum / count); }
 };
 
 double rootMeanSquare(const std::vector<double>& values) {
-  double squares = 0;
-  for (const double value : values) squares += value * value;
-  return std::sqrt(squares / static_cast<double>(values.size()));
+  Squares squares;
+  for (const double value : values) squares.add(value);
+  return squares.rms();
 }
 
 /// What a motion makes of stamps that jitter differs from trial to trial; all of it together is the channel's.
@@ -88,6 +99,40 @@ Stamps stampsOf(const std::vector<FitTrial>& trials) {
   return areOff ? Stamps::off : Stamps::asShown;
 }
 
+/// Where stamps jitter, so do the commands that are replayed at them, and what follows a late one is late as a whole:
+/// by row, the square of that lateness in jitters, Σ(change²)/(Σ|change|)² over the joint's commands of the last half
+/// second, or the last one before it. One after a step; next to nothing along a smooth motion, whose commands are early
+/// and late in turn.
+std::vector<double> commandLateness(const FitTrial& trial, const Measured& measured) {
+  constexpr double memory_s = 0.5;
+  const std::vector<double>& time = trial.recording.columns[0];
+  std::vector<double> lateness(time.size(), 0);
+  if (measured.what != Measured::What::position && measured.what != Measured::What::rate) return lateness;
+  const auto command = std::ranges::find_if(trial.binding.inputs, [&](const Binding::Input& input) {
+    return input.what == Binding::Input::What::command && input.robot == measured.object &&
+           input.joint == measured.part;
+  });
+  if (command == trial.binding.inputs.end()) return lateness;
+  const std::vector<double>& commands = trial.recording.columns[command->column];
+  std::vector<std::pair<double, double>> changes;  // when, and by how much
+  std::size_t oldest = 0;
+  double last = NAN;
+  for (std::size_t row = 0; row < time.size(); ++row) {
+    if (std::isfinite(commands[row])) {
+      if (std::isfinite(last) && commands[row] != last) changes.emplace_back(time[row], std::abs(commands[row] - last));
+      last = commands[row];
+    }
+    while (oldest + 1 < changes.size() && changes[oldest].first < time[row] - memory_s) ++oldest;
+    double sum = 0, squares = 0;
+    for (std::size_t i = oldest; i < changes.size(); ++i) {
+      sum += changes[i].second;
+      squares += changes[i].second * changes[i].second;
+    }
+    if (sum > 0) lateness[row] = squares / (sum * sum);
+  }
+  return lateness;
+}
+
 class NoiseFloors {
  public:
   explicit NoiseFloors(const std::vector<FitTrial>& trials) : stamps_(stampsOf(trials)) {
@@ -98,6 +143,19 @@ class NoiseFloors {
 
   bool jitter() const {
     return std::ranges::any_of(known_, [](const auto& channel) { return channel.second.jitters; });
+  }
+  /// By row of a channel: √(sensor² + (speed·jitter)²), its own jitter and its commands'; empty where none was found.
+  std::vector<double> bySample(const FitTrial& trial, const Measured& measured) const {
+    const auto found = known_.find(trial.recording.channels[measured.column]);
+    if (found == known_.end() || !found->second.jitters) return {};
+    const double sensor = rootMeanSquare(found->second.sensor), jitter_s = rootMeanSquare(found->second.jitter_s);
+    std::vector<double> floors = sampleSpeeds(trial.recording, measured.column, sensor);
+    const std::vector<double> lateness = commandLateness(trial, measured);
+    for (std::size_t row = 0; row < floors.size(); ++row)
+      floors[row] = std::isfinite(floors[row])
+                        ? std::hypot(sensor, floors[row] * jitter_s * std::sqrt(1 + lateness[row]))
+                        : sensor;
+    return floors;
   }
   /// 0 for a channel without a number.
   double of(const std::string& channel, std::vector<std::string>& notes) const {
@@ -126,7 +184,11 @@ class NoiseFloors {
     const ChannelFloor floor = channelFloor(recording, column, stamps_);
     if (floor.shown) known.levels.push_back(std::max(floor.level, least));
     if (floor.shown && !floor.moves) known.calm.push_back(known.levels.back());
-    known.jitters = known.jitters || (floor.shown && floor.ofTime > 0);
+    if (floor.shown && floor.ofTime > 0) {
+      known.jitters = true;
+      known.sensor.push_back(std::max(floor.ofSensor, least));
+      known.jitter_s.push_back(floor.jitter_s);
+    }
     known.few = known.few || floor.few;
     if (column < recording.places.lastDigit.size())
       known.lastDigit = std::max(known.lastDigit, recording.places.lastDigit[column]);
@@ -159,16 +221,26 @@ class NoiseFloors {
 
 void shareNoiseFloors(std::vector<FitTrial>& trials, std::vector<std::string>& notes) {
   const NoiseFloors floors(trials);
+  std::map<std::string, Squares> ofJittering;
   for (FitTrial& trial : trials) {
     trial.jitters = floors.jitter();
     trial.noiseFloor.clear();
+    trial.sampleFloor.clear();
     for (const Measured& measured : trial.binding.measured) {
-      const bool holdsNumbers = !extentOf(trial.recording.columns[measured.column]).empty();
-      trial.noiseFloor.push_back(holdsNumbers && isCompared(trial.binding, measured)
-                                     ? floors.of(trial.recording.channels[measured.column], notes)
-                                     : 0);
+      const std::vector<double>& values = trial.recording.columns[measured.column];
+      const std::string& channel = trial.recording.channels[measured.column];
+      const bool counts = !extentOf(values).empty() && isCompared(trial.binding, measured);
+      trial.noiseFloor.push_back(counts ? floors.of(channel, notes) : 0);
+      trial.sampleFloor.push_back(counts ? floors.bySample(trial, measured) : std::vector<double>());
+      for (std::size_t row = 0; row < trial.sampleFloor.back().size(); ++row)
+        if (std::isfinite(values[row])) ofJittering[channel].add(trial.sampleFloor.back()[row]);
     }
   }
+  // What is shown of a channel is the root mean square of its samples'.
+  for (FitTrial& trial : trials)
+    for (std::size_t c = 0; c < trial.noiseFloor.size(); ++c)
+      if (trial.hasSampleFloors(c))
+        trial.noiseFloor[c] = ofJittering[trial.recording.channels[trial.binding.measured[c].column]].rms();
 }
 
 }  // namespace btr

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/job_share.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"
@@ -58,6 +59,25 @@ JobResult unpacked(const WorkerPool::Reply& reply) {
   return result;
 }
 
+/// Of worker processes: of this process, or of all that make this analysis together.
+std::vector<WorkerPool::Reply> repliesOf(int jobs, std::size_t count, const Job& f,
+                                         const std::function<bool(std::size_t)>& goOn) {
+  if (JobShare* share = SharedJobs::now())
+    return share->run(
+        count, [&](std::size_t i) { return packed(f, i); }, goOn);
+  WorkerPool pool(
+      std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
+      longestAnalysisJob_s);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) texts.push_back(std::to_string(i));
+  std::atomic<bool> stop{false};
+  auto replies = pool.run(texts, stop, [&](std::size_t done) {
+    if (goOn && !goOn(done)) stop = true;
+  });
+  if (stop) throw Cancelled{};
+  return replies;
+}
+
 }  // namespace
 
 std::vector<JobResult> parallel(int jobs, std::size_t count, const Job& f,
@@ -70,18 +90,7 @@ std::vector<JobResult> parallel(int jobs, std::size_t count, const Job& f,
     }
     return results;
   }
-  constexpr double secondsPerJob = 3600;
-  WorkerPool pool(
-      std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
-      secondsPerJob);
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i) texts.push_back(std::to_string(i));
-  std::atomic<bool> stop{false};
-  const auto replies = pool.run(texts, stop, [&](std::size_t done) {
-    if (goOn && !goOn(done)) stop = true;
-  });
-  if (stop) throw Cancelled{};
-  for (const WorkerPool::Reply& reply : replies) results.push_back(unpacked(reply));
+  for (const WorkerPool::Reply& reply : repliesOf(jobs, count, f, goOn)) results.push_back(unpacked(reply));
   return results;
 }
 

@@ -443,7 +443,7 @@ std::vector<double> residualsUntil(const FitProblem& problem, const Segment& seg
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];
     const double recorded = trial.recording.columns[trial.binding.measured[c].column][row];
-    const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.noiseFloor[c];
+    const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.floorAt(c, row);
     if (std::isfinite(value)) residuals[k] = value;
   }
   return residuals;

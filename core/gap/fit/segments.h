@@ -24,8 +24,8 @@ StartState shiftedStart(const Segment& segment, const std::vector<double>& shift
 /// fits keep away from such numbers. It says nothing of where the simulation would have been.
 inline constexpr double afterFault = 100;
 
-/// Simulates a segment from its start, shifted by `shift` (by nuisance, in their units), and returns its residuals.
-/// After a fault they are afterFault.
+/// Simulates a segment from its start, shifted by `shift` (by nuisance, in their units), and returns its residuals,
+/// (simulated − recorded)/floor of the sample (FitTrial::floorAt). After a fault they are afterFault.
 std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
                                 const std::vector<double>& shift);
 

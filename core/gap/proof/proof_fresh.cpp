@@ -30,10 +30,11 @@ Values freshErrors(const GapReport& report, const std::string& scene, const std:
   std::map<std::string, std::pair<double, double>> sums;  // of squares, of samples
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments)
-    for (const std::size_t c : segment.channel) {
+    for (std::size_t k = 0; k < segment.row.size(); ++k) {
+      const std::size_t c = segment.channel[k];
       const FitTrial& trial = problem.trials[segment.trial];
       auto& [squares, samples] = sums[trial.recording.channels[trial.binding.measured[c].column]];
-      squares += std::pow(residuals[at++] * trial.noiseFloor[c], 2);
+      squares += std::pow(residuals[at++] * trial.floorAt(c, segment.row[k]), 2);
       samples += 1;
     }
   Values errors;

@@ -66,9 +66,10 @@ ChannelFloor channelFloor(const Recording& recording, std::size_t column, Stamps
   if (stamps == Stamps::off || followsRowsNotStamps(floor)) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-    floor.ofTime = usualSpeed(values, std::max(floor.byRows, rounding), median(std::move(steps))) *
-                   noiseFloor(recording.columns[0]);
-    floor.level = std::max(floor.level, std::hypot(std::max(floor.byRows, rounding), floor.ofTime));
+    floor.ofSensor = std::max(floor.byRows, rounding);
+    floor.jitter_s = noiseFloor(recording.columns[0]);
+    floor.ofTime = usualSpeed(values, floor.ofSensor, median(std::move(steps))) * floor.jitter_s;
+    floor.level = std::max(floor.level, std::hypot(floor.ofSensor, floor.ofTime));
   }
   const double digit = column < recording.places.lastDigit.size() ? recording.places.lastDigit[column] : 0;
   const double written = digit / std::sqrt(12.0);

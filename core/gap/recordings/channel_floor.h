@@ -14,6 +14,8 @@ struct ChannelFloor {
   double byRows = 0;    ///< noise over the rows, as if they were even samples
   double byStamps = 0;  ///< noise over the time stamps
   double ofTime = 0;    ///< part of `level`: what the motion makes of stamps that jitter, speed × jitter
+  double ofSensor = 0;  ///< the other part, where ofTime > 0
+  double jitter_s = 0;  ///< of the stamps, where ofTime > 0
 };
 /// When samples were taken: at their time stamps unless the values show otherwise, or, as other recordings of the same
 /// logger show, evenly, row by row, while the stamps jitter.

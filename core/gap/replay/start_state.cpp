@@ -107,6 +107,8 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
   for (const SceneRobot& robot : scene.robots) {
     StartState::Robot start;
     start.base = robot.start;
+    start.velocity_m_s = robot.startVelocity_m_s;
+    start.spin_rad_s = robot.startSpin_rad_s;
     start.positions = robot.jointStart;
     start.rates = robot.jointStartRate;
     start.positions.resize(robot.model.joints.size(), 0);

@@ -185,7 +185,13 @@ std::string channelsTable(const GapReport& report) {
     html += "<tr>" + cell(c.name) + cell(c.unit) + numberCell(c.heldoutAsGiven) + numberCell(c.heldoutCalibrated) +
             numberCell(c.heldoutWithEffects) + numberCell(c.heldoutMaeAsGiven) + numberCell(c.heldoutMaeCalibrated) +
             numberCell(c.heldoutMaeWithEffects) + "</tr>\n";
-  return html + "</table></div>\n";
+  html += "</table></div>\n";
+  for (const GapReport::Channel& c : report.channels)
+    if (c.heldoutNoiseFloor > 0)
+      html += "<p class=\"faint\">" + escaped(c.name) +
+              ": stamps jitter, so its noise grows with its speed; its floor is " + brief(c.heldoutNoiseFloor) + " " +
+              escaped(c.unit) + " in the held-out recordings.</p>\n";
+  return html;
 }
 
 /// Held-out trials first, then those that were worst as given; at most so many.

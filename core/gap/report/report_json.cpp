@@ -91,21 +91,23 @@ json toJson(const GapReport::Effect& e) {
 }
 
 json toJson(const GapReport::Channel& c) {
-  return {{"rmse_as_given", finite(c.asGiven)},
-          {"rmse_calibrated", finite(c.calibrated)},
-          {"rmse_with_effects", finite(c.withEffects)},
-          {"noise_floor", finite(c.noiseFloor)},
-          {"mae_as_given", finite(c.maeAsGiven)},
-          {"mae_calibrated", finite(c.maeCalibrated)},
-          {"mae_with_effects", finite(c.maeWithEffects)},
-          {"recordings_rmse_as_given", finite(c.heldoutAsGiven)},
-          {"recordings_rmse_calibrated", finite(c.heldoutCalibrated)},
-          {"recordings_rmse_with_effects", finite(c.heldoutWithEffects)},
-          {"recordings_mae_as_given", finite(c.heldoutMaeAsGiven)},
-          {"recordings_mae_calibrated", finite(c.heldoutMaeCalibrated)},
-          {"recordings_mae_with_effects", finite(c.heldoutMaeWithEffects)},
-          {"step_error", finite(c.stepError)},
-          {"unit", c.unit}};
+  json channel = {{"rmse_as_given", finite(c.asGiven)},
+                  {"rmse_calibrated", finite(c.calibrated)},
+                  {"rmse_with_effects", finite(c.withEffects)},
+                  {"noise_floor", finite(c.noiseFloor)},
+                  {"mae_as_given", finite(c.maeAsGiven)},
+                  {"mae_calibrated", finite(c.maeCalibrated)},
+                  {"mae_with_effects", finite(c.maeWithEffects)},
+                  {"recordings_rmse_as_given", finite(c.heldoutAsGiven)},
+                  {"recordings_rmse_calibrated", finite(c.heldoutCalibrated)},
+                  {"recordings_rmse_with_effects", finite(c.heldoutWithEffects)},
+                  {"recordings_mae_as_given", finite(c.heldoutMaeAsGiven)},
+                  {"recordings_mae_calibrated", finite(c.heldoutMaeCalibrated)},
+                  {"recordings_mae_with_effects", finite(c.heldoutMaeWithEffects)},
+                  {"step_error", finite(c.stepError)},
+                  {"unit", c.unit}};
+  if (c.heldoutNoiseFloor > 0) channel["recordings_noise_floor"] = finite(c.heldoutNoiseFloor);
+  return channel;
 }
 
 json toJson(const GapReport::Trial& trial, const std::string& overlay) {

@@ -84,7 +84,7 @@ void addErrors(ReportLead& lead, const GapReport& report) {
   for (const GapReport::Channel& c : report.channels) {
     if (c.noiseFloor <= 0) continue;
     if (lead.heldOut)
-      lead.errors.push_back({c.name, c.unit, c.heldoutAsGiven, c.heldoutWithEffects, c.noiseFloor});
+      lead.errors.push_back({c.name, c.unit, c.heldoutAsGiven, c.heldoutWithEffects, c.heldoutFloor()});
     else
       lead.errors.push_back({c.name, c.unit, c.asGiven, c.withEffects, c.noiseFloor});
   }

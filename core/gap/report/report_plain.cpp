@@ -46,6 +46,10 @@ std::string toPlainText(const GapReport& report) {
       text += column(number, 10, 3);
     text += " " + channel.unit + "\n";
   }
+  for (const auto& channel : report.channels)
+    if (channel.heldoutNoiseFloor > 0)
+      text += "  " + channel.name + ": stamps jitter, so its noise grows with its speed; its floor is " +
+              line("%.3g %s", channel.heldoutNoiseFloor, channel.unit.c_str()) + " in the held-out recordings\n";
   text += "\neffects tried\n";
   for (const auto& effect : report.tried) {
     text +=

@@ -125,6 +125,7 @@ GapReport::Channel channelFrom(JsonReader& r, const std::string& name) {
   c.calibrated = numberOf(r, "rmse_calibrated");
   c.withEffects = numberOf(r, "rmse_with_effects");
   c.noiseFloor = numberOf(r, "noise_floor");
+  if (r.has("recordings_noise_floor")) c.heldoutNoiseFloor = numberOf(r, "recordings_noise_floor");
   c.maeAsGiven = numberOf(r, "mae_as_given");
   c.maeCalibrated = numberOf(r, "mae_calibrated");
   c.maeWithEffects = numberOf(r, "mae_with_effects");

@@ -43,11 +43,17 @@ GapProblem loadProblem(const AnalysisRequest& request) {
   return problem;
 }
 
-GapReport runAnalysis(const AnalysisRequest& request, const EffectLibrary& library, const AnalysisProgress& progress) {
-  refuseUnknownEffects(request.options, library);
-  GapReport report = analyse(loadProblem(request), library, request.options, progress);
+GapReport analyseLoaded(const AnalysisRequest& request, const GapProblem& problem, const EffectLibrary& library,
+                        const AnalysisProgress& progress) {
+  GapReport report = analyse(problem, library, request.options, progress);
   report.scene = std::filesystem::absolute(request.scene).lexically_normal().string();
   report.sceneSha256 = sha256(readFile(request.scene));
+  return report;
+}
+
+GapReport runAnalysis(const AnalysisRequest& request, const EffectLibrary& library, const AnalysisProgress& progress) {
+  refuseUnknownEffects(request.options, library);
+  const GapReport report = analyseLoaded(request, loadProblem(request), library, progress);
   if (!request.out.empty()) writeReport(report, request.out);
   return report;
 }

@@ -16,6 +16,9 @@ struct AnalysisRequest {
   AnalysisOptions options;
 };
 GapProblem loadProblem(const AnalysisRequest& request);
+/// Of what loadProblem() gave. Writes nothing.
+GapReport analyseLoaded(const AnalysisRequest& request, const GapProblem& problem, const EffectLibrary& library,
+                        const AnalysisProgress& progress = {});
 /// Loads, analyses, writes the report into `out` (nothing if it is cancelled).
 GapReport runAnalysis(const AnalysisRequest& request, const EffectLibrary& library,
                       const AnalysisProgress& progress = {});

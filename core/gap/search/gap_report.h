@@ -82,12 +82,15 @@ struct GapReport {
   /// found on everything. As given, nothing but initial states is fitted. NaN where a fault ended a simulation.
   struct Channel {
     std::string name, unit;
-    double noiseFloor = 0;
+    double noiseFloor = 0;         ///< r.m.s. over the samples of the recordings that were fitted
+    double heldoutNoiseFloor = 0;  ///< of the --held-out recordings, where it is another: stamps that jitter make it
+                                   ///< larger where a motion is faster; 0: the same
     double asGiven = 0, calibrated = 0, withEffects = 0;                       ///< RMSE, cross-validated
     double maeAsGiven = 0, maeCalibrated = 0, maeWithEffects = 0;              ///< mean absolute error, the same
     double heldoutAsGiven = 0, heldoutCalibrated = 0, heldoutWithEffects = 0;  ///< RMSE, --held-out recordings
     double heldoutMaeAsGiven = 0, heldoutMaeCalibrated = 0, heldoutMaeWithEffects = 0;  ///< MAE, the same
     double stepError = 0;  ///< RMS error of the integration itself in the final simulator
+    double heldoutFloor() const { return heldoutNoiseFloor > 0 ? heldoutNoiseFloor : noiseFloor; }
   };
   /// A rung of the ladder down to the noise floor.
   struct Step {

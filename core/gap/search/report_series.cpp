@@ -45,7 +45,7 @@ Simulated simulateAll(const FitProblem& problem, const FitModel& model,
       }
       simulated.values[segment.trial][c][segment.row[k]] =
           trial.recording.columns[trial.binding.measured[c].column][segment.row[k]] +
-          residuals[at] * trial.noiseFloor[c];
+          residuals[at] * trial.floorAt(c, segment.row[k]);
     }
   return simulated;
 }
@@ -96,7 +96,7 @@ void addErrors(GapReport& report, const FitProblem& problem, const Eigen::Vector
       if (residuals[at] == afterFault)
         entry.first.faulted = true;
       else
-        entry.first.add(residuals[at] * trial.noiseFloor[c]);
+        entry.first.add(residuals[at] * trial.floorAt(c, segment.row[k]));
     }
   for (const auto& [name, entry] : byName) {
     GapReport::Channel& channel = channelOf(report, name, entry.second);
@@ -115,6 +115,7 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
                   asCalibrated = simulateAll(problem, calibrated.model, calibrated.shifts),
                   withEffects = simulateAll(problem, final.model, final.shifts);
   std::map<std::string, std::array<Errors, 3>> errors;
+  std::map<std::string, Errors> floors;  // where each sample has its own
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const FitTrial& trial = problem.trials[t];
     GapReport::Trial out;
@@ -142,6 +143,8 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
         sums[0].add(series.asGiven[row] - series.recorded[row]);
         sums[1].add(series.calibrated[row] - series.recorded[row]);
         sums[2].add(series.withEffects[row] - series.recorded[row]);
+        if (trial.hasSampleFloors(c) && std::isfinite(series.recorded[row]))
+          floors[series.channel].add(trial.floorAt(c, row));
       }
       if (heldOut) channelOf(report, series.channel, series.noiseFloor);
       out.series.push_back(std::move(series));
@@ -168,6 +171,7 @@ void addSeries(GapReport& report, const FitProblem& problem, const SearchResult&
     channel.heldoutMaeCalibrated = sums[1].mean();
     channel.heldoutMaeWithEffects = sums[2].mean();
   }
+  for (const auto& [name, floor] : floors) channelOf(report, name, 0).heldoutNoiseFloor = floor.rms();
 }
 
 }  // namespace btr

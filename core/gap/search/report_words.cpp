@@ -99,7 +99,7 @@ std::optional<UnseenError> unseenError(const GapReport& report) {
   UnseenError sum;
   double channels = 0;
   for (const GapReport::Channel& channel : report.channels) {
-    const double floor2 = channel.noiseFloor * channel.noiseFloor;
+    const double floor2 = std::pow(channel.heldoutFloor(), 2);
     if (floor2 <= 0 || channel.heldoutAsGiven <= 0) continue;
     sum.asGiven += channel.heldoutAsGiven * channel.heldoutAsGiven / floor2;
     sum.calibrated += channel.heldoutCalibrated * channel.heldoutCalibrated / floor2;

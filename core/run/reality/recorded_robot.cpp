@@ -78,6 +78,7 @@ void leaveOutUnseenBranches(GapProblem& problem, const std::vector<std::string>&
     if (moves[j] || hasEffect) continue;
     model.joints[j].type = Joint::Type::fixed;
     robot.jointStart.erase(name);
+    robot.jointRate.erase(name);
     robot.servos.erase(name);
     robot.joints.erase(name);
     for (Recording& recording : problem.recordings)
@@ -96,6 +97,8 @@ Scene recordedScene(const PreparedExperiment& prepared, const SimulatorSpec& sim
   if (pose == RobotPose::hungUp) {
     SceneRobot& robot = scene.robots.front();
     robot.freeBase = false;
+    robot.startVelocity_m_s.setZero();
+    robot.startSpin_rad_s.setZero();
     robot.start.translation().z() += higher_m;
   }
   return scene;
@@ -122,6 +125,7 @@ GapProblem recordedProblem(const PreparedExperiment& prepared, const SimulatorSp
   // In the air nothing is touched.
   if (pose == RobotPose::hungUp) {
     robot.base = "fixed";
+    robot.velocity_m_s = robot.spin_rad_s = {0, 0, 0};
     robot.collision = "none";
   }
 

@@ -180,6 +180,20 @@ PreparedExperiment prepare(const ExperimentSpec& spec, SceneSpec sceneSpec, std:
   return prepared;
 }
 
+/// Everything where it was and as fast, whatever a controller's task arranged.
+void putBack(Scene& scene, const Scene& was) {
+  for (std::size_t i = 0; i < was.robots.size(); ++i) {
+    SceneRobot& robot = scene.robots.at(i);
+    robot.start = was.robots[i].start;
+    robot.startVelocity_m_s = was.robots[i].startVelocity_m_s;
+    robot.startSpin_rad_s = was.robots[i].startSpin_rad_s;
+    robot.jointStart = was.robots[i].jointStart;
+    robot.jointStartRate = was.robots[i].jointStartRate;
+  }
+  scene.balls = was.balls;
+  scene.obstacles = was.obstacles;
+}
+
 /// Trials have no pictures.
 void requireNoCamera(const PreparedExperiment& prepared) {
   if (prepared.controller->looks())
@@ -205,7 +219,13 @@ void requireTimeForTheMotion(const PreparedExperiment& prepared, const Scene& sc
 
 Scene PreparedExperiment::scene(const SimulatorSpec& simulator) const {
   Scene scene = makeScene(sceneSpec, models, simulator, effects);
+  if (valueOf(stageParameters(), spec.stages, "begins") == 0) {
+    controller->arrange(scene, spec.controller.settings);
+    return scene;
+  }
+  const Scene asItIs = scene;
   controller->arrange(scene, spec.controller.settings);
+  putBack(scene, asItIs);
   return scene;
 }
 

@@ -33,7 +33,7 @@ Articulation::Articulation(dWorldID world, const SceneRobot& robot)
   makeBodies();
   makeColliders();
   makeJoints();
-  set(robot.start, Vector3d::Zero(), Vector3d::Zero(), robot.jointStart, robot.jointStartRate);
+  set(robot.start, robot.startVelocity_m_s, robot.startSpin_rad_s, robot.jointStart, robot.jointStartRate);
 }
 
 void Articulation::makeBodies() {
@@ -186,6 +186,7 @@ void Articulation::remember(const std::vector<BodyMemory>& memory, const std::ve
     pose.translation() = was.position_m;
     pose.linear() = was.axes;
     setPose(body.id, pose);
+    if (was.attitude) setAttitude(body.id, *was.attitude);
     dBodySetLinearVel(body.id, was.velocity_m_s.x(), was.velocity_m_s.y(), was.velocity_m_s.z());
     dBodySetAngularVel(body.id, was.spin_rad_s.x(), was.spin_rad_s.y(), was.spin_rad_s.z());
     if (body.ringJoint < 0) continue;

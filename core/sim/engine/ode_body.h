@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 namespace btr {
 
@@ -13,6 +14,18 @@ inline void setPose(dBodyID body, const Eigen::Isometry3d& pose) {
   dBodySetPosition(body, p.x(), p.y(), p.z());
   const dMatrix3 rotation = {r(0, 0), r(0, 1), r(0, 2), 0, r(1, 0), r(1, 1), r(1, 2), 0, r(2, 0), r(2, 1), r(2, 2), 0};
   dBodySetRotation(body, rotation);
+}
+
+/// Quaternion and matrix as the engine has them: by its own functions each would be computed anew from the other one.
+inline std::array<double, 16> attitudeOf(dBodyID body) {
+  std::array<double, 16> attitude;
+  std::copy_n(dBodyGetQuaternion(body), 4, attitude.begin());
+  std::copy_n(dBodyGetRotation(body), 12, attitude.begin() + 4);
+  return attitude;
+}
+inline void setAttitude(dBodyID body, const std::array<double, 16>& attitude) {
+  std::copy_n(attitude.begin(), 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
+  std::copy_n(attitude.begin() + 4, 12, const_cast<dReal*>(dBodyGetRotation(body)));
 }
 
 /// Mass and inertia about its centre of mass, which is ODE's origin of a body.

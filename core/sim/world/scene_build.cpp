@@ -1,6 +1,7 @@
 // Scene file and models → a Scene.
 #include "core/sim/world/scene_build.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/model/load_model.h"
@@ -66,6 +67,22 @@ void needMass(const RobotSpec& spec, const RobotModel& model) {
                      "fixed: the root link " + model.links[0].name + " of the model " + model.name + " has no mass");
 }
 
+void setRates(SceneRobot& robot, const RobotSpec& spec, const std::string& place) {
+  constexpr double fastest_m_s = 50;  // as the world bears
+  const RobotModel& model = robot.model;
+  for (const auto& [name, rate] : spec.jointRate) {
+    const auto joint = static_cast<std::size_t>(jointOf(robot, name, place));
+    if (model.joints[joint].mimic) throw InputError(place, name, "no joint that " + followsOf(model, joint));
+    if (model.joints[joint].type == Joint::Type::slide && std::abs(rate) > fastest_m_s)
+      throw InputError(place + "." + name, toText(rate) + " m/s",
+                       "from -" + toText(fastest_m_s) + " to " + toText(fastest_m_s));
+    robot.jointStartRate[joint] = rate;
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (const auto& mimic = model.joints[i].mimic)
+      robot.jointStartRate[i] = mimic->multiplier * robot.jointStartRate[static_cast<std::size_t>(mimic->leader)];
+}
+
 SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   SceneRobot robot;
   robot.name = spec.name;
@@ -77,6 +94,8 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   const auto& q = spec.orientation_wxyz;
   robot.start = Eigen::Translation3d(spec.position_m[0], spec.position_m[1], spec.position_m[2]) *
                 Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  robot.startVelocity_m_s << spec.velocity_m_s[0], spec.velocity_m_s[1], spec.velocity_m_s[2];
+  robot.startSpin_rad_s << spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2];
   robot.jointStart.assign(model.joints.size(), 0);
   robot.jointStartRate.assign(model.joints.size(), 0);
   for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
@@ -91,6 +110,7 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
       if (spec.jointStart.contains(model.joints[i].name))
         throw InputError(place + ".joint_start", model.joints[i].name, "no joint that " + followsOf(model, i));
     }
+  setRates(robot, spec, place + ".joint_velocity");
   for (const auto& [name, servo] : spec.servos) {
     const auto joint = static_cast<std::size_t>(jointOf(robot, name, place + ".servos"));
     Drive& drive = robot.drives[joint];

@@ -15,6 +15,10 @@ BodyMemory memoryOf(const RobotBody& body) {
   return {body.pose.translation(), body.pose.linear(), body.velocity_m_s, body.spin_rad_s};
 }
 
+void rememberAttitude(dBodyID body, const BodyMemory& memory) {
+  if (body && memory.attitude) setAttitude(body, *memory.attitude);
+}
+
 template <class Things>
 auto* named(Things& things, const std::string& name) {
   const auto found = std::ranges::find_if(things, [&](const auto& thing) { return thing.spec->name == name; });
@@ -77,7 +81,10 @@ void World::setPulls(std::vector<Pull> pulls) {
 
 Vector3d World::pullForce_n(std::size_t pull) const { return impl_->pullForces_n.at(pull); }
 
-WorldMemory World::memory() const {
+WorldMemory World::memory(Detail detail) const {
+  const auto addAttitude = [detail](BodyMemory& of, dBodyID body) {
+    if (body && detail == Detail::everything) of.attitude = attitudeOf(body);
+  };
   WorldMemory memory{impl_->start_s, impl_->steps, dRandGetSeed()};
   for (const WorldRobot& robot : impl_->robots) {
     RobotMemory of;
@@ -85,6 +92,7 @@ WorldMemory World::memory() const {
     of.base = robot.body->base();
     for (const RobotBody& body : robot.body->bodies) {
       of.bodies.push_back(memoryOf(body));
+      addAttitude(of.bodies.back(), body.id);
       of.ringAxes.push_back(body.ringAxis);
     }
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
@@ -99,6 +107,8 @@ WorldMemory World::memory() const {
       }
       at.fresh = drive.fresh;
       at.enabled = drive.enabled;
+      at.dryRow = drive.dryRow && detail == Detail::everything;
+      at.passiveRow = drive.passiveRow && detail == Detail::everything;
       at.effects = drive.effects.memory();
       of.joints.push_back(std::move(at));
     }
@@ -110,17 +120,21 @@ WorldMemory World::memory() const {
     of.specificForce_m_s2 = robot.specificForce_m_s2;
     memory.robots.push_back(std::move(of));
   }
-  for (const WorldBall& ball : impl_->balls)
+  for (const WorldBall& ball : impl_->balls) {
     memory.balls.push_back({ball.spec->name,
                             {ball.state.position_m, ball.pose.linear(), ball.state.velocity_m_s, ball.state.spin_rad_s},
                             ball.touched,
                             ball.state.onFloor});
-  for (const WorldObstacle& obstacle : impl_->obstacles)
+    addAttitude(memory.balls.back().body, ball.id);
+  }
+  for (const WorldObstacle& obstacle : impl_->obstacles) {
     memory.obstacles.push_back({obstacle.spec->name,
                                 {obstacle.state.pose.translation(), obstacle.state.pose.linear(),
                                  obstacle.state.velocity_m_s, obstacle.state.spin_rad_s},
                                 obstacle.touched,
                                 false});
+    addAttitude(memory.obstacles.back().body, obstacle.id);
+  }
   return memory;
 }
 
@@ -165,6 +179,8 @@ void World::remember(const WorldMemory& memory) {
       drive.couplingLoad = at.couplingLoad;
       drive.fresh = at.fresh;
       drive.enabled = at.enabled;
+      drive.dryRow |= at.dryRow;
+      drive.passiveRow |= at.passiveRow;
       drive.effects.remember(at.effects);
       drive.gear = {};
       middle[static_cast<Eigen::Index>(j)] = at.middleRate;
@@ -184,6 +200,7 @@ void World::remember(const WorldMemory& memory) {
       pose.translation() = of.body.position_m;
       pose.linear() = of.body.axes;
       setPose(ball->id, pose);
+      rememberAttitude(ball->id, of.body);
       BallState state;
       state.position_m = of.body.position_m;
       state.velocity_m_s = of.body.velocity_m_s;
@@ -201,6 +218,7 @@ void World::remember(const WorldMemory& memory) {
       state.velocity_m_s = of.body.velocity_m_s;
       state.spin_rad_s = of.body.spin_rad_s;
       impl_->placeObstacle(*obstacle, state);
+      rememberAttitude(obstacle->id, of.body);
       obstacle->touched = of.touched;
     }
   impl_->checkFault();

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,11 +11,13 @@ namespace btr {
 
 /// All that decides how a world goes on, as plain values: where everything is, how it moves, and what drives, effects
 /// and sensors remember. A world that is built from the same scene and given the same memory goes on with the same
-/// bits. World frame, SI units.
+/// bits; with the bits of the one whose memory it is only if that has the bodies' attitudes. World frame, SI units.
 struct BodyMemory {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero(), spin_rad_s = Eigen::Vector3d::Zero();
+  /// The engine's own quaternion (4) and matrix (12), of which the axes are all but the last bits; not in files.
+  std::optional<std::array<double, 16>> attitude{};
 };
 
 struct JointMemory {
@@ -22,6 +26,7 @@ struct JointMemory {
   double motorAhead = 0, motorRate = 0, couplingLoad = 0;
   double middleRate = 0, endRate = 0;  ///< of a robot in joint coordinates
   bool fresh = true, enabled = true;
+  bool dryRow = false, passiveRow = false;        ///< see JointDrive; not in files
   std::vector<std::vector<double>> effects{};  ///< states, in the order of the simulator's list
 };
 

@@ -269,7 +269,7 @@ std::optional<Explanation> OddTrial::byOffset(
       for (const Segment& segment : problem.segments)
         for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
           square += residuals[at] * residuals[at];
-          if (segment.channel[k] == c) own.push_back(residuals[at] * problem.trials[0].noiseFloor[c]);
+          if (segment.channel[k] == c) own.push_back(residuals[at] * problem.trials[0].floorAt(c, segment.row[k]));
         }
       const double error = square / static_cast<double>(std::max<Eigen::Index>(1, residuals.size()));
       const std::string& channel = recording().channels[measured.column];

@@ -41,7 +41,8 @@ Eigen::VectorXd columnOf(const FitProblem& problem, const Linearised& linear, co
   for (const Segment& segment : problem.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at)
       if (segment.channel[k] == kind.channel)
-        column[at] = shareAt(kind, trial.recording.columns[0], segment.row[k]) / trial.noiseFloor[kind.channel];
+        column[at] =
+            shareAt(kind, trial.recording.columns[0], segment.row[k]) / trial.floorAt(kind.channel, segment.row[k]);
   return linear.profile(problem, column);
 }
 

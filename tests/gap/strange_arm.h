@@ -74,8 +74,8 @@ class SwungArm {
       const double begun = std::min(1.0, t / 0.5);
       Three c;
       for (int i = 0; i < 3; ++i)
-        c[i] = middle[i] + begun * (0.4 * std::sin(2 * M_PI * slow[i] * t) +
-                                    0.15 * std::sin(2 * M_PI * fast[i] * t + phase[i]));
+        c[i] = middle[i] +
+               begun * (0.4 * std::sin(2 * M_PI * slow[i] * t) + 0.15 * std::sin(2 * M_PI * fast[i] * t + phase[i]));
       return c;
     };
     const double h = arm_.euler_s > 0 ? arm_.euler_s : 1e-4;
@@ -120,8 +120,9 @@ class SwungArm {
     const Three spin(rate[0], rate[0] + rate[1], rate[0] + rate[1] + rate[2]);
     Three torque;
     for (int i = 0; i < 3; ++i)
-      torque[i] = std::clamp(arm_.p[i] * (held[i] - q[i]) - arm_.d[i] * rate[i], -arm_.maxTorque[i], arm_.maxTorque[i]) -
-                  arm_.friction[i] * std::tanh(rate[i] / 0.002) - arm_.viscous[i] * rate[i];
+      torque[i] =
+          std::clamp(arm_.p[i] * (held[i] - q[i]) - arm_.d[i] * rate[i], -arm_.maxTorque[i], arm_.maxTorque[i]) -
+          arm_.friction[i] * std::tanh(rate[i] / 0.002) - arm_.viscous[i] * rate[i];
     Eigen::Matrix3d mass;
     Three right(torque[0] - torque[1], torque[1] - torque[2], torque[2]);
     for (int i = 0; i < 3; ++i) {

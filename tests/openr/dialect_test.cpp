@@ -103,6 +103,15 @@ TEST(Dialect, SourcesOf2003RunAsTheyAre) {
   EXPECT_THAT(all, HasSubstr("stl x 9 12 1 3.5 3 1 3\n"));  // templates without typename and this->
   EXPECT_THAT(all, HasSubstr("3 44 1 0.125000 7\n"));       // numbers that are cut
   EXPECT_THAT(all, HasSubstr("assign in if 3 5\n"));
+  // In C, too, "%ld" writes what its variable has, and a long ends where the robot's does.
+  EXPECT_THAT(all, HasSubstr("scanned 5: 4000000000 99 -5 2.5 x 3, 21 characters\n"));
+  EXPECT_THAT(all, HasSubstr("none 0, longest 2147483647\n"));
+}
+
+TEST(Dialect, AStubByHandOfEarlierProgramsIsMadeByItsMacros) {
+  const std::string all = runStick(stickOf("relay"), 3).all();
+  EXPECT_THAT(all, HasSubstr("Ready ASSERT\nRelay: got hello from 1\nRelay: Ready ASSERT\nRelay: got hello from 1\n"));
+  EXPECT_THAT(all, HasSubstr("Ready DEASSERT\n"));  // at its end
 }
 
 TEST(Dialect, ExtensionsSizesAndNumbersAsTheRobotsCompilerHadThem) {

@@ -235,6 +235,13 @@ TEST(Faults, WhatTheOldCompilerLetPassRuns) {
   EXPECT_THAT(faulty("delete").all(), HasSubstr("delete 1\nFaulty: delete 0\nFaulty: lives on"));
 }
 
+TEST(Faults, WritingToARegionThatIsToBeReadOnlyEndsTheProgram) {
+  const StickRun run = faulty("read only");
+  EXPECT_THAT(run.all(), HasSubstr("region 1\n"));
+  EXPECT_EQ(run.ended.why, Ended::Why::crash);
+  EXPECT_THAT(run.all(), Not(HasSubstr("lives on")));
+}
+
 TEST(Process, EvenWithoutTheCLibraryNothingOutsideTheStickIsWritten) {
   constexpr long versionOnly = 1;
   if (syscall(SYS_landlock_create_ruleset, nullptr, 0, versionOnly) < 1) GTEST_SKIP() << "this kernel has no Landlock";

@@ -12,7 +12,8 @@ import numpy as np
 
 from . import uchilsim_pb2 as pb
 from . import uchilsim_pb2_grpc as services
-from .errors import NotFound, Unreachable, sentences
+from .checks import made, numbers, short
+from .errors import NotFound, Refused, Unreachable, sentences
 from .learning import Run
 from .numbers import Number, clipped, lower_of, upper_of
 from .world import World
@@ -51,10 +52,19 @@ class Evaluation:
     figures: list[dict[str, float]]
 
 
+def _json(what: str, contents: Mapping) -> str:
+    try:
+        return json.dumps(contents)
+    except (TypeError, ValueError) as error:
+        raise Refused(f"{what}: {short(contents)} is not allowed; what JSON can say ({error})") from None
+
+
 def _experiment_message(experiment: str | Mapping, directory: str):
-    if isinstance(experiment, str):
-        return pb.Experiment(file=experiment)
-    return pb.Experiment(json=json.dumps(experiment), directory=directory)
+    if isinstance(experiment, (str, pathlib.Path)):
+        return pb.Experiment(file=str(experiment))
+    if not isinstance(experiment, Mapping):
+        raise Refused(f"experiment: {short(experiment)} is not allowed; a file below the server's folder, or a dictionary")
+    return pb.Experiment(json=_json("experiment", experiment), directory=directory)
 
 
 class Experiment:
@@ -90,9 +100,14 @@ class Experiment:
     def evaluate(self, population, seed: int | None = None, run: int = 0, timeout: float | None = None) -> Evaluation:
         """Whole trials of a population, array (vectors, parameters), on all the server's cores: the bits that a run of
         this experiment with this seed has. run: in the newest simulator of that run of the server's database."""
-        population = np.atleast_2d(np.asarray(population, dtype=float))
-        request = pb.EvaluateRequest(experiment=self._message, seed=seed, run=run, vectors=len(population),
-                                     parameters=population.ravel())
+        allowed = f"an array (vectors, {len(self.genotype)})"
+        population = np.atleast_2d(numbers("population", population, allowed))
+        if population.ndim != 2 or population.shape[1] != len(self.genotype):
+            raise Refused(f"population: shape {population.shape} is not allowed; {allowed}")
+        if len(population) == 0:
+            return Evaluation(np.zeros(0), [], [], [], [])
+        request = made(pb.EvaluateRequest, experiment=self._message, seed=seed, run=run, vectors=len(population),
+                       parameters=population.ravel())
         trials = self._client._call(self._client._learning.Evaluate, request, timeout=timeout).trials
         return Evaluation(np.array([t.fitness for t in trials]), [t.outcome for t in trials],
                           [t.detail for t in trials], [t.trace_sha256 for t in trials],
@@ -100,8 +115,8 @@ class Experiment:
 
     def start_run(self, seed: int | None = None, again: bool = False, patience_s: float = 0) -> Run:
         """Starts it as a run in the server's database, or goes on with the one that is there."""
-        message = self._client._call(self._client._learning.Start, pb.StartRequest(
-            experiment=self._message, seed=seed, again=again, patience_s=patience_s))
+        message = self._client._call(self._client._learning.Start, made(
+            pb.StartRequest, experiment=self._message, seed=seed, again=again, patience_s=patience_s))
         return Run(self._client, message)
 
 
@@ -138,7 +153,7 @@ class Client:
         return self._timeout
 
     def _call(self, method, request, timeout: float | None = ...):
-        with sentences():
+        with sentences(self.address):
             return method(request, timeout=self._timeout if timeout is ... else timeout, metadata=self._metadata)
 
     # ---- the server
@@ -164,11 +179,13 @@ class Client:
     def open(self, game: str | Mapping, seed: int | None = None, directory: str = "", logged: bool = True) -> World:
         """A world of a game, scene or robot file below the server's folder, or of a game's contents as a dictionary
         (paths in it are relative to `directory` there)."""
-        request = pb.OpenRequest(seed=seed, unlogged=not logged)
-        if isinstance(game, str):
-            request.game = game
+        request = made(pb.OpenRequest, seed=seed, unlogged=not logged)
+        if isinstance(game, (str, pathlib.Path)):
+            request.game = str(game)
+        elif isinstance(game, Mapping):
+            request.game_json, request.directory = _json("game", game), directory
         else:
-            request.game_json, request.directory = json.dumps(game), directory
+            raise Refused(f"game: {short(game)} is not allowed; a file below the server's folder, or a dictionary")
         return World(self, self._call(self._worlds.Open, request))
 
     def worlds(self) -> list[str]:

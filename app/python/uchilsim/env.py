@@ -9,8 +9,9 @@ from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
+from . import checks
 from .client import Client
-from .errors import NotFound, Refused
+from .errors import NotFound, NotNow, Refused
 from .spaces import Box, EnvBase, VectorEnvBase, autoreset_next_step
 from .world import State, World
 
@@ -71,7 +72,7 @@ class _Task:
         return state.row[self.index]
 
     def targets(self, action) -> dict[str, np.ndarray]:
-        action = np.asarray(action, dtype=float)
+        action = checks.numbers("action", action, f"an array ({len(self.joints)},)")
         if action.shape != (len(self.joints),) or not np.all(np.isfinite(action)):
             raise Refused(f"action: shape {action.shape} is not allowed; ({len(self.joints)},) finite numbers")
         all_joints = self.begun.copy()
@@ -115,6 +116,8 @@ class Env(EnvBase):
                  robot: str | None = None, joints: Sequence[str] | None = None,
                  observation: Sequence[str] | None = None, frame_skip: int = 1, max_steps: int = 1000,
                  reward: Reward | None = None, terminated: Terminated | None = None, logged: bool = False):
+        self.frame_skip = checks.whole("frame_skip", frame_skip, 1)
+        self.max_steps = checks.whole("max_steps", max_steps, 1)
         self._own = isinstance(client, str)
         self.client = Client(client) if isinstance(client, str) else client
         self.world: World | None = None
@@ -126,7 +129,6 @@ class Env(EnvBase):
             raise
         self.observation_space = self._task.observation_space
         self.action_space = self._task.action_space
-        self.frame_skip, self.max_steps = int(frame_skip), int(max_steps)
         self._np_random = np.random.default_rng()
         self._np_random_seed: int | None = None
         self._state: State | None = None
@@ -160,7 +162,10 @@ class Env(EnvBase):
               ) -> tuple[np.ndarray, dict[str, Any]]:
         """Begins an episode. The same seed gives the same bits; None: the next one of the environment's own numbers.
         options: {"acts": […]}, what reaches into the world before it begins, see World.act()."""
+        if self.world is None:
+            raise NotNow("reset() after close(); make a new environment")
         if seed is not None:
+            seed = checks.whole("seed", seed, 0)
             self._np_random, self._np_random_seed = np.random.default_rng(seed), seed
         acts = (options or {}).get("acts", ())
         self._state = self.world.reset(seed=_random_seed(self._np_random), acts=acts)
@@ -170,6 +175,8 @@ class Env(EnvBase):
 
     def _before(self) -> State:
         """Where the next step begins. After one that was interrupted the world is asked."""
+        if self.world is None:
+            raise NotNow("step() after close(); make a new environment")
         if self._state is None:
             raise Refused("step() before reset()")
         if self._lost:
@@ -236,10 +243,10 @@ class VectorEnv(VectorEnvBase):
 
     def __init__(self, num_envs: int, client: Client | str = "127.0.0.1:50051",
                  game: str | Mapping = "games/dog.json", **arguments: Any):
+        self.num_envs = checks.whole("num_envs", num_envs, 1)
         self.envs: list[Env] = []
         self._own = isinstance(client, str)
         self.client = Client(client) if isinstance(client, str) else client
-        self.num_envs = int(num_envs)
         try:
             for _ in range(self.num_envs):
                 self.envs.append(Env(self.client, game, **arguments))
@@ -274,20 +281,21 @@ class VectorEnv(VectorEnvBase):
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: Mapping[str, Any] | None = None
               ) -> tuple[np.ndarray, dict[str, Any]]:
         """All begin an episode; a seed s means s, s + 1, s + 2, …"""
-        if seed is None or isinstance(seed, int):
-            seeds: Sequence[int | None] = [None if seed is None else seed + i for i in range(self.num_envs)]
-        else:
-            seeds = list(seed)
-        if len(seeds) != self.num_envs:
-            raise Refused(f"seed: {len(seeds)} numbers is not allowed; one for each of {self.num_envs} environments")
+        if self.closed:
+            raise NotNow("reset() after close(); make new environments")
+        seeds = checks.seeds(seed, self.num_envs)
         results = [env.reset(seed=s, options=options) for env, s in zip(self.envs, seeds)]
         self._over[:] = False
         return np.stack([observation for observation, _ in results]), self._gathered([info for _, info in results])
 
     def step(self, actions) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """actions (num_envs, joints)."""
-        if len(actions) != self.num_envs:
-            raise Refused(f"actions: {len(actions)} rows is not allowed; one for each of {self.num_envs} environments")
+        if self.closed:
+            raise NotNow("step() after close(); make new environments")
+        actions = checks.numbers("actions", actions, "an array (num_envs, joints)")
+        if actions.shape[:1] != (self.num_envs,):
+            raise Refused(f"actions: shape {actions.shape} is not allowed; one row for each of {self.num_envs} "
+                          "environments")
         going = [i for i in range(self.num_envs) if not self._over[i]]
         before = {i: self.envs[i]._before() for i in going}
         targets = {i: self.envs[i]._task.targets(actions[i]) for i in going}

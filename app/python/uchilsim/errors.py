@@ -57,10 +57,19 @@ def error_of(error: grpc.RpcError) -> Error:
     return _KINDS.get(error.code(), Error)(error.details() or str(error.code()))
 
 
+_NOBODY = ("failed to connect", "DNS resolution failed", "Endpoint closing", "Socket closed")
+
+
 @contextlib.contextmanager
-def sentences() -> Iterator[None]:
-    """gRPC's errors inside become this package's."""
+def sentences(address: str = "") -> Iterator[None]:
+    """gRPC's errors inside become this package's. address: of the server, for the sentence that it does not answer."""
     try:
         yield
     except grpc.RpcError as error:
+        if address and error.code() == grpc.StatusCode.UNAVAILABLE and (error.details() or "").startswith(_NOBODY):
+            raise Unreachable(f"{address}: no server answers there; start one with btr serve") from None
         raise error_of(error) from None
+    except ValueError as error:
+        if "closed channel" not in str(error).lower() and "channel closed" not in str(error).lower():
+            raise
+        raise NotNow("the client is closed; make a new Client") from None

@@ -11,7 +11,9 @@ import grpc
 import numpy as np
 
 from . import uchilsim_pb2 as pb
-from .errors import Error, error_of, sentences
+from . import checks
+from .checks import made
+from .errors import Error, Refused, error_of, sentences
 from .numbers import Number
 from .pictures import Camera
 
@@ -67,6 +69,19 @@ class State:
         except KeyError:
             raise KeyError(f"{channel}: no channel of this state") from None
 
+    def __contains__(self, channel: object) -> bool:
+        return channel in self._index
+
+    def __iter__(self) -> Iterator[str]:
+        """The channels; dict(state) has them with their values."""
+        return iter(self.channels)
+
+    def __len__(self) -> int:
+        return len(self.channels)
+
+    def keys(self) -> Sequence[str]:
+        return self.channels
+
     def indices(self, channels: Iterable[str]) -> np.ndarray:
         """Where these channels are in the row."""
         return np.array([self._index[channel] for channel in channels], dtype=int)
@@ -116,8 +131,8 @@ class PoseStream:
         """position (3,) [m], orientation (4,), velocity (3,) [m/s], spin (3,) [rad/s] in the world; joints [rad, m]."""
         if self._reply.done():
             self.close()
-        self._requests.put(pb.PoseRequest(
-            world=self._world.name, object=self._name, position_m=position_m,
+        self._requests.put(made(
+            pb.PoseRequest, world=self._world.name, object=self._name, position_m=position_m,
             orientation_wxyz=() if orientation_wxyz is None else orientation_wxyz,
             velocity_m_s=() if velocity_m_s is None else velocity_m_s,
             spin_rad_s=() if spin_rad_s is None else spin_rad_s, joints=joints or {}))
@@ -186,17 +201,17 @@ class World:
 
     # ---- what it is
     def _wanted(self, channels=None, links=False, contacts=False):
-        return pb.Wanted(channels=channels or (), links=links, contacts=contacts, channels_known=self._version)
+        return made(pb.Wanted, channels=channels or (), links=links, contacts=contacts, channels_known=self._version)
 
     def state(self, channels: Sequence[str] | None = None, links: bool = False, contacts: bool = False) -> State:
         """The state now; `channels`: only these."""
-        request = pb.GetRequest(world=self.name, wanted=self._wanted(channels, links, contacts))
+        request = made(pb.GetRequest, world=self.name, wanted=self._wanted(channels, links, contacts))
         return self._state(self._client._call(self._client._worlds.Get, request), channels)
 
     def watch(self, rate_hz: float = 50, channels: Sequence[str] | None = None, links: bool = False,
               contacts: bool = False) -> Iterator[State]:
         """States as they come, at most so many a second, until the world is closed or the caller stops."""
-        request = pb.WatchRequest(world=self.name, rate_hz=rate_hz, wanted=self._wanted(channels, links, contacts))
+        request = made(pb.WatchRequest, world=self.name, rate_hz=rate_hz, wanted=self._wanted(channels, links, contacts))
         stream = self._client._worlds.Watch(request, metadata=self._client._metadata)
         try:
             with sentences():
@@ -243,9 +258,12 @@ class World:
 
     # ---- time
     def _request(self, periods, targets, acts, channels, links, contacts):
-        request = pb.StepRequest(world=self.name, periods=periods, acts=acts)
+        request = made(pb.StepRequest, world=self.name, periods=periods, acts=acts)
+        if targets is not None and not isinstance(targets, Mapping):
+            raise Refused(f"targets: {checks.short(targets)} is not allowed; a dictionary by robot")
         for robot, positions in (targets or {}).items():
-            request.targets.add(robot=robot, positions=np.ravel(positions))
+            joints = len(self.robots[robot].joints) if robot in self.robots else None
+            request.targets.add(robot=str(robot), positions=checks.targets(robot, positions, joints, request.periods))
         request.wanted.CopyFrom(self._wanted(channels, links, contacts))
         return request
 
@@ -283,7 +301,7 @@ class World:
 
     def reset(self, seed: int | None = None, acts: Sequence[Any] = ()) -> State:
         """The game from its beginning, with another seed if one is given; a log of its own begins."""
-        request = pb.ResetRequest(world=self.name, seed=seed, acts=[self.act(a) for a in acts], wanted=self._wanted())
+        request = made(pb.ResetRequest, world=self.name, seed=seed, acts=[self.act(a) for a in acts], wanted=self._wanted())
         state = self._client._call(self._client._worlds.Reset, request)
         if state.channels:
             self.refresh()
@@ -291,13 +309,20 @@ class World:
 
     def play(self, speed: float = 1.0) -> State:
         """Goes on by the server's clock, so many simulated seconds a second; 0 stops it."""
-        return self._state(self._client._call(self._client._worlds.Play, pb.PlayRequest(world=self.name, speed=speed)))
+        return self._state(self._client._call(self._client._worlds.Play, made(pb.PlayRequest, world=self.name, speed=speed)))
 
     # ---- hands
     @staticmethod
     def act(what: Any):
         """An act: a message of the schema, or a dictionary as a line of a log, {"act": "place", "object": "ball", …}."""
-        return what if isinstance(what, pb.Act) else pb.Act(json=json.dumps(what))
+        if isinstance(what, pb.Act):
+            return what
+        if not isinstance(what, Mapping):
+            raise Refused(f"act: {checks.short(what)} is not allowed; a dictionary as a line of a log")
+        try:
+            return pb.Act(json=json.dumps(what))
+        except (TypeError, ValueError) as error:
+            raise Refused(f"act: {checks.short(what)} is not allowed; what JSON can say ({error})") from None
 
     def do(self, *acts: Any) -> State:
         """These acts now, without a period."""
@@ -308,39 +333,41 @@ class World:
 
     def hold(self, robot: str, joint: str, position: float | None) -> State:
         """What a joint is told from now on [rad, m; N·m, N if it is driven by torque]; None: its controller has it again."""
-        return self.do(pb.Act(hold=pb.Hold(robot=robot, joint=joint, position=position)))
+        return self.do(pb.Act(hold=made(pb.Hold, robot=robot, joint=joint, position=position)))
 
     def place(self, name: str, position_m: Vector, orientation_wxyz: Vector = (1, 0, 0, 0),
               joints: Mapping[str, float] | None = None) -> State:
         """Puts an object somewhere, at rest: position (3,) [m], orientation (4,)."""
-        return self.do(pb.Act(place=pb.Place(object=name, position_m=position_m, orientation_wxyz=orientation_wxyz,
+        return self.do(pb.Act(place=made(pb.Place, object=name, position_m=position_m, orientation_wxyz=orientation_wxyz,
                                              joints=joints or {})))
 
     def throw(self, name: str, velocity_m_s: Vector, spin_rad_s: Vector = (0, 0, 0)) -> State:
         """The velocity of an object from now on: (3,) [m/s], spin (3,) [rad/s]."""
-        return self.do(pb.Act(throw=pb.Throw(object=name, velocity_m_s=velocity_m_s, spin_rad_s=spin_rad_s)))
+        return self.do(pb.Act(throw=made(pb.Throw, object=name, velocity_m_s=velocity_m_s, spin_rad_s=spin_rad_s)))
 
     def pull(self, name: str, target_m: Vector, link: str = "", point_m: Vector = (0, 0, 0),
              stiffness_n_m: float = 100, most_n: float = 20) -> State:
         """A spring from a point of an object to a place in the world, until let_go()."""
-        return self.do(pb.Act(pull=pb.Pull(object=name, link=link, point_m=point_m, target_m=target_m,
+        return self.do(pb.Act(pull=made(pb.Pull, object=name, link=link, point_m=point_m, target_m=target_m,
                                            stiffness_n_m=stiffness_n_m, most_n=most_n)))
 
     def push(self, name: str, force_n: Vector, at_m: Vector, link: str = "", point_m: Vector = (0, 0, 0)) -> State:
         """A force (3,) [N] in the world's axes at a point of an object that is about at_m, until let_go(): a spring to a
         far place whose strength is limited. As the object moves by d its direction changes by d/50 m."""
-        force = np.asarray(force_n, float)
+        force = checks.numbers("force_n", force_n, "an array (3,) [N]")
+        if force.shape != (3,):
+            raise Refused(f"force_n: shape {force.shape} is not allowed; (3,)")
         size = float(np.linalg.norm(force))
         if size == 0:
             return self.let_go(name)
-        far = np.asarray(at_m, float) + 50 * force / size
+        far = checks.numbers("at_m", at_m, "an array (3,) [m]") + 50 * force / size
         return self.pull(name, far, link, point_m, stiffness_n_m=max(100.0, size), most_n=size)
 
     def let_go(self, name: str) -> State:
-        return self.do(pb.Act(let_go=name))
+        return self.do(made(pb.Act, let_go=name))
 
     def remove(self, name: str) -> State:
-        return self.do(pb.Act(remove=name))
+        return self.do(made(pb.Act, remove=name))
 
     def add(self, **what: Mapping) -> State:
         """add(ball={"name": "ball2", "position_m": [0, 0, 0.1]}); also robot=, obstacle=, as in a scene file."""
@@ -348,11 +375,11 @@ class World:
 
     def set_parameter(self, robot: str, name: str, value: float | None) -> State:
         """One of the numbers of a robot's controller; None: its default."""
-        return self.do(pb.Act(parameter=pb.Number(robot=robot, name=name, value=value)))
+        return self.do(pb.Act(parameter=made(pb.Number, robot=robot, name=name, value=value)))
 
     def set_number(self, name: str, value: float | None, robot: str = "") -> State:
         """One of the simulator's numbers, "friction"; of one robot's own simulator or of all; None: what the scene says."""
-        return self.do(pb.Act(number=pb.Number(robot=robot, name=name, value=value)))
+        return self.do(pb.Act(number=made(pb.Number, robot=robot, name=name, value=value)))
 
     def poses(self, name: str) -> PoseStream:
         """A body that is moved from outside; see PoseStream."""
@@ -362,7 +389,7 @@ class World:
     def save(self, file: str = "") -> dict:
         """The game with its state, which goes on with the same bits; also into a file below the server's folder."""
         return json.loads(self._client._call(self._client._worlds.Save,
-                                             pb.SaveRequest(world=self.name, file=file)).game_json)
+                                             made(pb.SaveRequest, world=self.name, file=file)).game_json)
 
     def close(self) -> str:
         """Ends it. The hash of the trace of its last episode: equal means bit-identical."""

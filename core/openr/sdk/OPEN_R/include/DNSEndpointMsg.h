@@ -1,71 +1,133 @@
-// Names of machines. The simulated robot knows "localhost" and addresses written as numbers.
+// Names of machines. Servers and the default domain are those of WLANCONF.TXT; the simulated robot asks nobody and
+// knows "localhost", its own name (HOSTNAME), and addresses written as numbers.
 #ifndef BTR_OPENR_DNSENDPOINTMSG_H
 #define BTR_OPENR_DNSENDPOINTMSG_H
 
+#include <DNSEndpointErr.h>
 #include <EndpointTypes.h>
 #include <IPAddress.h>
 #include <antEnvMsg.h>
 
 #include <string.h>
 
-enum DNSEndpointError {
-  DNS_SUCCESS = 0,
-  DNS_FAIL = 1,
-  DNS_NAME_ERROR = 2,
-  DNS_HOST_NOT_FOUND = 3,
-  DNS_TIMEOUT = 4,
-  DNS_CONNECTION_CLOSED = 5,
-  DNS_OPERATION_INVALID = 6,
-  DNS_OPERATION_UNKNOWN = 7
-};
+#define MAXNS 3      /* servers */
+#define MAXDNAME 100 /* characters of a name, its end included */
+#define DNSENDPOINT_OPERATION_NUM 9
 
 enum DNSEndpointOperation {
-  DNSEndpoint_Operation_GetHostByName = 0,
-  DNSEndpoint_Operation_GetHostByAddr = 1,
-  DNSEndpoint_Operation_Close = 2,
-  DNSEndpoint_Operation_GetServers = 3,
-  DNSEndpoint_Operation_SetServers = 4
+  DNSEndpoint_Operation_SetServerAddresses = 0,
+  DNSEndpoint_Operation_GetServerAddresses = 1,
+  DNSEndpoint_Operation_SetDefaultDomainName = 2,
+  DNSEndpoint_Operation_GetDefaultDomainName = 3,
+  DNSEndpoint_Operation_GetHostByName = 4,
+  DNSEndpoint_Operation_GetHostByAddr = 5,
+  DNSEndpoint_Operation_GetAddress = 6,
+  DNSEndpoint_Operation_GetAlias = 7,
+  DNSEndpoint_Operation_Close = 8
 };
 
-const int DNS_NAME_MAX = 255;
-const int DNS_ADDRESSES_MAX = 8;
+/// Copies at most MAXDNAME characters, the last one always the end.
+inline void btr_copy_name(char* to, const char* from) {
+  strncpy(to, from == 0 ? "" : from, MAXDNAME);
+  to[MAXDNAME - 1] = 0;
+}
 
-class DNSEndpointBaseMsg : public antEnvMsg {
- public:
+struct DNSEndpointBaseMsg : public antEnvMsg {
   DNSEndpointError error;
-  DNSEndpointBaseMsg() : error(DNS_SUCCESS) {}
+  DNSEndpointBaseMsg() : error(DNS_FAIL) {}
   DNSEndpointBaseMsg(antModuleRef& _module, DNSEndpointOperation _operation)
-      : antEnvMsg(_module, _operation), error(DNS_SUCCESS) {}
-};
-
-class DNSEndpointGetHostByNameMsg : public DNSEndpointBaseMsg {
- public:
-  char name[DNS_NAME_MAX + 1];
-  IPAddress address;
-  IPAddress addresses[DNS_ADDRESSES_MAX];
-  int numAddresses;
-  DNSEndpointGetHostByNameMsg() : numAddresses(0) { name[0] = 0; }
-  DNSEndpointGetHostByNameMsg(antModuleRef& _module, const char* _name)
-      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetHostByName), numAddresses(0) {
-    strncpy(name, _name, DNS_NAME_MAX);
-    name[DNS_NAME_MAX] = 0;
+      : antEnvMsg(_module, _operation), error(DNS_FAIL) {}
+  antError Reply(DNSEndpointError _error) {
+    error = _error;
+    return antEnvMsg::Reply();
   }
 };
 
-class DNSEndpointGetHostByAddrMsg : public DNSEndpointBaseMsg {
- public:
-  char name[DNS_NAME_MAX + 1];
-  IPAddress address;
-  DNSEndpointGetHostByAddrMsg() { name[0] = 0; }
-  DNSEndpointGetHostByAddrMsg(antModuleRef& _module, IPAddress _address)
-      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetHostByAddr), address(_address) {
+struct DNSEndpointSetServerAddressesMsg : public DNSEndpointBaseMsg {
+  int32 nscount;
+  IPAddress addrList[MAXNS];
+  DNSEndpointSetServerAddressesMsg() : nscount(0) {}
+  DNSEndpointSetServerAddressesMsg(antModuleRef& _module, int32 _nscount, IPAddress* _addrList)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_SetServerAddresses), nscount(_nscount) {
+    for (int i = 0; i < _nscount && i < MAXNS; ++i) addrList[i] = _addrList[i];
+  }
+};
+
+struct DNSEndpointGetServerAddressesMsg : public DNSEndpointBaseMsg {
+  int32 nscount;
+  IPAddress addrList[MAXNS];
+  DNSEndpointGetServerAddressesMsg() : nscount(0) {}
+  DNSEndpointGetServerAddressesMsg(antModuleRef& _module)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetServerAddresses), nscount(0) {}
+};
+
+struct DNSEndpointSetDefaultDomainNameMsg : public DNSEndpointBaseMsg {
+  char name[MAXDNAME];
+  DNSEndpointSetDefaultDomainNameMsg() { name[0] = 0; }
+  DNSEndpointSetDefaultDomainNameMsg(antModuleRef& _module, const char* _name)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_SetDefaultDomainName) {
+    btr_copy_name(name, _name);
+  }
+};
+
+struct DNSEndpointGetDefaultDomainNameMsg : public DNSEndpointBaseMsg {
+  char name[MAXDNAME];
+  DNSEndpointGetDefaultDomainNameMsg() { name[0] = 0; }
+  DNSEndpointGetDefaultDomainNameMsg(antModuleRef& _module)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetDefaultDomainName) {
     name[0] = 0;
   }
 };
-typedef DNSEndpointGetHostByAddrMsg DNSEndpointGetHostByAddressMsg;
 
-class DNSEndpointCloseMsg : public DNSEndpointBaseMsg {
- public:
+struct DNSEndpointGetHostByNameMsg : public DNSEndpointBaseMsg {
+  char name[MAXDNAME];
+  IPAddress server_address;
+  IPAddress host_address;
+  int n_address;  ///< 0: nobody has that name
+  int n_alias;
+  DNSEndpointGetHostByNameMsg() : n_address(0), n_alias(0) { name[0] = 0; }
+  DNSEndpointGetHostByNameMsg(antModuleRef& _module, const char* _name)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetHostByName), n_address(0), n_alias(0) {
+    btr_copy_name(name, _name);
+  }
+};
+
+struct DNSEndpointGetHostByAddrMsg : public DNSEndpointBaseMsg {
+  char name[MAXDNAME];
+  IPAddress server_address;
+  IPAddress host_address;
+  int n_address;
+  int n_alias;
+  DNSEndpointGetHostByAddrMsg() : n_address(0), n_alias(0) { name[0] = 0; }
+  DNSEndpointGetHostByAddrMsg(antModuleRef& _module, IPAddress _address)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetHostByAddr),
+        host_address(_address),
+        n_address(0),
+        n_alias(0) {
+    name[0] = 0;
+  }
+};
+
+/// The address number `index` of the endpoint's last answer.
+struct DNSEndpointGetAddressMsg : public DNSEndpointBaseMsg {
+  int index;
+  IPAddress address;
+  DNSEndpointGetAddressMsg() : index(0) {}
+  DNSEndpointGetAddressMsg(antModuleRef& _module, int _index)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetAddress), index(_index) {}
+};
+
+struct DNSEndpointGetAliasMsg : public DNSEndpointBaseMsg {
+  int index;
+  char name[MAXDNAME];
+  DNSEndpointGetAliasMsg() : index(0) { name[0] = 0; }
+  DNSEndpointGetAliasMsg(antModuleRef& _module, int _index)
+      : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_GetAlias), index(_index) {
+    name[0] = 0;
+  }
+};
+
+struct DNSEndpointCloseMsg : public DNSEndpointBaseMsg {
   DNSEndpointCloseMsg() {}
   DNSEndpointCloseMsg(antModuleRef& _module) : DNSEndpointBaseMsg(_module, DNSEndpoint_Operation_Close) {}
 };

@@ -6,11 +6,12 @@
 #include <apsys.h>
 
 struct RelativeTime {
-  slongword sec;
-  slongword msec;
+  longword sec;
+  longword msec;
 
   RelativeTime() : sec(0), msec(0) {}
-  RelativeTime(slongword s, slongword ms) : sec(s), msec(ms) {}
+  RelativeTime(longword s) : sec(s), msec(0) {}
+  RelativeTime(longword s, longword ms) : sec(s), msec(ms) {}
 };
 
 RelativeTime ConvertToRelativeTime(const SystemTime& time);

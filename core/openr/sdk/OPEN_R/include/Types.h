@@ -37,6 +37,9 @@ typedef int boolean; /* as the JPEG library has it */
 
 typedef longword Selector;
 typedef unsigned int MemoryRegionID;
+typedef MemoryRegionID SharedMemoryRegionID;
+typedef enum { MEMPROTINFO_INVALID = 0, MEMPROTINFO_R = 1, MEMPROTINFO_RW = 2 } MemoryProtectionInfo;
+typedef MemoryProtectionInfo SharedMemoryProtectionInfo;
 typedef longword offset_t;
 #ifdef __cplusplus
 typedef void (*Entry)(...);

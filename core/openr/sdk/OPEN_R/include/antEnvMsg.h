@@ -63,6 +63,8 @@ const int32 antEnv_Operation_CreateSharedBuffer = 10001;
 const int32 antEnv_Operation_DestroySharedBuffer = 10002;
 const int32 antEnv_Operation_CreateEndpoint = 10003;
 const int32 antEnv_Operation_DestroyEndpoint = 10004;
+const int32 antEnv_Operation_InitSetParam = 10005;
+const int32 antEnv_Operation_InitGetParam = 10006;
 
 class antEnvCreateSharedBufferMsg : public antEnvMsg {
  public:
@@ -86,12 +88,13 @@ class antEnvDestroySharedBufferMsg : public antEnvMsg {
 class antEnvCreateEndpointMsg : public antEnvMsg {
  public:
   antError error;
-  int32 type;
-  int32 size;
+  int32 protocol;  ///< EndpointType_…
+  int32 poolSize;
   antModuleRef moduleRef;
-  antEnvCreateEndpointMsg() : antEnvMsg(antEnv_Operation_CreateEndpoint), error(ANT_SUCCESS), type(0), size(0) {}
-  antEnvCreateEndpointMsg(int32 _type, int32 _size = 0)
-      : antEnvMsg(antEnv_Operation_CreateEndpoint), error(ANT_SUCCESS), type(_type), size(_size) {}
+  antEnvCreateEndpointMsg()
+      : antEnvMsg(antEnv_Operation_CreateEndpoint), error(ANT_SUCCESS), protocol(0), poolSize(0) {}
+  antEnvCreateEndpointMsg(int32 _protocol, int32 _poolSize = 0)
+      : antEnvMsg(antEnv_Operation_CreateEndpoint), error(ANT_SUCCESS), protocol(_protocol), poolSize(_poolSize) {}
 };
 
 class antEnvDestroyEndpointMsg : public antEnvMsg {
@@ -101,6 +104,55 @@ class antEnvDestroyEndpointMsg : public antEnvMsg {
   antEnvDestroyEndpointMsg() : antEnvMsg(antEnv_Operation_DestroyEndpoint), error(ANT_SUCCESS) {}
   antEnvDestroyEndpointMsg(const antModuleRef& _ref)
       : antEnvMsg(antEnv_Operation_DestroyEndpoint), error(ANT_SUCCESS), moduleRef(_ref) {}
+};
+
+// Settings of the stack, as WLANCONF.TXT has them: "ETHER_IP", "ESSID" …
+#define ANTENV_KEY_LENGTH_MAX 32
+#define ANTENV_VALUE_LENGTH_MAX 32
+
+enum { antEnv_InitParam_Int32 = -1, antEnv_InitParam_String = -2 };
+
+/// A setting with its key and value; its value is cut at the last character that has room.
+class antEnvInitParamMsg : public antEnvMsg {
+ public:
+  int32 paramType;
+  char key[ANTENV_KEY_LENGTH_MAX];
+  union {
+    char str[ANTENV_VALUE_LENGTH_MAX];
+    int32 i32;
+  } value;
+  antError error;
+
+ protected:
+  antEnvInitParamMsg(int32 operation, const char* _key)
+      : antEnvMsg(operation), paramType(antEnv_InitParam_String), error(ANT_SUCCESS) {
+    copy(key, _key, ANTENV_KEY_LENGTH_MAX);
+    value.str[0] = 0;
+  }
+  static void copy(char* to, const char* from, int room) {
+    int i = 0;
+    for (; from != 0 && from[i] != 0 && i < room - 1; ++i) to[i] = from[i];
+    to[i] = 0;
+  }
+};
+
+class antEnvInitSetParamMsg : public antEnvInitParamMsg {
+ public:
+  antEnvInitSetParamMsg() : antEnvInitParamMsg(antEnv_Operation_InitSetParam, 0) {}
+  antEnvInitSetParamMsg(const char* _key, int32 number) : antEnvInitParamMsg(antEnv_Operation_InitSetParam, _key) {
+    paramType = antEnv_InitParam_Int32;
+    value.i32 = number;
+  }
+  antEnvInitSetParamMsg(const char* _key, const char* text) : antEnvInitParamMsg(antEnv_Operation_InitSetParam, _key) {
+    copy(value.str, text, ANTENV_VALUE_LENGTH_MAX);
+  }
+};
+
+/// Its error is ANT_REGISTRY_NO_KEY if nobody set that.
+class antEnvInitGetParamMsg : public antEnvInitParamMsg {
+ public:
+  antEnvInitGetParamMsg() : antEnvInitParamMsg(antEnv_Operation_InitGetParam, 0) {}
+  antEnvInitGetParamMsg(const char* _key) : antEnvInitParamMsg(antEnv_Operation_InitGetParam, _key) {}
 };
 
 #endif

@@ -21,44 +21,20 @@ sError Wait(longlong nanoseconds);
 
 /// Memory of the object's own.
 sError NewRegion(size_t size, void** address);
-/// Memory that objects share.
-sError NewSharedMemoryRegion(size_t size, void** address, MemoryRegionID* id);
-/// sINVALID_ARG for what New… did not make.
-sError DeleteRegion(void* address);
+/// Memory that objects share. Writing to it with MEMPROTINFO_R ends the program.
+sError NewSharedMemoryRegion(size_t size, MemoryProtectionInfo info, MemoryRegionID* id, void** address);
+/// Where another object's region is: at the same place in all objects.
+sError AttachMemoryRegion(MemoryRegionID id, MemoryProtectionInfo info, void** address);
+sError DetachMemoryRegion(MemoryRegionID id);
+/// Everybody may.
+sError AllowToAttachMemoryRegion(MemoryRegionID id, MemoryProtectionInfo info, OID who, bool givingOwnership);
 sError DeleteSharedMemoryRegion(MemoryRegionID id);
+/// sINVALID_ARG for what NewRegion() did not make.
+sError DeleteRegion(void* address);
 
 template <class T>
 sError NewRegion(size_t size, T** address) {
   return NewRegion(size, reinterpret_cast<void**>(address));
-}
-inline sError NewSharedMemoryRegion(size_t size, void** address) { return NewSharedMemoryRegion(size, address, 0); }
-inline sError NewSharedMemoryRegion(size_t size, MemoryRegionID* id, void** address) {
-  return NewSharedMemoryRegion(size, address, id);
-}
-inline sError NewSharedMemoryRegion(MemoryRegionID* id, size_t size, void** address) {
-  return NewSharedMemoryRegion(size, address, id);
-}
-inline sError NewSharedMemoryRegion(MemoryRegionID* id, void** address, size_t size) {
-  return NewSharedMemoryRegion(size, address, id);
-}
-inline sError NewSharedMemoryRegion(void** address, size_t size, MemoryRegionID* id) {
-  return NewSharedMemoryRegion(size, address, id);
-}
-template <class T>
-sError NewSharedMemoryRegion(size_t size, T** address) {
-  return NewSharedMemoryRegion(size, reinterpret_cast<void**>(address), static_cast<MemoryRegionID*>(0));
-}
-template <class T>
-sError NewSharedMemoryRegion(size_t size, T** address, MemoryRegionID* id) {
-  return NewSharedMemoryRegion(size, reinterpret_cast<void**>(address), id);
-}
-template <class T>
-sError NewSharedMemoryRegion(size_t size, MemoryRegionID* id, T** address) {
-  return NewSharedMemoryRegion(size, reinterpret_cast<void**>(address), id);
-}
-template <class T>
-sError NewSharedMemoryRegion(MemoryRegionID* id, size_t size, T** address) {
-  return NewSharedMemoryRegion(size, reinterpret_cast<void**>(address), id);
 }
 
 /// The object whose method runs.

@@ -3,7 +3,7 @@
 #ifndef BTR_OPENR_VERSION_H
 #define BTR_OPENR_VERSION_H
 
-#define BTR_OPENR_VERSION "2"
+#define BTR_OPENR_VERSION "3"
 #define BTR_OPENR_MARK "uchilsim-openr-headers "
 
 #endif

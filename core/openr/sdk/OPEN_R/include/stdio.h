@@ -1,5 +1,4 @@
-/* The C library's, and for C++ a scanf() that writes as many bytes as its variables have. */
+/* The C library's, and a scanf() that writes as many bytes as its variables have. */
 #include_next <stdio.h>
-#ifdef __cplusplus
+/* after it */
 #include <btr_scan.h>
-#endif

@@ -25,6 +25,7 @@ OStatus Dialect::DoStart(const OSystemEvent& event)
   char* p = "literal";
   say("hello");
   say(p);
+  scanned();
   OSYSPRINT(("sum %d frame %d\n", old_sum(1, 2), globalFrame.n));
   int i;
   for (i = 0; i < 3; i++) cout << messages[i] << " ";

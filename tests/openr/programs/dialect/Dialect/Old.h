@@ -6,6 +6,7 @@ extern "C" {
 #endif
 int old_sum(int, int);
 void say(char* text);
+void scanned();
 struct old_point {
   int x, y;
 };

@@ -91,10 +91,17 @@ void Faulty::Notify(const ONotifyEvent& event) {
     __asm__ volatile("mfc0 %0, $12" : "=r"(status));
     none = status;
   }
+  if (strcmp(line, "read only") == 0) {
+    MemoryRegionID id;
+    byte* there;
+    OSYSPRINT(("region %d\n", NewSharedMemoryRegion(4096, MEMPROTINFO_R, &id, (void**)&there) == sSUCCESS));
+    *there = 1;
+  }
   if (strcmp(line, "delete") == 0) {
     void* memory = malloc(10);
     OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
-    NewSharedMemoryRegion(100, &memory);
+    MemoryRegionID id;
+    NewSharedMemoryRegion(100, MEMPROTINFO_RW, &id, &memory);
     memset(memory, 1, 100);
     OSYSPRINT(("delete %d\n", DeleteRegion(memory) != sSUCCESS));
   }

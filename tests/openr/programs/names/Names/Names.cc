@@ -1064,11 +1064,13 @@ OStatus Names::DoInit(const OSystemEvent& event) {
   OSYSDEBUG(("not seen\n"));
   OSYSPRINT(("%d %d %d\n", oradians(90), micro(1.5), (int)degrees(radians(10.0) + 1e-9)));
   OList<int, 4> list;
-  list.Add(1);
+  list.PushBack(1);
   OShmPtr<ODataVectorInfo> shared;
-  shared.New();
-  shared->numData = 3;
-  cout << "size " << list.Size() << " " << shared->numData << " " << IPAddress(10, 0, 1, 100) << endl;
+  shared.Allocate();
+  ODataVectorInfo three;
+  three.numData = 3;
+  *shared = three;
+  cout << "size " << list.GetSize() << " " << shared->numData << " " << IPAddress(10, 0, 1, 100) << endl;
   OCalendarTime calendar(OTime(0, 0));
   cout << calendar.GetYear() << endl;
   return oSUCCESS;

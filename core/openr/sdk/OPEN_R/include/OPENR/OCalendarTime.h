@@ -3,11 +3,22 @@
 
 #include <OPENR/OTime.h>
 
+const int ocldtdowSUNDAY = 0;
+const int ocldtdowMONDAY = 1;
+const int ocldtdowTUESDAY = 2;
+const int ocldtdowWEDNESDAY = 3;
+const int ocldtdowTHURSDAY = 4;
+const int ocldtdowFRIDAY = 5;
+const int ocldtdowSATURDAY = 6;
+const int ocldtSTART_DAY_OF_THE_WEEK = ocldtdowSATURDAY;  ///< of otimeSTART_YEAR
+
+inline bool LeapYear(int year) { return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0; }
+
 /// A local time as year, month, day, hour, minute and second.
 class OCalendarTime {
  public:
   // As they are kept: the year counts from otimeSTART_YEAR, the month from 1; Sunday is day 0 of the week.
-  byte year_, month_, day_, hour_, min_, sec_, dow_;
+  int year_, month_, day_, hour_, min_, sec_, dow_;
   sbyte timeDif_;
 
   OCalendarTime() { Set(0); }
@@ -23,6 +34,7 @@ class OCalendarTime {
   OStatus Set(const OTime& time);
   /// oINVALID_ARG, and nothing changed, for what no calendar has.
   OStatus Set(int year, int month, int day, int hour, int minute, int second);
+  OStatus SetTime(time_t clock, sbyte timeDif) { return Set(OTime(clock, timeDif)); }
   OStatus SetTime(const OTime& time) { return Set(time); }
   OStatus SetTimeDif(sbyte timeDif) {
     timeDif_ = timeDif;
@@ -57,7 +69,15 @@ class OCalendarTime {
     return oSUCCESS;
   }
   OStatus GetTime(OTime* time) const { return time->Set(GetTime(), timeDif_); }
+  /// Whether a calendar has this day and a clock this time; the day of the week is not looked at.
+  bool ProperDate() const;
+  /// Makes dow_ what it is on that date; oINVALID_ARG for no proper one.
+  OStatus CorrectDayOfTheWeek();
   void Print() const;
+  /// "2004-01-02 03:04:05": 20 characters with the end.
+  void Sprint(char* text) const;
+  /// As in a letter's head, "Fri, 02 Jan 2004 03:04:05 +0900": 32 characters with the end.
+  void RFC2822(char* text) const;
 };
 
 inline bool operator==(const OCalendarTime& a, const OCalendarTime& b) { return a.GetTime() == b.GetTime(); }

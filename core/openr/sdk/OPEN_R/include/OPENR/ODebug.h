@@ -5,5 +5,25 @@
 #include <OPENR/OStatus.h>
 #include <OPENR/OSyslog.h>
 #include <assert.h>
+#include <stdio.h>
+
+#ifdef OPENR_NO_DEBUG
+#undef OPENR_DEBUG
+#endif
+
+/// The arguments of printf() stand in a second pair of parentheses.
+#define PRINTF(arguments) (printf arguments)
+#ifdef OPENR_DEBUG
+#define ODEBUG(what) (what)
+#define DPRINTF(arguments) (printf arguments)
+#define DPRINTF2(when, arguments) \
+  {                               \
+    if (when) (printf arguments); \
+  }
+#else
+#define ODEBUG(what)
+#define DPRINTF(arguments)
+#define DPRINTF2(when, arguments)
+#endif
 
 #endif

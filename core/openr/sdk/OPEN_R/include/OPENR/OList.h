@@ -1,86 +1,106 @@
+// A list with room for a number of elements that is fixed when it is compiled.
 #ifndef BTR_OPENR_OLIST_H
 #define BTR_OPENR_OLIST_H
 
-#include <OPENR/OPENR.h>
+#include <OPENR/ODebug.h>
+#include <OPENR/OTLStatus.h>
 
 #include <list>
 
-/// A list with at most `MAXIMUM` elements; 0: any number.
-template <class T, size_t MAXIMUM = 0>
+const int olistNULL = -1;
+
+/// At most `MaxSize` elements; 0: as many as Init() says.
+template <class T, int MaxSize = 0>
 class OList {
+  typedef std::list<T> Values;
+
  public:
-  typedef typename std::list<T>::iterator Iterator;
-  typedef typename std::list<T>::const_iterator ConstIterator;
-  typedef typename std::list<T>::iterator iterator;
-  typedef typename std::list<T>::const_iterator const_iterator;
+  /// Stands at an element or, behind the last one, at none. It goes back from there to the last.
+  class Iterator {
+   public:
+    Iterator() : list_(0) {}
+    Iterator(OList* list, typename Values::iterator at) : list_(list), at_(at) {}
+    bool operator==(const Iterator& other) const { return list_ == other.list_ && (list_ == 0 || at_ == other.at_); }
+    bool operator!=(const Iterator& other) const { return !(*this == other); }
+    /// An element of its own with T's default value where there is none.
+    T& operator*() const {
+      static T none;
+      if (list_ != 0 && at_ != list_->values_.end()) return *at_;
+      none = T();
+      return none;
+    }
+    T* operator->() const { return &**this; }
+    Iterator& operator++() {
+      if (list_ != 0 && at_ != list_->values_.end()) ++at_;
+      return *this;
+    }
+    Iterator& operator--() {
+      if (list_ == 0) return *this;
+      if (at_ == list_->values_.begin())
+        at_ = list_->values_.end();
+      else
+        --at_;
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    Iterator operator--(int) {
+      const Iterator before = *this;
+      --*this;
+      return before;
+    }
 
-  OStatus Add(const T& value) {
-    if (MAXIMUM != 0 && values_.size() >= MAXIMUM) return oFULL_OF_QUEUE;
-    values_.push_back(value);
-    return oSUCCESS;
+   private:
+    friend class OList;
+    OList* list_;
+    typename Values::iterator at_;
+  };
+
+  OList() : room_(MaxSize) {}
+  OList(const OList& other) : values_(other.values_), room_(other.room_) {}
+  OList& operator=(const OList& other) {
+    values_ = other.values_;
+    room_ = other.room_;
+    return *this;
   }
-  OStatus Append(const T& value) { return Add(value); }
-  OStatus Insert(const T& value) { return Add(value); }
-  OStatus Remove(const T& value) {
-    for (iterator i = values_.begin(); i != values_.end(); ++i)
-      if (*i == value) {
-        values_.erase(i);
-        return oSUCCESS;
-      }
-    return oITEM_NOT_FOUND;
+
+  /// How many elements an OList<T> may have. otlFAIL while one is in it.
+  OTLStatus Init(int maxSize) {
+    if (!values_.empty() || maxSize < 0) return otlFAIL;
+    room_ = maxSize;
+    return otlSUCCESS;
   }
-  OStatus Find(const T& value, T* found) const {
-    for (const_iterator i = values_.begin(); i != values_.end(); ++i)
-      if (*i == value) {
-        *found = *i;
-        return oSUCCESS;
-      }
-    return oITEM_NOT_FOUND;
-  }
-  T* Find(const T& value) {
-    for (iterator i = values_.begin(); i != values_.end(); ++i)
-      if (*i == value) return &*i;
-    return 0;
-  }
-  OStatus Get(size_t index, T* value) const {
-    if (index >= values_.size()) return oITEM_NOT_FOUND;
-    *value = (*this)[index];
-    return oSUCCESS;
-  }
-  T& operator[](size_t index) {
-    iterator i = values_.begin();
-    while (index-- > 0) ++i;
-    return *i;
-  }
-  const T& operator[](size_t index) const {
-    const_iterator i = values_.begin();
-    while (index-- > 0) ++i;
-    return *i;
-  }
-  size_t Size() const { return values_.size(); }
-  size_t GetSize() const { return values_.size(); }
-  size_t NumberOfItems() const { return values_.size(); }
-  bool IsEmpty() const { return values_.empty(); }
-  bool IsFull() const { return MAXIMUM != 0 && values_.size() >= MAXIMUM; }
+  OTLStatus PushFront(const T& item) { return Insert(Begin(), item); }
+  OTLStatus PushBack(const T& item) { return Insert(End(), item); }
+  OTLStatus PopFront() { return Erase(Begin()); }
+  OTLStatus PopBack() { return Erase(--End()); }
+  T& Front() { return *Begin(); }
+  T& Back() { return *--End(); }
   void Clear() { values_.clear(); }
+  int GetSize() const { return static_cast<int>(values_.size()); }
+  int GetMaxSize() const { return room_; }
 
-  iterator begin() { return values_.begin(); }
-  iterator end() { return values_.end(); }
-  const_iterator begin() const { return values_.begin(); }
-  const_iterator end() const { return values_.end(); }
-  bool empty() const { return values_.empty(); }
-  size_t size() const { return values_.size(); }
-  void push_back(const T& value) { values_.push_back(value); }
-  void push_front(const T& value) { values_.push_front(value); }
-  void pop_front() { values_.pop_front(); }
-  void pop_back() { values_.pop_back(); }
-  T& front() { return values_.front(); }
-  T& back() { return values_.back(); }
-  iterator erase(iterator i) { return values_.erase(i); }
-  void clear() { values_.clear(); }
+  Iterator Begin() { return Iterator(this, values_.begin()); }
+  Iterator End() { return Iterator(this, values_.end()); }
+  /// Before `at`.
+  OTLStatus Insert(Iterator at, const T& item) {
+    if (GetSize() >= room_) return otlOVERFLOW;
+    values_.insert(at.list_ == 0 ? values_.end() : at.at_, item);
+    return otlSUCCESS;
+  }
+  OTLStatus Erase(Iterator at) {
+    if (values_.empty()) return otlUNDERFLOW;
+    if (at.list_ == 0 || at.at_ == values_.end()) return otlFAIL;
+    values_.erase(at.at_);
+    return otlSUCCESS;
+  }
 
  private:
-  std::list<T> values_;
+  Values values_;
+  int room_;
 };
 
 #endif

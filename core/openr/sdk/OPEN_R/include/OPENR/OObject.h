@@ -6,6 +6,7 @@
 #include <OPENR/OPENREvent.h>
 #include <OPENR/OPENRMessages.h>
 #include <OPENR/OSyslog.h>
+#include <TimeEventInfo.h>
 #include <apsys.h>
 
 /// What a core class is derived from. There is one instance of it, the stub's.

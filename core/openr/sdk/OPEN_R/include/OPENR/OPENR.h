@@ -18,6 +18,13 @@ struct OServiceEntry {
     oid = o;
     selector = s;
   }
+  OID GetOID() const { return oid; }
+  Selector GetSelector() const { return selector; }
+  bool IsValid() const { return oid.IsValid() && selector != UNDEF; }
+  void MakeInvalid() {
+    oid.MakeInvalid();
+    selector = UNDEF;
+  }
 };
 
 inline bool operator==(const OServiceEntry& a, const OServiceEntry& b) {
@@ -48,6 +55,25 @@ const OMemoryStickStatus omemorystickUNDEF = 0xffffffff;
 const OMemoryStickStatus omemorystickNOT_EXIST = 0;
 const OMemoryStickStatus omemorystickWRITE_PROTECTED = 1;
 const OMemoryStickStatus omemorystickWRITABLE = 2;
+
+/// What oreasonBOOT comes with.
+struct OBootParam {
+  OMemoryStickStatus memoryStickStatus;
+  OBootParam() : memoryStickStatus(omemorystickUNDEF) {}
+  OBootParam(OMemoryStickStatus status) : memoryStickStatus(status) {}
+};
+
+/// What oreasonSHUTDOWN comes with.
+struct OShutdownParam {
+  bool batteryEnough;
+  OShutdownParam() : batteryEnough(false) {}
+  OShutdownParam(bool enough) : batteryEnough(enough) {}
+};
+
+typedef longword OConnectCmd;
+const OConnectCmd oconnectcmdCONNECT = 0;
+const OConnectCmd oconnectcmdDISCONNECT = 1;
+const OConnectCmd oconnectcmdDISCONNECTALL = 2;
 
 const int oreasonPARAM_MAX_SIZE = 128;
 const int oserviceNAME_MAX = 127;
@@ -117,7 +143,52 @@ const OVolumeSwitch ovolumeSW3 = 3;
 const OVolumeSwitch ovolumeSWUNDEF = 0xff;
 
 typedef longword OFatal;
-const OFatal ofatalUNDEF = 0;
+const OFatal ofatalUNDEF = 0xffffffff;
+const OFatal ofatalMEMORY_STICK = 0;
+const OFatal ofatalPAUSE_SW = 1;  ///< an orderly end
+const OFatal ofatalORB = 2;
+
+typedef longword OAsyncReqID;
+const OAsyncReqID oasyncReqID_UNDEF = 0xffffffff;
+typedef longword OVRRequest;
+const OVRRequest ovrreqUNDEF = 0xffffffff;
+typedef longword OPrimitiveRequest;
+const OPrimitiveRequest oprmreqUNDEF = 0xffffffff;
+typedef longword OCPCModelID;
+const OCPCModelID ocpcmodelID_UNDEF = 0xffffffff;
+typedef longword ODeviceID;
+typedef longword ODeviceType;
+const ODeviceType odevtypeUNDEF = 0;
+const ODeviceType odevtypeHUB = 1;
+const ODeviceType odevtypeSERVO = 2;
+const ODeviceType odevtypeAUDIO = 3;
+const ODeviceType odevtypeFBK = 4;
+
+#define oprimitiveCOORDINATE_NAME "Coordinate"
+#define oprimitiveRECEPTOR_NAME "Receptor"
+#define oprimitivePLUG_NAME "Plug"
+#define oprimitiveLINK_NAME "Link"
+#define oprimitiveJOINT_NAME "Joint"
+#define oprimitiveJOINT2_NAME "Joint2"
+#define oprimitiveJOINT3_NAME "Joint3"
+#define oprimitiveJOINT4_NAME "Joint4"
+#define oprimitiveSENSOR_NAME "Sensor"
+#define oprimitiveSPEAKER_NAME "Speaker"
+#define oprimitiveMIC_NAME "Mic"
+#define oprimitiveFBKIMAGESENSOR_NAME "FbkImageSensor"
+#define oprimitiveLED_NAME "LED"
+#define oprimitiveLED2_NAME "LED2"
+#define oprimitiveLED3_NAME "LED3"
+#define oprimitiveBLUETOOTH_NAME "Bluetooth"
+
+/// What FindDesignData() finds for this keyword on every robot.
+#define odesignkeywordCPUINFO "SYS_CPUINFO"
+struct OCPUInfo {
+  longword sclk;  ///< the bus' clock, Hz
+  longword pclk;  ///< the processor's clock, Hz
+  longword processorID;
+  byte reserved[244];
+};
 
 typedef longword MWIID;
 

@@ -5,7 +5,6 @@
 #include <OPENR/ODataFormats.h>
 #include <OPENR/OPENR.h>
 
-typedef longword OPrimitiveRequest;
 const OPrimitiveRequest oprmreqCOMMON_BASE = 0;
 const OPrimitiveRequest oprmreqSPEAKER_BASE = 128;
 const OPrimitiveRequest oprmreqMIC_BASE = 256;

@@ -2,6 +2,7 @@
 #ifndef BTR_OPENR_OBJCOMMTYPES_H
 #define BTR_OPENR_OBJCOMMTYPES_H
 
+#include <OPENR/OMemoryLocator.h>
 #include <OPENR/OPENR.h>
 #include <OPENR/RCRegion.h>
 
@@ -10,18 +11,22 @@
 
 using std::list;
 
-enum OConnectCmd { objcommCONNECT, objcommDISCONNECT };
-enum ObjcommCommand { objcommADD_OBSERVER, objcommREMOVE_OBSERVER, objcommASSERT_READY, objcommDEASSERT_READY };
+const OConnectCmd objcommCONNECT = oconnectcmdCONNECT;
+const OConnectCmd objcommDISCONNECT = oconnectcmdDISCONNECT;
+typedef longword ObjcommCommand;
+const ObjcommCommand objcommADD_OBSERVER = 1;
+const ObjcommCommand objcommREMOVE_OBSERVER = 2;
+const ObjcommCommand objcommASSERT_READY = 3;
+const ObjcommCommand objcommDEASSERT_READY = 4;
+
+typedef unsigned int ObjcommVersion;
+const ObjcommVersion objcommVERSION10 = 1;
+const ObjcommVersion objcommVERSION20 = 2;
+const ObjcommVersion objcommVERSION21 = 3;
+const ObjcommVersion objcommVERSION22 = 4;
+const ObjcommVersion objcommVERSION_UNDEF = 0xffffffff;
 
 const int objcommMAX_DATA = 13;  ///< in one notice
-
-struct OMemoryLocator {
-  MemoryRegionID memID;
-  unsigned int offset;
-  size_t size;
-  OMemoryLocator() : memID(0), offset(0), size(0) {}
-  OMemoryLocator(MemoryRegionID id, unsigned int off, size_t sz = 0) : memID(id), offset(off), size(sz) {}
-};
 
 /// A subject as its observer sees it, and what the observer still holds of it.
 struct OSubjectInfo : public OServiceEntry {
@@ -31,6 +36,8 @@ struct OSubjectInfo : public OServiceEntry {
   OSubjectInfo() {}
   explicit OSubjectInfo(const SubjectID& subject) : OServiceEntry(subject), id(subject) {}
   const SubjectID& GetID() const { return id; }
+  const SubjectID& GetSubjectID() const { return id; }
+  ObjcommVersion GetVersion() const { return objcommVERSION22; }
   const SubjectID& ID() const { return id; }
 };
 
@@ -45,8 +52,11 @@ struct OObserverInfo : public OServiceEntry {
   OObserverInfo() : ready(0), buffer(0) {}
   explicit OObserverInfo(const ObserverID& observer) : OServiceEntry(observer), id(observer), ready(0), buffer(0) {}
   const ObserverID& GetID() const { return id; }
+  const ObserverID& GetObserverID() const { return id; }
   const ObserverID& ID() const { return id; }
 };
+
+typedef OObserverInfo ObserverInfo;  // of earlier programs
 
 typedef std::list<OObserverInfo>::const_iterator ObserverConstIterator;
 typedef std::list<OObserverInfo>::iterator ObserverIterator;

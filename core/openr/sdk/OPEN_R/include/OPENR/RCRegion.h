@@ -7,8 +7,10 @@
 /// makes it has the first reference. Written to only while there is no other.
 class RCRegion {
  public:
-  enum RegionType { UNDEF_REGION, SHARED_MEMORY, RCREGION, SYSTEM_REGION };
+  /// SELF_ALLOCATED: its own memory; REFERENCE_V20: what OPENR::New…VectorData made; REFERENCE_V10: neither.
+  enum RegionType { SELF_ALLOCATED, REFERENCE_V20, REFERENCE_V10 };
 
+  /// No memory and no reference.
   RCRegion();
   explicit RCRegion(size_t size);
   /// Wraps what OPENR::New…VectorData made.
@@ -37,5 +39,7 @@ class RCRegion {
   offset_t offset_;
   RegionType type_;
 };
+
+typedef RCRegion RCRegionBase;  // of earlier programs
 
 #endif

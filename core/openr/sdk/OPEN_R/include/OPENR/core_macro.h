@@ -55,5 +55,14 @@
 // Names of older programs.
 #define ASSERT_ALL_READY ASSERT_READY_TO_ALL_OBSERVER
 #define DEASSERT_ALL_READY DEASSERT_READY_TO_ALL_OBSERVER
+#define ASSERT_TO_ALL_OBSERVER ASSERT_READY_TO_ALL_OBSERVER
+#define DEASSERT_TO_ALL_OBSERVER DEASSERT_READY_TO_ALL_OBSERVER
+#define NewComData NEW_ALL_SUBJECT_AND_OBSERVER
+#define DeleteComData DELETE_ALL_SUBJECT_AND_OBSERVER
+#define SetComData                 \
+  {                                \
+    REGISTER_ALL_ENTRY             \
+    SET_ALL_READY_AND_NOTIFY_ENTRY \
+  }
 
 #endif

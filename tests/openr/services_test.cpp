@@ -137,6 +137,11 @@ TEST(Sounder, WhatIsPlayedStandsInAWavFile) {
   EXPECT_NEAR(first, 25600 * 0.31623, 2);
 }
 
+TEST(Sounder, TheLoudspeakerOfTheErs210SitsInItsHead) {
+  const std::string stick = stickOf("sounder");
+  EXPECT_THAT(runStick(stick, 100, {}, "ERS-210").all(), HasSubstr(stick + "/SPEAKER.WAV"));
+}
+
 TEST(Filer, FilesConsoleAndTime) {
   const std::string stick = stickOf("filer"), outside = emptyFolder("outside");
   writeText(outside + "/secret.txt", "s");

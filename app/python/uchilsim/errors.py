@@ -54,6 +54,8 @@ _KINDS = {
 
 def error_of(error: grpc.RpcError) -> Error:
     """The package's error for one of gRPC's."""
+    if "channel closed" in (error.details() or "").lower():
+        return NotNow("the client was closed while it waited for an answer")
     return _KINDS.get(error.code(), Error)(error.details() or str(error.code()))
 
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Sequence
 import grpc
 import numpy as np
 
-from . import uchilsim_pb2 as pb
 from . import checks
+from . import uchilsim_pb2 as pb
 from .checks import made
 from .errors import Error, Refused, error_of, sentences
 from .numbers import Number

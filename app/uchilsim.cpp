@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QFileInfo>
 #include <QIcon>
-#include <QLocale>
 #include <QTimer>
 #include <cstdio>
 
@@ -11,6 +10,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "core/spec/process.h"
+#include "ui/common/plain_numbers.h"
 #include "ui/controllers/grid_controller.h"
 #include "ui/controllers/replay_controller.h"
 #include "ui/main_window.h"
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(commandLine, argc, argv);
 
   QApplication application(argc, argv);
-  QLocale::setDefault(QLocale::c());  // numbers have a decimal point everywhere, as in files and on the command line
+  btr::ui::usePlainNumbers();
   QApplication::setApplicationName("UCHILSIM");
   QApplication::setApplicationVersion(QString::fromStdString(btr::programVersion()));
   QApplication::setDesktopFileName("uchilsim");

@@ -16,7 +16,7 @@ namespace btr {
 /// beside Motion::memory() is not in it, nor are cameras.
 struct SessionCheckpoint {
   Game game;
-  ModelSet models;  ///< shared with the session
+  ModelSet models;                     ///< shared with the session
   std::shared_ptr<const Scene> scene;  ///< the same
   WorldMemory world, lastGood;
   std::map<std::string, double> clocks;                 ///< by robot that a plugin moves

@@ -49,9 +49,9 @@ struct SceneRobot {
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   Eigen::Vector3d startVelocity_m_s = Eigen::Vector3d::Zero();  ///< of the root frame's origin, world axes; free base
   Eigen::Vector3d startSpin_rad_s = Eigen::Vector3d::Zero();    ///< world axes
-  std::vector<double> jointStart;      ///< by joint of the model
-  std::vector<double> jointStartRate;  ///< by joint of the model, rad/s or m/s
-  std::vector<Drive> drives;           ///< by joint of the model; fixed joints: Kind::none
+  std::vector<double> jointStart;                               ///< by joint of the model
+  std::vector<double> jointStartRate;                           ///< by joint of the model, rad/s or m/s
+  std::vector<Drive> drives;                                    ///< by joint of the model; fixed joints: Kind::none
   std::string collision = "primitives";
   bool mergeFixed = true;
 };

@@ -26,12 +26,13 @@ bool hasGroup(const RobotModel& model, const std::string& group) {
   return std::ranges::any_of(model.links, [&](const Link& link) { return isOfGroup(link.massGroup, group); });
 }
 
-bool isIn(const Scene& scene, const std::string& parameter) {
+bool isIn(const SceneSpec& scene, const ModelSet& models, const std::string& parameter) {
   if (parameter == "gravity_m_s2") return true;
   if (isOfFloor(parameter)) return scene.floor.has_value();
   const auto group = groupOf(parameter);
-  return std::ranges::any_of(scene.robots, [&](const SceneRobot& robot) {
-    return group ? hasGroup(robot.model, *group) : referenceJoint(robot.model) >= 0;
+  return std::ranges::any_of(scene.robots, [&](const RobotSpec& robot) {
+    const RobotModel& model = *models.at(robot.model);
+    return group ? hasGroup(model, *group) : referenceJoint(model) >= 0;
   });
 }
 
@@ -48,10 +49,10 @@ int referenceJoint(const RobotModel& model) {
   return -1;
 }
 
-std::vector<Parameter> simulatorParametersOf(const Scene& scene) {
+std::vector<Parameter> simulatorParametersOf(const SceneSpec& scene, const ModelSet& models) {
   std::vector<Parameter> all;
   for (const Parameter& parameter : simulatorParameters())
-    if (isIn(scene, parameter.name)) all.push_back(parameter);
+    if (isIn(scene, models, parameter.name)) all.push_back(parameter);
   return all;
 }
 

@@ -15,7 +15,7 @@ int referenceJoint(const RobotModel& model);
 
 /// Those of simulatorParameters() that mean something in a scene: masses of groups that a robot has, servos of robots
 /// with legs, the floor's where there is one, and gravity.
-std::vector<Parameter> simulatorParametersOf(const Scene& scene);
+std::vector<Parameter> simulatorParametersOf(const SceneSpec& scene, const ModelSet& models);
 
 /// Why a parameter means nothing there: "only for robots whose model has a body".
 std::string whoHas(const std::string& parameter);

@@ -27,13 +27,13 @@ struct RobotSpec {
   std::array<double, 4> orientation_wxyz{1, 0, 0, 0};
   std::array<double, 3> velocity_m_s{0, 0, 0};  ///< of the root link's frame at the start, world frame; a free base's
   std::array<double, 3> spin_rad_s{0, 0, 0};    ///< about world axes
-  std::string collision = "primitives";     ///< "primitives", "mesh" (the simplified meshes) or "none"
-  bool mergeFixed = true;                   ///< fixed parts become one body
-  std::map<std::string, ServoSpec> servos;  ///< by joint name
-  Values jointStart;                        ///< starting positions by joint name [rad or m], default 0
-  Values jointRate;                         ///< velocities at the start by joint name [rad/s or m/s], default 0
-  std::map<std::string, Values> links;      ///< by link name: mass_kg
-  std::map<std::string, Values> joints;     ///< by joint name: coulomb_friction_nm, viscous_friction_nm_s_rad, …
+  std::string collision = "primitives";         ///< "primitives", "mesh" (the simplified meshes) or "none"
+  bool mergeFixed = true;                       ///< fixed parts become one body
+  std::map<std::string, ServoSpec> servos;      ///< by joint name
+  Values jointStart;                            ///< starting positions by joint name [rad or m], default 0
+  Values jointRate;                             ///< velocities at the start by joint name [rad/s or m/s], default 0
+  std::map<std::string, Values> links;          ///< by link name: mass_kg
+  std::map<std::string, Values> joints;         ///< by joint name: coulomb_friction_nm, viscous_friction_nm_s_rad, …
   bool operator==(const RobotSpec&) const = default;
   /// It is in motion at the start.
   bool moves() const;

@@ -64,6 +64,8 @@ class Database {
   /// Stores run, files and its first simulator version (number 0) together. An absent programVersion, startedAt or
   /// createdAt is filled in. Files are shared by content between runs.
   Id addRun(const RunRecord& run, const SimulatorRecord& first);
+  /// The same with an experiment of its own: both are stored, or neither is.
+  Id addRun(const ExperimentRecord& experiment, RunRecord run, const SimulatorRecord& first);
   std::vector<RunRecord> runs(Id experiment = 0) const;  ///< without specs' files; 0: of all experiments
   RunRecord run(Id id) const;                            ///< with everything
   /// The latest such run that is not a cell of a grid.
@@ -149,6 +151,9 @@ class Database {
   // ---- grids
   /// Grid, cells and the first runs together; there is one grid of a spec, method and seed.
   Id addGrid(const GridRecord& grid, const std::vector<GridCellRecord>& cells, const std::vector<GridStart>& first);
+  /// The same with an experiment of its own: all is stored, or nothing is.
+  Id addGrid(const ExperimentRecord& experiment, GridRecord grid, const std::vector<GridCellRecord>& cells,
+             std::vector<GridStart> first);
   void beginGridCells(Id grid, const std::vector<GridStart>& starts);
   /// A generation of each of these cells; ids are written back, also the bests'.
   void addGridRound(Id grid, std::vector<GridStep>& steps);

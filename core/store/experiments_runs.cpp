@@ -131,6 +131,13 @@ Id Database::addRun(const RunRecord& run, const SimulatorRecord& first) {
   return connection_->write([&] { return insertRun(*connection_, run, first); });
 }
 
+Id Database::addRun(const ExperimentRecord& experiment, RunRecord run, const SimulatorRecord& first) {
+  return connection_->write([&] {
+    run.experiment = insertExperiment(*connection_, experiment);
+    return insertRun(*connection_, run, first);
+  });
+}
+
 std::vector<RunRecord> Database::runs(Id experiment) const {
   return connection_->read([&] {
     std::vector<RunRecord> all;

@@ -47,26 +47,38 @@ Id store(const Connection& connection, Id grid, int cell, GenerationRecord& gene
   return 0;
 }
 
+Id insertGrid(const Connection& connection, const GridRecord& g, const std::vector<GridCellRecord>& cells,
+              const std::vector<GridStart>& first) {
+  requireRow(connection, "experiment", g.experiment);
+  const Id grid = insert(connection,
+                         "INSERT INTO grid (experiment_id, name, method, seed, spec_json, spec_sha256, created_at) "
+                         "VALUES (?, ?, ?, ?, ?, ?, ?)",
+                         g.experiment, g.name, g.method, g.seed, g.specJson, g.specSha256, orNow(g.createdAt));
+  // Those that learn come first: the others refer to them.
+  Query row(connection,
+            "INSERT INTO grid_cell (grid_id, number, distance_m, bearing_rad, direction_rad, mirror_of) VALUES (?, "
+            "?, ?, ?, ?, ?)");
+  for (const bool mirrored : {false, true})
+    for (const GridCellRecord& c : cells)
+      if ((c.mirrorOf != 0) == mirrored)
+        row.run(grid, c.number, c.task[0], c.task[1], c.task[2], Reference{c.mirrorOf});
+  begin(connection, grid, first);
+  return grid;
+}
+
 }  // namespace
 
-Id Database::addGrid(const GridRecord& g, const std::vector<GridCellRecord>& cells,
+Id Database::addGrid(const GridRecord& grid, const std::vector<GridCellRecord>& cells,
                      const std::vector<GridStart>& first) {
+  return connection_->write([&] { return insertGrid(*connection_, grid, cells, first); });
+}
+
+Id Database::addGrid(const ExperimentRecord& experiment, GridRecord grid, const std::vector<GridCellRecord>& cells,
+                     std::vector<GridStart> first) {
   return connection_->write([&] {
-    requireRow(*connection_, "experiment", g.experiment);
-    const Id grid = insert(*connection_,
-                           "INSERT INTO grid (experiment_id, name, method, seed, spec_json, spec_sha256, created_at) "
-                           "VALUES (?, ?, ?, ?, ?, ?, ?)",
-                           g.experiment, g.name, g.method, g.seed, g.specJson, g.specSha256, orNow(g.createdAt));
-    // Those that learn come first: the others refer to them.
-    Query row(*connection_,
-              "INSERT INTO grid_cell (grid_id, number, distance_m, bearing_rad, direction_rad, mirror_of) VALUES (?, "
-              "?, ?, ?, ?, ?)");
-    for (const bool mirrored : {false, true})
-      for (const GridCellRecord& c : cells)
-        if ((c.mirrorOf != 0) == mirrored)
-          row.run(grid, c.number, c.task[0], c.task[1], c.task[2], Reference{c.mirrorOf});
-    begin(*connection_, grid, first);
-    return grid;
+    grid.experiment = insertExperiment(*connection_, experiment);
+    for (GridStart& start : first) start.run.experiment = grid.experiment;
+    return insertGrid(*connection_, grid, cells, first);
   });
 }
 

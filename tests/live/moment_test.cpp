@@ -52,6 +52,68 @@ TEST(Moment, AWorldOfItsSceneStandsAsTheSessionDid) {
   EXPECT_TRUE(was.crate.velocity_m_s.isApprox(is.crate.velocity_m_s, 1e-12));
 }
 
+Game gameOf(const SceneSpec& scene) {
+  Game game;
+  game.scene = sceneFromJson(toJsonText(scene), "moment.json", scene.directory);  // as a file
+  return game;
+}
+
+/// Of all its links.
+Eigen::Vector3d middleOf(const Session& session, std::size_t robot) {
+  const RobotModel& model = session.scene().robots[robot].model;
+  const auto poses = session.world().linkPoses(robot);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    mass += model.links[i].inertial.mass_kg;
+    moment += model.links[i].inertial.mass_kg * (poses[i] * model.links[i].inertial.centreOfMass_m);
+  }
+  return moment / mass;
+}
+
+// Up into the air and turning, its legs trotting on: the middle of its mass flies along the parabola before the moment
+// and after it, in the session and in a world of the moment's scene.
+TEST(Moment, AThrownRobotFliesOnAlongItsParabola) {
+  auto session = std::make_optional<Session>(dogs(), host());
+  run(*session, 20);
+  session->apply(PlaceAct{"red1", {-0.5, 0, 2}, {1, 0, 0, 0}, {}, {}});
+  session->apply(ThrowAct{"red1", {0.4, -0.3, 2.5}, {0.5, 1, -2}});
+  const double period = session->scene().controlPeriod_s;
+  const Eigen::Vector3d gravity = session->scene().gravity_m_s2;
+  const Eigen::Vector3d start = middleOf(*session, 0);
+  run(*session, 25);
+  const double t = 25 * period;
+  const Eigen::Vector3d middle = middleOf(*session, 0);
+  const Eigen::Vector3d velocity = (middle - start) / t + gravity * t / 2;  // now
+  const SceneSpec scene = momentOf(*session);
+  EXPECT_TRUE(scene.robots[0].moves());
+  EXPECT_GT(scene.robots[0].jointRate.size(), 8u);  // it trots
+  session.reset();                                  // a process has one world
+
+  Session again(gameOf(scene), host());
+  EXPECT_LT((middleOf(again, 0) - middle).norm(), 1e-4);
+  for (int i = 1; i <= 50; ++i) {
+    again.step();
+    const double later = i * period;
+    const Eigen::Vector3d flies = middle + velocity * later + gravity * later * later / 2;
+    ASSERT_LT((middleOf(again, 0) - flies).norm(), 2e-3) << later << " s";
+  }
+}
+
+TEST(Moment, KeepsHowFastEverythingIs) {
+  auto session = std::make_optional<Session>(dogs(), host());
+  run(*session, 90);
+  const RobotReadings was = session->world().robot(0);
+  ASSERT_GT(was.baseVelocity_m_s.norm(), 0.02);  // it walks
+  const SceneSpec scene = momentOf(*session);
+  session.reset();
+  const Session again(gameOf(scene), host());
+  const RobotReadings is = again.world().robot(0);
+  EXPECT_LT((was.baseVelocity_m_s - is.baseVelocity_m_s).norm(), 1e-9);
+  EXPECT_LT((was.baseSpin_rad_s - is.baseSpin_rad_s).norm(), 1e-9);
+  for (std::size_t j = 0; j < was.rate.size(); ++j) EXPECT_NEAR(was.rate[j], is.rate[j], 1e-9) << j;
+}
+
 TEST(Moment, WhatCameIsThereAndWhatWentIsNot) {
   Session session(dogs(), host());
   session.apply(actFromJson(R"({"act": "remove", "object": "blue1"})", "act"));

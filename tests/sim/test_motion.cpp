@@ -25,6 +25,21 @@ TEST(World, FreeFallIsTheParabolaWhateverTheStep) {
   }
 }
 
+TEST(World, AThrownBodyBeginsWithItsVelocityAndSpin) {
+  Scene scene = sceneOf(robot(bodyModel(2, {0.1, 0.1, 0.3}, {}), true), 0.001);
+  scene.robots[0].start.translation() << 0, 0, 10;
+  scene.robots[0].startVelocity_m_s << 1, -0.5, 3;
+  scene.robots[0].startSpin_rad_s << 0, 0, 2;
+  World world(scene, 1);
+  EXPECT_EQ(world.robot(0).baseVelocity_m_s, scene.robots[0].startVelocity_m_s);
+  world.advance(commands(scene, 0), 0.8);
+  const Eigen::Isometry3d base = world.robot(0).base;
+  EXPECT_NEAR(0.8, base.translation().x(), 1e-9);
+  EXPECT_NEAR(-0.4, base.translation().y(), 1e-9);
+  EXPECT_NEAR(10 + 3 * 0.8 - g * 0.8 * 0.8 / 2, base.translation().z(), 1e-9);
+  EXPECT_NEAR(1.6, std::atan2(base.linear()(1, 0), base.linear()(0, 0)), 1e-6);
+}
+
 TEST(World, AFallingAccelerometerFeelsNothing) {
   RobotModel model = bodyModel(2, {0.1, 0.2, 0.3}, {});
   model.sensors = {Sensor{.name = "ACCEL"}};

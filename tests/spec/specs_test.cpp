@@ -63,7 +63,20 @@ TEST(Scenes, ReadBackEqualWithEveryKeySet) {
   robot.joints["hip"] = {{"coulomb_friction_nm", 0.02}, {"viscous_friction_nm_s_rad", 0.001}};
   spec.balls.push_back({"second", 0.04, 0.06, 0.4, 0.5, 0.3, {1, 2, 0.04}, {0.1, 0, 0}});
   spec.floor = FloorSpec{0.9, 0.1, 0.01, 0.02, 3e4, 120};
+  spec.robots.push_back(robot);
+  RobotSpec& thrown = spec.robots.back();
+  thrown.name = "thrown";
+  thrown.base = "free";
+  thrown.velocity_m_s = {1, -2, 1.0 / 3};
+  thrown.spin_rad_s = {0, 0, 6};
+  thrown.jointRate = {{"knee", -1.0 / 7}};
   EXPECT_EQ(spec, scene(toJsonText(spec)));
+}
+
+TEST(Scenes, SayNothingOfRobotsAtRest) {
+  const std::string text = toJsonText(scene(sceneText).robots[0]);
+  for (const char* key : {"velocity_m_s", "spin_rad_s", "joint_velocity"})
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
 }
 
 TEST(Scenes, WithoutAFloorThereIsNothingToStandOn) {
@@ -101,6 +114,14 @@ TEST(Scenes, NameWhatIsWrong) {
   EXPECT_EQ("s.json /balls/0/radius_m: -1 is not allowed; 0.001 to 10", refused("0.0425, \"mass", "-1, \"mass"));
   EXPECT_EQ("s.json /gravity_m_s2: [0,0,-981.0] is not allowed; numbers from -100 to 100", refused("-9.81", "-981.0"));
   EXPECT_EQ("s.json /calibrate/0/max: 2 is not allowed; a number above min", refused("\"max\": 8", "\"max\": 2"));
+  EXPECT_EQ("s.json /robots/0/velocity_m_s: [1,0,0] is not allowed; nothing for a robot whose base is fixed",
+            refused("\"base\": \"fixed\"", "\"base\": \"fixed\", \"velocity_m_s\": [1, 0, 0]"));
+  EXPECT_EQ("s.json /robots/0/velocity_m_s: [0,0,51] is not allowed; numbers from -50 to 50",
+            refused("\"base\": \"fixed\"", "\"velocity_m_s\": [0, 0, 51]"));
+  EXPECT_EQ(
+      "s.json /robots/0/joint_velocity: {\"knee\":501} is not allowed; velocities from -500 to 500 rad/s, from -50 "
+      "to 50 m/s of a slide joint",
+      refused("\"base\": \"fixed\"", "\"joint_velocity\": {\"knee\": 501}"));
   EXPECT_EQ("s.json /robots/0/model: 3 is not allowed; a text \"…\"", refused("\"leg.urdf\"", "3"));
 }
 

@@ -88,6 +88,19 @@ TEST_F(Records, ARunThatCannotBeStoredLeavesNothingBehind) {
   EXPECT_EQ(1u, db_.runs().size());
 }
 
+// As with a full disk: the run cannot be stored after its experiment was.
+TEST_F(Records, ARunThatCannotBeStoredLeavesNoExperiment) {
+  const std::size_t before = db_.experiments().size();
+  RunRecord run = runOf(0);
+  run.files = {{"leg.urdf", "0123", "<robot/>"}};
+  EXPECT_THAT(refusal([&] { db_.addRun(kickExperiment(), run, {}); }), HasSubstr("leg.urdf"));
+  EXPECT_EQ(before, db_.experiments().size());
+  run.files.clear();
+  const Id id = db_.addRun(kickExperiment(), run, {});
+  ASSERT_EQ(before + 1, db_.experiments().size());
+  EXPECT_EQ(db_.experiments().back().id, db_.run(id).experiment);
+}
+
 TEST_F(Records, GenerationsReadBackBitByBit) {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -358,6 +358,38 @@ class TestExperimentForm : public QObject {
     QVERIFY(!form.isValid());
   }
 
+  void onlyParametersOfTheScenesRobotsAreShown() {
+    ExperimentForm form(someOffers());
+    ExperimentSpec spec = aSpec();
+    spec.adapted.clear();
+    spec.simulator = {};
+    form.setSpec(spec);
+    form.show();
+    auto* simulator = form.findChild<ParameterForm*>("simulator");
+    for (const Parameter& p : simulatorParameters()) QVERIFY2(simulator->shows(p.name), p.name.c_str());
+    spec.scene = "../scenes/quadruped.json";  // no AIBO
+    form.setSpec(spec);
+    for (const char* name : {"head_mass_kg", "neck_mass_kg", "body_mass_kg", "leg_mass_kg", "servo_p_nm_rad"})
+      QVERIFY2(!simulator->shows(name), name);
+    for (const char* name : {"gravity_m_s2", "friction", "slip1_m_s_n"}) QVERIFY2(simulator->shows(name), name);
+    QVERIFY(form.isValid());
+    QVERIFY(form.spec().adapted.empty());  // all that there are
+    simulator->setChecked({"friction", "leg_mass_kg"});
+    QCOMPARE(form.spec().adapted, std::vector<std::string>{"friction"});
+    simulator->setChecked({"leg_mass_kg"});
+    QVERIFY(!form.isValid());
+    // By typing another scene, and back.
+    type(form.findChild<QLineEdit*>("scene"), "../scenes/kick.json");
+    QVERIFY(simulator->shows("leg_mass_kg"));
+    type(form.findChild<QLineEdit*>("scene"), "../scenes/quadruped.json");
+    QVERIFY(!simulator->shows("leg_mass_kg"));
+    // What the experiment itself says of others stays seen: it has to be mended.
+    spec.simulator.values = {{"leg_mass_kg", 0.3}};
+    form.setSpec(spec);
+    QVERIFY(simulator->shows("leg_mass_kg"));
+    QCOMPARE(form.spec().simulator.values.at("leg_mass_kg"), 0.3);
+  }
+
   void saysWhatIsRecordedAndWhatTheStandInConceals() {
     ExperimentForm form(someOffers());
     form.setSpec(aSpec());

@@ -83,6 +83,7 @@ class TestScene3d : public QObject {
   void orbitKeepsTheDistance();
   void panMovesTheFocusWithTheMouse();
   void zoomGoesByFactorsAndStopsAtItsLimits();
+  void aCameraGoesAlongBeforeAPointLeavesThePicture();
   void meshesTurnTheirTrianglesOutwards();
   void borderLinesAreFieldSizedAnd25mmWide();
   void ballRobotAndFieldAppearWhereTheyAreProjected();
@@ -107,6 +108,7 @@ class TestScene3d : public QObject {
   void mouseOrbitsPansAndZooms();
   void keysSwitchWhatTheyPromise();
   void followKeepsTheBallInTheMiddle();
+  void theRobotIsKeptInViewUntilTheUserLooksElsewhere();
   void savesAPngWithItsTexts();
 };
 
@@ -160,6 +162,35 @@ void TestScene3d::zoomGoesByFactorsAndStopsAtItsLimits() {
   QCOMPARE(camera.distance, 0.08);
   camera.zoom(-1000);
   QCOMPARE(camera.distance, 15.0);
+}
+
+void TestScene3d::aCameraGoesAlongBeforeAPointLeavesThePicture() {
+  for (const double azimuth : {-0.9, 0.4, 2.5}) {
+    ViewCamera camera;
+    camera.azimuth = azimuth;
+    const ViewCamera before = camera;
+    camera.keepInView(camera.focus + Vector3d(0.05, 0, 0), kSize);
+    QVERIFY(camera == before);  // near the middle
+    Vector3d walker = camera.focus;
+    double largest_m = 0;
+    for (int i = 0; i < 400; ++i) {  // 4 m
+      walker += Vector3d(0.008, 0.006, 0);
+      const Vector3d was = camera.focus;
+      camera.keepInView(walker, kSize);
+      largest_m = std::max(largest_m, (camera.focus - was).norm());
+      const auto pixel = camera.project(walker, kSize);
+      QVERIFY(pixel && QRectF(0, 0, kSize.width(), kSize.height()).contains(*pixel));
+    }
+    QVERIFY(largest_m < 0.05);  // it does not jump
+    QCOMPARE(camera.focus.z(), before.focus.z());
+    QCOMPARE(camera.distance, before.distance);
+    // Far away at once, in front or behind.
+    for (const double side : {20.0, -20.0}) {
+      camera.keepInView({side, side, 0.1}, kSize);
+      const auto pixel = camera.project({side, side, 0.1}, kSize);
+      QVERIFY(pixel && QRectF(0, 0, kSize.width(), kSize.height()).contains(*pixel));
+    }
+  }
 }
 
 void TestScene3d::meshesTurnTheirTrianglesOutwards() {
@@ -579,6 +610,42 @@ void TestScene3d::followKeepsTheBallInTheMiddle() {
   }
   view.setFollow(SceneView::Follow::robot);
   QVERIFY((view.camera().focus - Vector3d(0, 0, 0.2)).norm() < 1e-12);
+}
+
+void TestScene3d::theRobotIsKeptInViewUntilTheUserLooksElsewhere() {
+  SceneView view;
+  view.resize(kSize);
+  view.setRobot(test::smallRobot());
+  const auto walkTo = [&view](double x) {
+    ScenePose pose = somePose();
+    for (auto& link : pose.links) link.translation().x() += x;
+    view.setPose(pose);
+    return view.camera().project(pose.links.front().translation(), kSize);
+  };
+  const QRectF picture(0, 0, kSize.width(), kSize.height());
+  const auto sees = [&picture](const std::optional<QPointF>& pixel) { return pixel && picture.contains(*pixel); };
+  for (double x = 0; x < 3; x += 0.01) QVERIFY(sees(walkTo(x)));
+  QVERIFY(view.keepsInView());
+  // Turned and nearer, it is still kept.
+  QWheelEvent wheel(QPointF(50, 50), view.mapToGlobal(QPointF(50, 50)), {}, QPoint(0, 120), Qt::NoButton, {},
+                    Qt::NoScrollPhase, false);
+  QApplication::sendEvent(&view, &wheel);
+  QVERIFY(sees(walkTo(3.3)));
+  // Moved aside: the user looks at something else.
+  QTest::mousePress(&view, Qt::MiddleButton, {}, {100, 100});
+  QMouseEvent move(QEvent::MouseMove, QPointF(130, 110), view.mapToGlobal(QPointF(130, 110)), Qt::NoButton,
+                   Qt::MiddleButton, {});
+  QApplication::sendEvent(&view, &move);
+  QTest::mouseRelease(&view, Qt::MiddleButton, {}, {130, 110});
+  QVERIFY(!view.keepsInView());
+  const ViewCamera his = view.camera();
+  QVERIFY(!sees(walkTo(9)));
+  QCOMPARE(view.camera(), his);
+  // Home begins anew, and the key switches it.
+  view.goHome();
+  QVERIFY(sees(walkTo(12)));
+  QTest::keyClick(&view, Qt::Key_V);
+  QVERIFY(!sees(walkTo(0)));
 }
 
 void TestScene3d::savesAPngWithItsTexts() {

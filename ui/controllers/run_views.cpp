@@ -1,5 +1,7 @@
 #include "ui/controllers/run_views.h"
 
+#include "core/run/setup/prepared_experiment.h"
+#include "core/spec/error.h"
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/database/individuals_table.h"
@@ -91,6 +93,12 @@ void RunViews::select(const RunRecord& run) {
   spec.seed = run.seed;
   if (!spec.plugins.empty()) pages_.spec.setOffers(offersOf(*bench_.host()));
   pages_.spec.setSpec(spec);
+  try {
+    pages_.spec.setMeaningful(parametersOfRun(run));
+  } catch (const InputError&) {
+    // A robot's file that cannot be read is said by whoever plays the run again; all are shown.
+    pages_.spec.setMeaningful(simulatorParameters());
+  }
   const QString unit = QString::fromStdString(bench_.host()->fitness(spec.fitness.name)->unit());
   pages_.panel.setUnit(unit);
   pages_.fitness.setUnit(unit);

@@ -231,6 +231,7 @@ void ExperimentForm::setSpec(const ExperimentSpec& spec) {
 
 void ExperimentForm::fill(const ExperimentSpec& spec) {
   shown_ = spec;
+  sceneRead_.clear();
   name_->setText(QString::fromStdString(spec.name));
   scene_->setText(QString::fromStdString(spec.scene));
   for (QLineEdit* edit : {name_, scene_}) edit->setCursorPosition(0);  // a long text is seen from its beginning
@@ -341,9 +342,11 @@ ExperimentSpec ExperimentForm::spec() const {
   spec.standIn = standIn_->values();
   spec.recordings.settings = recordings_->values();
   // "All" may be written as nothing or as every name: what was read stays as it was.
-  if (const auto checked = simulator_->checked(); checked != adaptedNames(shown_)) {
+  if (simulator_->checked() != adaptedNames(shown_)) {
     spec.adapted.clear();
-    if (checked.size() < simulatorParameters().size())
+    const std::set<std::string> checked = adapted();
+    const auto isShown = [this](const Parameter& p) { return simulator_->shows(p.name); };
+    if (static_cast<std::ptrdiff_t>(checked.size()) < std::ranges::count_if(simulatorParameters(), isShown))
       for (const Parameter& parameter : simulatorParameters())
         if (checked.count(parameter.name)) spec.adapted.push_back(parameter.name);
   }
@@ -375,7 +378,7 @@ QStringList ExperimentForm::problems() const {
   problems << realityForm_->problems(reality);
   problems << adaptationSettings_->problems() << adaptation_->problems() << simulator_->problems()
            << recordings_->problems();
-  if (simulator_->checked().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
+  if (adapted().empty()) problems << tr("Simulator parameters: tick at least one that L3 may change");
   if (problems.isEmpty()) {
     const double heldOut = valueOf(adaptationParameters(), adaptationSettings_->values(), "held_out");
     const double measured = valueOf(stageParameters(), stages_->values(), "measured_individuals");
@@ -429,6 +432,7 @@ Section* ExperimentForm::add(QVBoxLayout& column, const QString& title, QWidget*
 // Everything that depends on the fields: which parts are seen, what is wrong, what may be pressed.
 void ExperimentForm::update() {
   if (!problem_ || filling_) return;
+  followScene();
   const bool standIn = reality_->currentData().toString() == "stand_in";
   realityForm_->show(reality_->currentData().toString());
   standIn_->setVisible(standIn);
@@ -447,7 +451,11 @@ void ExperimentForm::update() {
   realitySettings_->setVisible(learnsInReality);
   sections_[7]->setSummary(learnsInReality ? QString::fromStdString(realityLearner_->choice().name) : tr("none"));
   sections_[8]->setSummary(changes(adaptationSettings_->changedCount() + adaptation_->changedCount()));
-  sections_[9]->setSummary(tr("%1 of %2 adapted").arg(simulator_->checked().size()).arg(simulatorParameters().size()));
+  sections_[9]->setSummary(tr("%1 of %2 adapted")
+                               .arg(adapted().size())
+                               .arg(std::ranges::count_if(simulatorParameters(), [this](const auto& p) {
+                                 return simulator_->shows(p.name);
+                               })));
 
   const QStringList wrong = readOnly_ ? QStringList() : problems();
   problem_->setText(wrong.isEmpty()

@@ -3,6 +3,7 @@
 #include <QWidget>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/experiment_spec.h"
@@ -54,6 +55,9 @@ class ExperimentForm : public QWidget {
   void markSaved() { undo_.setClean(); }
   /// For a stored run, whose spec never changes: `why` stands above the form.
   void setReadOnly(const QString& why);
+  /// The simulator parameters that mean something for a stored run's robots; of a scene file the form finds them
+  /// itself.
+  void setMeaningful(const std::vector<Parameter>& parameters);
   QUndoStack& undoStack() { return undo_; }
   void resetAll();
   /// The keyboard begins here: the name, selected.
@@ -78,6 +82,10 @@ class ExperimentForm : public QWidget {
   /// Under which name the offers for a controller's parameters are: its own, or, where they stand in files, one for
   /// each that was read. Where they cannot be read, what `spec` begins around is taken for them.
   QString genotypeFor(const PluginChoice& controller, const ExperimentSpec& spec);
+  /// Shows the simulator parameters that mean something in the scene, when that is another one.
+  void followScene();
+  /// The shown ones that L3 may change.
+  std::set<std::string> adapted() const;
   QWidget* makeRecordings();
   void makeBars(QVBoxLayout& column);
   Section* add(QVBoxLayout& column, const QString& title, QWidget* content, bool open);
@@ -101,6 +109,7 @@ class ExperimentForm : public QWidget {
   QLabel *standInNote_ = nullptr, *problem_ = nullptr, *why_ = nullptr, *effects_ = nullptr;
   QPushButton *start_ = nullptr, *save_ = nullptr, *copy_ = nullptr;
   QWidget *editBar_ = nullptr, *inside_ = nullptr;
+  QString sceneRead_;            ///< the scene file whose parameters are shown, with its time
   QString followed_, genotype_;  ///< the controller that the learners' pages belong to, and its parameters
   PluginForm *controller_, *fitness_, *adaptation_;
   LearnerForm *learner_, *realityLearner_, *searchStart_;

@@ -1,6 +1,7 @@
 // The parts of the experiment form that are not made from declared parameters.
 #include <QAction>
 #include <QComboBox>
+#include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -11,6 +12,8 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "core/run/setup/prepared_experiment.h"
+#include "core/spec/error.h"
 #include "ui/common/combo_width.h"
 #include "ui/common/edit_command.h"
 #include "ui/common/file_choice.h"
@@ -152,6 +155,36 @@ void ExperimentForm::followController() {
   for (auto* form : {learner_, realityLearner_, searchStart_}) form->setGenotype(genotype_);
   // Another controller brings pages that are made only now.
   if (std::exchange(followed_, controller) != controller) orderTabs(*inside_);
+}
+
+// What the experiment itself says stays seen, so that it can be mended.
+void ExperimentForm::setMeaningful(const std::vector<Parameter>& parameters) {
+  std::set<std::string> names(shown_.adapted.begin(), shown_.adapted.end());
+  for (const Parameter& p : parameters) names.insert(p.name);
+  for (const Parameter& p : simulatorParameters())
+    if (valueOf(simulatorParameters(), shown_.simulator.values, p.name) != p.byDefault) names.insert(p.name);
+  simulator_->setShown(names);
+}
+
+void ExperimentForm::followScene() {
+  if (readOnly_) return;
+  const QString path = QDir(QString::fromStdString(shown_.directory)).absoluteFilePath(scene_->text().trimmed());
+  const QFileInfo file(path);
+  if (!file.isFile()) return;
+  const QString read = path + file.lastModified().toString(Qt::ISODateWithMs);
+  if (std::exchange(sceneRead_, read) == read) return;
+  try {
+    setMeaningful(parametersOfScene(path.toStdString()));
+  } catch (const InputError&) {
+    // Whoever starts the run is told what is wrong with the scene; until then all are shown.
+    setMeaningful(simulatorParameters());
+  }
+}
+
+std::set<std::string> ExperimentForm::adapted() const {
+  std::set<std::string> names = simulator_->checked();
+  std::erase_if(names, [this](const std::string& name) { return !simulator_->shows(name); });
+  return names;
 }
 
 QWidget* ExperimentForm::makeRecordings() {

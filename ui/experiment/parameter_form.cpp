@@ -110,6 +110,11 @@ std::set<std::string> ParameterForm::checked() const {
   return names;
 }
 
+void ParameterForm::setShown(const std::set<std::string>& names) {
+  shown_ = names;
+  filter(search_->text());
+}
+
 void ParameterForm::setReadOnly(bool readOnly) {
   for (ParameterField* field : fields_) field->setReadOnly(readOnly);
 }
@@ -144,7 +149,7 @@ void ParameterForm::announce() {
 void ParameterForm::filter(const QString& text) {
   bool any = false;
   for (ParameterField* field : fields_) {
-    const bool matches = field->matches(text.trimmed());
+    const bool matches = shows(field->parameter().name) && field->matches(text.trimmed());
     field->setVisible(matches);
     any = any || matches;
   }

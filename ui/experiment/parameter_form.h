@@ -1,5 +1,6 @@
 #pragma once
 #include <QWidget>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -36,6 +37,10 @@ class ParameterForm : public QWidget {
   void setChecked(const std::set<std::string>& names);
   std::set<std::string> checked() const;
 
+  /// Only these fields are shown; the others keep what they have. At first all are.
+  void setShown(const std::set<std::string>& names);
+  bool shows(const std::string& name) const { return !shown_ || shown_->count(name) > 0; }
+
   void setReadOnly(bool readOnly);
   int changedCount() const;  ///< fields that differ from their defaults
   void resetAll();           ///< one undo step
@@ -52,6 +57,7 @@ class ParameterForm : public QWidget {
 
   QUndoStack& undo_;
   std::vector<ParameterField*> fields_;
+  std::optional<std::set<std::string>> shown_;
   Values undeclared_;
   bool wasValid_ = true;
   QLineEdit* search_;

@@ -91,7 +91,7 @@ void LiveDesk::closeAll() {
 }
 
 std::string LiveDesk::state() const {
-  json document{{"camera", toJson(view_->camera())}, {"docks", json::array()}};
+  json document{{"camera", toJson(view_->camera())}, {"keep_in_view", view_->keepsInView()}, {"docks", json::array()}};
   for (const QDockWidget* dock : findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     if (const auto* view = qobject_cast<ExtraView*>(dock->widget()))
       document["docks"].push_back({{"view", view->state()}});
@@ -107,6 +107,8 @@ void LiveDesk::restore(const std::string& state) {
   if (!document.is_object()) return;
   closeAll();
   if (document.contains("camera")) view_->setCamera(viewCameraFrom(document.at("camera")));
+  if (const auto keep = document.find("keep_in_view"); keep != document.end() && keep->is_boolean())
+    view_->setKeepingInView(keep->get<bool>());
   constexpr std::size_t mostDocks = 12;
   if (const auto docks = document.find("docks"); docks != document.end() && docks->is_array())
     for (const json& dock : *docks) {

@@ -59,8 +59,8 @@ class LiveProcess : public QObject {
   void saveScene(const QString& path);
   /// An experiment in which this robot learns, "": one that suits, and its scene beside it.
   void saveExperiment(const QString& path, const std::string& robot = {});
-  /// Of a log that is played again: as fast as possible to a period, an earlier one too if it goes back; what is left of
-  /// it is given up.
+  /// Of a log that is played again: as fast as possible to a period, an earlier one too if it goes back; what is left
+  /// of it is given up.
   void goTo(long period);
   void goOn();
   /// Whether rows tell the contacts of their step.

@@ -10,8 +10,8 @@ class LiveWorld;
 class ReplayBar;
 
 /// A session's log that is played again on the page: begun, gone to and fro in, and left. Back in time is the log from
-/// a moment that is kept before, as fast as possible: a world cannot run backwards. Where none can be kept (a controller
-/// looks through a camera), from its start.
+/// a moment that is kept before, as fast as possible: a world cannot run backwards. Where none can be kept (a
+/// controller looks through a camera), from its start.
 class LiveReplayer : public QObject {
   Q_OBJECT
  public:

@@ -131,7 +131,7 @@ void LiveTools::makeSaves() {
   save_ = entry("liveSave", "document-save", tr("This moment as &game…"),
                 tr("The game as it is now: it goes on with the same bits"), &LiveTools::saveChosen);
   saveScene_ = entry("liveSaveScene", "document-save-as", tr("This moment as &scene…"),
-                     tr("Where everything is, with the robots' joints as they are; robots begin at rest"),
+                     tr("Where everything is and how it moves, robots' joints included"),
                      &LiveTools::saveSceneChosen);
   experiment_ =
       entry("liveExperiment", "run-build", tr("Start an &experiment from here…"),

@@ -212,8 +212,8 @@ bool RenderStage::draw(osg::Node& scene, const RenderView& view, QSize pixels, c
   osg::Camera& camera = *viewer_->getCamera();
   camera.setViewMatrix(osg::Matrixd(view.view.data()));
   camera.setProjectionMatrixAsFrustum(view.left, view.right, view.bottom, view.top, view.near_m, view.far_m);
-  // Few enough triangles for the pixels of a measurement; a picture for people has them all.
-  if (sunMap_) camera.setLODScale(float((view.top - view.bottom) / view.near_m / pixels.height()));
+  // Few enough triangles for the pixels, where the scene has levels; fine shadows inherit it.
+  camera.setLODScale(float((view.top - view.bottom) / view.near_m / pixels.height()));
   up_->set(osg::Vec3(osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), camera.getViewMatrix())));
   viewer_->frame(0.0);
   context_->release();

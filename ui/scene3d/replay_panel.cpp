@@ -194,6 +194,9 @@ void ReplayPanel::showBeside(const ReplayData* other) {
   if (!beside_) {
     beside_ = new SceneView(this, factory_);
     beside_->setObjectName("beside");
+    // One of them leads.
+    beside_->setKeepingInView(false);
+    connect(beside_, &SceneView::panned, view_, [this] { view_->setKeepingInView(false); });
     views_->addWidget(beside_, 1);
     const auto link = [this](SceneView* from, SceneView* to) {
       connect(from, &SceneView::cameraChanged, to, [from, to] {

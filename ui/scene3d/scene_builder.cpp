@@ -228,6 +228,7 @@ struct SceneBuilder::Impl {
   std::array<bool, kMarks> shown{};
   WorldMarks worldMarks;
   osg::ref_ptr<osg::Group> worldLines = new osg::Group;
+  std::map<std::shared_ptr<const RobotModel>, std::vector<LinkBodies>> bodies;  ///< of the robots that are there
   bool dark = false, levels = false;
   int firstFurther = 2;
 
@@ -270,16 +271,21 @@ struct SceneBuilder::Impl {
 
 void SceneBuilder::Impl::rebuildFigure() {
   pose = {};
-  std::map<const RobotModel*, std::vector<LinkBodies>> bodies;
-  const auto of = [&](const RobotModel* each) -> const std::vector<LinkBodies>& {
-    const auto [place, isNew] = bodies.try_emplace(each);
-    if (isNew && each) place->second = bodiesOf(*each, nullptr, levels);
+  std::map<std::shared_ptr<const RobotModel>, std::vector<LinkBodies>> used;
+  const auto of = [&](const std::shared_ptr<const RobotModel>& each) -> const std::vector<LinkBodies>& {
+    const auto [place, isNew] = used.try_emplace(each);
+    if (isNew && each) {
+      if (const auto known = bodies.find(each); known != bodies.end())
+        place->second = known->second;
+      else
+        place->second = bodiesOf(*each, nullptr, levels);
+    }
     return place->second;
   };
-  figure = std::make_unique<Figure>(model.get(), of(model.get()), radii, nullptr);
+  figure = std::make_unique<Figure>(model.get(), of(model), radii, nullptr);
   further.clear();
-  for (const auto& other : furtherModels)
-    further.emplace_back(other.get(), of(other.get()), std::vector<double>(), nullptr);
+  for (const auto& other : furtherModels) further.emplace_back(other.get(), of(other), std::vector<double>(), nullptr);
+  bodies = std::move(used);
   // Ground, first robot if there is one, further robots, balls.
   firstFurther = model ? 3 : 2;
   figure->number(2, firstFurther + static_cast<int>(further.size()));
@@ -376,6 +382,7 @@ void SceneBuilder::setRobot(std::shared_ptr<const RobotModel> model) {
 
 void SceneBuilder::setLevels(bool levels) {
   impl_->levels = levels;
+  impl_->bodies.clear();
   impl_->rebuildFigure();
 }
 

@@ -49,8 +49,8 @@ class SceneBuilder {
 
   /// Draws the model's drawn shapes; null takes the robot away. Poses are forgotten.
   void setRobot(std::shared_ptr<const RobotModel> model);
-  /// Robots also get bodies of fewer triangles, which a measurement draws where they are small (see toLevels). Poses
-  /// are forgotten.
+  /// Robots also get bodies of fewer triangles, which are drawn where they are small in the picture (see toLevels).
+  /// Poses are forgotten.
   void setLevels(bool levels);
   /// Robots beside the first one, whose poses are ScenePose::others.
   void setFurtherRobots(std::vector<std::shared_ptr<const RobotModel>> models);

@@ -21,6 +21,7 @@ constexpr double kMovingPicture_s = 0.030;  ///< finer pictures that would take 
 }  // namespace
 
 SceneView::SceneView(QWidget* parent, GlContextFactory factory) : QWidget(parent), renderer_(std::move(factory)) {
+  scene_.setLevels(true);
   setFocusPolicy(Qt::StrongFocus);
   setAttribute(Qt::WA_OpaquePaintEvent);
   setAccessibleName(tr("3D view of robot, ball and field"));
@@ -44,6 +45,10 @@ void SceneView::makeActions() {
   };
   home_ = make(tr("Home"), "go-home", tr("Back to the first point of view (H)"), false);
   followAction_ = make(tr("Follow"), "crosshairs", tr("Keep the robot, the ball or nothing in the middle (F)"), false);
+  keep_ = make(tr("Keep in view"), "zoom-fit-best", tr("The camera goes along before a robot leaves the picture (V)"),
+               true);
+  keep_->setObjectName("keepInView");
+  keep_->setChecked(true);
   shadows_ = make(tr("Shadows"), "contrast", tr("Draw shadows (S)"), true);
   shadows_->setChecked(true);
   makeSurfaceActions();
@@ -53,12 +58,19 @@ void SceneView::makeActions() {
   show_->menu()->addActions(surfaces_);
   show_->menu()->addSeparator();
   show_->menu()->addActions(marks_);
+  show_->menu()->addSeparator();
+  show_->menu()->addAction(keep_);
+  keys_.append({Qt::Key_V, keep_});
   for (const auto& [key, action] : keys_) action->setText(action->text() + "\t" + QKeySequence(key).toString());
   jacket_ = make(tr("Blue jacket"), "fill-color", tr("Change between the red and the blue jacket (J)"), true);
   save_ = make(tr("Save picture…"), "document-save", tr("Save what is shown as a PNG file"), false);
   keys_ += {{Qt::Key_H, home_}, {Qt::Key_F, followAction_}, {Qt::Key_S, shadows_}, {Qt::Key_J, jacket_}};
   connect(home_, &QAction::triggered, this, &SceneView::goHome);
   connect(followAction_, &QAction::triggered, this, [this] { setFollow(Follow((int(follow_) + 1) % 3)); });
+  connect(keep_, &QAction::toggled, this, [this] {
+    applyFollow();
+    redraw();
+  });
   connect(shadows_, &QAction::toggled, this, &SceneView::redraw);
   connect(jacket_, &QAction::toggled, this, [this](bool blue) {
     scene_.setJacket(blue ? "blue" : "red");
@@ -172,9 +184,24 @@ void SceneView::setFollow(Follow follow) {
   redraw();
 }
 
-/// Moves the focus, and with it the eye, onto what is followed.
+void SceneView::setKeepingInView(bool on) { keep_->setChecked(on); }
+bool SceneView::keepsInView() const { return keep_->isChecked(); }
+
+std::optional<Eigen::Vector3d> SceneView::keptInView() const {
+  const auto& links = scene_.pose().links;
+  if (links.empty() || !links.front().matrix().allFinite()) return std::nullopt;
+  return links.front().translation();
+}
+
+/// Moves the focus, and with it the eye, onto what is followed, or after what would leave the picture.
 void SceneView::applyFollow() {
   const ScenePose& pose = scene_.pose();
+  if (follow_ == Follow::nothing && keepsInView() && dragButton_ == Qt::NoButton) {
+    const ViewCamera before = camera_;
+    if (const auto place = keptInView()) camera_.keepInView(*place, size());
+    if (camera_ != before) emit cameraChanged();
+    return;
+  }
   const auto& followed = follow_ == Follow::ball ? pose.balls : pose.links;
   if (follow_ != Follow::nothing && !followed.empty() && followed.front().matrix().allFinite())
     camera_.focus = followed.front().translation();
@@ -192,7 +219,7 @@ void SceneView::setBadges(const QList<Badge>& badges) {
 
 void SceneView::setCamera(const ViewCamera& camera) {
   camera_ = camera;
-  applyFollow();
+  if (follow_ != Follow::nothing) applyFollow();
   redraw();
   emit cameraChanged();
 }
@@ -210,6 +237,7 @@ ViewCamera SceneView::homeCamera() const {
 void SceneView::goHome() {
   follow_ = Follow::nothing;
   followAction_->setText(tr("Follow"));
+  keep_->setChecked(true);
   setCamera(homeCamera());
 }
 
@@ -304,8 +332,10 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
   dragFrom_ = event->position();
   ViewCamera camera = camera_;
   if (dragButton_ == Qt::MiddleButton || event->modifiers() & Qt::ShiftModifier) {
+    keep_->setChecked(false);
     if (follow_ != Follow::nothing) setFollow(Follow::nothing);
     camera.pan(by, height());
+    emit panned();
   } else {
     camera.orbit(by);
   }

@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <QWidget>
 #include <memory>
+#include <optional>
 
 #include "ui/scene3d/renderer.h"
 #include "ui/scene3d/scene_builder.h"
@@ -15,9 +16,9 @@ class QAction;
 namespace btr::ui {
 
 /// The 3D view: a widget that paints what the renderer draws, only when something changed. Left drag orbits, middle or
-/// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, S shadows, J red or blue jacket; W wireframe,
-/// P points, T transparent; B collision shapes, O boxes, A joint axes, C centres of mass, K contacts, R trails. Without
-/// OpenGL it says so in words and everything else works on.
+/// Shift drag pans, the wheel zooms; H home, F follow nothing/robot/ball, V keep in view, S shadows, J red or blue
+/// jacket; W wireframe, P points, T transparent; B collision shapes, O boxes, A joint axes, C centres of mass, K
+/// contacts, R trails. Without OpenGL it says so in words and everything else works on.
 class SceneView : public QWidget {
   Q_OBJECT
 
@@ -40,6 +41,11 @@ class SceneView : public QWidget {
   void setJacket(const QString& part);  ///< "red" or "blue"
   void setFollow(Follow follow);
   Follow follow() const { return follow_; }
+
+  /// Where nothing is followed, the camera goes along before what is looked at (keptInView()) leaves the picture. So it
+  /// does until the user moves it aside, and again from home on.
+  void setKeepingInView(bool on);
+  bool keepsInView() const;
 
   /// Lines of text in the upper left corner, and badges in the upper right one, topmost first.
   void setCaption(const QStringList& lines);
@@ -77,8 +83,11 @@ class SceneView : public QWidget {
  signals:
   void cameraChanged();
   void markToggled(btr::ui::Mark mark, bool on);
+  void panned();  ///< by the user
 
  protected:
+  /// The place that shall not leave the picture; nothing where there is none.
+  virtual std::optional<Eigen::Vector3d> keptInView() const;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -105,7 +114,7 @@ class SceneView : public QWidget {
   Follow follow_ = Follow::nothing;
   QStringList caption_;
   QList<Badge> badges_;
-  QAction *home_, *followAction_, *shadows_, *show_, *jacket_, *save_;
+  QAction *home_, *followAction_, *keep_, *shadows_, *show_, *jacket_, *save_;
   QList<QAction*> surfaces_, marks_;
   QList<std::pair<Qt::Key, QAction*>> keys_;
   QImage image_;         ///< what was rendered last, in device pixels or half of them

@@ -1,5 +1,6 @@
 #include "ui/scene3d/view_camera.h"
 
+#include <QRectF>
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +58,38 @@ void ViewCamera::showWhole(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty() || box.diagonal().norm() < dog_m) return;
   focus = box.center();
   distance = std::clamp(box.diagonal().norm() / 2 / std::sin(fieldOfView / 2), distance, 15.0);
+}
+
+void ViewCamera::keepInView(const Eigen::Vector3d& point, QSize size) {
+  if (size.isEmpty() || !point.allFinite()) return;
+  const auto pixel = project(point, size);
+  if (!pixel) {  // behind the eye
+    focus.head<2>() = point.head<2>();
+    return;
+  }
+  constexpr double gentle = 0.55, surely = 0.85;  // shares of the picture around its middle
+  constexpr double perPicture = 0.12;
+  const auto beyond = [](double from, double half, double share) {
+    return from - std::clamp(from, -half * share, half * share);
+  };
+  const auto way = [&](double from, double half) {
+    const double some = perPicture * beyond(from, half, gentle), must = beyond(from, half, surely);
+    return std::abs(must) > std::abs(some) ? must : some;
+  };
+  const double right = way(pixel->x() - size.width() / 2.0, size.width() / 2.0);
+  const double down = way(pixel->y() - size.height() / 2.0, size.height() / 2.0);
+  if (right == 0 && down == 0) return;
+  const Eigen::Matrix3d frame = axes(*this);
+  const double depth = frame.col(2).dot(eye() - point);
+  const double metres = 2 * depth * std::tan(fieldOfView / 2) / size.height();
+  // Up and down in the picture is to and fro on the floor, seen at a slant.
+  constexpr double flattest = 0.2;
+  const double slant = std::copysign(std::max(flattest, std::abs(std::sin(elevation))), elevation);
+  const Eigen::Vector3d ahead(-std::cos(azimuth), -std::sin(azimuth), 0);
+  focus += metres * (right * frame.col(0) - down / slant * ahead);
+  // What was far away.
+  const auto now = project(point, size);
+  if (!now || !QRectF(QPointF(), QSizeF(size)).contains(*now)) focus.head<2>() = point.head<2>();
 }
 
 void ViewCamera::orbit(QPointF pixels) {

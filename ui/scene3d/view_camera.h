@@ -29,6 +29,9 @@ struct ViewCamera {
 
   /// Where it looks from the same side, a box that is larger than a dog is seen whole; smaller ones change nothing.
   void showWhole(const Eigen::AlignedBox3d& box);
+  /// Goes along over the floor, so that a point does not leave a picture of that size: at once as far as it would be
+  /// out, gently (some of the way with each picture) as it comes near the edge.
+  void keepInView(const Eigen::Vector3d& point, QSize size);
   /// Mouse movements in pixels of a view of that height.
   void orbit(QPointF pixels);
   void pan(QPointF pixels, int height);

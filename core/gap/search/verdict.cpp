@@ -219,6 +219,7 @@ std::string colourText(const Findings& e) {
 
 /// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
 /// recordings cannot: a number or an effect that fits, and misleads.
+/// `named`: effects, or a law that was measured, are in the final simulator.
 std::string unseenText(const GapReport& report, bool named, const SearchThresholds::Verdict& limits) {
   const auto unseen = unseenError(report);
   if (!unseen) return "";  // none was held out
@@ -385,7 +386,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
     report.sentence += "Nothing in the recordings moves by more than " + toText(limits.leastMotion) + noiseFloors +
                        ": they can show little. ";
-  if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named, limits);
+  if (leavesSomethingToAdopt(report.verdict))
+    report.sentence += unseenText(report, e.named || report.law.known(), limits);
   if (report.verdict == Verdict::unexplained || report.verdict == Verdict::partlyExplained ||
       e.beyondStep() > limits.clearlyLeft)
     report.sentence += swingText(problem, report, thresholds);

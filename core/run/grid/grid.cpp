@@ -84,7 +84,7 @@ Id startGrid(Database& database, const PluginHost& host, const GridSpec& spec, G
   all.name = experiment.name;
   all.specJson = record.specJson;
   const auto same = database.findExperiment(all.specJson);
-  grid.experiment = same ? *same : database.addExperiment(all);
+  grid.experiment = same.value_or(0);
 
   const std::vector<GridCell> cells = cellsOf(spec);
   std::vector<GridCellRecord> records;
@@ -95,7 +95,7 @@ Id startGrid(Database& database, const PluginHost& host, const GridSpec& spec, G
   for (const GridCell& cell : cells)
     if (cell.mirrorOf == 0 && (only == 0 || cell.number == only))
       first.push_back(gridStart(base, spec, method, grid.experiment, seed, cell, experiment.start));
-  return database.addGrid(grid, records, first);
+  return same ? database.addGrid(grid, records, first) : database.addGrid(all, grid, records, first);
 }
 
 RunEnd continueGrid(Database& database, const PluginHost& host, Id grid, const StopFlag& stop,

@@ -68,14 +68,12 @@ Id startRun(Database& database, const PluginHost& host, const ExperimentSpec& sp
   // Runs of the same spec with other seeds belong to one experiment.
   for (const ExperimentRecord& e : database.experiments())
     if (e.name == spec.name && e.specJson == record.specJson) record.experiment = e.id;
-  if (record.experiment == 0) {
-    ExperimentRecord experiment;
-    experiment.name = spec.name;
-    experiment.specJson = record.specJson;
-    experiment.createdAt = utcNow();
-    record.experiment = database.addExperiment(experiment);
-  }
-  const Id begins = database.addRun(record, firstSimulator(prepared));
+  ExperimentRecord experiment;
+  experiment.name = spec.name;
+  experiment.specJson = record.specJson;
+  experiment.createdAt = utcNow();
+  const Id begins = record.experiment != 0 ? database.addRun(record, firstSimulator(prepared))
+                                           : database.addRun(experiment, record, firstSimulator(prepared));
   if (old) *edited = saidOf(*old, record, begins);
   return begins;
 }

@@ -109,7 +109,7 @@ ModelSet parseModels(const SceneSpec& scene, const std::vector<StoredFile>& file
 /// Which simulator parameters mean something in the scene, and which of them L3 may change. Another robot has no head
 /// or legs of an AIBO: what says nothing but the usual of them is passed over, the rest is an error.
 void settleParameters(PreparedExperiment& prepared) {
-  prepared.parameters = simulatorParametersOf(makeScene(prepared.sceneSpec, prepared.models, {}, prepared.effects));
+  prepared.parameters = simulatorParametersOf(prepared.sceneSpec, prepared.models);
   const std::vector<std::string>& wanted = prepared.spec.adapted;
   for (const Parameter& p : simulatorParameters()) {
     const bool isHere = find(prepared.parameters, p.name) != nullptr;
@@ -311,6 +311,16 @@ PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host) 
 std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host) {
   const PreparedExperiment prepared = prepareFromRun(run, host);
   return modelLosses(prepared.sceneSpec, prepared.models);
+}
+
+std::vector<Parameter> parametersOfScene(const std::string& path) {
+  const SceneSpec scene = loadScene(path);
+  return simulatorParametersOf(scene, loadModels(scene));
+}
+
+std::vector<Parameter> parametersOfRun(const RunRecord& run) {
+  const SceneSpec scene = sceneFromJson(run.sceneJson, "run " + std::to_string(run.id), "");
+  return simulatorParametersOf(scene, parseModels(scene, run.files));
 }
 
 SimulatorRecord firstSimulator(const PreparedExperiment& prepared) {

@@ -58,6 +58,10 @@ PreparedExperiment prepareFromRun(const RunRecord& run, const PluginHost& host);
 /// What the run's robots lack of what their files say; see modelLosses().
 std::vector<std::string> runLosses(const RunRecord& run, const PluginHost& host);
 
+/// Those of simulatorParameters() that mean something for the robots of a scene file or a stored run. Throw InputError.
+std::vector<Parameter> parametersOfScene(const std::string& path);
+std::vector<Parameter> parametersOfRun(const RunRecord& run);
+
 /// The simulator version 0 of a run: what the experiment says, start values for the rest of the scene's parameters.
 SimulatorRecord firstSimulator(const PreparedExperiment& prepared);
 

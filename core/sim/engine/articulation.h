@@ -44,6 +44,7 @@ struct RobotJoint {
   dJointID id = nullptr;       ///< hinge, slider, or the universal joint that two degrees of freedom share
   int group = 0;               ///< 0 or dParamGroup2: which of the joint's two axes
   dJointID extra = nullptr;    ///< rows for dry friction and for passive terms beside a saturated servo
+  std::optional<ExtraRowsMemory> extraMade{};  ///< how, once there are any
   Eigen::Vector3d axisInParent = Eigen::Vector3d::UnitZ(), axisInChild = Eigen::Vector3d::UnitZ();
   bool axisFollowsChild = false;  ///< second axis of a universal joint
   Eigen::Vector3d anchorInParent = Eigen::Vector3d::Zero(), anchorInChild = Eigen::Vector3d::Zero();
@@ -92,6 +93,8 @@ class Articulation {
   void addRingTorques();
   /// Makes the joint's extra rows: axis 0 dry friction, axis 1 passive terms.
   void makeExtraRows(RobotJoint& joint);
+  /// The same as they were made in another world.
+  void remakeExtraRows(RobotJoint& joint, const ExtraRowsMemory& memory);
 
   Eigen::Isometry3d base() const;
   std::vector<Eigen::Isometry3d> linkPoses() const;

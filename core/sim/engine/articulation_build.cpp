@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/sim/engine/articulation.h"
+#include "core/sim/engine/ode_body.h"
 
 namespace btr {
 namespace {
@@ -240,6 +241,10 @@ void Articulation::aimJoints(const Isometry3d& base) {
 void Articulation::makeExtraRows(RobotJoint& joint) {
   const Vector3d& axis = joint.axis;
   const int relative = joint.axisFollowsChild ? 1 : joint.parent >= 0 ? 2 : 0;
+  static unsigned long made = 0;  // one world a process
+  joint.extraMade = ExtraRowsMemory{++made, axis, {}};
+  if (relative != 0)
+    joint.extraMade->attitude = attitudeOf(relative == 1 ? bodies[joint.child].id : idOf(joint.parent));
   joint.extra = joint.slides ? dJointCreateLMotor(world_, nullptr) : dJointCreateAMotor(world_, nullptr);
   dJointAttach(joint.extra, bodies[joint.child].id, idOf(joint.parent));
   if (joint.slides) {
@@ -250,6 +255,22 @@ void Articulation::makeExtraRows(RobotJoint& joint) {
     dJointSetAMotorNumAxes(joint.extra, 2);
     for (int i = 0; i < 2; ++i) dJointSetAMotorAxis(joint.extra, i, relative, axis.x(), axis.y(), axis.z());
   }
+}
+
+void Articulation::remakeExtraRows(RobotJoint& joint, const ExtraRowsMemory& memory) {
+  if (joint.extra) return;
+  const dBodyID body = joint.axisFollowsChild ? bodies[joint.child].id : idOf(joint.parent);
+  const Vector3d axis = joint.axis;
+  joint.axis = memory.axis;
+  if (!body || !memory.attitude) {
+    makeExtraRows(joint);
+  } else {
+    const auto now = attitudeOf(body);
+    setAttitude(body, *memory.attitude);
+    makeExtraRows(joint);
+    setAttitude(body, now);
+  }
+  joint.axis = axis;
 }
 
 double Articulation::inertiaHeldBy(const RobotJoint& joint, const std::vector<LinkState>& zero) const {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/sim/engine/ode_body.h"
 #include "core/sim/world/world_impl.h"
@@ -109,6 +110,7 @@ WorldMemory World::memory(Detail detail) const {
       at.enabled = drive.enabled;
       at.dryRow = drive.dryRow && detail == Detail::everything;
       at.passiveRow = drive.passiveRow && detail == Detail::everything;
+      if (detail == Detail::everything) at.extraRows = joint.extraMade;
       at.effects = drive.effects.memory();
       of.joints.push_back(std::move(at));
     }
@@ -136,6 +138,18 @@ WorldMemory World::memory(Detail detail) const {
     addAttitude(memory.obstacles.back().body, obstacle.id);
   }
   return memory;
+}
+
+void World::Impl::remakeExtraRows(const WorldMemory& memory) {
+  std::vector<std::tuple<const ExtraRowsMemory*, WorldRobot*, std::size_t>> all;
+  for (const RobotMemory& of : memory.robots)
+    for (WorldRobot& robot : robots)
+      if (robot.scene->name == of.name)
+        for (std::size_t j = 0; j < of.joints.size(); ++j)
+          if (of.joints[j].extraRows) all.emplace_back(&*of.joints[j].extraRows, &robot, j);
+  std::sort(all.begin(), all.end(),
+            [](const auto& a, const auto& b) { return std::get<0>(a)->order < std::get<0>(b)->order; });
+  for (const auto& [rows, robot, joint] : all) robot->body->remakeExtraRows(robot->body->joints[joint], *rows);
 }
 
 void World::remember(const WorldMemory& memory) {
@@ -194,6 +208,7 @@ void World::remember(const WorldMemory& memory) {
     robot.accelerometerVelocity_m_s = of.accelerometerVelocity_m_s;
     robot.specificForce_m_s2 = of.specificForce_m_s2;
   }
+  impl_->remakeExtraRows(memory);
   for (const ThingMemory& of : memory.balls)
     if (WorldBall* ball = named(impl_->balls, of.name)) {
       Isometry3d pose = Isometry3d::Identity();

@@ -105,6 +105,9 @@ struct World::Impl {
   std::string fault;
   bool inOde = true;  ///< something moves in ODE
 
+  /// In the order in which they were made in the world that remembers them.
+  void remakeExtraRows(const WorldMemory& memory);
+
   double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }
   JointState stateOf(const WorldRobot& robot, std::size_t joint, double now) const;
   /// As the drive's law sees the joint: the rotor's position and rate where its sensor sits there.

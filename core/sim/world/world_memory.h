@@ -20,13 +20,22 @@ struct BodyMemory {
   std::optional<std::array<double, 16>> attitude{};
 };
 
+/// How the rows came to be that a joint in the engine has for friction: their axis is kept in the frame of a body as
+/// that stood then, to the last bit.
+struct ExtraRowsMemory {
+  unsigned long order = 0;  ///< those that were made earlier come first
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  std::optional<std::array<double, 16>> attitude{};  ///< of that body, see BodyMemory; none: the world
+};
+
 struct JointMemory {
   double position = 0, rate = 0, solvedRate = 0;  ///< of the joint, see RobotJoint
   double command = 0, integral = 0, driveRate = 0, rateBefore = 0, torque = 0, measured = 0, load = 0;
   double motorAhead = 0, motorRate = 0, couplingLoad = 0;
   double middleRate = 0, endRate = 0;  ///< of a robot in joint coordinates
   bool fresh = true, enabled = true;
-  bool dryRow = false, passiveRow = false;        ///< see JointDrive; not in files
+  std::optional<ExtraRowsMemory> extraRows{};  ///< not in files
+  bool dryRow = false, passiveRow = false;     ///< see JointDrive; not in files
   std::vector<std::vector<double>> effects{};  ///< states, in the order of the simulator's list
 };
 

@@ -36,6 +36,7 @@ ExtraView::ExtraView(LiveWorld& world, QWidget* parent) : QWidget(parent), world
   layout->addLayout(tools);
   layout->addWidget(view_, 1);
   view_->setGround(Ground::plain);
+  view_->setKeepingInView(false);  // it has modes for that
 
   connect(mode_, &QComboBox::currentIndexChanged, this, [this](int index) {
     object_->setEnabled(ViewMode(index) != ViewMode::free);

@@ -68,6 +68,21 @@ void LiveView::setRow(const LiveRow& row) {
   setPose(scene_.pose(row));
 }
 
+std::optional<Vector3d> LiveView::keptInView() const {
+  if (row_.values.empty() || led_ >= 0 || following_) return std::nullopt;
+  Vector3d sum = Vector3d::Zero();
+  int robots = 0;
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
+    const LiveObject& object = scene_.objects()[i];
+    if (object.name == selected()) return scene_.poseOf(i, row_).translation();
+    if (object.kind != LiveObject::Kind::robot) continue;
+    sum += scene_.poseOf(i, row_).translation();
+    ++robots;
+  }
+  if (robots == 0) return std::nullopt;
+  return sum / robots;
+}
+
 void LiveView::select(std::vector<std::string> objects) {
   selected_ = std::move(objects);
   update();

@@ -49,6 +49,8 @@ class LiveView : public SceneView {
   void dropped(int thing, const Eigen::Vector2d& at_m);
 
  protected:
+  /// What is selected, or else the middle of all robots. While something is led by the mouse the picture stands.
+  std::optional<Eigen::Vector3d> keptInView() const override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;

@@ -76,6 +76,8 @@ class FitService {
   /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
   /// there, and judged at the present one.
   double stepToSearchWith(const Fit& fit) const;
+  /// Mean squared residual of a fit, shifted in time by what is no physics (alignment.h) [noise floors²].
+  double leftBy(const Fit& fit) const;
   /// Change of the residuals with half the step.
   Eigen::VectorXd stepChange(const Fit& fit) const;
   /// Halves the step until half of it changes no fit by more than what hides in the noise, and fits again; keeps the

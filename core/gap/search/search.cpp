@@ -108,8 +108,11 @@ void StructureSearch::addEffects() {
   bool recalibrated = false;
   std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
   for (int stage = 0; stage < most(); ++stage) {
-    // What the integration itself is wrong by is not physics that was left out.
-    if (selection_.final.mean() < limits.nothingLeft + stepErrorOf(service_.stepChange(selection_.final.fit))) break;
+    // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
+    const double ofOthers = selection_.final.aligned.numericalFloor();
+    if (selection_.final.mean() <
+        limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
+      break;
     Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;
     selection_.final = round.without;

@@ -96,6 +96,13 @@ struct CalibratePath {
 };
 
 /// The simulated world before anything happens ("format": "uchilsim-scene-1").
+/// How friction acts where two surfaces slide on each other without force-dependent slip.
+enum class SlidingFriction {
+  box,  ///< up to μ·N along the sliding and as much across it, as in ODE: a push aside below μ·N turns no sliding
+        ///< body, and both together are up to √2·μ·N. Scenes that do not say otherwise.
+  isotropic  ///< Coulomb's: μ·N against the sliding alone, whose direction is free
+};
+
 struct SceneSpec {
   std::array<double, 3> gravity_m_s2{0, 0, -9.81};
   double step_s = 0.001;  ///< 1e-5 … 0.02, divides control_period_s
@@ -105,6 +112,7 @@ struct SceneSpec {
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
   bool robotsCollide = false;  ///< with each other; with obstacles and balls they always do
+  SlidingFriction slidingFriction = SlidingFriction::box;
   std::vector<CalibratePath> calibrate;
   std::string directory;  ///< of the scene file; relative model paths start here
   bool operator==(const SceneSpec&) const = default;

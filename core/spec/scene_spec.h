@@ -95,14 +95,14 @@ struct CalibratePath {
   bool operator==(const CalibratePath&) const = default;
 };
 
-/// The simulated world before anything happens ("format": "uchilsim-scene-1").
-/// How friction acts where two surfaces slide on each other without force-dependent slip.
+/// How friction acts where two surfaces slide on each other
+/// without force-dependent slip.
 enum class SlidingFriction {
   box,  ///< up to μ·N along the sliding and as much across it, as in ODE: a push aside below μ·N turns no sliding
         ///< body, and both together are up to √2·μ·N. Scenes that do not say otherwise.
   isotropic  ///< Coulomb's: μ·N against the sliding alone, whose direction is free
 };
-
+/// The simulated world before anything happens ("format": "uchilsim-scene-1").
 struct SceneSpec {
   std::array<double, 3> gravity_m_s2{0, 0, -9.81};
   double step_s = 0.001;  ///< 1e-5 … 0.02, divides control_period_s

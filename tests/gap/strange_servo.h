@@ -32,8 +32,9 @@ struct Plant {
   double bias = 0;                             ///< of the commands [rad]
   double before = 0;                           ///< time on at the first command, not recorded [s]
   double loopPeriod = 0;                       ///< torque held for so long [s]
-  double errorBand = 0;                        ///< largest error that is let be [rad]
-  bool wholeBeyond = false;                    ///< outside the band the whole error counts, not the rest
+  double spring = 0, springFrom = 0;  ///< of a stop on either side of the link [N·m/rad], from that angle [rad]
+  double errorBand = 0;               ///< largest error that is let be [rad]
+  bool wholeBeyond = false;           ///< outside the band the whole error counts, not the rest
 };
 
 struct Trial {
@@ -129,8 +130,9 @@ class Servo {
     constexpr double smooth = 0.005;
     const double dryMotor = plant_.motorFriction * std::tanh(x[1] / smooth);
     const double dryLink = plant_.linkFriction * std::tanh(x[3] / smooth);
+    const double stop = plant_.spring * (x[2] - std::clamp(x[2], -plant_.springFrom, plant_.springFrom));
     return {x[1], (motor - gear - dryMotor) / plant_.motorInertia, x[3],
-            (gear - plant_.weight * std::sin(x[2]) - dryLink) / plant_.linkInertia};
+            (gear - plant_.weight * std::sin(x[2]) - dryLink - stop) / plant_.linkInertia};
   }
   Plant plant_;
 };

@@ -229,6 +229,20 @@ TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
   EXPECT_TRUE(names(report, "gear_elasticity")) << toPlainText(report);
 }
 
+// No effect of the library is one. A straight spring takes most of the error, and a curve beside it the rest, which is
+// a wrong name and a wrong curve: the curve alone is what it is.
+TEST(StrangeServo, WithSoftStopsOnEitherSideHasASpringWithADeadZoneAndNoOtherName) {
+  strange::Plant plant;
+  plant.spring = 2;
+  plant.springFrom = 0.3;
+  const GapReport report = reportOn(plant, 17, {"joint_spring", "torque_ripple"});
+  EXPECT_TRUE(sizesOf(report, "joint_spring").empty()) << toPlainText(report);
+  EXPECT_TRUE(sizesOf(report, "torque_ripple").empty()) << toPlainText(report);
+  ASSERT_TRUE(report.law.known()) << toPlainText(report);
+  EXPECT_EQ(report.law.family, "dead zone") << toPlainText(report);
+  EXPECT_LT(report.law.error, 1.5) << toPlainText(report);
+}
+
 // Its stamps are off by up to 1.2 ms, so that fast samples lie a few times the sensor's noise off. The recordings that
 // no fit sees move twice as fast.
 TEST(StrangeServo, WhoseStampsJitterLacksNothingHoweverFastItMoves) {

@@ -230,6 +230,27 @@ class TestWindowLayout : public QObject {
     QCOMPARE(start->visibleRegion().boundingRect(), start->rect());
   }
 
+  // A screen of 1280×720 with a scale factor of 2: the form and all others are tabs beside the tree, wide enough.
+  void aNarrowWindowHasItsPanesInTabs() {
+    Desk desk;
+    const auto window = desk.open();
+    for (int round = 0; round < 2; ++round) {
+      window->resize(632, 338);
+      window->findChild<DockLayout*>()->arrange();
+    }
+    window->resize(632, 338);
+    Desk::settle();
+    for (const char* name : {"run", "fitness", "individuals", "sheet", "spec", "draft", "replay"}) {
+      auto* dock = window->findChild<QDockWidget*>(QString("dock.") + name);
+      dock->raise();
+      Desk::settle();
+      QVERIFY2(DockLayout::isInFront(dock) && dock->width() >= 400,
+               qPrintable(QString("%1 %2").arg(name).arg(dock->width())));
+      QVERIFY2(window->rect().contains(dock->geometry()), name);
+    }
+    QCOMPARE(window->size(), QSize(632, 338));
+  }
+
   // Tab goes through all that can be seen and comes back to where it began; what is behind a tab never gets the focus.
   void tabGoesRoundThroughWhatIsInFrontOnly() {
     Desk desk;

@@ -1,5 +1,6 @@
 #include "ui/scene3d/view_camera.h"
 
+#include <QRectF>
 #include <algorithm>
 #include <cmath>
 
@@ -86,6 +87,9 @@ void ViewCamera::keepInView(const Eigen::Vector3d& point, QSize size) {
   const double slant = std::copysign(std::max(flattest, std::abs(std::sin(elevation))), elevation);
   const Eigen::Vector3d ahead(-std::cos(azimuth), -std::sin(azimuth), 0);
   focus += metres * (right * frame.col(0) - down / slant * ahead);
+  // What was far away.
+  const auto now = project(point, size);
+  if (!now || !QRectF(QPointF(), QSizeF(size)).contains(*now)) focus.head<2>() = point.head<2>();
 }
 
 void ViewCamera::orbit(QPointF pixels) {

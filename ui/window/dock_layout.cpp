@@ -15,6 +15,8 @@ namespace btr::ui {
 namespace {
 /// Below this the panes of a full layout would be too low to be read.
 constexpr QSize roomy{1400, 820};
+/// Below this three panes beside each other would be too narrow: a screen of 1280×720 whose scale is 2 has 640.
+constexpr int narrow = 700;
 }  // namespace
 
 DockLayout::DockLayout(QMainWindow& window) : QObject(&window), window_(window) {
@@ -50,6 +52,8 @@ QList<QDockWidget*> DockLayout::all() const {
 
 bool DockLayout::isCompact() const { return window_.width() < roomy.width() || window_.height() < roomy.height(); }
 
+bool DockLayout::isNarrow() const { return window_.width() < narrow; }
+
 void DockLayout::arrange() {
   before_.clear();
   if (!std::exchange(page_, {}).isEmpty()) emit pageChanged({});
@@ -57,7 +61,9 @@ void DockLayout::arrange() {
     window_.removeDockWidget(dock);
     dock->setFloating(false);
   }
-  if (isCompact())
+  if (isNarrow())
+    placeNarrow();
+  else if (isCompact())
     placeCompact();
   else
     place();
@@ -100,9 +106,23 @@ void DockLayout::placeCompact() {
   window_.tabifyDockWidget(dock("replay"), dock("compare"));
 }
 
+// All panes but the tree are tabs of one.
+void DockLayout::placeNarrow() {
+  window_.addDockWidget(Qt::LeftDockWidgetArea, dock("tree"));
+  window_.splitDockWidget(dock("tree"), dock("run"), Qt::Horizontal);
+  const char* behind = "run";
+  for (const char* name :
+       {"fitness", "gap", "individuals", "sheet", "policies", "simulators", "spec", "draft", "replay", "compare"})
+    window_.tabifyDockWidget(dock(std::exchange(behind, name)), dock(name));
+}
+
 void DockLayout::size() {
   sized_ = true;
   const int width = window_.width(), height = window_.height();
+  if (isNarrow() && window_.tabifiedDockWidgets(dock("run")).contains(dock("spec"))) {
+    const int tree = width * 25 / 100;
+    return window_.resizeDocks({dock("tree"), dock("run")}, {tree, width - tree}, Qt::Horizontal);
+  }
   const int left = isCompact() ? width * 16 / 100 : width * 19 / 100;
   const int right = isCompact() ? width * 27 / 100 : width * 29 / 100, middle = width - left - right;
   window_.resizeDocks({dock("tree"), dock("run"), dock("spec")}, {left, middle, right}, Qt::Horizontal);

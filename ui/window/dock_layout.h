@@ -48,12 +48,14 @@ class DockLayout : public QObject {
   QList<QDockWidget*> all() const;
   void place();
   void placeCompact();
+  void placeNarrow();
   void size();
   void sizePage();
   int runHeight(int width) const;
   void growRun();
   QStringList shownWith(const QString& page) const;
   bool isCompact() const;
+  bool isNarrow() const;
 
   QMainWindow& window_;
   QMap<QString, QStringList> pages_;  ///< and what stands beside each

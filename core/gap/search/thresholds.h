@@ -281,6 +281,8 @@ struct SearchThresholds {
     double ofBest = 0.5;         ///< as much as this of the best [hand]
     int firstIterations = 4;     ///< of these fits [time]
     int iterations = 10;         ///< of the best one's [time]
+    int polishings = 3;          ///< as many again, at most, while they help [time]
+    double settled = 0.9;        ///< of the error before: as many iterations that leave more are the last [hand]
     double leastT = 3;           ///< paired over blocks, against without it [prototype]
     double mostFalse = 0.01;     ///< p-value times the options that were looked at [hand: usual]
     double leastShare = 0.2;     ///< of the excess [hand]

@@ -146,7 +146,8 @@ std::string swingText(const FitProblem& problem, const GapReport& report, const 
 /// What the verdict rests on; mean squared errors in noise floors².
 struct Findings {
   double given = 0, calibrated = 0, final = 0;
-  double step = 0;  ///< what the integration itself is wrong by: no physics that was left out
+  double step = 0;       ///< what the integration itself is wrong by: no physics that was left out
+  double givenStep = 0;  ///< the same of the simulator as given, of what made the recordings alone
   double excess = 0;
   bool moves = false;             ///< something, by more than a few noise floors
   bool calibrationHelps = false;  ///< a paired test says so
@@ -165,7 +166,8 @@ Findings findingsOf(const GapReport& report, const FitProblem& problem, const Se
   e.given = found.given.mean();
   e.calibrated = found.calibrated.mean();
   e.final = found.final.mean();
-  e.step = stepErrorOf(found.stepChange);
+  e.step = stepErrorOf(found.stepChange) + found.final.aligned.numericalFloor();
+  e.givenStep = found.given.aligned.numericalFloor();
   e.excess = std::max(0.0, e.calibrated - 1);
   e.moves = motionOf(problem) >= limits.leastMotion;
   e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > limits.calibrationT &&
@@ -219,6 +221,7 @@ std::string colourText(const Findings& e) {
 
 /// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
 /// recordings cannot: a number or an effect that fits, and misleads.
+/// `named`: effects, or a law that was measured, are in the final simulator.
 std::string unseenText(const GapReport& report, bool named, const SearchThresholds::Verdict& limits) {
   const auto unseen = unseenError(report);
   if (!unseen) return "";  // none was held out
@@ -376,7 +379,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     judgePartly(report, e);
   else if (tooMuchLeft)
     judgeUnexplained(report, e, limits);
-  else if (!e.calibrationHelps && e.given <= limits.atNoise)
+  else if (!e.calibrationHelps && e.given - e.givenStep <= limits.atNoise)
     judgeNoMismatch(report, e);
   else if (e.calibrationHelps && e.final <= limits.unexplained)
     judgeSufficient(report, e, limits);
@@ -385,7 +388,8 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   if (!e.moves && (report.verdict == Verdict::noMismatch || report.verdict == Verdict::parametersSuffice))
     report.sentence += "Nothing in the recordings moves by more than " + toText(limits.leastMotion) + noiseFloors +
                        ": they can show little. ";
-  if (leavesSomethingToAdopt(report.verdict)) report.sentence += unseenText(report, e.named, limits);
+  if (leavesSomethingToAdopt(report.verdict))
+    report.sentence += unseenText(report, e.named || report.law.known(), limits);
   if (report.verdict == Verdict::unexplained || report.verdict == Verdict::partlyExplained ||
       e.beyondStep() > limits.clearlyLeft)
     report.sentence += swingText(problem, report, thresholds);

@@ -40,6 +40,9 @@ class LawSearch {
   /// A law's values scaled so that the start is no worse than without its last term.
   Law damped(Law law, const Fit& fit) const;
   Fit fitted(const Law& law, const Fit& from, int iterations) const;
+  /// The same, cross-validated, and carried on as long as much is left and more iterations take some of it: an
+  /// unfinished curve looks as if it needed a name beside it.
+  Scored polished(const Law& law, const Fit& from) const;
   /// Which of the options predicts other blocks best after a short fit in replay.
   const LawOption* best(const std::vector<LawOption>& options, const Fit& fit) const;
 
@@ -68,6 +71,18 @@ Law LawSearch::damped(Law law, const Fit& fit) const {
 
 Fit LawSearch::fitted(const Law& law, const Fit& from, int iterations) const {
   return fitModel(problem_, law.in(problem_, withNumbersOf(named_, from.model)), from.shifts, {iterations});
+}
+
+Scored LawSearch::polished(const Law& law, const Fit& from) const {
+  Scored scored = crossValidate(problem_, fitted(law, from, limits_.iterations));
+  for (int more = 0; more < limits_.polishings && excessOf(scored) > limits_.leastExcess; ++more) {
+    Scored next =
+        crossValidate(problem_, fitModel(problem_, scored.fit.model, scored.fit.shifts, {limits_.iterations}));
+    const bool settled = next.mean() > limits_.settled * scored.mean();
+    if (next.mean() < scored.mean()) scored = std::move(next);
+    if (settled) break;
+  }
+  return scored;
 }
 
 const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fit& fit) const {
@@ -99,10 +114,9 @@ std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, co
   std::optional<LearnedLaw> learned;
   for (const Law& law : {finer.law, option->law}) {
     if (learned && law.terms.back().knots == learned->law.terms.back().knots) break;
-    const Fit end = fitted(damped(law, fit), fit, limits_.iterations);
-    const Scored scored = crossValidate(problem_, end);
+    const Scored scored = polished(damped(law, fit), fit);
     if (learned && scored.mean() >= learned->scored.mean()) continue;
-    learned = LearnedLaw{law.of(end.model), scored, {}, {}, 0, 1};
+    learned = LearnedLaw{law.of(scored.fit.model), scored, {}, {}, 0, 1};
   }
   return learned;
 }

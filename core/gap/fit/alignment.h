@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "core/gap/fit/fit_problem.h"
 
@@ -24,9 +26,13 @@ struct Alignment {
 /// 0 for what is not the position or the rate of a joint of a robot whose base is fixed, beside the ends of a segment,
 /// and where a fault ended the simulation.
 Eigen::VectorXd clockColumn(const FitProblem& problem, const Eigen::VectorXd& residuals);
+/// Of one segment, whose gains `scene` tells.
+std::vector<double> clockColumn(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                std::span<const double> residuals);
 
-/// The best shift of the residuals for which `counts` is 1 (those for which it is 0 say nothing), as its share of the
-/// squared error is then; within half a step of the scene as given. 0 for a problem with contacts.
+/// The best further shift (beside FitProblem::shift_s) of the residuals for which `counts` is 1 (those for which it is
+/// 0 say nothing), as its share of the squared error is then; within half a step of the scene as given. 0 for a problem
+/// with contacts.
 double bestShift_s(const FitProblem& problem, const Eigen::VectorXd& residuals, const Eigen::VectorXd& column,
                    const Eigen::VectorXd& counts);
 

@@ -96,9 +96,9 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit) {
     const Eigen::VectorXd column = clockColumn(problem, residuals);
     const double shift_s = bestShift_s(problem, residuals, column, train);
     const Eigen::VectorXd tests = Eigen::VectorXd::Ones(train.size()) - train;
-    const double unaligned = tests.dot(residuals.cwiseAbs2());
+    const double unaligned = tests.dot((residuals - problem.shift_s * column).cwiseAbs2());
     residuals += shift_s * column;
-    scored.aligned.shift_s += shift_s / 2;
+    scored.aligned.shift_s += (problem.shift_s + shift_s) / 2;
     scored.aligned.took += (unaligned - tests.dot(residuals.cwiseAbs2())) / static_cast<double>(residuals.size());
     const std::vector<double> blocks = blockScores(problem, residuals, other);
     for (std::size_t b = 0; b < blocks.size(); ++b)

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
@@ -446,6 +447,10 @@ std::vector<double> residualsUntil(const FitProblem& problem, const Segment& seg
     const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.floorAt(c, row);
     if (std::isfinite(value)) residuals[k] = value;
   }
+  if (problem.shift_s != 0) {
+    const std::vector<double> column = clockColumn(problem, segment, scene, residuals);
+    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] += problem.shift_s * column[k];
+  }
   return residuals;
 }
 
@@ -478,14 +483,15 @@ std::vector<double> residualsBeside(const FitProblem& problem, const Segment& se
       problem.impacts || prescribes(trial))
     return residualsOf(problem, segment, scene, shift);
   std::vector<double> residuals = residualsUntil(problem, segment, scene, shift, last);
+  const std::size_t known = last - 1;  // what is shifted in time needs the row after it
   std::size_t compared = 0;
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t row = segment.row[k];
-    if (row >= apart && row < last) {
+    if (row >= apart && row < known) {
       if (!(std::abs(residuals[k] - here[k]) < atOne)) return residualsOf(problem, segment, scene, shift);
       ++compared;
     }
-    if (row >= last) residuals[k] = here[k];
+    if (row >= known) residuals[k] = here[k];
   }
   return compared > 0 ? residuals : residualsOf(problem, segment, scene, shift);
 }

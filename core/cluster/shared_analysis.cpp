@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -23,6 +24,7 @@ double sinceThen(Clock::time_point then) { return std::chrono::duration<double>(
 
 /// A job whose foreman was lost so often is at fault, or the machines are.
 constexpr int mostLossesOfAJob = 3;
+constexpr std::size_t nobody = SIZE_MAX;
 /// There is one analysis.
 constexpr const char* theOnly = "1";
 
@@ -46,7 +48,7 @@ struct Analyst {
 /// What a call of parallel() came to.
 struct Call {
   std::vector<WorkerPool::Reply> replies;
-  std::vector<std::size_t> by;  ///< of each: whose it is
+  std::vector<std::size_t> by;  ///< of each: who knows it already, whose it is
 };
 
 void rethrow(const std::string& kind, const std::string& why) {
@@ -188,7 +190,7 @@ struct SharedAnalysis::Impl {
       if (isThere(k)) places += analysts[k].report.workers;
     now = {};
     now.replies.resize(count);
-    now.by.assign(count, 0);
+    now.by.assign(count, nobody);
     losses.assign(count, 0);
     open = count;
     pace.job_s = 0;  // each call's jobs are others; the way there is the same
@@ -273,6 +275,7 @@ struct SharedAnalysis::Impl {
                          ": the process that worked on the analysis was lost, the third time for this job (" + why +
                          ")");
     giveBack(k);
+    std::ranges::replace(now.by, k, nobody);  // who begins anew knows nothing
     analyst.wasTold = analyst.isReady = false;
     analyst.isAnew = true;
     analyst.call = 0;

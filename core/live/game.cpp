@@ -160,6 +160,7 @@ Game gameOfRobot(const std::string& path) {
   game.scene.directory = file.parent_path().string();
   game.scene.floor = FloorSpec{};
   game.scene.robotsCollide = true;
+  game.scene.slidingFriction = SlidingFriction::isotropic;
   RobotSpec robot;
   robot.name = "robot";
   robot.model = file.filename().string();

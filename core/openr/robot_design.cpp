@@ -35,10 +35,11 @@ Primitive lamp(const std::string& path, const std::string& name, int type) {
   return {Kind::lamp, "PRM:" + path, name, type};
 }
 
-std::vector<Primitive> devicesOfAll() {
+/// The loudspeaker sits in the chest of the ERS-7, in the head of the others.
+std::vector<Primitive> devices(const std::string& ofSpeaker) {
   return {{Kind::camera, "PRM:" + head + "/i1-FbkImageSensor:F1", "camera", cameraType},
           {Kind::microphone, "PRM:" + head + "/m1-Mic:M1", "microphone", microphoneType},
-          {Kind::speaker, "PRM:/s1-Speaker:S1", "speaker", speakerType}};
+          {Kind::speaker, "PRM:" + ofSpeaker + "/s1-Speaker:S1", "speaker", speakerType}};
 }
 
 /// Where the parts of the legs hang, in the order left front, left rear, right front, right rear.
@@ -59,7 +60,7 @@ void addToVector(RobotDesign& robot, const std::vector<std::string>& paths) {
 }
 
 RobotDesign ers7() {
-  RobotDesign robot{"ERS-7", {}, {}, {}, devicesOfAll(), {}, 208, 160};
+  RobotDesign robot{"ERS-7", {}, {}, {}, devices(""), {}, 208, 160};
   robot.joints = {joint("/r1/c1-Joint2:11", "NECK_TILT", -75, 0), joint("/r1/c1/c2-Joint2:12", "HEAD_PAN", -88, 88),
                   joint(head + "-Joint2:13", "HEAD_TILT", -15, 45), joint(head + "/c4-Joint2:14", "MOUTH", -55, -3)};
   for (const Leg& leg : legs) {
@@ -118,7 +119,7 @@ RobotDesign ers7() {
 
 /// What the ERS-210 and the ERS-220 have in common: neck, legs, acceleration.
 RobotDesign beginOf200(const std::string& name, bool mouth) {
-  RobotDesign robot{name, {}, {}, {}, devicesOfAll(), {}, 176, 144};
+  RobotDesign robot{name, {}, {}, {}, devices(head), {}, 176, 144};
   robot.joints = {joint("/r1/c1-Joint2:j1", "NECK_TILT", -82, 43),
                   joint("/r1/c1/c2-Joint2:j2", "HEAD_PAN", -89.6, 89.6),
                   joint(head + "-Joint2:j3", "HEAD_ROLL", -29, 29)};

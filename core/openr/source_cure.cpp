@@ -139,18 +139,39 @@ void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::s
   }
 }
 
+/// Functions of which the compiler does not say where they are; headers of 2003 had them by others.
+const std::map<std::string, std::string>& systemHeaders() {
+  static const std::map<std::string, std::string> all = {
+      {"access", "unistd.h"},         {"close", "unistd.h"},        {"getcwd", "unistd.h"},   {"lseek", "unistd.h"},
+      {"read", "unistd.h"},           {"rmdir", "unistd.h"},        {"sleep", "unistd.h"},    {"unlink", "unistd.h"},
+      {"usleep", "unistd.h"},         {"write", "unistd.h"},        {"open", "fcntl.h"},      {"O_RDONLY", "fcntl.h"},
+      {"O_RDWR", "fcntl.h"},          {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},  {"stat", "sys/stat.h"},
+      {"chmod", "sys/stat.h"},        {"opendir", "dirent.h"},      {"readdir", "dirent.h"},  {"closedir", "dirent.h"},
+      {"gettimeofday", "sys/time.h"}, {"bzero", "strings.h"},       {"index", "strings.h"},   {"rindex", "strings.h"},
+      {"strcasecmp", "strings.h"},    {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"}, {"htons", "arpa/inet.h"},
+      {"ntohl", "arpa/inet.h"},       {"ntohs", "arpa/inet.h"}};
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> missingHeaders(const std::string& errors) {
   std::vector<std::string> headers;
   std::istringstream in(errors);
-  const std::string mark = " is defined in header '<";
+  const std::string mark = " is defined in header '<", unknown = ": error: '";
+  const auto add = [&headers](const std::string& header) {
+    if (std::find(headers.begin(), headers.end(), header) == headers.end()) headers.push_back(header);
+  };
   for (std::string line; std::getline(in, line);) {
+    if (const auto at = line.find(unknown);
+        at != std::string::npos && line.find("' was not declared in this scope") != std::string::npos) {
+      const auto name = line.substr(at + unknown.size());
+      if (const auto found = systemHeaders().find(name.substr(0, name.find('\''))); found != systemHeaders().end())
+        add(found->second);
+    }
     const auto at = line.find(mark);
     const auto end = at == std::string::npos ? at : line.find('>', at);
-    if (end == std::string::npos) continue;
-    const std::string header = line.substr(at + mark.size(), end - at - mark.size());
-    if (std::find(headers.begin(), headers.end(), header) == headers.end()) headers.push_back(header);
+    if (end != std::string::npos) add(line.substr(at + mark.size(), end - at - mark.size()));
   }
   return headers;
 }

@@ -20,8 +20,8 @@ std::string withoutRepeatedNames(const std::string& preprocessed, const std::str
 /// The same text if there is nothing of that kind.
 std::string curedSource(const std::string& preprocessed, const std::string& errors);
 
-/// Headers that the compiler names in `errors` because what they declare was not declared, each once: compilers of 2003
-/// brought them with others.
+/// Headers that declare what was not declared according to `errors`, each once: the compiler names them, or they are
+/// the system's. Compilers of 2003 brought them with others.
 std::vector<std::string> missingHeaders(const std::string& errors);
 
 }  // namespace btr::openr

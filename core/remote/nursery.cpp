@@ -197,7 +197,7 @@ Answer Child::ask(const std::string& call, const Waiting& waiting) {
     case Sent::nothing:
       return late();
     case Sent::hungUp:
-      return ended(Code::unavailable, "its process has ended");
+      return ended(Code::unavailable, "its process has ended; the server's standard error says why");
     case Sent::whole:
       break;
   }
@@ -206,7 +206,7 @@ Answer Child::ask(const std::string& call, const Waiting& waiting) {
       case Got::nothing:
         return late();
       case Got::hungUp:
-        return ended(Code::unavailable, "its process has ended");
+        return ended(Code::unavailable, "its process has ended; the server's standard error says why");
       case Got::frame:
         break;
     }

@@ -73,6 +73,12 @@ Game WorldDesk::gameOf(const v1::OpenRequest& request) const {
 std::string WorldDesk::open(const v1::OpenRequest& request) {
   Game game = gameOf(request);
   requireFewObjects(game);
+  for (const std::string& robot : request.without_controller()) {
+    if (std::none_of(game.scene.robots.begin(), game.scene.robots.end(),
+                     [&robot](const RobotSpec& one) { return one.name == robot; }))
+      throw InputError("without_controller", "\"" + robot + "\"", "a robot of this game");
+    if (const auto player = game.robots.find(robot); player != game.robots.end()) player->second.controller.reset();
+  }
   if (request.has_seed()) game.seed = request.seed();
   logged_ = folder_.writable() && !request.unlogged();
   // The file that the log is bound to lies beside it.

@@ -74,6 +74,7 @@ struct Scene {
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
   bool robotsCollide = false;  ///< with each other
+  SlidingFriction slidingFriction = SlidingFriction::box;
   std::vector<SceneEffect> effects;
 };
 

@@ -277,6 +277,8 @@ SceneSpec sceneFromJson(const std::string& text, const std::string& place, const
   reader.array("obstacles", [&](JsonReader entry) { scene.obstacles.push_back(obstacleFrom(entry, taken)); });
   pitchFromReader(reader);  // who needs it reads it for himself
   scene.robotsCollide = reader.flag("robots_collide", scene.robotsCollide);
+  if (reader.word("sliding_friction", {"box", "isotropic"}, "box") == "isotropic")
+    scene.slidingFriction = SlidingFriction::isotropic;
   std::set<std::string> paths;
   reader.array("calibrate", [&](JsonReader entry) {
     scene.calibrate.push_back(pathFrom(entry));
@@ -304,6 +306,7 @@ std::string toJsonText(const SceneSpec& scene) {
   // Left out where there is nothing to say: scenes that are stored keep their text.
   for (const ObstacleSpec& obstacle : scene.obstacles) document["obstacles"].push_back(obstacleToJson(obstacle));
   if (scene.robotsCollide) document["robots_collide"] = true;
+  if (scene.slidingFriction == SlidingFriction::isotropic) document["sliding_friction"] = "isotropic";
   for (const CalibratePath& path : scene.calibrate)
     document["calibrate"].push_back({{"path", path.path}, {"min", path.minimum}, {"max", path.maximum}});
   return document.dump(2) + "\n";

@@ -95,6 +95,13 @@ struct CalibratePath {
   bool operator==(const CalibratePath&) const = default;
 };
 
+/// How friction acts where two surfaces slide on each other
+/// without force-dependent slip.
+enum class SlidingFriction {
+  box,  ///< up to μ·N along the sliding and as much across it, as in ODE: a push aside below μ·N turns no sliding
+        ///< body, and both together are up to √2·μ·N. Scenes that do not say otherwise.
+  isotropic  ///< Coulomb's: μ·N against the sliding alone, whose direction is free
+};
 /// The simulated world before anything happens ("format": "uchilsim-scene-1").
 struct SceneSpec {
   std::array<double, 3> gravity_m_s2{0, 0, -9.81};
@@ -105,6 +112,7 @@ struct SceneSpec {
   std::vector<BallSpec> balls;
   std::vector<ObstacleSpec> obstacles;
   bool robotsCollide = false;  ///< with each other; with obstacles and balls they always do
+  SlidingFriction slidingFriction = SlidingFriction::box;
   std::vector<CalibratePath> calibrate;
   std::string directory;  ///< of the scene file; relative model paths start here
   bool operator==(const SceneSpec&) const = default;

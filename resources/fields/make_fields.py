@@ -65,6 +65,7 @@ def carpet(length, width, border, line, circle, penalty_depth, penalty_width):
 
 def field(length, width, goal_width, carpet, obstacles):
     return {"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008,
+            "sliding_friction": "isotropic",
             "field": {"length_m": length, "width_m": width,
                       "goals": {"width_m": goal_width, "depth_m": 0.3, "height_m": 0.3}},
             "floor": {"friction": 1.0, "restitution": 0.0}, "robots_collide": True, "carpet": carpet,

@@ -167,6 +167,14 @@ if [ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] && srun --mpi=list 2>&1 | gre
     expect 0 "srun of blind cases" srun --mpi=pmix -n 2 "$btr" gap prove --cases 15 --scene pendulum --kind nothing --seed 5 --out "$folder/trial-srun"
     same_trial "$folder/trial-one" "$folder/trial-srun" "blind cases under srun"
   fi
+  mkdir "$folder/recording"
+  head -n 400 "$root/resources/recordings/xl330-made/made_kp200_sines.csv" > "$folder/recording/made_kp200_sines.csv"
+  cp "$root/resources/recordings/xl330-made/made_kp200_sines.mapping.json" "$folder/recording"
+  analysis="$btr gap analyse $root/resources/scenes/xl330.json --recording $folder/recording/made_kp200_sines.csv --jobs 1 --effects viscous_friction backlash coulomb_friction"
+  expect 0 "an analysis in one process" $analysis --out "$folder/analysis-one"
+  expect 0 "an analysis under srun" srun --mpi=pmix -n 2 $analysis --out "$folder/analysis-srun"
+  for report in one srun; do sed -E 's/"wall_time_s": [0-9.e-]*//' "$folder/analysis-$report/report.json" > "$folder/$report.json"; done
+  same "$folder/one.json" "$folder/srun.json" "an analysis under srun"
   expect 1 "srun without MPI" srun --mpi=none -n 2 "$btr" run "$folder/little-2.json" --db "$folder/none.db" --seed 1
   says err "start it with srun --mpi=pmix"
 fi

@@ -94,6 +94,10 @@ TEST(SourceCure, NamesMissingHeadersOnce) {
                              "a.cc:2:1: note: 'strlen' is defined in header '<cstring>'; did you forget\n"
                              "a.cc:3:1: note: 'sort' is defined in header '<algorithm>'; did you\n"),
               ElementsAre("cstring", "algorithm"));
+  // Of these the compiler does not say where they are.
+  EXPECT_THAT(missingHeaders("a.cc:1:1: error: 'rmdir' was not declared in this scope\n"
+                             "a.cc:2:1: error: 'mine' was not declared in this scope\n"),
+              ElementsAre("unistd.h"));
 }
 
 TEST(Dialect, SourcesOf2003RunAsTheyAre) {

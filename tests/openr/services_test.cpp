@@ -137,6 +137,11 @@ TEST(Sounder, WhatIsPlayedStandsInAWavFile) {
   EXPECT_NEAR(first, 25600 * 0.31623, 2);
 }
 
+TEST(Sounder, TheLoudspeakerOfTheErs210SitsInItsHead) {
+  const std::string stick = stickOf("sounder");
+  EXPECT_THAT(runStick(stick, 100, {}, "ERS-210").all(), HasSubstr(stick + "/SPEAKER.WAV"));
+}
+
 TEST(Filer, FilesConsoleAndTime) {
   const std::string stick = stickOf("filer"), outside = emptyFolder("outside");
   writeText(outside + "/secret.txt", "s");
@@ -193,10 +198,17 @@ StickRun faulty(const std::string& what) {
 }
 
 TEST(Faults, ACrashNamesObjectAndMethod) {
-  const std::pair<const char*, const char*> faults[] = {
-      {"null", "wrote at address 0"}, {"read", "read at address 0x10"}, {"divide", "divided"},
-      {"nan", "no number"},           {"overflow", "too large"},        {"misaligned", "multiple of"},
-      {"deep", "stack is full"},      {"throw", "exception"},           {"mips", "this processor does not have"}};
+  const std::pair<const char*, const char*> faults[] = {{"null", "wrote at address 0"},
+                                                        {"read", "read at address 0x10"},
+                                                        {"divide", "divided"},
+                                                        {"nan", "no number"},
+                                                        {"overflow", "too large"},
+                                                        {"misaligned", "multiple of"},
+                                                        {"by zero", "divided"},
+                                                        {"smash", "address"},
+                                                        {"deep", "stack is full"},
+                                                        {"throw", "exception"},
+                                                        {"mips", "this processor does not have"}};
   for (const auto& [what, expected] : faults) {
     const StickRun run = faulty(what);
     EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;

@@ -166,6 +166,73 @@ class Worlds(WithServer):
                 world.step(1, {"cat": [0.0]})
 
 
+class Mistakes(WithServer):
+    """What is wrong is one sentence of the package's own, before it is sent where that can be known."""
+
+    def refused(self, sentence, call, kind=uchilsim.Refused):
+        with self.assertRaises(kind) as raised:
+            call()
+        self.assertRegex(str(raised.exception), sentence)
+
+    def test_targets_of_another_shape(self):
+        with self.client.open("games/dog.json") as world:
+            n = len(world.robots["dog"].joints)
+            world.step(2, {"dog": np.zeros((2, n))})
+            self.refused(rf"targets of dog: shape \(5,\) .* an array \({n},\) or \(3, {n}\)",
+                         lambda: world.step(3, {"dog": [0.1] * 5}))
+            self.refused(r"targets of dog: shape", lambda: world.step(3, {"dog": np.zeros((n, 3))}))
+            self.refused(r"targets of dog: \{'HEAD_PAN': 0.3\}", lambda: world.step(1, {"dog": {"HEAD_PAN": 0.3}}))
+            self.refused(r"targets: .* a dictionary by robot", lambda: world.step(1, [0.0] * n))
+
+    def test_values_of_another_kind(self):
+        self.refused("seed: -1 is not allowed; a whole number from 0 on", lambda: self.client.open(DOG, seed=-1))
+        self.refused("game: None is not allowed", lambda: self.client.open(None))
+        self.refused("address: None is not allowed", lambda: uchilsim.Client(None))
+        with self.client.open("games/dog.json") as world:
+            self.refused("periods: 1.5 is not allowed; a whole number", lambda: world.step(1.5))
+            self.refused("act: 'explode' is not allowed", lambda: world.do("explode"))
+            self.refused("position_m: 'here' is not allowed", lambda: world.place("dog", "here"))
+
+    def test_a_state_knows_its_channels(self):
+        with self.client.open("games/dog.json") as world:
+            state = world.state()
+            self.assertIn("dog.base.x_m", state)
+            self.assertNotIn("dog.x", state)
+            self.assertEqual((len(state), list(state)), (len(world.channels), world.channels))
+            self.assertEqual(state["dog.base.z_m"], dict(state)["dog.base.z_m"])
+
+    def test_populations_of_another_shape_and_of_any_size(self):
+        kick = self.client.experiment("experiments/kick-short.json")
+        n = len(kick.genotype)
+        self.refused(rf"population: shape \(2, {n + 1}\) .* \(vectors, {n}\)", lambda: kick.evaluate(np.zeros((2, n + 1))))
+        self.refused(r"population: shape \(2, 2, ", lambda: kick.evaluate(np.zeros((2, 2, n))))
+        self.assertEqual((0,), kick.evaluate(np.zeros((0, n))).fitness.shape)
+        population = np.tile(kick.start, (3, 1))
+        whole = kick.evaluate(population, seed=1)
+        with mock.patch("uchilsim.client._LARGEST_POPULATION", 2 * 8 * n):  # two vectors a call
+            parts = kick.evaluate(population, seed=1)
+        self.assertEqual(whole.trace_sha256, parts.trace_sha256)
+
+    def test_environments(self):
+        for wrong in ({"frame_skip": 0}, {"max_steps": 0.5}):
+            self.refused("a whole number from 1 on", lambda: uchilsim.Env(self.client, **wrong))
+        self.refused("num_envs: 0 is not allowed", lambda: uchilsim.VectorEnv(0, self.client))
+        with uchilsim.Env(self.client) as env:
+            self.refused("seed: -1", lambda: env.reset(seed=-1))
+            env.reset(seed=np.int64(3))
+            action = np.zeros(env.action_space.shape)
+            action[3] = np.nan
+            self.refused("action of .*: nan is not allowed; a finite number", lambda: env.step(action))
+        self.refused("after close", lambda: env.step(action), uchilsim.NotNow)
+        self.assertEqual([], self.client.worlds())
+
+    def test_a_client_that_is_closed_and_a_server_that_is_not_there(self):
+        client = uchilsim.Client(self.server.address)
+        client.close()
+        self.refused("the client is closed", client.info, uchilsim.NotNow)
+        self.refused("127.0.0.1:1: no server answers there", uchilsim.Client("127.0.0.1:1").info, uchilsim.Unreachable)
+
+
 class Cameras(WithServer):
     def setUp(self):
         if not os.path.exists(os.path.join(os.path.dirname(BTR), "btr-camera")):

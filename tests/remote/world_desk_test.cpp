@@ -78,6 +78,22 @@ TEST_F(WorldDeskTest, FallsAsABallDoes) {
   EXPECT_NEAR(0.2 - 9.81 * 0.08 * 0.08 / 2, value(state, "ball.z_m"), 1e-9);
 }
 
+TEST_F(WorldDeskTest, AControllerThatIsLeftOutNeedNotBeThere) {
+  nlohmann::json game = nlohmann::json::parse(RemoteFolder::dogGame());
+  game["robots"]["red1"] = {{"controller", {{"name", "somebody_elses"}}}};
+  files.write("theirs.json", game.dump());
+  v1::OpenRequest request;
+  request.set_game("theirs.json");
+  EXPECT_THAT(refused(desk, Method::open, request, worldName), HasSubstr("somebody_elses"));
+  request.add_without_controller("cat");
+  EXPECT_THAT(refused(desk, Method::open, request, worldName), HasSubstr("without_controller"));
+  request.set_without_controller(0, "red1");
+  world = answered<v1::World>(desk, Method::open, request, worldName);
+  ASSERT_EQ(1, world.robots_size());
+  EXPECT_EQ("", world.robots(0).controller());
+  EXPECT_EQ(3, step(3).period());
+}
+
 TEST_F(WorldDeskTest, ItsLogPlaysAgainWithTheSameBitsWithoutTheClient) {
   world = open("dog.json");
   EXPECT_EQ("sessions/" + std::string(worldName) + "-1.log", world.log());

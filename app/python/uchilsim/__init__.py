@@ -14,8 +14,9 @@ try:
     import grpc  # noqa: F401
     import numpy  # noqa: F401
 except ImportError as error:
+    _missing = {"google": "protobuf", "google.protobuf": "protobuf", "grpc": "grpcio"}.get(error.name, error.name)
     raise ImportError(
-        f"uchilsim needs {error.name}, which this Python does not have: install python3-grpcio, python3-protobuf and "
+        f"uchilsim needs {_missing}, which this Python does not have: install python3-grpcio, python3-protobuf and "
         "python3-numpy and use the system's Python, /usr/bin/python3, or install them for yours"
     ) from error
 

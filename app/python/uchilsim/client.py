@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import pathlib
 from dataclasses import dataclass
-from typing import Mapping
+from typing import Mapping, Sequence
 
 import grpc
 import numpy as np
@@ -19,6 +19,7 @@ from .numbers import Number, clipped, lower_of, upper_of
 from .world import World
 
 _LARGEST = 64 << 20  # of an answer
+_LARGEST_POPULATION = 2 << 20  # bytes of one call; a larger one is evaluated by several, with the same bits
 
 
 @dataclass(frozen=True)
@@ -104,14 +105,17 @@ class Experiment:
         population = np.atleast_2d(numbers("population", population, allowed))
         if population.ndim != 2 or population.shape[1] != len(self.genotype):
             raise Refused(f"population: shape {population.shape} is not allowed; {allowed}")
-        if len(population) == 0:
-            return Evaluation(np.zeros(0), [], [], [], [])
-        request = made(pb.EvaluateRequest, experiment=self._message, seed=seed, run=run, vectors=len(population),
-                       parameters=population.ravel())
-        trials = self._client._call(self._client._learning.Evaluate, request, timeout=timeout).trials
+        room = max(1, _LARGEST_POPULATION // (population.shape[1] * population.itemsize))
+        trials = [trial for first in range(0, len(population), room)
+                  for trial in self._trials(population[first:first + room], seed, run, timeout)]
         return Evaluation(np.array([t.fitness for t in trials]), [t.outcome for t in trials],
                           [t.detail for t in trials], [t.trace_sha256 for t in trials],
                           [dict(t.figures) for t in trials])
+
+    def _trials(self, population: np.ndarray, seed: int | None, run: int, timeout: float | None):
+        request = made(pb.EvaluateRequest, experiment=self._message, seed=seed, run=run, vectors=len(population),
+                       parameters=population.ravel())
+        return self._client._call(self._client._learning.Evaluate, request, timeout=timeout).trials
 
     def start_run(self, seed: int | None = None, again: bool = False, patience_s: float = 0) -> Run:
         """Starts it as a run in the server's database, or goes on with the one that is there."""
@@ -133,6 +137,8 @@ class Client:
 
     def __init__(self, address: str = "127.0.0.1:50051", token: str | None = None,
                  certificate: str | pathlib.Path | None = None, timeout: float = 60.0, shared_pictures: bool = True):
+        if not isinstance(address, str):
+            raise Refused(f"address: {short(address)} is not allowed; \"HOST:PORT\" or \"unix:PATH\"")
         options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0),
                    # A server that vanishes without a word is noticed, however long a call may take.
                    ("grpc.keepalive_time_ms", 60000), ("grpc.keepalive_timeout_ms", 20000)]
@@ -176,10 +182,12 @@ class Client:
         self._call(self._worlds.ShutDown, pb.ShutDownRequest())
 
     # ---- worlds
-    def open(self, game: str | Mapping, seed: int | None = None, directory: str = "", logged: bool = True) -> World:
+    def open(self, game: str | Mapping, seed: int | None = None, directory: str = "", logged: bool = True,
+             without_controller: Sequence[str] = ()) -> World:
         """A world of a game, scene or robot file below the server's folder, or of a game's contents as a dictionary
-        (paths in it are relative to `directory` there)."""
-        request = made(pb.OpenRequest, seed=seed, unlogged=not logged)
+        (paths in it are relative to `directory` there). without_controller: robots that the caller moves himself;
+        their controllers are left out, and need not be on the server."""
+        request = made(pb.OpenRequest, seed=seed, unlogged=not logged, without_controller=without_controller)
         if isinstance(game, (str, pathlib.Path)):
             request.game = str(game)
         elif isinstance(game, Mapping):

@@ -73,8 +73,11 @@ class _Task:
 
     def targets(self, action) -> dict[str, np.ndarray]:
         action = checks.numbers("action", action, f"an array ({len(self.joints)},)")
-        if action.shape != (len(self.joints),) or not np.all(np.isfinite(action)):
-            raise Refused(f"action: shape {action.shape} is not allowed; ({len(self.joints)},) finite numbers")
+        if action.shape != (len(self.joints),):
+            raise Refused(f"action: shape {action.shape} is not allowed; ({len(self.joints)},)")
+        if not np.all(np.isfinite(action)):
+            joint = int(np.argmin(np.isfinite(action)))
+            raise Refused(f"action of {self.joints[joint]}: {action[joint]} is not allowed; a finite number")
         all_joints = self.begun.copy()
         all_joints[self.at] = np.clip(action, self.action_space.low, self.action_space.high)
         return {self.robot.name: all_joints}

@@ -52,23 +52,25 @@ _KINDS = {
 }
 
 
-def error_of(error: grpc.RpcError) -> Error:
-    """The package's error for one of gRPC's."""
+_NOBODY = ("failed to connect", "DNS resolution failed", "Endpoint closing", "Socket closed", "recvmsg:")
+
+
+def error_of(error: grpc.RpcError, address: str = "") -> Error:
+    """The package's error for one of gRPC's. address: of the server, for the sentence that it does not answer."""
+    if address and error.code() == grpc.StatusCode.UNAVAILABLE and (error.details() or "").startswith(_NOBODY):
+        return Unreachable(f"{address}: no server answers there; start one with btr serve")
+    if "channel closed" in (error.details() or "").lower():
+        return NotNow("the client was closed while it waited for an answer")
     return _KINDS.get(error.code(), Error)(error.details() or str(error.code()))
-
-
-_NOBODY = ("failed to connect", "DNS resolution failed", "Endpoint closing", "Socket closed")
 
 
 @contextlib.contextmanager
 def sentences(address: str = "") -> Iterator[None]:
-    """gRPC's errors inside become this package's. address: of the server, for the sentence that it does not answer."""
+    """gRPC's errors inside become this package's; see error_of()."""
     try:
         yield
     except grpc.RpcError as error:
-        if address and error.code() == grpc.StatusCode.UNAVAILABLE and (error.details() or "").startswith(_NOBODY):
-            raise Unreachable(f"{address}: no server answers there; start one with btr serve") from None
-        raise error_of(error) from None
+        raise error_of(error, address) from None
     except ValueError as error:
         if "closed channel" not in str(error).lower() and "channel closed" not in str(error).lower():
             raise

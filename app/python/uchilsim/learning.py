@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, Callable, Iterator, Protocol
 
 import numpy as np
 
+from . import checks
 from . import uchilsim_pb2 as pb
-from .errors import NotNow
+from .checks import made
+from .errors import NotNow, Refused
 from .numbers import Number, clipped, lower_of, upper_of
 
 if TYPE_CHECKING:
@@ -55,7 +57,11 @@ class Question:
     def answer(self, vectors: Any, state: str = "") -> None:
         """The next population, (vectors, parameters), within the bounds. Raises Refused for what is not allowed: then
         another answer may be given."""
-        self._answer(np.atleast_2d(np.asarray(vectors, dtype=float)), state)
+        allowed = f"an array (vectors, {len(self.parameters)})"
+        array = np.atleast_2d(checks.numbers("vectors", vectors, allowed))
+        if array.ndim != 2 or array.shape[1] != len(self.parameters):
+            raise Refused(f"vectors: shape {array.shape} is not allowed; {allowed}")
+        self._answer(array, state)
 
 
 @dataclass
@@ -109,14 +115,14 @@ class Run:
     def generations(self, after: int = 0) -> list[dict[str, float]]:
         """number, best, mean, worst, trials and failed of each generation of L1."""
         reply = self._client._call(self._client._learning.Generations,
-                                   pb.GenerationsRequest(run=self.number, after=after))
+                                   made(pb.GenerationsRequest, run=self.number, after=after))
         return [{"number": g.number, "best": g.best, "mean": g.mean, "worst": g.worst, "trials": g.trials,
                  "failed": g.failed} for g in reply.generations]
 
     def individuals(self, generation: int) -> tuple[np.ndarray, np.ndarray]:
         """Vectors (individuals, parameters) and fitness (individuals,) of one generation."""
         reply = self._client._call(self._client._learning.Individuals,
-                                   pb.IndividualsRequest(run=self.number, generation=generation))
+                                   made(pb.IndividualsRequest, run=self.number, generation=generation))
         return (np.array([list(i.parameters) for i in reply.individuals]),
                 np.array([i.fitness for i in reply.individuals]))
 
@@ -136,8 +142,9 @@ class Run:
                      t.iteration, self._send) for t in reply.tasks]
 
     def _send(self, individual, values, void, note, sure) -> list[int]:
-        return list(self._client._call(self._client._learning.Measured, pb.MeasuredRequest(
-            run=self.number, individual=individual, values=values, is_void=void, note=note, sure=sure)).measurements)
+        request = made(pb.MeasuredRequest, run=self.number, individual=individual, values=values, is_void=void,
+                       note=note, sure=sure)
+        return list(self._client._call(self._client._learning.Measured, request).measurements)
 
     def _ask(self, wait_s: float):
         return self._client._call(self._client._learning.Ask, pb.AskRequest(run=self.number, wait_s=wait_s),
@@ -147,8 +154,8 @@ class Run:
         n = len(q.parameters)
 
         def answer(vectors: np.ndarray, state: str) -> None:
-            self._client._call(self._client._learning.Tell, pb.TellRequest(
-                run=self.number, number=q.number, vectors=len(vectors), parameters=vectors.ravel(), state=state))
+            self._client._call(self._client._learning.Tell, made(
+                pb.TellRequest, run=self.number, number=q.number, vectors=len(vectors), parameters=vectors.ravel(), state=state))
 
         return Question(q.level, [Number.of(p) for p in q.parameters], q.population,
                         np.array(q.told_parameters).reshape(q.vectors, n), np.array(q.told_fitness), q.state,

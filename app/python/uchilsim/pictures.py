@@ -165,7 +165,7 @@ class Camera:
         stream = self._client._worlds.Pictures(
             pb.PictureRequest(world=self._world, robot=self._robot, after=after), metadata=self._client._metadata)
         try:
-            with sentences():
+            with sentences(self._client.address):
                 for reply in stream:
                     yield self._frame(reply)
         finally:

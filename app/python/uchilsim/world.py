@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Sequence
 import grpc
 import numpy as np
 
-from . import uchilsim_pb2 as pb
 from . import checks
+from . import uchilsim_pb2 as pb
 from .checks import made
 from .errors import Error, Refused, error_of, sentences
 from .numbers import Number
@@ -98,9 +98,10 @@ class State:
 class _Steps:
     """A stream of steps: an answer for each request, in their order."""
 
-    def __init__(self, stub, metadata):
+    def __init__(self, client: "Client"):
+        self._address = client.address
         self._requests: queue.SimpleQueue = queue.SimpleQueue()
-        self._answers = stub.Steps(iter(self._requests.get, None), metadata=metadata)
+        self._answers = client._worlds.Steps(iter(self._requests.get, None), metadata=client._metadata)
 
     def send(self, request) -> None:
         self._requests.put(request)
@@ -109,7 +110,7 @@ class _Steps:
         try:
             return next(self._answers)
         except grpc.RpcError as error:
-            raise error_of(error) from None
+            raise error_of(error, self._address) from None
         except StopIteration:
             raise Error("the stream of steps has ended") from None
 
@@ -140,7 +141,7 @@ class PoseStream:
     def close(self) -> int:
         """How many poses were taken; raises what the server said of one that was not."""
         self._requests.put(None)
-        with sentences():
+        with sentences(self._world._client.address):
             return self._reply.result().taken
 
     def __enter__(self) -> "PoseStream":
@@ -214,7 +215,7 @@ class World:
         request = made(pb.WatchRequest, world=self.name, rate_hz=rate_hz, wanted=self._wanted(channels, links, contacts))
         stream = self._client._worlds.Watch(request, metadata=self._client._metadata)
         try:
-            with sentences():
+            with sentences(self._client.address):
                 for message in stream:
                     yield self._state(message, channels)
         finally:
@@ -251,7 +252,7 @@ class World:
     def log(self) -> dict[str, str]:
         """The log so far and the game that it is bound to: texts by file. `btr live GAME --replay LOG` plays it again."""
         files: dict[str, str] = {}
-        with sentences():
+        with sentences(self._client.address):
             for part in self._client._worlds.Log(pb.LogRequest(world=self.name), metadata=self._client._metadata):
                 files[part.file] = files.get(part.file, "") + part.text
         return files
@@ -281,7 +282,7 @@ class World:
     def send_step(self, periods: int, targets: Mapping[str, Vector]) -> None:
         """The same on a stream, without waiting: receive_step() has the answer. Several worlds step side by side."""
         if self._steps is None:
-            self._steps = _Steps(self._client._worlds, self._client._metadata)
+            self._steps = _Steps(self._client)
         self._steps.send(self._request(periods, targets, (), None, False, False))
 
     def receive_step(self) -> State:

@@ -52,14 +52,15 @@ class MpiLink : public RankLink {
   void finish() override {
     if (finished_) return;
     finished_ = true;
-    // What still arrives must be taken, or those who send it would wait for ever.
-    MPI_Request all;
-    MPI_Ibarrier(MPI_COMM_WORLD, &all);
+    // What still arrives must be taken, or those who send it would wait for ever; and who has come to the barrier may
+    // have nothing on its way any more, as nobody takes it behind it.
     int from = 0, done = 0;
     std::string ignored;
-    while (!done || !leaving_.empty()) {
+    while (!leaving_.empty()) receive(from, ignored);
+    MPI_Request all;
+    MPI_Ibarrier(MPI_COMM_WORLD, &all);
+    while (!done)
       if (!receive(from, ignored)) MPI_Test(&all, &done, MPI_STATUS_IGNORE);
-    }
     MPI_Finalize();
   }
 

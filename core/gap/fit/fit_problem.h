@@ -94,6 +94,8 @@ struct FitProblem {
   /// and 1.16; 2.1, 1.3, 1.8, 1.4; 9.1, 8.9, 8.8 and 8.5 noise floors: feet land another way with each step, so a walk
   /// goes to half alone.)
   double finestStep = 0.126;
+  /// Joints are compared with where they are so much further on: an alignment that is known (alignment.h).
+  double shift_s = 0;
   std::vector<std::string> notes;
   int jobs = 1;  ///< worker processes for the segments of one evaluation; changes no result
 

@@ -60,7 +60,9 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
       all.col(column++).setZero();
       continue;
     }
-    all.col(column++) = (simulate(model.values, moved) - all.col(0)) / startStep;
+    const std::vector<double> values = residualsBeside(problem, segment, scenes.scene(model.values, segment.trial),
+                                                       moved, std::span(all.data(), static_cast<std::size_t>(count)));
+    all.col(column++) = (Eigen::Map<const Eigen::VectorXd>(values.data(), count) - all.col(0)) / startStep;
   }
   return all;
 }

@@ -1,4 +1,5 @@
 #include "core/gap/fit/score.h"
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/block_scores.h"
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -30,6 +31,7 @@ Scored scoreAsIs(const FitProblem& problem, const Fit& fit) {
   options.startsOnly = true;
   scored.fit = fitModel(problem, fit.model, fit.shifts, options);
   scored.heldOut = residualsOf(problem, scored.fit.model, scored.fit.shifts);
+  scored.aligned = align(problem, scored.heldOut);
   scored.blocks = blockScores(problem, scored.heldOut, Fold::all);
   scored.step_s = problem.scene.step_s;
   return scored;
@@ -91,10 +93,17 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit) {
       residuals = length > 0 ? residualsOf(problem, half, fit.shifts) : linear.residuals;
       if (train.dot(residuals.cwiseAbs2()) <= 1.001 * before) break;
     }
+    const Eigen::VectorXd column = clockColumn(problem, residuals);
+    const double shift_s = bestShift_s(problem, residuals, column, train);
+    const Eigen::VectorXd tests = Eigen::VectorXd::Ones(train.size()) - train;
+    const double unaligned = tests.dot((residuals - problem.shift_s * column).cwiseAbs2());
+    residuals += shift_s * column;
+    scored.aligned.shift_s += (problem.shift_s + shift_s) / 2;
+    scored.aligned.took += (unaligned - tests.dot(residuals.cwiseAbs2())) / static_cast<double>(residuals.size());
     const std::vector<double> blocks = blockScores(problem, residuals, other);
     for (std::size_t b = 0; b < blocks.size(); ++b)
       if (blocks[b] >= 0) scored.blocks[b] = blocks[b];
-    scored.heldOut += (Eigen::VectorXd::Ones(train.size()) - train).cwiseProduct(residuals);
+    scored.heldOut += tests.cwiseProduct(residuals);
   }
   return scored;
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_problem.h"
 
@@ -14,6 +15,7 @@ struct Scored {
   Eigen::VectorXd heldOut;    ///< residuals of the same, all samples
   std::vector<double> sizes;  ///< by effect: its furthest parameter from neutral, in standard errors
   double step_s = 0;          ///< of the replays that were scored
+  Alignment aligned{};        ///< of what is scored: `blocks` and `heldOut` are of residuals that were shifted so
 
   double mean() const;  ///< over the blocks
 };

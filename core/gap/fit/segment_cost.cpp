@@ -5,6 +5,7 @@
 #include "core/gap/fit/segments.h"
 
 #include <cmath>
+#include <span>
 
 namespace btr {
 namespace {
@@ -48,6 +49,14 @@ Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
+Eigen::VectorXd SegmentCost::simulateBeside(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const {
+  const std::vector<double> numbers = numbersOf(x);
+  const std::vector<double> shift(x.begin() + static_cast<std::ptrdiff_t>(numbers.size()), x.end());
+  const std::vector<double> list = residualsBeside(problem_, segment_, scenes_.scene(numbers, segment_.trial), shift,
+                                                   {here.data(), static_cast<std::size_t>(here.size())});
+  return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
+}
+
 Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here, Eigen::Index from,
                                          Eigen::Index to) const {
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
@@ -78,7 +87,7 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;
     Eigen::VectorXd moved = x;
     moved[i] += step;
-    column = (simulate(moved) - here) / step;
+    column = ((i < parameters ? simulate(moved) : simulateBeside(moved, here)) - here) / step;
   }
   return jacobian;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
@@ -422,8 +423,11 @@ bool isFelt(const Segment& segment, const Nuisance& nuisance, const Scene& scene
   });
 }
 
-std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
-                                const std::vector<double>& shift) {
+namespace {
+
+/// Residuals of the rows before `last`; the others are afterFault.
+std::vector<double> residualsUntil(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                   const std::vector<double>& shift, std::size_t last) {
   const FitTrial& trial = problem.trials[segment.trial];
   std::vector<double> rounding(trial.noiseFloor.size(), 0);
   for (std::size_t i = 0; i < shift.size(); ++i)
@@ -435,8 +439,7 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
     if (!start.balls[b].onFloor)
       start.balls[b].spin_rad_s +=
           Eigen::Vector3d::Map(scene.balls[b].spin_rad_s.data()) - segment.start.balls[b].spin_rad_s;
-  const ReplayedRecording replayed =
-      replayRecording(scene, trial.recording, trial.binding, start, segment.first, segment.last);
+  const ReplayedRecording replayed = replayRecording(scene, trial.recording, trial.binding, start, segment.first, last);
   std::vector<double> residuals(segment.row.size(), afterFault);
   for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k], row = segment.row[k];
@@ -444,7 +447,53 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
     const double value = (replayed.values[c][row] + rounding[c] - recorded) / trial.floorAt(c, row);
     if (std::isfinite(value)) residuals[k] = value;
   }
+  if (problem.shift_s != 0) {
+    const std::vector<double> column = clockColumn(problem, segment, scene, residuals);
+    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] += problem.shift_s * column[k];
+  }
   return residuals;
+}
+
+/// What a prescribed motion is at one row depends on later ones.
+bool prescribes(const FitTrial& trial) {
+  return std::ranges::any_of(trial.binding.inputs,
+                             [](const Binding::Input& input) { return input.what == Binding::Input::What::motion; });
+}
+
+}  // namespace
+
+std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                const std::vector<double>& shift) {
+  return residualsUntil(problem, segment, scene, shift, segment.last);
+}
+
+std::vector<double> residualsBeside(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                    const std::vector<double>& shift, std::span<const double> here) {
+  constexpr double forgets_s = 1, atOne_s = 0.3, atOne = 1e-4;  // the last: noise floors
+  const FitTrial& trial = problem.trials[segment.trial];
+  const std::vector<double>& time = trial.recording.columns[0];
+  const auto rowAfter = [&](double after_s) {
+    const auto from = time.begin() + static_cast<std::ptrdiff_t>(segment.first);
+    const auto to = time.begin() + static_cast<std::ptrdiff_t>(segment.last);
+    return static_cast<std::size_t>(std::lower_bound(from, to, time[segment.first] + after_s) - time.begin());
+  };
+  const std::size_t last = rowAfter(forgets_s), apart = rowAfter(forgets_s - atOne_s);
+  // Where little would be left out, or too few samples say that both are one, all of it is simulated.
+  if (rowAfter(2 * forgets_s) >= segment.last || last < apart + 4 || !scene.balls.empty() || problem.walks ||
+      problem.impacts || prescribes(trial))
+    return residualsOf(problem, segment, scene, shift);
+  std::vector<double> residuals = residualsUntil(problem, segment, scene, shift, last);
+  const std::size_t known = last - 1;  // what is shifted in time needs the row after it
+  std::size_t compared = 0;
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    const std::size_t row = segment.row[k];
+    if (row >= apart && row < known) {
+      if (!(std::abs(residuals[k] - here[k]) < atOne)) return residualsOf(problem, segment, scene, shift);
+      ++compared;
+    }
+    if (row >= known) residuals[k] = here[k];
+  }
+  return compared > 0 ? residuals : residualsOf(problem, segment, scene, shift);
 }
 
 }  // namespace btr

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/gap/fit/fit_problem.h"
@@ -27,5 +28,10 @@ inline constexpr double afterFault = 100;
 /// (simulated − recorded)/floor of the sample (FitTrial::floorAt). After a fault they are afterFault.
 std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
                                 const std::vector<double>& shift);
+
+/// The same for a start near one whose residuals are `here`. A servo forgets how it began: once both motions have been
+/// one for a while, the rest of the segment is `here` and is not simulated.
+std::vector<double> residualsBeside(const FitProblem& problem, const Segment& segment, const Scene& scene,
+                                    const std::vector<double>& shift, std::span<const double> here);
 
 }  // namespace btr

@@ -30,6 +30,7 @@
 #include "core/gap/search/verdict.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/figures.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
 
@@ -193,6 +194,18 @@ void addStepErrors(GapReport& report, const FitProblem& problem, const SearchRes
                              " s, is not below the noise floor; a smaller step_s would make the analysis sharper");
 }
 
+/// Where positions are compared a little earlier or later than they are recorded, and it matters.
+void addAlignment(GapReport& report, const FitProblem& problem, const Scored& final) {
+  constexpr double matters = 0.05;  // noise floors²
+  const double shift_s = final.aligned.shift_s;
+  if (!(final.aligned.took > matters) || shift_s == 0) return;
+  report.notes.push_back("positions are compared with those simulated " + digits(std::abs(1000 * shift_s), 2) + " ms " +
+                         (shift_s > 0 ? "later" : "earlier") + ": within half a step of the scene (" +
+                         toText(1000 * problem.givenStep_s) +
+                         " ms), where what made the recordings may have integrated or read them; no physics is "
+                         "looked for in that");
+}
+
 }  // namespace
 
 void refuseUnknownEffects(const AnalysisOptions& options, const EffectLibrary& library) {
@@ -287,6 +300,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addEffects(report, problem, final);
   addCorrelations(report, found.final.fit.model, found.finalUncertainty, limits.verdict.strongCorrelation);
   addStepErrors(report, problem, final);
+  addAlignment(report, problem, final.final);
   addSeries(report, problem, final, Whose::fitted);
   report.disagreements = agreement.told;
   if (const std::string text = textOf(agreement.told, given.recordings.size()); !text.empty())

@@ -59,6 +59,11 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
   if (taken < ofIntegration)
     return rejected("takes " + digits(taken, 2) + " noise floors² where the integration itself is wrong by about " +
                     digits(ofIntegration, 2));
+  // What another engine's integration is wrong by shows first as a shift in time; the rest of it is smaller.
+  if (taken < std::min(without.aligned.numericalFloor(), with.aligned.numericalFloor()))
+    return rejected("takes " + digits(taken, 2) +
+                    " noise floors² where a shift in time of less than half a step makes " +
+                    digits(with.aligned.took, 2));
   return {true, comparison,
           "takes " + percent(comparison.gain) +
               " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")"};
@@ -88,7 +93,7 @@ void Confirmer::restart(Fit& fit, double least, const std::string& what, double 
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
   if (fit.cost > (service_.problem().walks ? limits.worthMoreOfWalks : limits.worthMore) * least) return;
   climbWholeNumbers(service_, fit, what, at);
-  const double left = 2 * fit.cost / static_cast<double>(service_.problem().residuals());
+  const double left = service_.leftBy(fit);
   if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
     restartFarOff(service_, fit, what, at);
   // What leaves no more than the noise may still stop behind a better one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/parallel.h"
@@ -33,6 +34,14 @@ void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
                             numbers.begin() + static_cast<std::ptrdiff_t>(at + segment.nuisances.size()));
     at += segment.nuisances.size();
   }
+}
+
+/// Of a fit as it is, without what tames outliers.
+double costOf(const FitProblem& problem, const Fit& fit) {
+  double cost = residualsOf(problem, fit.model, fit.shifts).squaredNorm() / 2;
+  for (std::size_t s = 0; s < fit.shifts.size(); ++s)
+    cost += priorCost(problem.segments[s].nuisances, fit.shifts[s]) / 2;
+  return cost;
 }
 
 }  // namespace
@@ -136,6 +145,7 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
         std::vector<double> list = scored.blocks;
         list.insert(list.end(), scored.heldOut.begin(), scored.heldOut.end());
         list.insert(list.end(), scored.sizes.begin(), scored.sizes.end());
+        list.insert(list.end(), {scored.aligned.shift_s, scored.aligned.took});
         return list;
       },
       reporter(stage, fits.size(), from, to));
@@ -147,12 +157,14 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
     }
     const std::vector<double>& numbers = results[i].numbers;
     const auto blocks = static_cast<std::ptrdiff_t>(problem_.blocks), sizes = std::ssize(fits[i].model.effects);
+    const auto end = numbers.end() - 2;  // of the sizes
     scored[i] = Scored{fits[i],
                        {numbers.begin(), numbers.begin() + blocks},
                        Eigen::VectorXd(static_cast<Eigen::Index>(problem_.residuals())),
-                       {numbers.end() - sizes, numbers.end()},
-                       problem_.scene.step_s};
-    std::copy(numbers.begin() + blocks, numbers.end() - sizes, scored[i]->heldOut.begin());
+                       {end - sizes, end},
+                       problem_.scene.step_s,
+                       {end[0], end[1]}};
+    std::copy(numbers.begin() + blocks, end - sizes, scored[i]->heldOut.begin());
   }
   return scored;
 }
@@ -177,8 +189,15 @@ std::vector<Scored> FitService::fitAndScore(const std::vector<FitJob>& jobs, con
     scored = scoreAll(fits, stage, (from + to) / 2, to);
     most = thresholds().step.farWorse * (residualsOf(problem_, full.model, full.shifts).squaredNorm() / 2);
   }
-  for (Scored& each : scored)
-    if (each.fit.cost <= most) bringToStep(each, stage, to);
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    if (scored[i].fit.cost <= most) bringToStep(scored[i], stage, to);
+    // Dry friction makes costs rough: a fit with another step may end where the present one leads no further, beside a
+    // model that does better with the numbers that it began with.
+    const FitJob& begun = jobs[i];
+    if (costOf(problem_, {begun.model, begun.shifts, 0}) < scored[i].fit.cost)
+      scored[i] = scoreAll(refit({{begun.model, begun.shifts, 0}}, thresholds().step.iterations, stage, to, to), stage,
+                           to, to)[0];
+  }
   return scored;
 }
 
@@ -187,6 +206,12 @@ FitService FitService::inWindows(double length_s) const {
   windows.reported_ = reported_;
   windows.refused_ = refused_;
   return windows;
+}
+
+double FitService::leftBy(const Fit& fit) const {
+  Eigen::VectorXd residuals = residualsOf(problem_, fit.model, fit.shifts);
+  align(problem_, residuals);
+  return residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, residuals.size()));
 }
 
 Eigen::VectorXd FitService::stepChange(const Fit& fit) const {

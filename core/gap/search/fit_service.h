@@ -71,11 +71,15 @@ class FitService {
   /// The only ways to change the step: for as long as the guard lives, or longer if it is kept.
   StepGuard guardStep() { return StepGuard(problem_.scene.step_s); }
   StepGuard guardStep(double now_s) { return StepGuard(problem_.scene.step_s, now_s); }
+  /// From here on joints are compared so much further on (alignment.h).
+  void setShift(double shift_s) { problem_.shift_s = shift_s; }
   /// The present step is the one that the calibrated simulator needs.
   void setCalibratedStep() { calibrated_s_ = step_s(); }
   /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
   /// there, and judged at the present one.
   double stepToSearchWith(const Fit& fit) const;
+  /// Mean squared residual of a fit, shifted in time by what is no physics (alignment.h) [noise floors²].
+  double leftBy(const Fit& fit) const;
   /// Change of the residuals with half the step.
   Eigen::VectorXd stepChange(const Fit& fit) const;
   /// Halves the step until half of it changes no fit by more than what hides in the noise, and fits again; keeps the

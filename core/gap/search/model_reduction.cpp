@@ -1,12 +1,44 @@
 #include "core/gap/search/model_reduction.h"
 
+#include <cmath>
+
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/search/model_comparison.h"
 
 namespace btr {
+namespace {
+
+/// An effect whose sizes are all at their neutral values is not there: no comparison of fits, rough as they may be,
+/// makes it another physics.
+bool isNeutral(const FitModel& model, std::size_t effect) {
+  constexpr double close = 1e-6;  // typical changes
+  bool hasSize = false;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect != static_cast<int>(effect) || !p.hasNeutral) continue;
+    hasSize = true;
+    if (std::abs(model.values[i] - p.given) > close * p.scale) return false;
+  }
+  return hasSize;
+}
+
+void dropNeutral(const FitService& service, Selection& selection) {
+  for (std::size_t i = selection.final.fit.model.effects.size(); i-- > 0;) {
+    const Fit& fit = selection.final.fit;
+    if (!isNeutral(fit.model, i)) continue;
+    const std::string dropped = fit.model.effects[i].text();
+    const Fit without{fit.model.without(i), fit.shifts, fit.cost};
+    const Scored scored = service.scoreAll({without}, "dropping each in turn", 0.86, 0.86)[0];
+    conclude(selection.attempts, dropped, false, "fitted to nothing beside the others");
+    selection.take(scored, "− " + dropped);
+  }
+}
+
+}  // namespace
 
 void dropRedundant(FitService& service, Selection& selection) {
+  dropNeutral(service, selection);
   for (bool changed = true; changed && selection.final.fit.model.effects.size() > 1;) {
     changed = false;
     std::vector<FitJob> jobs;

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/fit/starts_anew.h"
@@ -31,7 +32,8 @@ Simulated simulateAll(const FitProblem& problem, const FitModel& model,
     simulated.values.emplace_back(trial.binding.measured.size(), std::vector<double>(trial.recording.rows(), NAN));
     simulated.missed.emplace_back(trial.binding.measured.size(), 0);
   }
-  const Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
+  Eigen::VectorXd residuals = residualsOf(problem, model, shifts);
+  align(problem, residuals);
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {

@@ -22,6 +22,12 @@
 namespace btr {
 namespace {
 
+/// A shift that takes something, and that is not as far as it may be, where it would stand for something else.
+bool isKnown(const Alignment& aligned, const FitProblem& problem) {
+  constexpr double least = 0.05, inside = 0.95;  // noise floors²; of half a step
+  return aligned.took > least && std::abs(aligned.shift_s) < inside * problem.givenStep_s / 2;
+}
+
 /// One search: holds its parts and calls one after another.
 class StructureSearch {
  public:
@@ -108,8 +114,11 @@ void StructureSearch::addEffects() {
   bool recalibrated = false;
   std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
   for (int stage = 0; stage < most(); ++stage) {
-    // What the integration itself is wrong by is not physics that was left out.
-    if (selection_.final.mean() < limits.nothingLeft + stepErrorOf(service_.stepChange(selection_.final.fit))) break;
+    // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
+    const double ofOthers = selection_.final.aligned.numericalFloor();
+    if (selection_.final.mean() <
+        limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
+      break;
     Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;
     selection_.final = round.without;
@@ -120,6 +129,9 @@ void StructureSearch::addEffects() {
       const std::string name = tried[*winner].attempt.candidate.text();
       choice = Choice{selection_.final, name, tried};
       choice->others.erase(choice->others.begin() + static_cast<std::ptrdiff_t>(*winner));
+      // Beside what explains most, the shift in time that is no physics is known: numbers are fitted with it.
+      const Alignment& aligned = tried[*winner].scored.aligned;
+      if (isKnown(aligned, service_.problem())) service_.setShift(aligned.shift_s);
       const Scored with =
           confirmer_.converged(tried[*winner].scored, "confirming", 0.1 + 0.7 * stage / most() + 0.7 / most());
       const auto anew = stage == 0 && !recalibrated ? calibrator_.recalibrate(calibration_, with) : std::nullopt;

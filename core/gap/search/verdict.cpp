@@ -146,7 +146,8 @@ std::string swingText(const FitProblem& problem, const GapReport& report, const 
 /// What the verdict rests on; mean squared errors in noise floors².
 struct Findings {
   double given = 0, calibrated = 0, final = 0;
-  double step = 0;  ///< what the integration itself is wrong by: no physics that was left out
+  double step = 0;       ///< what the integration itself is wrong by: no physics that was left out
+  double givenStep = 0;  ///< the same of the simulator as given, of what made the recordings alone
   double excess = 0;
   bool moves = false;             ///< something, by more than a few noise floors
   bool calibrationHelps = false;  ///< a paired test says so
@@ -165,7 +166,8 @@ Findings findingsOf(const GapReport& report, const FitProblem& problem, const Se
   e.given = found.given.mean();
   e.calibrated = found.calibrated.mean();
   e.final = found.final.mean();
-  e.step = stepErrorOf(found.stepChange);
+  e.step = stepErrorOf(found.stepChange) + found.final.aligned.numericalFloor();
+  e.givenStep = found.given.aligned.numericalFloor();
   e.excess = std::max(0.0, e.calibrated - 1);
   e.moves = motionOf(problem) >= limits.leastMotion;
   e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > limits.calibrationT &&
@@ -377,7 +379,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     judgePartly(report, e);
   else if (tooMuchLeft)
     judgeUnexplained(report, e, limits);
-  else if (!e.calibrationHelps && e.given <= limits.atNoise)
+  else if (!e.calibrationHelps && e.given - e.givenStep <= limits.atNoise)
     judgeNoMismatch(report, e);
   else if (e.calibrationHelps && e.final <= limits.unexplained)
     judgeSufficient(report, e, limits);

@@ -63,6 +63,7 @@ v1::OpenRequest gameFor(ServerLink& server, const ::uchilsim::BehaviourControlle
   v1::OpenRequest request;
   request.set_game(plan.game);
   request.set_unlogged(true);
+  request.add_without_controller(plan.robot);
   OwnWorld asItIs(server, request);
   const std::string& world = asItIs.world.world();
   const v1::RobotReply robot = robotOf(server, world, plan.robot);
@@ -87,6 +88,7 @@ v1::OpenRequest gameFor(ServerLink& server, const ::uchilsim::BehaviourControlle
     if (std::ranges::find(robot.senses(), sense.sense) == robot.senses().end())
       player["senses"].push_back({{"sense", sense.sense}, {"parameters", sense.parameters}});
   request.clear_game();
+  request.clear_without_controller();
   request.set_game_json(game.dump());
   request.set_unlogged(!plan.logged);
   if (plan.seed) request.set_seed(*plan.seed);

@@ -29,10 +29,16 @@ Vector3d across(const Vector3d& normal, const Vector3d& wanted) {
   return direction.normalized();
 }
 
+/// How fast a sliding may turn before friction across it, which would hold its direction, is let go: about the
+/// acceleration of a limb or a ball that is hit. Times the step it is a speed, so that what it leaves goes with the
+/// step.
+constexpr double turning_m_s2 = 100;
+
 }  // namespace
 
-void ContactBuilder::begin(double step, double gravity_m_s2) {
+void ContactBuilder::begin(double step, double gravity_m_s2, SlidingFriction sliding) {
   step_ = step;
+  sliding_ = sliding;
   bounceAbove_ = 0.01 + 1.5 * gravity_m_s2 * step;
 }
 
@@ -77,7 +83,14 @@ bool ContactBuilder::add(const ContactPoint& point, dBodyID first, dBodyID secon
     wanted = surface.slip1Along;
   } else {
     const Vector3d sliding = velocity + approach * point.normal;
-    if (sliding.squaredNorm() > 1e-6) wanted = sliding;
+    if (sliding.squaredNorm() > 1e-6) {
+      wanted = sliding;
+      if (sliding_ == SlidingFriction::isotropic) {
+        s.mode |= dContactMu2;
+        const double turned = turning_m_s2 * step_;
+        s.mu2 = surface.friction * turned / (turned + sliding.norm());
+      }
+    }
   }
   copy(across(point.normal, wanted), contact.fdir1);
   const dJointID id = dJointCreateContact(session_.world(), session_.contacts(), &contact);

@@ -38,12 +38,13 @@ class ContactBuilder {
  public:
   explicit ContactBuilder(const OdeSession& session) : session_(session) {}
 
-  void begin(double step, double gravity_m_s2);
+  void begin(double step, double gravity_m_s2, SlidingFriction sliding);
   /// Contact of `first` (the normal points to it) with `second` (nullptr: what never moves). Force on the first body:
   ///   normal    max(0, k·depth − d·v)  implicit: ERP = hk/(hk+d), CFM = 1/(hk+d);  a hit with restitution e: v' = −e·v
   ///   exactly friction  at most μ times the normal force along each of two directions. With slip both are those
   ///   of slip and the surface creeps by slip·force (in a hit: by slip·momentum/hitDuration_s, whatever the step);
-  ///   without slip the first one is the direction of sliding (isotropic).
+  ///   without slip the first one is the direction of sliding. Isotropic friction leaves the second one free as soon
+  ///   as the sliding is faster than what a step can turn; Coulomb's law is its limit for small steps.
   /// A point that is still apart but will touch within the step takes part: it may approach until it touches, not
   /// further, so that fast parts do not dive in by a step's way. Returns true if the point touches or will.
   bool add(const ContactPoint& point, dBodyID first, dBodyID second, const ContactSurface& surface);
@@ -62,6 +63,7 @@ class ContactBuilder {
  private:
   const OdeSession& session_;
   double step_ = 0;
+  SlidingFriction sliding_ = SlidingFriction::box;
   bool measure_ = false;
   struct Feedback {
     dJointFeedback forces{};

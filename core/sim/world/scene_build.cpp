@@ -199,6 +199,7 @@ Scene sceneFromModels(const SceneSpec& spec, const ModelSet& models) {
   scene.balls = spec.balls;
   scene.obstacles = spec.obstacles;
   scene.robotsCollide = spec.robotsCollide;
+  scene.slidingFriction = spec.slidingFriction;
   for (const auto& robot : spec.robots) {
     const auto model = models.find(robot.model);
     if (model == models.end())

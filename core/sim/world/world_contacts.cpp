@@ -84,7 +84,7 @@ void World::Impl::touchOthers(std::size_t index, double h) {
 }
 
 void World::Impl::makeContacts(double h) {
-  contacts.begin(h, scene.gravity_m_s2.norm());
+  contacts.begin(h, scene.gravity_m_s2.norm(), scene.slidingFriction);
   if (scene.floor) robotFloor = floorSurface(*scene.floor, scene.floor->restitution);
   for (auto& ball : balls) {
     ball.touched = false;

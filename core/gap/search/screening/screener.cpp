@@ -186,17 +186,14 @@ void Screener::fitPromising(Screening& screening, std::size_t toFit, const std::
   fitKinds(screening, promising, again, stage, to);
   std::erase_if(promising, [&](std::size_t k) { return !tried[k].attempt.fitted; });
 
-  const auto leastCost = [&] {
-    double least = INFINITY;
-    for (const std::size_t k : promising) least = std::min(least, tried[k].fit.cost);
-    return least;
+  const auto bestOfThem = [&] {
+    return *std::ranges::min_element(promising, {}, [&](std::size_t k) { return tried[k].fit.cost; });
   };
-  const double least = leastCost();
+  const double least = promising.empty() ? 0 : tried[bestOfThem()].fit.cost;
   for (const std::size_t k : promising)
     if (tried[k].fit.cost <= limits.inReach * least)
       restartWholeNumberInWindows(service_, tried[k].fit, screening.bases[0].fit.model, what, to);
-  if (2 * leastCost() >
-      service_.thresholds().drawnEffects.leastLeft * static_cast<double>(service_.problem().residuals())) {
+  if (!promising.empty() && service_.leftBy(tried[bestOfThem()].fit) > service_.thresholds().drawnEffects.leastLeft) {
     std::vector<Fit> models;
     for (const FitBase& base : screening.bases) models.push_back(base.fit);
     restartFromDrawsInWindows(service_, tried, promising, models, what, to);

@@ -16,6 +16,8 @@
 namespace btr {
 namespace {
 
+constexpr double helpsAtAll = 0.99;  // of the error's size without an effect [hand]
+
 /// A draw between two values, both within the parameter's range. An effect's rates and speeds have bounds that lie
 /// decades apart: they are drawn by order of magnitude.
 double drawn(const FitParameter& p, double from, double to, Random& random, double decade) {
@@ -126,18 +128,26 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
       race.push_back({k, base, Draws(windows, model, {}, own, "effect scatter")});
     }
   }
+  std::vector<double> sizesWithout, errorsWithout;
+  for (const Fit& base : without) {
+    const Eigen::VectorXd residuals = residualsOf(windows.problem(), base.model, {});
+    sizesWithout.push_back(residuals.lpNorm<1>());
+    errorsWithout.push_back(residuals.squaredNorm());
+  }
   for (int round = 0; round < service.thresholds().restarts.drawRounds; ++round) {
     double least = INFINITY;
     for (Racer& each : race) {
       each.draws.drawRound(stage, at);
       least = std::min(least, each.draws.least());
     }
+    // What helps in no size from all over its range is not found by drawing closer around the best of these.
     if (round + 1 >= limits.raceFrom)
-      std::erase_if(race, [&](const Racer& each) { return each.draws.least() > std::sqrt(limits.race) * least; });
+      std::erase_if(race, [&](const Racer& each) {
+        return each.draws.least() > std::sqrt(limits.race) * least ||
+               each.draws.least() > helpsAtAll * sizesWithout[each.base];
+      });
   }
   if (race.empty()) return;
-  std::vector<double> errorsWithout;
-  for (const Fit& base : without) errorsWithout.push_back(residualsOf(windows.problem(), base.model, {}).squaredNorm());
   std::vector<Begun> begun;
   double least = INFINITY;
   for (const Racer& each : race) {

@@ -26,10 +26,11 @@ enum DNSEndpointOperation {
   DNSEndpoint_Operation_Close = 8
 };
 
-/// Copies at most MAXDNAME characters, the last one always the end.
+/// Copies at most MAXDNAME characters with the end.
 inline void btr_copy_name(char* to, const char* from) {
-  strncpy(to, from == 0 ? "" : from, MAXDNAME);
-  to[MAXDNAME - 1] = 0;
+  int i = 0;
+  for (; from != 0 && from[i] != 0 && i < MAXDNAME - 1; ++i) to[i] = from[i];
+  to[i] = 0;
 }
 
 struct DNSEndpointBaseMsg : public antEnvMsg {

@@ -16,7 +16,7 @@ const sError sNOT_FOUND = 4;
 sError GetSystemTime(SystemTime* time);
 sError GetSystemTime(structSystemTime* time);
 
-/// The object waits, and only it, in simulated time. The unit of the robot's own call is not known: nanoseconds here.
+/// The object waits, and only it, in simulated time.
 sError Wait(longlong nanoseconds);
 
 /// Memory of the object's own.

@@ -53,6 +53,16 @@ int Faulty::forgets(int n) {
   OSYSPRINT(("forgets to return\n"));
 }
 
+static void __attribute__((noinline)) smash() {
+  char room[10];
+  strcpy(room, "This goes beyond its ten characters, to where the function was called from.");
+}
+
+static void divide() {
+  int zero = 0;
+  OSYSPRINT(("%d\n", 7 / zero));
+}
+
 void Faulty::Notify(const ONotifyEvent& event) {
   char line[80];
   if (gets(line) == 0) return;
@@ -86,6 +96,8 @@ void Faulty::Notify(const ONotifyEvent& event) {
   if (strcmp(line, "abort") == 0) abort();
   if (strcmp(line, "assert") == 0) assert(none == 1);
   if (strcmp(line, "forget") == 0) forgets(none);
+  if (strcmp(line, "smash") == 0) smash();
+  if (strcmp(line, "by zero") == 0) divide();
   if (strcmp(line, "mips") == 0) {
     int status;
     __asm__ volatile("mfc0 %0, $12" : "=r"(status));

@@ -11,7 +11,10 @@ OStatus Sounder::DoInit(const OSystemEvent& event) {
   NEW_ALL_SUBJECT_AND_OBSERVER;
   REGISTER_ALL_ENTRY;
   SET_ALL_READY_AND_NOTIFY_ENTRY;
-  OPENR::OpenPrimitive("PRM:/s1-Speaker:S1", &speaker);
+  char design[orobotdesignNAME_MAX + 1];
+  OPENR::GetRobotDesign(design);
+  const bool inChest = strcmp(design, "ERS-7") == 0;
+  OPENR::OpenPrimitive(inChest ? "PRM:/s1-Speaker:S1" : "PRM:/r1/c1/c2/c3/s1-Speaker:S1", &speaker);
   OPENR::ControlPrimitive(speaker, oprmreqSPEAKER_MUTE_OFF, 0, 0, 0, 0);
   OPrimitiveControl_SpeakerVolume volume(ospkvol10dB);
   OPENR::ControlPrimitive(speaker, oprmreqSPEAKER_SET_VOLUME, &volume, sizeof(volume), 0, 0);

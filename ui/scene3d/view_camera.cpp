@@ -67,17 +67,18 @@ void ViewCamera::keepInView(const Eigen::Vector3d& point, QSize size) {
     focus.head<2>() = point.head<2>();
     return;
   }
-  constexpr double gentle = 0.55, surely = 0.85;  // shares of the picture around its middle
+  // Shares of the picture around its middle; what goes away from the eye soon is small.
+  constexpr double gentle = 0.55, gentleUpright = 0.3, surely = 0.85;
   constexpr double perPicture = 0.12;
   const auto beyond = [](double from, double half, double share) {
     return from - std::clamp(from, -half * share, half * share);
   };
-  const auto way = [&](double from, double half) {
-    const double some = perPicture * beyond(from, half, gentle), must = beyond(from, half, surely);
+  const auto way = [&](double from, double half, double share) {
+    const double some = perPicture * beyond(from, half, share), must = beyond(from, half, surely);
     return std::abs(must) > std::abs(some) ? must : some;
   };
-  const double right = way(pixel->x() - size.width() / 2.0, size.width() / 2.0);
-  const double down = way(pixel->y() - size.height() / 2.0, size.height() / 2.0);
+  const double right = way(pixel->x() - size.width() / 2.0, size.width() / 2.0, gentle);
+  const double down = way(pixel->y() - size.height() / 2.0, size.height() / 2.0, gentleUpright);
   if (right == 0 && down == 0) return;
   const Eigen::Matrix3d frame = axes(*this);
   const double depth = frame.col(2).dot(eye() - point);

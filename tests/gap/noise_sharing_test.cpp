@@ -110,6 +110,23 @@ TEST(NoiseSharing, GivesEachSampleThePartOfItsOwnSpeedWhereStampsJitter) {
   EXPECT_EQ(even[0].floorAt(0, 7), even[0].noiseFloor[0]);
 }
 
+// In each sample its counts hide what the jitter does; all of them together tell.
+TEST(NoiseSharing, FindsJitterBesideCoarseCountsAndNoneWhereValuesFollowTheirStamps) {
+  constexpr double counts = 0.0075;
+  const auto rounded = [](double value) { return counts * std::round(value / counts); };
+  std::vector<FitTrial> rows{jittering(0.8, 1), jittering(0.8, 2)}, stamps = rows;
+  for (FitTrial& trial : rows)
+    for (double& value : trial.recording.columns[1]) value = rounded(value);
+  for (FitTrial& trial : stamps)
+    for (std::size_t i = 0; i < 400; ++i)
+      trial.recording.columns[1][i] = rounded(0.8 * std::sin(5 * trial.recording.columns[0][i]));
+  shared(rows);
+  shared(stamps);
+  ASSERT_TRUE(rows[0].hasSampleFloors(0));
+  EXPECT_GT(rows[0].floorAt(0, 126), 1.2 * rows[0].floorAt(0, 31));  // at 4 rad/s, and where it turns
+  EXPECT_FALSE(stamps[0].hasSampleFloors(0));
+}
+
 // The command is replayed at a stamp that is off, too: what follows a step is late as a whole, what follows many small
 // changes is not.
 TEST(NoiseSharing, CountsTheJitterOfACommandTwiceAfterAStepOnly) {

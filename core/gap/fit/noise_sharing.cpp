@@ -12,6 +12,7 @@
 #include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/sample_speed.h"
+#include "core/gap/recordings/stamp_truth.h"
 #include "core/gap/replay/residual.h"
 
 namespace btr {
@@ -79,6 +80,23 @@ bool isSparse(const std::vector<double>& values) {
   return 2 * static_cast<std::size_t>(numbers) <= values.size() + 1;
 }
 
+/// All samples of all trials together say that values are even, row by row, however coarse their counts: the slope
+/// that right stamps would make 1 is clearly nearer to 0.
+bool followNoStamps(const std::vector<FitTrial>& trials) {
+  constexpr double nearer = 0.5, standardErrors = 5;
+  double sum = 0, weight = 0;
+  for (const FitTrial& trial : trials)
+    for (const Measured& measured : trial.binding.measured) {
+      if (!isCompared(trial.binding, measured)) continue;
+      const StampTruth truth = stampTruth(trial.recording, measured.column);
+      sum += truth.weight * truth.slope;
+      weight += truth.weight;
+    }
+  if (!(weight > 0)) return false;
+  const double slope = sum / weight;
+  return std::abs(slope) < nearer && (1 - nearer) * std::sqrt(weight) > standardErrors;
+}
+
 /// Whether the logger's stamps jitter and its values do not. One trial that moves fast shows what another one hides;
 /// where all are too sparse to tell, what the jitter may do counts as noise.
 Stamps stampsOf(const std::vector<FitTrial>& trials) {
@@ -96,7 +114,7 @@ Stamps stampsOf(const std::vector<FitTrial>& trials) {
       ++count;
     }
   const bool areOff = some ? sum > 0 : sparse && sum > -clearly * count;
-  return areOff ? Stamps::off : Stamps::asShown;
+  return areOff || followNoStamps(trials) ? Stamps::off : Stamps::asShown;
 }
 
 /// Where stamps jitter, so do the commands that are replayed at them, and what follows a late one is late as a whole:

@@ -80,7 +80,7 @@ TEST_F(WorldDeskTest, FallsAsABallDoes) {
 
 TEST_F(WorldDeskTest, AControllerThatIsLeftOutNeedNotBeThere) {
   nlohmann::json game = nlohmann::json::parse(RemoteFolder::dogGame());
-  game["robots"]["red1"] = {{"controller", {{"name", "somebody_elses"}}}};
+  game["robots"]["red1"] = {{"controller", {{"plugin", "somebody_elses"}}}};
   files.write("theirs.json", game.dump());
   v1::OpenRequest request;
   request.set_game("theirs.json");

@@ -68,9 +68,9 @@ inline GapReport sampleReport(const std::string& robot = "leg") {
                    true,
                    false}};
   r.strongCorrelations = {"robots." + robot + ".servos.knee.p ~ robots." + robot + ".links.lower.mass_kg: 0.98"};
-  r.channels = {{knee + ".position_rad", "rad", 0.0016, 0.041, 0.022, 0.0019, 0.033, 0.017, 0.0015, 0.043, 0.024, 0.002,
-                 0.034, 0.018, 0.0016, 0.0002},
-                {hip + ".position_rad", "rad", 0.0015, 0.006, 0.0031, 0.0017, 0.005, 0.0025, 0.0014, 0.0062, 0.0033,
+  r.channels = {{knee + ".position_rad", "rad", 0.0016, 0, 0.041, 0.022, 0.0019, 0.033, 0.017, 0.0015, 0.043, 0.024,
+                 0.002, 0.034, 0.018, 0.0016, 0.0002},
+                {hip + ".position_rad", "rad", 0.0015, 0, 0.006, 0.0031, 0.0017, 0.005, 0.0025, 0.0014, 0.0062, 0.0033,
                  0.0018, 0.0051, 0.0026, 0.0015, 0.0002}};
   r.ladder = {{"as given", 25.6, 1.9}, {"calibrated", 12.8, 1.1}, {"+ backlash at " + knee, 1.19, 0.05}};
 

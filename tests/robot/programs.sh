@@ -113,7 +113,7 @@ refused() {  # "what" "the text" words…
   one_line
 }
 stroll=("$programs/stroll" --server "127.0.0.1:$port")
-refused "another robot" 'robot: "red9" is not allowed; a robot of this game' "${stroll[@]}" --game ex/wall.json --robot red9
+refused "another robot" 'without_controller: "red9" is not allowed; a robot of this game' "${stroll[@]}" --game ex/wall.json --robot red9
 refused "another game" 'ex/nowhere.json' "${stroll[@]}" --game ex/nowhere.json --robot red1
 refused "another world" "no such world" "${stroll[@]}" --world abc --robot red1
 refused "neither game nor world" "--game" "${stroll[@]}" --robot red1

@@ -198,7 +198,10 @@ void SceneView::applyFollow() {
   const ScenePose& pose = scene_.pose();
   if (follow_ == Follow::nothing && keepsInView() && dragButton_ == Qt::NoButton) {
     const ViewCamera before = camera_;
-    if (const auto place = keptInView()) camera_.keepInView(*place, size());
+    const auto place = keptInView();
+    // What stands still stays where it was put in the picture.
+    if (place && keptAt_ && (*place - *keptAt_).norm() > 1e-6) camera_.keepInView(*place, size());
+    keptAt_ = place;
     if (camera_ != before) emit cameraChanged();
     return;
   }

@@ -114,6 +114,7 @@ class SceneView : public QWidget {
   Follow follow_ = Follow::nothing;
   QStringList caption_;
   QList<Badge> badges_;
+  std::optional<Eigen::Vector3d> keptAt_;  ///< where what is kept in view was when it was looked at last
   QAction *home_, *followAction_, *keep_, *shadows_, *show_, *jacket_, *save_;
   QList<QAction*> surfaces_, marks_;
   QList<std::pair<Qt::Key, QAction*>> keys_;

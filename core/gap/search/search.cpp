@@ -129,11 +129,10 @@ void StructureSearch::addEffects() {
       const std::string name = tried[*winner].attempt.candidate.text();
       choice = Choice{selection_.final, name, tried};
       choice->others.erase(choice->others.begin() + static_cast<std::ptrdiff_t>(*winner));
-      // Beside what explains most, the shift in time that is no physics is known: numbers are fitted with it.
-      const Alignment& aligned = tried[*winner].scored.aligned;
-      if (isKnown(aligned, service_.problem())) service_.setShift(aligned.shift_s);
-      const Scored with =
-          confirmer_.converged(tried[*winner].scored, "confirming", 0.1 + 0.7 * stage / most() + 0.7 / most());
+      const auto converged = [&] {
+        return confirmer_.converged(tried[*winner].scored, "confirming", 0.1 + 0.7 * stage / most() + 0.7 / most());
+      };
+      Scored with = converged();
       const auto anew = stage == 0 && !recalibrated ? calibrator_.recalibrate(calibration_, with) : std::nullopt;
       if (anew) {
         for (Attempt& attempt : selection_.attempts)
@@ -146,6 +145,12 @@ void StructureSearch::addEffects() {
         choice.reset();
         --stage;
         continue;
+      }
+      // Beside what explains most, the shift in time that is no physics is known: numbers are fitted with it. (Without
+      // it the shift would stand for what is missing, and calibration would do without the effect.)
+      if (isKnown(with.aligned, service_.problem())) {
+        service_.setShift(with.aligned.shift_s);
+        with = converged();
       }
       selection_.take(with, "+ " + name);
       continue;

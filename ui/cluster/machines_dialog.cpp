@@ -60,6 +60,7 @@ void setColumns(QTableWidget& table, const QStringList& headers, int rows) {
     setUpForReading(table, headers);
     table.horizontalHeader()->setStretchLastSection(true);
   }
+  table.setHorizontalHeaderLabels(headers);  // what is counted differs from job to job
   table.setRowCount(rows);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/model/kinematics.h"
+#include "core/sim/bench/bench.h"
 #include "core/sim/trial.h"
 #include "core/spec/random.h"
 #include "tests/plugin/built_plugins.h"
@@ -117,6 +118,33 @@ TEST(Dog, ATrialRepeatsBitForBit) {
   const auto first = runTrial(scene, *kick, {}, parameters, 9, options);
   runTrial(scene, *kick, {}, someKick(4, 1), 10, options);
   EXPECT_EQ(first.trace.sha256(), runTrial(scene, *kick, {}, parameters, 9, options).trace.sha256());
+}
+
+/// Ways of the ten learned kicks of `btr bench` at one step [m].
+std::vector<double> learnedWays(const BenchTask& task, double step) {
+  Scene scene = task.scene;
+  scene.step_s = step;
+  scene.nearSubsteps = 1;
+  std::vector<double> ways;
+  for (const auto& parameters : task.parameters) {
+    const auto result = runTrial(scene, *task.controller, task.settings, parameters, 1);
+    ways.push_back((result.balls[0].rest_m - result.balls[0].start_m).head<2>().norm());
+  }
+  return ways;
+}
+
+// Legs that press the ball to the floor while they kick it: with isotropic friction the way is a matter of the motion,
+// not of the step, and a step half as large is about half as far off.
+TEST(Dog, AKicksWayConvergesWithTheStep) {
+  const auto kick = host().controller("kick");
+  const SceneSpec spec = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
+  ASSERT_EQ(spec.slidingFriction, SlidingFriction::isotropic);
+  const BenchTask task = kickTask(spec, loadModels(spec), *kick);
+  const auto converged = learnedWays(task, 0.000125);
+  const double coarse = deviationOf(learnedWays(task, 0.001), converged).rms;
+  const double fine = deviationOf(learnedWays(task, 0.0005), converged).rms;
+  EXPECT_LT(coarse, 0.1);
+  EXPECT_LT(fine, 0.7 * coarse);
 }
 
 TEST(Dog, AMeshAsCollisionModelStandsToo) {

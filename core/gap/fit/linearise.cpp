@@ -88,7 +88,7 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     const auto width = 1 + parameters + static_cast<Eigen::Index>(fit.shifts[s].size());
     const Eigen::Map<const Eigen::MatrixXd> all(numbers[s].data(), count, width);
     result.residuals.segment(at, count) = all.col(0);
-    result.raw.middleRows(at, count) = all.middleCols(1, parameters);
+    if (parameters > 0) result.raw.middleRows(at, count) = all.middleCols(1, parameters);
     Eigen::MatrixXd starts = all.rightCols(width - 1 - parameters);
     result.first.push_back(at);
     result.rawStarts.push_back(starts);

@@ -128,6 +128,15 @@ TEST(NextRecording, SaysWhereNoneWouldTellRivalsApart) {
   EXPECT_THAT(next.why, HasSubstr("would hardly tell coulomb friction at rig.rail from viscous friction at rig.rail"));
 }
 
+// Beside a law that was measured, the simulators of rivals are thrown away: nothing can be designed.
+TEST(NextRecording, DesignsNothingForRivalsWithoutSimulators) {
+  const GapProblem given = pushedCart();
+  const FitProblem problem = makeFitProblem(given, given.recordings, library());
+  SearchResult found = rivals(problem, "rig.rail", 0.5, 2);
+  found.effects[0].rivalFits.clear();
+  EXPECT_THAT(designNext(problem, found, 1).channels, testing::IsEmpty());
+}
+
 // Nobody knows where it would go.
 TEST(NextRecording, PushesNothingWhosePlaceWasNotRecorded) {
   GapProblem given = pushedCart();

@@ -172,8 +172,9 @@ double separationOf(const FitProblem& problem, const std::vector<CommandedJoint>
 GapReport::NextRecording designNext(const FitProblem& problem, const SearchResult& found, std::uint64_t seed,
                                     const SearchThresholds::NextRecording& thresholds) {
   GapReport::NextRecording next;
-  const auto doubted = std::find_if(found.effects.begin(), found.effects.end(),
-                                    [](const Found& effect) { return !effect.rivals.empty(); });
+  // Beside a law that was measured, rivals have names and no simulators of their own.
+  const auto doubted = std::ranges::find_if(
+      found.effects, [](const Found& effect) { return !effect.rivals.empty() && !effect.rivalFits.empty(); });
   if (doubted == found.effects.end()) return next;
   const FitTrial& like = problem.trials[0];
   const FitModel &first = found.final.fit.model, &rival = doubted->rivalFits[0].model;

@@ -1,17 +1,11 @@
 #pragma once
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <string>
 
-namespace btr::cli {
+#include "core/sim/bench/bench.h"  // threadSeconds()
 
-/// Processor time of this thread [s].
-inline double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+namespace btr::cli {
 
 inline double wallSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -66,19 +66,7 @@ struct Coordinator::Impl {
 
   Impl(std::unique_ptr<RankLink> link, const PluginHost& plugins, CoordinatorOptions wanted)
       : host(plugins), ranks(std::move(link), plugins, std::move(wanted)) {
-    knowPlaces();
-  }
-
-  /// Every member is a place.
-  void knowPlaces() {
-    for (std::size_t k = places.size(); k < ranks.members().size(); ++k) {
-      const Member& member = ranks.members()[k];
-      Place place;
-      place.report.rank = member.rank;
-      place.report.foreman = member.foreman;
-      place.report.host = member.host;
-      places.push_back(std::move(place));
-    }
+    addPlaces(ranks.members(), places);
   }
 
   const Member& memberOf(const Place& place) const {
@@ -96,7 +84,7 @@ struct Coordinator::Impl {
   }
 
   void hear(std::size_t member, const Parts& parts) {
-    knowPlaces();
+    addPlaces(ranks.members(), places);
     Place& place = places[member];
     const std::string& kind = parts.front();
     if (kind == "ready") {
@@ -165,7 +153,7 @@ struct Coordinator::Impl {
 
   bool begin(const std::atomic<bool>& stop) {
     const bool isThere = ranks.begin(stop, [this](std::size_t member, const Parts& parts) { hear(member, parts); });
-    knowPlaces();
+    addPlaces(ranks.members(), places);
     return isThere;
   }
 

@@ -92,4 +92,16 @@ std::chrono::microseconds momentToWait(std::chrono::steady_clock::duration since
 /// This machine's name.
 std::string hostName();
 
+/// Every member has a place that reports on it: adds those that are missing, by the members' numbers.
+template <class Place>
+void addPlaces(const std::vector<Member>& members, std::vector<Place>& places) {
+  while (places.size() < members.size()) {
+    const Member& member = members[places.size()];
+    Place& place = places.emplace_back();
+    place.report.rank = member.rank;
+    place.report.foreman = member.foreman;
+    place.report.host = member.host;
+  }
+}
+
 }  // namespace btr

@@ -86,18 +86,7 @@ struct SharedAnalysis::Impl {
 
   Impl(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
       : ranks(std::move(link), host, std::move(options)), identity(buildIdentity(host)) {
-    knowAnalysts();
-  }
-
-  void knowAnalysts() {
-    for (std::size_t k = analysts.size(); k < ranks.members().size(); ++k) {
-      const Member& member = ranks.members()[k];
-      Analyst analyst;
-      analyst.report.rank = member.rank;
-      analyst.report.foreman = member.foreman;
-      analyst.report.host = member.host;
-      analysts.push_back(std::move(analyst));
-    }
+    addPlaces(ranks.members(), analysts);
   }
 
   bool isThere(std::size_t k) const { return !ranks.members()[k].gone && !analysts[k].hasLeft; }
@@ -111,7 +100,7 @@ struct SharedAnalysis::Impl {
   }
 
   void hear(std::size_t k, const Parts& parts) {
-    knowAnalysts();
+    addPlaces(ranks.members(), analysts);
     const std::string& kind = parts.front();
     if (kind == "ready")
       welcome(k, parts);
@@ -303,7 +292,7 @@ struct SharedAnalysis::Impl {
   /// Everybody has read what is analysed, and the same.
   void begin() {
     if (!ranks.begin(*stop, [this](std::size_t k, const Parts& parts) { hear(k, parts); })) throw Cancelled{};
-    knowAnalysts();
+    addPlaces(ranks.members(), analysts);
     const auto isSettled = [this](std::size_t k) {
       return analysts[k].isReady || failedToLoad.contains(k) || !isThere(k);
     };

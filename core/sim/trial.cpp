@@ -11,9 +11,7 @@ namespace btr {
 namespace {
 using Eigen::Vector3d;
 
-constexpr double atRest_m_s = 2e-3;
-constexpr double slipShare = 0.05;   ///< of the speed: less is rolling
-constexpr double bounce_m_s = 0.02;  ///< vertical speed of a ball that no longer bounces
+using namespace rolling_free;
 
 Vector3d horizontal(const Vector3d& v) { return {v.x(), v.y(), 0}; }
 

@@ -10,6 +10,13 @@
 
 namespace btr {
 
+/// When a ball lies or rolls freely, so that nothing more is to be seen of it.
+namespace rolling_free {
+inline constexpr double atRest_m_s = 2e-3;
+inline constexpr double slipShare = 0.05;   ///< of the speed: less is rolling
+inline constexpr double bounce_m_s = 0.02;  ///< vertical speed of a ball that no longer bounces
+}  // namespace rolling_free
+
 struct TrialOptions {
   double maximum_s = 20;  ///< simulated; reaching it is timedOut unless the motion has ended
   double settle_s = 1.0;  ///< after the motion, while the ball is still touched or not rolling

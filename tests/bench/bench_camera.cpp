@@ -1,21 +1,14 @@
 // How long a camera's stages take: each alone, all together, none; one round after the other, so that a busy machine
 // is busy for all of them. Milliseconds of CPU time a frame, median of the rounds.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 
 #include "core/camera/camera_pipeline.h"
+#include "core/sim/bench/bench.h"
 
 namespace {
 
 using namespace btr;
-
-double cpuTime_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Candidate {
   std::string name;
@@ -61,9 +54,9 @@ void measure(const std::string& file) {
   constexpr std::uint64_t rounds = 200;
   for (std::uint64_t round = 0; round < rounds; ++round)
     for (Candidate& c : candidates) {
-      const double begin = cpuTime_s();
+      const double begin = threadSeconds();
       c.camera.process(c.moments, round);
-      c.times_s.push_back(cpuTime_s() - begin);
+      c.times_s.push_back(threadSeconds() - begin);
     }
   std::printf("%s\n", given.name.c_str());
   for (Candidate& c : candidates) {

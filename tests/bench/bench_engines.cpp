@@ -1,8 +1,6 @@
 // The same robot, servo law and motions in our loop and in MuJoCo, interleaved in one run: CPU time of this thread per
 // trial, set-up included and ended at the same event, each engine at every step beside how far its outcomes are from
 // its own converged ones.
-#include <ctime>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,12 +19,6 @@ namespace {
 constexpr double finest_s = 0.0000625;
 constexpr double allowed = 0.05;
 constexpr double steps_s[] = {0.008, 0.004, 0.002, 0.001, 0.0005, 0.00025, 0.000125};
-
-double cpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// One way of stepping; `run` returns the way of the ball or robot in each motion and adds the simulated time.
 struct Way {
@@ -122,9 +114,9 @@ Engine theirEngine(const BenchTask& task, MujocoEngine& mujoco, bool implicit) {
 
 std::vector<double> timed(Way& way) {
   double simulated = 0;
-  const double begin = cpuSeconds();
+  const double begin = threadSeconds();
   auto outcomes = way.run(simulated);
-  way.cpu_s = std::min(way.cpu_s, (cpuSeconds() - begin) / static_cast<double>(outcomes.size()));
+  way.cpu_s = std::min(way.cpu_s, (threadSeconds() - begin) / static_cast<double>(outcomes.size()));
   way.simulated_s = simulated / static_cast<double>(outcomes.size());
   return outcomes;
 }

@@ -7,8 +7,9 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <ctime>
 #include <thread>
+
+#include "core/sim/bench/bench.h"
 
 namespace btr::bench {
 
@@ -44,11 +45,7 @@ class Heartbeat : public QObject {
   }
 
  private:
-  static double busy_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-  }
+  static double busy_ms() { return 1e3 * threadSeconds(); }
   void beat() {
     const double wall = wall_ms(), cpu = busy_ms();
     longest_.pause_ms = std::max(longest_.pause_ms, wall - last_);

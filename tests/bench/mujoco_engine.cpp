@@ -81,15 +81,15 @@ struct MujocoEngine::Impl {
     }
     const mjtNum* v = data->qvel + model->body_dofadr[ballBody];
     const double speed = std::hypot(v[0], v[1]);
-    if (!touches(floorGeom) || std::abs(v[2]) > 0.02) return false;
-    if (std::hypot(speed, v[2]) < 2e-3) return true;
+    if (!touches(floorGeom) || std::abs(v[2]) > rolling_free::bounce_m_s) return false;
+    if (std::hypot(speed, v[2]) < rolling_free::atRest_m_s) return true;
     const double radius = model->geom_size[3 * ballGeom];
     const mjtNum* p = data->xpos + 3 * ballBody;
     const bool away = v[0] * (p[0] - data->qpos[0]) + v[1] * (p[1] - data->qpos[1]) > 0;
     // A free joint's spin is in the body's frame.
     mjtNum spin[3];
     mju_rotVecQuat(spin, v + 3, data->xquat + 4 * ballBody);
-    return away && std::hypot(v[0] - spin[1] * radius, v[1] + spin[0] * radius) <= 0.05 * speed;
+    return away && std::hypot(v[0] - spin[1] * radius, v[1] + spin[0] * radius) <= rolling_free::slipShare * speed;
   }
 
   void step(const std::vector<JointInput>& inputs, const MujocoWay& way, double h) {

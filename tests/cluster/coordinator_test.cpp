@@ -12,6 +12,7 @@
 #include "core/spec/parameter.h"
 #include "tests/cluster/descendants.h"
 #include "tests/cluster/foremen.h"
+#include "tests/cluster/played_rank.h"
 #include "tests/refusal.h"
 
 namespace {
@@ -141,26 +142,6 @@ TEST(Coordinator, SaysWhyItsForemenDoNotBegin) {
             test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 
-/// Another rank as the messages make it.
-class PlayedRank : public RankLink {
- public:
-  explicit PlayedRank(std::deque<Parts> says) : says_(std::move(says)) {}
-  int rank() const override { return 0; }
-  int size() const override { return 2; }
-  void send(int, std::string) override {}
-  bool receive(int& from, std::string& bytes) override {
-    if (says_.empty()) return false;
-    from = 1;
-    bytes = pack(says_.front());
-    says_.pop_front();
-    return true;
-  }
-  void finish() override {}
-
- private:
-  std::deque<Parts> says_;
-};
-
 TEST(Coordinator, RefusesARankWithAnotherBuildByNameAndHost) {
   const Kicks kicks(1);
   Parts other{"0", "hello"};
@@ -169,7 +150,7 @@ TEST(Coordinator, RefusesARankWithAnotherBuildByNameAndHost) {
     other.push_back(entry);
   }
   CoordinatorOptions options = withForemen(0);
-  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", ""}, other}),
+  Coordinator coordinator(std::make_unique<test::PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", ""}, other}),
                           kicks.host(), options);
   EXPECT_EQ("rank 1 (host lab7): its library libbtr_core.so is another one; install the same build on every machine",
             test::refusal([&] { kicks.shasWith(&coordinator); }));
@@ -179,7 +160,7 @@ TEST(Coordinator, RefusesARankThatWasAskedForSomethingElse) {
   const Kicks kicks(1);
   CoordinatorOptions options = withForemen(0);
   options.words = "run a.json";
-  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", "run b.json"}}),
+  Coordinator coordinator(std::make_unique<test::PlayedRank>(std::deque<Parts>{{"crew", "lab7", "1", "run b.json"}}),
                           kicks.host(), options);
   EXPECT_EQ(
       "rank 1 (host lab7): it was started with other words than rank 0; for a run of its own on each rank set "
@@ -191,7 +172,7 @@ TEST(Coordinator, NamesARankThatNeverBegins) {
   const Kicks kicks(1);
   CoordinatorOptions options = withForemen(0);
   options.patience_s = 0;
-  Coordinator coordinator(std::make_unique<PlayedRank>(std::deque<Parts>{}), kicks.host(), options);
+  Coordinator coordinator(std::make_unique<test::PlayedRank>(std::deque<Parts>{}), kicks.host(), options);
   EXPECT_EQ("rank 1 did not begin in time", test::refusal([&] { kicks.shasWith(&coordinator); }));
 }
 

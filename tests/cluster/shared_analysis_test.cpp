@@ -16,6 +16,7 @@
 #include "core/spec/random.h"
 #include "tests/cluster/descendants.h"
 #include "tests/cluster/foremen.h"
+#include "tests/cluster/played_rank.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
@@ -172,33 +173,13 @@ TEST(SharedAnalysis, RefusesWhatOneProcessRefusesInTheSameWords) {
   EXPECT_NE("accepted", alone);
 }
 
-/// Another rank as its messages make it.
-class SaidRank : public RankLink {
- public:
-  explicit SaidRank(std::deque<Parts> says) : says_(std::move(says)) {}
-  int rank() const override { return 0; }
-  int size() const override { return 2; }
-  void send(int, std::string) override {}
-  bool receive(int& from, std::string& bytes) override {
-    if (says_.empty()) return false;
-    from = 1;
-    bytes = pack(says_.front());
-    says_.pop_front();
-    return true;
-  }
-  void finish() override {}
-
- private:
-  std::deque<Parts> says_;
-};
-
 /// What is said where the rank lab7 begins, and then `says`.
 std::string refusalOf(const Hinge& hinge, const Parts& says) {
   Parts hello{"0", "hello"};
   const Parts identity = buildIdentity(hinge.host());
   hello.insert(hello.end(), identity.begin(), identity.end());
   std::deque<Parts> all{{"crew", "lab7", "1", ""}, hello, says};
-  SharedAnalysis analysis(std::make_unique<SaidRank>(std::move(all)), hinge.host(), withAnalysts(1, 1));
+  SharedAnalysis analysis(std::make_unique<test::PlayedRank>(std::move(all)), hinge.host(), withAnalysts(1, 1));
   return test::refusal([&] { analysis.run(hinge.into("none"), {}, test::goOn); });
 }
 

@@ -17,9 +17,9 @@ struct Alignment {
       0;            ///< what is recorded is what is simulated so much later; within half a step of the scene as given
   double took = 0;  ///< mean squared residual that this takes away [noise floors²]
 
-  /// What else an integration is wrong by that is off so much in time: what takes less is no physics. (Of arms of six
-  /// and three joints, a twentieth and a seventh, in what depends on acceleration.)
-  double numericalFloor() const { return took > 0 ? 0.2 * took : 0; }
+  /// What else an integration is wrong by that is off so much in time, a share of what the shift takes: what takes less
+  /// is no physics.
+  double numericalFloor(double share) const { return took > 0 ? share * took : 0; }
 };
 
 /// By how much a residual changes where all joints are a second further on, by what is simulated before and after it;

@@ -195,10 +195,10 @@ void addStepErrors(GapReport& report, const FitProblem& problem, const SearchRes
 }
 
 /// Where positions are compared a little earlier or later than they are recorded, and it matters.
-void addAlignment(GapReport& report, const FitProblem& problem, const Scored& final) {
-  constexpr double matters = 0.05;  // noise floors²
+void addAlignment(GapReport& report, const FitProblem& problem, const Scored& final,
+                  const SearchThresholds::Shift& limits) {
   const double shift_s = final.aligned.shift_s;
-  if (!(final.aligned.took > matters) || shift_s == 0) return;
+  if (!(final.aligned.took > limits.leastTaken) || shift_s == 0) return;
   report.notes.push_back("positions are compared with those simulated " + digits(std::abs(1000 * shift_s), 2) + " ms " +
                          (shift_s > 0 ? "later" : "earlier") + ": within half a step of the scene (" +
                          toText(1000 * problem.givenStep_s) +
@@ -300,7 +300,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   addEffects(report, problem, final);
   addCorrelations(report, found.final.fit.model, found.finalUncertainty, limits.verdict.strongCorrelation);
   addStepErrors(report, problem, final);
-  addAlignment(report, problem, final.final);
+  addAlignment(report, problem, final.final, limits.shift);
   addSeries(report, problem, final, Whose::fitted);
   report.disagreements = agreement.told;
   if (const std::string text = textOf(agreement.told, given.recordings.size()); !text.empty())

@@ -60,7 +60,8 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
     return rejected("takes " + digits(taken, 2) + " noise floors² where the integration itself is wrong by about " +
                     digits(ofIntegration, 2));
   // What another engine's integration is wrong by shows first as a shift in time; the rest of it is smaller.
-  if (taken < std::min(without.aligned.numericalFloor(), with.aligned.numericalFloor()))
+  const double ofShift = service_.thresholds().shift.ofTaken;
+  if (taken < std::min(without.aligned.numericalFloor(ofShift), with.aligned.numericalFloor(ofShift)))
     return rejected("takes " + digits(taken, 2) +
                     " noise floors² where a shift in time of less than half a step makes " +
                     digits(with.aligned.took, 2));

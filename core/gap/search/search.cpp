@@ -23,9 +23,10 @@ namespace btr {
 namespace {
 
 /// A shift that takes something, and that is not as far as it may be, where it would stand for something else.
-bool isKnown(const Alignment& aligned, const FitProblem& problem) {
-  constexpr double least = 0.05, inside = 0.95;  // noise floors²; of half a step
-  return aligned.took > least && std::abs(aligned.shift_s) < inside * problem.givenStep_s / 2;
+bool isKnown(const Alignment& aligned, const FitService& service) {
+  const SearchThresholds::Shift& limits = service.thresholds().shift;
+  return aligned.took > limits.leastTaken &&
+         std::abs(aligned.shift_s) < limits.inside * service.problem().givenStep_s / 2;
 }
 
 /// One search: holds its parts and calls one after another.
@@ -115,7 +116,7 @@ void StructureSearch::addEffects() {
   std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
   for (int stage = 0; stage < most(); ++stage) {
     // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
-    const double ofOthers = selection_.final.aligned.numericalFloor();
+    const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
     if (selection_.final.mean() <
         limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
       break;
@@ -148,7 +149,7 @@ void StructureSearch::addEffects() {
       }
       // Beside what explains most, the shift in time that is no physics is known: numbers are fitted with it. (Without
       // it the shift would stand for what is missing, and calibration would do without the effect.)
-      if (isKnown(with.aligned, service_.problem())) {
+      if (isKnown(with.aligned, service_)) {
         service_.setShift(with.aligned.shift_s);
         with = converged();
       }

@@ -106,14 +106,15 @@ struct SearchThresholds {
 
   /// An effect's own numbers drawn all over their ranges in short windows. [case: large play was called friction]
   struct DrawnEffects {
-    double leastLeft = 1.3;  ///< error that the best candidate leaves, from which it is done [hand]
-    double window_s = 0.4;   ///< rough over whole trials, one hollow over all widths of play in these [case]
-    double inReach = 1.5;    ///< by squared error in windows, of the best [time]
-    int raceFrom = 2;        ///< rounds of draws, after which candidates that are out of the race are left [time]
-    double race = 2.25;      ///< by squared error, of the best so far: out of it [time]
-    double helps = 0.95;     ///< by squared error in windows, of that without it, before anything is fitted [time]
-    double mostLeft = 4;     ///< error of what may be the cause; of other laws a better fit says nothing [case]
-    double hopeless = 4;     ///< times mostLeft in short windows: whole trials leave more [time]
+    double leastLeft = 1.3;    ///< error that the best candidate leaves, from which it is done [hand]
+    double window_s = 0.4;     ///< rough over whole trials, one hollow over all widths of play in these [case]
+    double inReach = 1.5;      ///< by squared error in windows, of the best [time]
+    int raceFrom = 2;          ///< rounds of draws, after which candidates that are out of the race are left [time]
+    double race = 2.25;        ///< by squared error, of the best so far: out of it [time]
+    double helps = 0.95;       ///< by squared error in windows, of that without it, before anything is fitted [time]
+    double helpsAtAll = 0.99;  ///< by the error's size in windows, of that without it: else drawing ends [hand]
+    double mostLeft = 4;       ///< error of what may be the cause; of other laws a better fit says nothing [case]
+    double hopeless = 4;       ///< times mostLeft in short windows: whole trials leave more [time]
   };
 
   /// Which effects are tried at all, where and in which sizes (candidates.h).
@@ -349,7 +350,16 @@ struct SearchThresholds {
     double manyMissing = 0.05;
   };
 
+  /// Shifts in time of less than half a step, which are no physics (alignment.h).
+  struct Shift {
+    double ofTaken = 0.2;  ///< of what a shift takes, less is no physics: what else such an integration is wrong by;
+                           ///< arms of six and three joints: a twentieth and a seventh [case]
+    double leastTaken = 0.05;  ///< noise floors² that a shift takes that matters [hand]
+    double inside = 0.95;      ///< of half a step: farther it may stand for something else [hand]
+  };
+
   Step step;
+  Shift shift;
   Calibration calibration;
   Restarts restarts;
   WholeNumbers wholeNumbers;

@@ -161,13 +161,14 @@ struct Findings {
 };
 
 Findings findingsOf(const GapReport& report, const FitProblem& problem, const SearchResult& found,
-                    const SearchThresholds::Verdict& limits) {
+                    const SearchThresholds& thresholds) {
+  const SearchThresholds::Verdict& limits = thresholds.verdict;
   Findings e;
   e.given = found.given.mean();
   e.calibrated = found.calibrated.mean();
   e.final = found.final.mean();
-  e.step = stepErrorOf(found.stepChange) + found.final.aligned.numericalFloor();
-  e.givenStep = found.given.aligned.numericalFloor();
+  e.step = stepErrorOf(found.stepChange) + found.final.aligned.numericalFloor(thresholds.shift.ofTaken);
+  e.givenStep = found.given.aligned.numericalFloor(thresholds.shift.ofTaken);
   e.excess = std::max(0.0, e.calibrated - 1);
   e.moves = motionOf(problem) >= limits.leastMotion;
   e.calibrationHelps = compare(found.given.blocks, found.calibrated.blocks).t > limits.calibrationT &&
@@ -353,7 +354,7 @@ void judgeTheRest(GapReport& report, const Findings& e, std::size_t blocks, cons
 void judge(GapReport& report, const FitProblem& problem, const SearchResult& found, bool curveIsBetter,
            const SearchThresholds& thresholds) {
   const SearchThresholds::Verdict& limits = thresholds.verdict;
-  const Findings e = findingsOf(report, problem, found, limits);
+  const Findings e = findingsOf(report, problem, found, thresholds);
   report.remainder.explainedShare = e.excess > 0 ? std::clamp(1 - std::max(0.0, e.final - 1) / e.excess, 0.0, 1.0) : 1;
   if (e.given > 0) report.explainedShare = std::clamp(1 - e.final / e.given, 0.0, 1.0);
   if (tellsNothing(e, limits)) {

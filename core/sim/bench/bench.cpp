@@ -14,12 +14,6 @@ namespace {
 constexpr double finest_s = 0.00025;
 constexpr double allowed = 0.05;
 
-double cpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double outcomeOf(const TrialResult& result) {
   if (result.balls.empty()) return (result.baseEnd_m - result.baseStart_m).head<2>().norm();
   return (result.balls[0].rest_m - result.balls[0].start_m).head<2>().norm();
@@ -36,14 +30,14 @@ std::vector<double> measure(const BenchTask& task, BenchStep& at, int repeats, c
   for (int repeat = 0; repeat < repeats; ++repeat) {
     outcomes.clear();
     simulated = 0;
-    const double begin = cpuSeconds();
+    const double begin = threadSeconds();
     for (const auto& parameters : task.parameters) {
       if (goesOn && !goesOn()) return {};
       const auto result = runTrial(scene, *task.controller, task.settings, parameters, 1, options);
       outcomes.push_back(result.outcome == TrialResult::Outcome::finished ? outcomeOf(result) : NAN);
       simulated += result.simulated_s;
     }
-    best = std::min(best, cpuSeconds() - begin);
+    best = std::min(best, threadSeconds() - begin);
   }
   at.cpuPerSimulated = best / simulated;
   at.trialsPerSecond = static_cast<double>(task.parameters.size()) / best;
@@ -65,6 +59,12 @@ std::string stepText(const BenchStep& step) {
 }
 
 }  // namespace
+
+double threadSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 Deviation deviationOf(const std::vector<double>& outcomes, const std::vector<double>& converged) {
   std::vector<double> off;

@@ -8,6 +8,9 @@
 
 namespace btr {
 
+/// Processor time of this thread [s].
+double threadSeconds();
+
 /// A task whose speed is measured: several motions of one controller in one scene.
 struct BenchTask {
   std::string name;  ///< "kick", "walk"

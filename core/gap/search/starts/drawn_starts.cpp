@@ -16,8 +16,6 @@
 namespace btr {
 namespace {
 
-constexpr double helpsAtAll = 0.99;  // of the error's size without an effect [hand]
-
 /// A draw between two values, both within the parameter's range. An effect's rates and speeds have bounds that lie
 /// decades apart: they are drawn by order of magnitude.
 double drawn(const FitParameter& p, double from, double to, Random& random, double decade) {
@@ -144,7 +142,7 @@ void restartFromDrawsInWindows(const FitService& service, std::vector<TriedCandi
     if (round + 1 >= limits.raceFrom)
       std::erase_if(race, [&](const Racer& each) {
         return each.draws.least() > std::sqrt(limits.race) * least ||
-               each.draws.least() > helpsAtAll * sizesWithout[each.base];
+               each.draws.least() > limits.helpsAtAll * sizesWithout[each.base];
       });
   }
   if (race.empty()) return;

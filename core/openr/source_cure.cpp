@@ -157,9 +157,10 @@ const std::map<std::string, std::string>& systemHeaders() {
 /// had everywhere.
 bool lacksStandardNamespace(const std::string& line) {
   if (line.find("did you mean 'std::") != std::string::npos) return true;
-  if (line.find(": note: 'std::") != std::string::npos && line.find("' declared here") != std::string::npos) return true;
-  static const std::set<std::string> types = {"string",   "vector", "list",   "map",     "set",      "deque",
-                                              "multimap", "pair",   "queue",  "stack",   "ostream",  "istream",
+  if (line.find(": note: 'std::") != std::string::npos && line.find("' declared here") != std::string::npos)
+    return true;
+  static const std::set<std::string> types = {"string",   "vector", "list",    "map",      "set",     "deque",
+                                              "multimap", "pair",   "queue",   "stack",    "ostream", "istream",
                                               "ofstream", "bitset", "fstream", "ifstream", "multiset"};
   const std::string begin = ": error: '", end = "' does not name a type";
   const auto at = line.find(begin), close = line.find(end);

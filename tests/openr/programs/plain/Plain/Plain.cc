@@ -3,6 +3,8 @@
 
 #include <OPENR/core_macro.h>
 #include <apsys.h>
+#include <ieeefp.h>
+#include <machine/endian.h>
 
 #include <algorithm>
 #include <iomanip.h>
@@ -54,6 +56,8 @@ OStatus Plain::DoStart(const OSystemEvent& event) {
   sError error = GetPageSize(&bytes);
   size_t same = 0;
   GetPageSize(&same);
+  char name[] = "Neck";
+  cout << strupr(name) << " " << finite(M_TWOPI) << (BYTE_ORDER == LITTLE_ENDIAN) << endl;
   cout << "page " << error << " " << bytes << " " << (same == bytes) << endl;
   ENABLE_ALL_SUBJECT;
   ASSERT_READY_TO_ALL_OBSERVER;

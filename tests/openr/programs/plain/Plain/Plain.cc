@@ -56,6 +56,14 @@ OStatus Plain::DoStart(const OSystemEvent& event) {
   sError error = GetPageSize(&bytes);
   size_t same = 0;
   GetPageSize(&same);
+  // Addresses kept in an int.
+  static int table[4];
+  int local = 7, *grown = (int*)malloc(3000000);
+  const int self = (int)this, here = (int)&local, there = (int)table, far = (int)grown;
+  char* even = (char*)(((unsigned int)grown + 63) & ~63);
+  cout << "kept " << ((Plain*)self == this) << ((int*)here == &local) << ((int*)there == table)
+       << ((int*)far == grown) << (even - (char*)grown < 64) << endl;
+  free(grown);
   char name[] = "Neck";
   cout << strupr(name) << " " << finite(M_TWOPI) << (BYTE_ORDER == LITTLE_ENDIAN) << endl;
   cout << "page " << error << " " << bytes << " " << (same == bytes) << endl;

@@ -18,8 +18,8 @@ class BristleFriction final : public btr::Effect {
             {"give_rad", "rad", "way after a reversal in which it builds up, m on a slide joint", 1e-3, 1, 0.03}};
   }
   btr::EffectLaw law() const override {
-    return {btr::EffectLaw::Acts::gear, "dry friction that gives way before it slides",
-            "ż = ω − |ω|·z/s,  τ = −T·z/s", "T: torque_nm; s: give_rad; ω: joint speed", "Dahl 1968"};
+    return {btr::EffectLaw::Acts::gear, "dry friction that gives way before it slides", "ż = ω − |ω|·z/s,  τ = −T·z/s",
+            "T: torque_nm; s: give_rad; ω: joint speed", "Dahl 1968"};
   }
   Place place() const override { return Place::joint; }
   std::vector<std::string> contains() const override { return {"coulomb_friction"}; }

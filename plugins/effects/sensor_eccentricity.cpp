@@ -1,7 +1,7 @@
 /// The disc of a turning sensor sits off its axis, or its magnet does: once in a turn it says too much and too little,
-///   y = q + A·cos(q − q0)      A in rad: the disc's offset over its radius; q0: where it says most too much
+///   y = q + a·cos q + b·sin q      √(a² + b²) in rad: the disc's offset over its radius
 /// With `closes_loop` 1 the servo's law acts on c − y, with 0 the sensor is the recorder's own, and the servo has
-/// another. Written as a·(cos q − 1) + b·sin q, which says nothing at position 0: what it says there is its zero.
+/// another.
 /// (Single-turn error of an eccentric scale: Slocum 1992, Precision Machine Design, ch. 4.) Neutral: a = b = 0.
 #include <cmath>
 #include <memory>
@@ -14,12 +14,12 @@ class SensorEccentricity final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
     loop.integer = true;
-    return {{"cosine_rad", "rad", "a of a·(cos q − 1)", -0.3, 0.3, 0.02, 0.0},
+    return {{"cosine_rad", "rad", "a of a·cos q", -0.3, 0.3, 0.02, 0.0},
             {"sine_rad", "rad", "b of b·sin q", -0.3, 0.3, 0.02, 0.0},
             loop};
   }
   btr::EffectLaw law() const override {
-    return {btr::EffectLaw::Acts::sensor, "a sensor whose disc sits off its axis", "y = q + a·(cos q − 1) + b·sin q",
+    return {btr::EffectLaw::Acts::sensor, "a sensor whose disc sits off its axis", "y = q + a·cos q + b·sin q",
             "a: cosine_rad; b: sine_rad; q: joint", "Slocum 1992"};
   }
   Place place() const override { return Place::joint; }
@@ -37,7 +37,7 @@ class SensorEccentricity final : public btr::Effect {
   }
 
   static double error(double position, std::span<const double> values) {
-    return values[0] * (std::cos(position) - 1) + values[1] * std::sin(position);
+    return values[0] * std::cos(position) + values[1] * std::sin(position);
   }
 };
 

@@ -71,11 +71,10 @@ TEST(Sensors, WhoseGainIsWrongSayAShareTooMuch) {
 
 TEST(Sensors, OffTheirAxisSayTheSameAfterATurn) {
   const Numbers values{0.01, 0.02, 0};
-  EXPECT_EQ(0, saysAt("sensor_eccentricity", {.position = 0}, values).recorded);
-  EXPECT_NEAR(M_PI / 2 - 0.01 + 0.02, saysAt("sensor_eccentricity", {.position = M_PI / 2}, values).recorded, 1e-15);
-  EXPECT_NEAR(2 * M_PI, saysAt("sensor_eccentricity", {.position = 2 * M_PI}, values).recorded, 1e-15);
-  EXPECT_NEAR(1 - (-0.01 + 0.02), saysAt("sensor_eccentricity", {.position = M_PI / 2}, {0.01, 0.02, 1}).followed,
-              1e-15);
+  EXPECT_DOUBLE_EQ(0.01, saysAt("sensor_eccentricity", {.position = 0}, values).recorded);
+  EXPECT_NEAR(M_PI / 2 + 0.02, saysAt("sensor_eccentricity", {.position = M_PI / 2}, values).recorded, 1e-14);
+  EXPECT_NEAR(2 * M_PI + 0.01, saysAt("sensor_eccentricity", {.position = 2 * M_PI}, values).recorded, 1e-14);
+  EXPECT_NEAR(1 - 0.02, saysAt("sensor_eccentricity", {.position = M_PI / 2}, {0.01, 0.02, 1}).followed, 1e-15);
 }
 
 TEST(BristleFriction, BuildsUpOverTheWayAfterAReversal) {

@@ -88,6 +88,9 @@ class LivePage : public QWidget {
   void saveExperiment();
   void saveLog();
   QString newLog() const;
+  bool canBecomeWorld(const QString& file);
+  void sayIfNoLog();
+  void loseLog(const QString& why);
   void prepare();
   void replaySession();
   void showReplaying();

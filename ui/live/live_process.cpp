@@ -26,8 +26,7 @@ LiveProcess::LiveProcess(const QString& program, QObject* parent)
   connect(&process_, &QProcess::readyReadStandardError, this, [this] { words_ += process_.readAllStandardError(); });
   connect(&process_, &QProcess::finished, this, &LiveProcess::finished);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error == QProcess::FailedToStart)
-      emit failed(tr("%1 cannot be started: %2").arg(program_, process_.errorString()));
+    if (error == QProcess::FailedToStart) fail(tr("%1 cannot be started: %2").arg(program_, process_.errorString()));
   });
 }
 
@@ -41,6 +40,7 @@ void LiveProcess::start(const QString& file, const QString& log, const QString& 
     const QSignalBlocker quiet(this);  // its end was asked for
     end();
   }
+  failed_ = false;
   pending_.clear();
   words_.clear();
   told_.clear();
@@ -99,6 +99,7 @@ void LiveProcess::step(int periods) {
   send(QByteArray::fromStdString(json{{"do", "step"}, {"periods", periods}}.dump()));
 }
 void LiveProcess::setSpeed(double times) {
+  speed_ = times;
   send(QByteArray::fromStdString(json{{"do", "speed"}, {"times", times}}.dump()));
 }
 void LiveProcess::save(const QString& path, const std::string& view) {
@@ -152,13 +153,17 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("hangs")) return emit hangs(wordsOf(line.at("hangs")));
     if (line.contains("fault")) return;  // why it ends; its last words on standard error say it, too
     if (line.contains("saved")) return emit saved(wordsOf(line.at("saved")), wordsOf(line.value("what", json("game"))));
+    if (line.contains("log_lost")) return emit logLost(wordsOf(line.at("log_lost")));
     if (line.contains("log")) return tellLog(line.at("log"));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
     if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
   } catch (const std::exception& error) {
-    emit failed(tr("What btr live told cannot be read: %1").arg(error.what()));
-    end();
+    {
+      const QSignalBlocker quiet(this);  // why is said below
+      end();
+    }
+    fail(tr("What btr live told cannot be read: %1").arg(error.what()));
   }
 }
 
@@ -168,6 +173,7 @@ void LiveProcess::tellGame(const json& line) {
   const bool first = !std::exchange(ready_, true);
   if (first && !signals_.empty()) sendSignals();
   if (first && contacts_) setContacts(true);
+  if (first && speed_ != 1) setSpeed(speed_);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
 }
 
@@ -216,6 +222,11 @@ void LiveProcess::finished(int code, QProcess::ExitStatus status) {
     why = tr("The world's process crashed. Its log is kept up to the last act. %1").arg(why);
   else if (why.isEmpty())
     why = tr("The world's process ended (exit code %1).").arg(code);
+  fail(why);
+}
+
+void LiveProcess::fail(const QString& why) {
+  failed_ = true;
   emit failed(why);
 }
 

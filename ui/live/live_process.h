@@ -49,11 +49,14 @@ class LiveProcess : public QObject {
   bool isRunning() const { return process_.state() != QProcess::NotRunning; }
   /// Whether act() and ask() are obeyed: from the first game on until it ends.
   bool isReady() const { return ready_; }
+  /// Whether the last one ended by itself.
+  bool hasFailed() const { return failed_; }
 
   void act(const Act& act);
   void play(bool on);
   void step(int periods);
-  void setSpeed(double times);  ///< 0: as fast as possible
+  /// 0: as fast as possible. Also in sessions that are started later.
+  void setSpeed(double times);
   /// `view`: what the window wants to find again, JSON; "" nothing.
   void save(const QString& path, const std::string& view = {});
   void saveScene(const QString& path);
@@ -94,6 +97,8 @@ class LiveProcess : public QObject {
   void saved(const QString& path, const QString& what);
   /// Once, of a log that is played again.
   void logTold(const btr::ui::LiveLog& log);
+  /// Its log has no more room, or cannot be written; it goes on. Once.
+  void logLost(const QString& why);
   /// It ended by itself: why.
   void failed(const QString& why);
 
@@ -107,11 +112,13 @@ class LiveProcess : public QObject {
   ModelSet modelsOf(const SceneSpec& scene);
   void sendSignals();
   void finished(int code, QProcess::ExitStatus status);
+  void fail(const QString& why);
 
   QString program_;
   QProcess process_;
   QByteArray pending_, words_;
-  bool ready_ = false, contacts_ = false;
+  bool ready_ = false, contacts_ = false, failed_ = false;
+  double speed_ = 1;                  ///< also of sessions that are started later
   std::vector<std::string> signals_;  ///< that are wanted
   std::vector<std::string> told_;     ///< to which the samples belong that are told
   ModelSet models_;                   ///< of files that were read for this session

@@ -69,7 +69,7 @@ void LiveWorld::forget() {
 }
 
 void LiveWorld::act(const Act& act) {
-  if (!hands_) return emit handsRefused();
+  if (!hands_ || process_.hasFailed()) return emit handsRefused();
   process_.act(act);
   changePlayers(game_, act);
   takeHands(act);

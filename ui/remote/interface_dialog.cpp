@@ -49,7 +49,9 @@ InterfaceDialog::InterfaceDialog(InterfaceServer& server, std::function<QString(
   files->addWidget(choose);
   auto* form = new QFormLayout;
   form->addRow(tr("&Port"), port_);
-  form->addRow(tr("&Folder"), files);
+  auto* folderLabel = new QLabel(tr("&Folder"));
+  folderLabel->setBuddy(folder_);
+  form->addRow(folderLabel, files);
   form->addRow(QString(), runs_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
   turn_ = buttons->addButton(QString(), QDialogButtonBox::ActionRole);

@@ -76,13 +76,16 @@ SignalsPanel::SignalsPanel(LiveWorld& world, QWidget* parent)
   plots->setWidgetResizable(true);
   plots->setFrameShape(QFrame::NoFrame);
   plots->setWidget(plotRow_);
-  picker_->setMinimumWidth(180);
-  values_->setMinimumWidth(250);
+  // On a small screen the plots are what keeps its room.
+  plots->setMinimumWidth(220);
+  picker_->setMinimumWidth(120);
+  values_->setMinimumWidth(150);
   auto* split = new QSplitter(this);
   split->addWidget(picker_);
   split->addWidget(plots);
   split->addWidget(values_);
   split->setStretchFactor(1, 1);
+  split->setSizes({200, 600, 250});
   split->setChildrenCollapsible(false);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);

@@ -153,6 +153,21 @@ const std::map<std::string, std::string>& systemHeaders() {
   return all;
 }
 
+/// Whether a complaint is about a name of the standard library without its `std::`, which compilers before the standard
+/// had everywhere.
+bool lacksStandardNamespace(const std::string& line) {
+  if (line.find("did you mean 'std::") != std::string::npos) return true;
+  if (line.find(": note: 'std::") != std::string::npos && line.find("' declared here") != std::string::npos)
+    return true;
+  static const std::set<std::string> types = {"string",   "vector", "list",    "map",      "set",     "deque",
+                                              "multimap", "pair",   "queue",   "stack",    "ostream", "istream",
+                                              "ofstream", "bitset", "fstream", "ifstream", "multiset"};
+  const std::string begin = ": error: '", end = "' does not name a type";
+  const auto at = line.find(begin), close = line.find(end);
+  return at != std::string::npos && close != std::string::npos && close > at + begin.size() &&
+         types.count(line.substr(at + begin.size(), close - at - begin.size())) != 0;
+}
+
 }  // namespace
 
 std::vector<std::string> missingHeaders(const std::string& errors) {
@@ -169,6 +184,8 @@ std::vector<std::string> missingHeaders(const std::string& errors) {
       if (const auto found = systemHeaders().find(name.substr(0, name.find('\''))); found != systemHeaders().end())
         add(found->second);
     }
+    if (lacksStandardNamespace(line)) add("btr_standard_names.h");
+    if (line.find("must '#include <typeinfo>' before using 'typeid'") != std::string::npos) add("typeinfo");
     const auto at = line.find(mark);
     const auto end = at == std::string::npos ? at : line.find('>', at);
     if (end != std::string::npos) add(line.substr(at + mark.size(), end - at - mark.size()));

@@ -22,6 +22,7 @@
 namespace btr::openr {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -188,6 +189,11 @@ TEST(Net, ClosingEndsAListenAndABoundPortIsKept) {
   EXPECT_THAT(all, HasSubstr("listen 0 port 45678\n"));
 }
 
+TEST(Net, WhoConnectedIsToldBeforeWhatWasSentAfterwards) {
+  EXPECT_THAT(runStick(stickOf("passive"), 20).all(),
+              HasSubstr("data connection 0\nPassive: order 0: LIST\nPassive: sent 0\n"));
+}
+
 StickRun faulty(const std::string& what) {
   return runStick(
       stickOf("faulty"), 60,
@@ -208,6 +214,7 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
                                                         {"smash", "address"},
                                                         {"deep", "stack is full"},
                                                         {"throw", "exception"},
+                                                        {"literal", "is to be read only"},
                                                         {"mips", "this processor does not have"}};
   for (const auto& [what, expected] : faults) {
     const StickRun run = faulty(what);
@@ -219,11 +226,13 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
   }
 }
 
-TEST(Faults, DamagedMemoryNamesTheObject) {
-  for (const char* what : {"heap", "twice"}) {
+TEST(Faults, DamagedMemoryNamesObjectAndMethod) {
+  for (const char* what : {"heap", "twice", "gone"}) {
     const StickRun run = faulty(what);
     EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
     EXPECT_EQ(run.ended.object, "Faulty") << what << " " << run.ended.what;
+    EXPECT_EQ(run.ended.method, "Notify") << what;
+    EXPECT_THAT(run.ended.what, AnyOf(HasSubstr("memory damaged"), HasSubstr("address"))) << what;
   }
 }
 

@@ -110,6 +110,7 @@ void System::loadObject(const std::string& path) {
   FaultState& fault = faultState();
   fault.object = &object;
   fault.selector = UNDEF;
+  setMethod(fault, object.methodName(UNDEF));
   void* handle = nullptr;
   std::string error;
   if (sigsetjmp(fault.home, 1) == 0) {

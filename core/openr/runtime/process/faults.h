@@ -14,10 +14,14 @@ struct FaultState {
   unsigned selector = 0;
   unsigned serial = 0;  ///< counts methods, so that the watchdog sees another one
   sigjmp_buf home;
-  std::string what;  ///< filled by the handler
+  const char* what = "";  ///< what happened, as the handler says it: no heap, that may be what is damaged
+  char method[96] = "";   ///< its name
   bool endless = false;
 };
 FaultState& faultState();
+inline void setMethod(FaultState& state, const std::string& name) {
+  state.method[name.copy(state.method, sizeof state.method - 1)] = '\0';
+}
 
 /// Crashes and endless loops of methods come back to `faultState().home`; a second crash writes a last message over
 /// `link`

@@ -89,6 +89,12 @@ void Faulty::Notify(const ONotifyEvent& event) {
     free(memory);
     free(memory);
   }
+  if (strcmp(line, "gone") == 0) {
+    RCRegion* region = new RCRegion(5000);
+    region->RemoveReference();
+    region->RemoveReference();
+  }
+  if (strcmp(line, "literal") == 0) *(volatile char*)"literal" = 'L';
   if (strcmp(line, "deep") == 0) none = deep(0);
   if (strcmp(line, "loop") == 0)
     for (;;) none = none + 1;

@@ -16,12 +16,19 @@ class ProcessEye final : public CameraEye {
  public:
   explicit ProcessEye(const std::string& robot) : process_({"eye", "--rgb", "--robot", robot}, true) {}
 
-  std::optional<CameraPicture> look(const Session& session) override {
+  void ask(const Session& session) override {
     if (std::vector<std::string> channels = session.channels(); channels != channels_) {
       channels_ = std::move(channels);
       tell(gameLine(session));
     }
     tell(rowLine(session, true, 0));
+    asked_ = true;
+  }
+
+  std::optional<CameraPicture> look(const Session& session) override {
+    if (!asked_) ask(session);
+    asked_ = false;
+    if (gone_) gone();
     // Width and height, each 4 bytes, the lowest first; whether there are classes; then the pixels.
     std::array<std::uint8_t, 9> head{};
     hear(head.data(), head.size());
@@ -39,9 +46,7 @@ class ProcessEye final : public CameraEye {
   }
 
  private:
-  void tell(const nlohmann::json& line) {
-    if (!process_.send(line.dump())) gone();
-  }
+  void tell(const nlohmann::json& line) { gone_ = gone_ || !process_.send(line.dump()); }
   void hear(std::uint8_t* bytes, std::size_t count) {
     if (!process_.read(bytes, count)) gone();
   }
@@ -53,6 +58,8 @@ class ProcessEye final : public CameraEye {
 
   CameraProcess process_;
   std::vector<std::string> channels_;
+  bool asked_ = false;  ///< its answer has not been read
+  bool gone_ = false;
 };
 
 }  // namespace

@@ -70,9 +70,10 @@ class LiveRun {
         throw InputError(arguments.replay, "it began with another game", "the log of a session of " + arguments.game);
       replay_ = std::make_unique<LogReplay>(std::move(*log), session_.periods());
     }
-    if (!arguments.log.empty()) written_ = std::make_unique<SessionLogWriter>(arguments.log, begun_);
+    if (!arguments.log.empty())
+      writeLog([this] { written_ = std::make_unique<SessionLogWriter>(arguments_.log, begun_); });
     session_.onAct([this](long period, const Act& act) {
-      if (written_) written_->act(period, act);
+      if (written_) writeLog([&] { written_->act(period, act); });
       if (openr_) openr_->acted(act);
     });
     for (const OpenrChoice& choice : arguments.sticks)
@@ -154,7 +155,7 @@ class LiveRun {
     tellConsole();
     if (session_.periods() != marked_) keepMark(session_.periods(), session_.mark());
     const std::string sha = session_.traceSha256();
-    if (written_) written_->end(session_.periods(), sha);
+    if (written_) writeLog([&] { written_->end(session_.periods(), sha); });
     if (!arguments_.csv.empty()) writeOut(arguments_.csv, trace_.toCsv());
     if (camera_) camera_->finish();
     nlohmann::json result{{"trace_sha256", sha},
@@ -182,9 +183,21 @@ class LiveRun {
       keepMark(now, session_.mark());
   }
 
+  /// A world that somebody steers goes on where its log has no more room: the log ends with its last whole line, and
+  /// that is told once. Others end with it.
+  void writeLog(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const InputError& error) {
+      if (!arguments_.steered) throw;
+      written_.reset();
+      tellLine({{"log_lost", error.what()}});
+    }
+  }
+
   void keepMark(long period, const std::string& mark) {
     marked_ = period;
-    if (written_) written_->mark(period, mark);
+    if (written_) writeLog([&] { written_->mark(period, mark); });
   }
 
   /// What the log that is played again has here; true if the game's numbers are others now.
@@ -210,7 +223,7 @@ class LiveRun {
     if (!kept) return false;
     session_.returnTo(kept->session);
     replay_->returnTo(kept->replay);
-    if (written_) written_->returnTo(kept->written);
+    if (written_) writeLog([&] { written_->returnTo(kept->written); });
     marked_ = kept->marked;
     return true;
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/btr_commands.h"
+#include "app/openr/btr_openr_robots.h"
 #include "core/openr/ended_text.h"
 #include "core/openr/robot_process.h"
 #include "core/openr/stick_builder.h"
@@ -57,7 +58,7 @@ void printLines(const openr::OrderFrame& orders, double time_s) {
   for (const openr::ConsoleLine& line : orders.lines) {
     std::printf("%8.3f ", time_s);
     if (!line.object.empty()) std::printf("%s: ", printable(line.object).c_str());
-    std::printf("%s\n", printable(line.text).c_str());
+    std::printf("%s\n", printableLine(line.text).c_str());
   }
 }
 

@@ -32,16 +32,21 @@ std::uint16_t lowEndian(const std::uint8_t* bytes) {
 
 }  // namespace
 
-std::optional<openr::CameraImage> EyeProcesses::ask(Eye& eye, const std::string& robot) {
+void EyeProcesses::send(Eye& eye, const std::string& robot) {
   if (!eye.process)
     eye.process = std::make_unique<CameraProcess>(std::vector<std::string>{"eye", "--robot", robot}, true);
   if (std::vector<std::string> channels = session_.channels(); channels != eye.channels) {
     eye.channels = std::move(channels);
     if (!eye.process->send(gameLine(session_).dump())) throw InputError("camera", "its process ended", "images");
   }
+  if (!eye.process->send(rowLine(session_, true, 0).dump())) throw InputError("camera", "its process ended", "images");
+  eye.asked = true;
+}
+
+std::optional<openr::CameraImage> EyeProcesses::answer(Eye& eye) {
   std::uint8_t head[8];
-  if (!eye.process->send(rowLine(session_, true, 0).dump()) || !eye.process->read(head, sizeof head))
-    throw InputError("camera", "its process ended", "images");
+  eye.asked = false;
+  if (!eye.process->read(head, sizeof head)) throw InputError("camera", "its process ended", "images");
   openr::CameraImage image{lowEndian(head), lowEndian(head + 4), {}};
   if (image.width == 0) return std::nullopt;
   image.rows.resize(std::size_t{3} * image.width * image.height);
@@ -50,17 +55,32 @@ std::optional<openr::CameraImage> EyeProcesses::ask(Eye& eye, const std::string&
   return image;
 }
 
-std::optional<openr::CameraImage> EyeProcesses::look(const std::string& robot) {
+template <class Does>
+auto EyeProcesses::unlessBlind(const std::string& robot, Does does) -> decltype(does(std::declval<Eye&>())) {
   const auto [found, fresh] = eyes_.try_emplace(robot);
-  if (!fresh && !found->second.process) return std::nullopt;
+  if (!fresh && !found->second.process) return {};
   try {
-    return ask(found->second, robot);
+    return does(found->second);
   } catch (const InputError&) {
     // Why stands on standard error.
     found->second.process.reset();
     blind_.push_back(robot);
-    return std::nullopt;
+    return {};
   }
+}
+
+void EyeProcesses::ask(const std::string& robot) {
+  unlessBlind(robot, [&](Eye& eye) {
+    send(eye, robot);
+    return true;
+  });
+}
+
+std::optional<openr::CameraImage> EyeProcesses::look(const std::string& robot) {
+  return unlessBlind(robot, [&](Eye& eye) {
+    if (!eye.asked) send(eye, robot);
+    return answer(eye);
+  });
 }
 
 void EyeProcesses::set(const std::string& robot, const Values& numbers) {
@@ -101,9 +121,18 @@ std::vector<std::string> OpenrRobots::failures() const {
   return all;
 }
 
+std::string printableLine(const std::string& line) {
+  std::string shown;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = line.find('\t', begin);
+    shown += printable(line.substr(begin, end - begin)) + (end == std::string::npos ? "" : "\t");
+  }
+  return shown;
+}
+
 std::string textOf(const openr::LivePrograms::Line& line) {
   const std::string who = line.object.empty() ? line.robot : line.robot + " " + line.object;
-  return printable(who + ": " + line.text);
+  return printable(who + ": ") + printableLine(line.text);
 }
 
 }  // namespace btr::cli

@@ -13,6 +13,7 @@ namespace btr::cli {
 class EyeProcesses final : public openr::RobotCameras {
  public:
   explicit EyeProcesses(const Session& session) : session_(session) {}
+  void ask(const std::string& robot) override;
   std::optional<openr::CameraImage> look(const std::string& robot) override;
   void set(const std::string& robot, const Values& numbers) override;
   /// Robots whose camera gave up since the last call.
@@ -22,8 +23,13 @@ class EyeProcesses final : public openr::RobotCameras {
   struct Eye {
     std::unique_ptr<CameraProcess> process;  ///< none: it gave up
     std::vector<std::string> channels;
+    bool asked = false;  ///< its answer has not been read
   };
-  std::optional<openr::CameraImage> ask(Eye& eye, const std::string& robot);
+  void send(Eye& eye, const std::string& robot);
+  static std::optional<openr::CameraImage> answer(Eye& eye);
+  /// What `does` gives; a camera that has ended is blind from now on.
+  template <class Does>
+  auto unlessBlind(const std::string& robot, Does does) -> decltype(does(std::declval<Eye&>()));
 
   const Session& session_;
   std::map<std::string, Eye> eyes_;
@@ -57,5 +63,7 @@ class OpenrRobots {
 
 /// "red1 MovingHead7: what it said", without characters that steer a terminal.
 std::string textOf(const openr::LivePrograms::Line& line);
+/// What a program said: printable(), but with its tabulators.
+std::string printableLine(const std::string& line);
 
 }  // namespace btr::cli

@@ -14,6 +14,9 @@ class Session;
 class CameraEye {
  public:
   virtual ~CameraEye() = default;
+  /// Before look(), which does without: this period is wanted, so that the cameras of several robots draw at the same
+  /// time. Nothing of the world changes until look(), which says what fails.
+  virtual void ask(const Session& /*session*/) {}
   /// Once a control period, and as the camera begins to look. The frame that came to its end in it, if one did. Throws
   /// InputError where there is no such camera, or no more.
   virtual std::optional<CameraPicture> look(const Session& session) = 0;

@@ -160,6 +160,7 @@ void Session::measureContacts(bool on) {
 void Session::step() {
   if (!fault_.empty()) return;
   const double period = scene_.controlPeriod_s;
+  askEyes();
   for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
     const std::string& name = scene_.robots[i].name;
     if (const auto found = players_.find(name); found != players_.end()) {

@@ -116,6 +116,8 @@ class Session {
   void rebuild(Game game, const WorldMemory& memory);
   /// What the motion that moves the robot until now remembers, it knows if the controller is the same.
   Player playerOf(const Game& game, const Scene& scene, const std::string& robot, double clock) const;
+  /// The cameras of those controllers that are asked in this period and look begin to draw, all at the same time.
+  void askEyes();
   void askController(std::size_t robot, Player& player);
   using Commands = std::map<std::string, std::map<std::string, double>>;  ///< by robot and joint
   Commands commands() const;

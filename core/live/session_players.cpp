@@ -49,6 +49,17 @@ Session::Player Session::playerOf(const Game& game, const Scene& scene, const st
   return player;
 }
 
+void Session::askEyes() {
+  const double period = scene_.controlPeriod_s;
+  for (auto& [name, eye] : eyes_) {
+    const auto found = players_.find(name);
+    if (!eye || found == players_.end() || !found->second.controller->looks()) continue;
+    const bool moves =
+        !found->second.isOver(period) || game_.robots.at(name).controller->repeats || found->second.clock < period / 2;
+    if (moves) eye->ask(*this);
+  }
+}
+
 void Session::askController(std::size_t robot, Player& player) {
   const std::string& name = scene_.robots[robot].name;
   const std::string who = name + "'s controller \"" + game_.robots.at(name).controller->plugin + "\"";

@@ -127,6 +127,10 @@ void LivePrograms::sense(Robot& robot, const std::string& name, std::vector<doub
   robot.own->sample(row);
 }
 
+bool LivePrograms::looks(const std::string& name) const {
+  return cameras_ && session_.game().robots.at(name).controller->openr->camera;
+}
+
 SensorFrame LivePrograms::frameOf(const std::string& name, Robot& robot, const std::vector<double>& sessions) const {
   std::vector<double> row = sessions;
   if (robot.own) sense(robot, name, row);
@@ -147,7 +151,7 @@ SensorFrame LivePrograms::frameOf(const std::string& name, Robot& robot, const s
   frame.sensors = robot.units->sensors(si);
   frame.typed = std::move(robot.typed);
   robot.typed.clear();
-  if (cameras_ && session_.game().robots.at(name).controller->openr->camera) frame.image = cameras_->look(name);
+  if (looks(name)) frame.image = cameras_->look(name);
   return frame;
 }
 
@@ -178,6 +182,8 @@ void LivePrograms::step() {
   stale_ = false;
   std::vector<double> row;
   session_.sample(row);
+  for (const auto& [name, robot] : robots_)
+    if (looks(name)) cameras_->ask(name);
   for (auto& [name, robot] : robots_) {
     const SensorFrame frame = frameOf(name, robot, row);
     std::optional<OrderFrame> orders;

@@ -24,6 +24,9 @@ class RunningProgram {
 class RobotCameras {
  public:
   virtual ~RobotCameras() = default;
+  /// Tells a robot's camera that the period is over, so that the cameras of several robots draw at the same time.
+  /// look(), which needs it not, takes what comes of it.
+  virtual void ask(const std::string& /*robot*/) {}
   /// What a robot's camera has finished by the end of the last period, if it has. Asked once each period.
   virtual std::optional<CameraImage> look(const std::string& robot) = 0;
   /// From now on with these numbers: see cameraNumbers().
@@ -76,6 +79,7 @@ class LivePrograms {
   void start(const std::string& name);
   void look(const std::string& name, Robot& robot) const;
   void sense(Robot& robot, const std::string& name, std::vector<double>& row) const;
+  bool looks(const std::string& name) const;
   SensorFrame frameOf(const std::string& name, Robot& robot, const std::vector<double>& sessions) const;
   void take(const std::string& name, Robot& robot, const OrderFrame& orders);
   void stop(const std::string& name);

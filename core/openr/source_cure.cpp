@@ -142,15 +142,34 @@ void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::s
 /// Functions of which the compiler does not say where they are; headers of 2003 had them by others.
 const std::map<std::string, std::string>& systemHeaders() {
   static const std::map<std::string, std::string> all = {
-      {"access", "unistd.h"},         {"close", "unistd.h"},        {"getcwd", "unistd.h"},   {"lseek", "unistd.h"},
-      {"read", "unistd.h"},           {"rmdir", "unistd.h"},        {"sleep", "unistd.h"},    {"unlink", "unistd.h"},
-      {"usleep", "unistd.h"},         {"write", "unistd.h"},        {"open", "fcntl.h"},      {"O_RDONLY", "fcntl.h"},
-      {"O_RDWR", "fcntl.h"},          {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},  {"stat", "sys/stat.h"},
-      {"chmod", "sys/stat.h"},        {"opendir", "dirent.h"},      {"readdir", "dirent.h"},  {"closedir", "dirent.h"},
-      {"gettimeofday", "sys/time.h"}, {"bzero", "strings.h"},       {"index", "strings.h"},   {"rindex", "strings.h"},
-      {"strcasecmp", "strings.h"},    {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"}, {"htons", "arpa/inet.h"},
-      {"ntohl", "arpa/inet.h"},       {"ntohs", "arpa/inet.h"}};
+      {"access", "unistd.h"},      {"close", "unistd.h"},        {"getcwd", "unistd.h"},
+      {"lseek", "unistd.h"},       {"read", "unistd.h"},         {"rmdir", "unistd.h"},
+      {"sleep", "unistd.h"},       {"unlink", "unistd.h"},       {"usleep", "unistd.h"},
+      {"write", "unistd.h"},       {"open", "fcntl.h"},          {"O_RDONLY", "fcntl.h"},
+      {"O_RDWR", "fcntl.h"},       {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},
+      {"stat", "sys/stat.h"},      {"chmod", "sys/stat.h"},      {"opendir", "dirent.h"},
+      {"readdir", "dirent.h"},     {"closedir", "dirent.h"},     {"gettimeofday", "sys/time.h"},
+      {"bzero", "strings.h"},      {"index", "strings.h"},       {"rindex", "strings.h"},
+      {"strcasecmp", "strings.h"}, {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"},
+      {"htons", "arpa/inet.h"},    {"ntohl", "arpa/inet.h"},     {"ntohs", "arpa/inet.h"},
+      {"strlwr", "btr_newlib.h"},  {"strupr", "btr_newlib.h"},   {"M_TWOPI", "btr_newlib.h"},
+      {"M_3PI_4", "btr_newlib.h"}, {"M_SQRTPI", "btr_newlib.h"}, {"M_SQRT3", "btr_newlib.h"}};
   return all;
+}
+
+/// Whether a complaint is about a name of the standard library without its `std::`, which compilers before the standard
+/// had everywhere.
+bool lacksStandardNamespace(const std::string& line) {
+  if (line.find("did you mean 'std::") != std::string::npos) return true;
+  if (line.find(": note: 'std::") != std::string::npos && line.find("' declared here") != std::string::npos)
+    return true;
+  static const std::set<std::string> types = {"string",   "vector", "list",    "map",      "set",     "deque",
+                                              "multimap", "pair",   "queue",   "stack",    "ostream", "istream",
+                                              "ofstream", "bitset", "fstream", "ifstream", "multiset"};
+  const std::string begin = ": error: '", end = "' does not name a type";
+  const auto at = line.find(begin), close = line.find(end);
+  return at != std::string::npos && close != std::string::npos && close > at + begin.size() &&
+         types.count(line.substr(at + begin.size(), close - at - begin.size())) != 0;
 }
 
 }  // namespace
@@ -169,6 +188,8 @@ std::vector<std::string> missingHeaders(const std::string& errors) {
       if (const auto found = systemHeaders().find(name.substr(0, name.find('\''))); found != systemHeaders().end())
         add(found->second);
     }
+    if (lacksStandardNamespace(line)) add("btr_standard_names.h");
+    if (line.find("must '#include <typeinfo>' before using 'typeid'") != std::string::npos) add("typeinfo");
     const auto at = line.find(mark);
     const auto end = at == std::string::npos ? at : line.find('>', at);
     if (end != std::string::npos) add(line.substr(at + mark.size(), end - at - mark.size()));

@@ -199,6 +199,8 @@ bool WorldDesk::onePeriod() {
   session().step();
   if (log_ && session().periods() % SessionLog::markEvery == 0) log_->mark(session().periods(), session().mark());
   bool pictures = false;
+  for (auto& each : cameras_)
+    if (each.second.eye) each.second.eye->ask(session());
   for (auto& each : cameras_) pictures = look(each.first) || pictures;
   return pictures;
 }

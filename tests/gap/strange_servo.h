@@ -32,17 +32,22 @@ struct Plant {
   double bias = 0;                             ///< of the commands [rad]
   double before = 0;                           ///< time on at the first command, not recorded [s]
   double loopPeriod = 0;                       ///< torque held for so long [s]
-  double spring = 0, springFrom = 0;  ///< of a stop on either side of the link [N·m/rad], from that angle [rad]
-  double errorBand = 0;               ///< largest error that is let be [rad]
-  bool wholeBeyond = false;           ///< outside the band the whole error counts, not the rest
+  double spring = 0, springFrom = 0;      ///< of a stop on either side of the link [N·m/rad], from that angle [rad]
+  double errorBand = 0;                   ///< largest error that is let be [rad]
+  bool wholeBeyond = false;               ///< outside the band the whole error counts, not the rest
+  double weightHeld = 0;                  ///< of the weight, by the servo beforehand
+  double strongerUp = 0;                  ///< the gain of positive errors is 1 + this, of negative ones 1 − this
+  double drift = 0;                       ///< of the recorder's own sensor [rad/s]
+  double sensorScale = 0;                 ///< share by which that says too much
+  double bristle = 0, bristleWay = 0.05;  ///< dry friction that builds up over a way [N·m], [rad]
 };
 
 struct Trial {
   std::vector<double> time, command, position;
 };
 
-/// States: motor angle and rate, link angle and rate.
-using State = std::array<double, 4>;
+/// States: motor angle and rate, link angle and rate, bend of the link's bristles over its most.
+using State = std::array<double, 5>;
 
 class Servo {
  public:
@@ -64,7 +69,7 @@ class Servo {
       if (row >= 0) {
         trial.time.push_back(now);
         trial.command.push_back(command(now));
-        trial.position.push_back(at + normal(random));
+        trial.position.push_back((1 + plant_.sensorScale) * at + plant_.drift * now + normal(random));
       }
       for (long k = 0; k < per; ++k) {
         const double t = std::max(0.0, now + static_cast<double>(k) * h);
@@ -88,7 +93,7 @@ class Servo {
         }
         const auto slope = [&](const State& s) { return change(s, plant_.loopPeriod > 0 ? held : law(s)); };
         const State a = slope(x), b = slope(plus(x, a, h / 2)), c = slope(plus(x, b, h / 2)), e = slope(plus(x, c, h));
-        for (std::size_t i = 0; i < 4; ++i) x[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + e[i]);
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + e[i]);
       }
     }
     return trial;
@@ -97,7 +102,7 @@ class Servo {
  private:
   static State plus(const State& x, const State& slope, double by) {
     State sum = x;
-    for (std::size_t i = 0; i < 4; ++i) sum[i] += by * slope[i];
+    for (std::size_t i = 0; i < x.size(); ++i) sum[i] += by * slope[i];
     return sum;
   }
   /// As fast as it may be and still stop there, and no faster there than a step allows.
@@ -116,7 +121,9 @@ class Servo {
       error = 0;
     else if (!plant_.wholeBeyond)
       error -= std::copysign(plant_.errorBand, error);
-    double torque = plant_.p * error + added, most = plant_.maxTorque;
+    error *= 1 + std::copysign(plant_.strongerUp, error);
+    double torque = plant_.p * error + added + plant_.weightHeld * plant_.weight * std::sin(x[at]),
+           most = plant_.maxTorque;
     if (plant_.lossOfSupply) torque *= strength, most *= strength;
     torque = std::clamp(torque - plant_.d * x[at + 1], -most, most);
     if (!plant_.lossOfSupply) torque *= strength;
@@ -132,7 +139,8 @@ class Servo {
     const double dryLink = plant_.linkFriction * std::tanh(x[3] / smooth);
     const double stop = plant_.spring * (x[2] - std::clamp(x[2], -plant_.springFrom, plant_.springFrom));
     return {x[1], (motor - gear - dryMotor) / plant_.motorInertia, x[3],
-            (gear - plant_.weight * std::sin(x[2]) - dryLink - stop) / plant_.linkInertia};
+            (gear - plant_.weight * std::sin(x[2]) - dryLink - stop - plant_.bristle * x[4]) / plant_.linkInertia,
+            (x[3] - std::abs(x[3]) * x[4]) / plant_.bristleWay};
   }
   Plant plant_;
 };

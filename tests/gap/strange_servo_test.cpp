@@ -229,6 +229,73 @@ TEST(StrangeServo, WithASoftGearBehindItsLoopIsSaidToHaveIt) {
   EXPECT_TRUE(names(report, "gear_elasticity")) << toPlainText(report);
 }
 
+// It was called an elastic gear beside a rate feedforward.
+TEST(StrangeServo, ThatHoldsAShareOfTheWeightBeforehandIsSaidTo) {
+  strange::Plant plant;
+  plant.maxTorque = 1.3;
+  plant.weightHeld = 0.6;
+  const GapReport report = reportOn(
+      plant, 18, {"gravity_compensation", "gear_elasticity", "rotor_inertia", "integral_action"}, {6, 0.3, 1.4, false});
+  const Values found = sizesOf(report, "gravity_compensation");
+  ASSERT_TRUE(found.contains("share")) << toPlainText(report);
+  EXPECT_NEAR(found.at("share"), plant.weightHeld, 0.02);
+}
+
+TEST(StrangeServo, ThatIsStrongerUpwardsIsSaidTo) {
+  strange::Plant plant;
+  plant.strongerUp = 0.2;
+  const GapReport report = reportOn(plant, 19, {"direction_gain", "asymmetric_friction", "position_offset"});
+  const Values found = sizesOf(report, "direction_gain");
+  ASSERT_TRUE(found.contains("difference")) << toPlainText(report);
+  EXPECT_NEAR(found.at("difference"), plant.strongerUp, 0.01);
+  EXPECT_EQ(found.at("kind"), 0);
+}
+
+TEST(StrangeServo, WhoseRecordersZeroCreepsIsSaidToHaveThatSensor) {
+  strange::Plant plant;
+  plant.drift = 0.004;
+  const GapReport report = reportOn(plant, 20, {"sensor_drift", "force_offset", "direction_gain", "sensor_scale"});
+  const Values found = sizesOf(report, "sensor_drift");
+  ASSERT_TRUE(found.contains("rate_rad_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("rate_rad_s"), plant.drift, 1e-4);
+  EXPECT_EQ(found.at("closes_loop"), 0);
+}
+
+// Held weight does much the same, and was named.
+TEST(StrangeServo, WhoseRecordersGainIsWrongIsSaidToHaveThatSensor) {
+  strange::Plant plant;
+  plant.sensorScale = 0.04;
+  const GapReport report = reportOn(plant, 21, {"sensor_scale", "gravity_compensation", "joint_spring"});
+  const Values found = sizesOf(report, "sensor_scale");
+  ASSERT_TRUE(found.contains("excess")) << toPlainText(report);
+  EXPECT_NEAR(found.at("excess"), plant.sensorScale, 1e-3);
+  EXPECT_TRUE(sizesOf(report, "gravity_compensation").empty()) << toPlainText(report);
+}
+
+TEST(StrangeServo, WhoseFrictionBuildsUpOverAWayIsSaidToHaveThatOne) {
+  strange::Plant plant;
+  plant.bristle = 0.15;
+  plant.bristleWay = 0.06;
+  const GapReport report =
+      reportOn(plant, 22, {"bristle_friction", "coulomb_friction", "load_dependent_friction", "joint_spring"});
+  const Values found = sizesOf(report, "bristle_friction");
+  ASSERT_TRUE(found.contains("give_rad")) << toPlainText(report);
+  EXPECT_NEAR(found.at("torque_nm"), plant.bristle, 0.005);
+  EXPECT_NEAR(found.at("give_rad"), plant.bristleWay, 0.003);
+}
+
+// What it adds up to is only known to be more than it was.
+TEST(StrangeServo, WhoseIntegralIsNeverFullIsNotSaidToBe) {
+  strange::Plant plant;
+  plant.integral = 6;
+  plant.integralClamp = 50;
+  const GapReport report = reportOn(plant, 23, {"integral_action"});
+  const Values found = sizesOf(report, "integral_action");
+  ASSERT_TRUE(found.contains("clamp_nm")) << toPlainText(report);
+  EXPECT_GT(found.at("clamp_nm"), 10);
+  EXPECT_NEAR(found.at("gain_nm_rad_s"), plant.integral, 0.3);
+}
+
 // No effect of the library is one. A straight spring takes most of the error, and a curve beside it the rest, which is
 // a wrong name and a wrong curve: the curve alone is what it is.
 TEST(StrangeServo, WithSoftStopsOnEitherSideHasASpringWithADeadZoneAndNoOtherName) {

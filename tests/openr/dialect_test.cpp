@@ -98,6 +98,27 @@ TEST(SourceCure, NamesMissingHeadersOnce) {
   EXPECT_THAT(missingHeaders("a.cc:1:1: error: 'rmdir' was not declared in this scope\n"
                              "a.cc:2:1: error: 'mine' was not declared in this scope\n"),
               ElementsAre("unistd.h"));
+  EXPECT_THAT(missingHeaders("a.cc:1:1: error: must '#include <typeinfo>' before using 'typeid'\n"),
+              ElementsAre("typeinfo"));
+}
+
+TEST(SourceCure, NamesOfTheStandardLibraryWithoutItsNamespaceAreFound) {
+  const auto one = ElementsAre("btr_standard_names.h");
+  EXPECT_THAT(missingHeaders("a.cc:1:9: error: 'map' does not name a type\n"), one);
+  EXPECT_THAT(missingHeaders("a.cc:2:1: error: 'string' was not declared in this scope; did you mean 'std::string'?\n"),
+              one);
+  EXPECT_THAT(missingHeaders("c++/bits/stringfwd.h:77:33: note: 'std::string' declared here\n"), one);
+  EXPECT_THAT(missingHeaders("a.cc:1:9: error: 'Mine' does not name a type\n"), ElementsAre());
+}
+
+TEST(Dialect, NamesAreFoundWithoutTheirNamespaceAsBeforeTheStandard) {
+  const std::string all = runStick(stickOf("plain"), 3).all();
+  EXPECT_THAT(all, HasSubstr("kick  5;walk  3; most 5\n"));
+  EXPECT_THAT(all, HasSubstr("and so on, 110 letters\n"));  // with a new and a delete of its own
+  EXPECT_THAT(all, HasSubstr("same type 1\n"));
+  EXPECT_THAT(all, HasSubstr("kept 11111\n"));
+  EXPECT_THAT(all, HasSubstr("NECK 11\n"));  // of the robot's C library
+  EXPECT_THAT(all, HasSubstr("page 0 4096 1\n"));
 }
 
 TEST(Dialect, SourcesOf2003RunAsTheyAre) {

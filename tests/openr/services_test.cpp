@@ -22,6 +22,7 @@
 namespace btr::openr {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -188,6 +189,11 @@ TEST(Net, ClosingEndsAListenAndABoundPortIsKept) {
   EXPECT_THAT(all, HasSubstr("listen 0 port 45678\n"));
 }
 
+TEST(Net, WhoConnectedIsToldBeforeWhatWasSentAfterwards) {
+  EXPECT_THAT(runStick(stickOf("passive"), 20).all(),
+              HasSubstr("data connection 0\nPassive: order 0: LIST\nPassive: sent 0\n"));
+}
+
 StickRun faulty(const std::string& what) {
   return runStick(
       stickOf("faulty"), 60,
@@ -203,11 +209,14 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
                                                         {"divide", "divided"},
                                                         {"nan", "no number"},
                                                         {"overflow", "too large"},
-                                                        {"misaligned", "multiple of"},
+                                                        {"misaligned", "Faulty.cc:"},
+                                                        {"misaligned", "int' at address 0x"},
+                                                        {"half a double", "no multiple of 8"},
                                                         {"by zero", "divided"},
                                                         {"smash", "address"},
                                                         {"deep", "stack is full"},
                                                         {"throw", "exception"},
+                                                        {"literal", "is to be read only"},
                                                         {"mips", "this processor does not have"}};
   for (const auto& [what, expected] : faults) {
     const StickRun run = faulty(what);
@@ -219,11 +228,13 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
   }
 }
 
-TEST(Faults, DamagedMemoryNamesTheObject) {
-  for (const char* what : {"heap", "twice"}) {
+TEST(Faults, DamagedMemoryNamesObjectAndMethod) {
+  for (const char* what : {"heap", "twice", "gone"}) {
     const StickRun run = faulty(what);
     EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
     EXPECT_EQ(run.ended.object, "Faulty") << what << " " << run.ended.what;
+    EXPECT_EQ(run.ended.method, "Notify") << what;
+    EXPECT_THAT(run.ended.what, AnyOf(HasSubstr("memory damaged"), HasSubstr("address"))) << what;
   }
 }
 
@@ -244,6 +255,7 @@ TEST(Faults, AbortAndAFailedAssertionEndTheMethodOnly) {
 
 TEST(Faults, WhatTheOldCompilerLetPassRuns) {
   EXPECT_THAT(faulty("forget").all(), HasSubstr("lives on"));
+  EXPECT_THAT(faulty("pool").all(), HasSubstr("pool 3 1\nFaulty: lives on"));
   EXPECT_THAT(faulty("delete").all(), HasSubstr("delete 1\nFaulty: delete 0\nFaulty: lives on"));
 }
 
@@ -280,6 +292,20 @@ TEST(Process, WhatIsNoModuleIsLeftOut) {
   EXPECT_THAT(run.all(), HasSubstr("MIPS.BIN is no module"));
   EXPECT_THAT(run.all(), HasSubstr("/MS/ABSENT.BIN is not on the stick"));
   EXPECT_THAT(run.all(), HasSubstr("named 1"));
+}
+
+TEST(Process, AWrongConnectionSaysWhatThereIs) {
+  const std::string stick = stickOf("senser");
+  std::ofstream(stick + "/OPEN-R/MW/CONF/CONNECT.CFG", std::ios::app)
+      << "OVirtualRobotComm.Sensr.OSensorFrameVectorData.S Senser.Sensors.OSensorFrameVectorData.O\n"
+         "A.Eye.OFbkImageVectorData.O OVirtualRobotComm.FbkImageSensor.OFbkImageVectorData.S\n";
+  const std::string all = runStick(stick, 3).all();
+  EXPECT_THAT(all,
+              HasSubstr("nobody here has OVirtualRobotComm.Sensr.OSensorFrameVectorData.S: not connected; there is "
+                        "OVirtualRobotComm.Sensor.OSensorFrameVectorData.S, "));
+  EXPECT_THAT(all,
+              HasSubstr("the subject OVirtualRobotComm.FbkImageSensor.OFbkImageVectorData.S is to stand before the "
+                        "observer A.Eye.OFbkImageVectorData.O"));
 }
 
 TEST(Process, ThatVanishesIsNamed) {

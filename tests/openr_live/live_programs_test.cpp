@@ -419,6 +419,38 @@ TEST_F(OpenrLive, ASensorThatNobodySimulatesHasItsNeutralValue) {
   EXPECT_EQ(by.at("wireless_switch"), 1);
 }
 
+/// Cameras that write down what they are told.
+class NotedCameras final : public openr::RobotCameras {
+ public:
+  void ask(const std::string& robot) override { notes += "ask " + robot + "; "; }
+  std::optional<openr::CameraImage> look(const std::string& robot) override {
+    notes += "look " + robot + "; ";
+    return std::nullopt;
+  }
+  void set(const std::string&, const Values&) override {}
+  std::string notes;
+};
+
+TEST_F(OpenrLive, AllCamerasDrawBeforeTheFirstIsWaitedFor) {
+  Game both = game();
+  for (auto& [name, player] : both.robots) player.controller->openr->camera = true;
+  Session session(std::move(both), host());
+  NotedCameras cameras;
+  LivePrograms programs(session, playing({{"red", nothing}, {"blue", nothing}}), &cameras);
+  programs.step();
+  EXPECT_EQ(cameras.notes, "ask blue1; ask red1; look blue1; look red1; ");
+}
+
+TEST_F(OpenrLive, ACameraThatDoesNotLookIsNotAsked) {
+  Game one = game();
+  one.robots.at("red1").controller->openr->camera = true;
+  Session session(std::move(one), host());
+  NotedCameras cameras;
+  LivePrograms programs(session, playing({{"red", nothing}, {"blue", nothing}}), &cameras);
+  programs.step();
+  EXPECT_EQ(cameras.notes, "ask red1; look red1; ");
+}
+
 TEST_F(OpenrLive, ConstantsOfTheCameraAreNumbersOfOurs) {
   const auto numbers = cameraNumbers(openr::robotDesign("ERS-7"), {1, 3, 3});
   EXPECT_EQ(numbers, (Values{{"balance_k", 2856}, {"exposure_s", 1. / 200}, {"gain_db", 6}}));

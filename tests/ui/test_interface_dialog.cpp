@@ -50,6 +50,7 @@ class TestInterfaceDialog : public QObject {
   void isOffUntilItIsSwitchedOnAndSaysWhereItListens();
   void saysWhyItDoesNotListen();
   void endsWithItsOwner();
+  void everyLabelWithAKeyHasAFieldForIt();
 
  private:
   static QString serve() { return QFileInfo(BTR_PROGRAM).absolutePath() + "/btr-serve"; }
@@ -90,6 +91,14 @@ void TestInterfaceDialog::saysWhyItDoesNotListen() {
   InterfaceServer absent("/nowhere/btr-serve");
   absent.start({});
   QTRY_VERIFY(absent.state().contains("cannot be started"));
+}
+
+// Elsewhere its "&" is shown as it is.
+void TestInterfaceDialog::everyLabelWithAKeyHasAFieldForIt() {
+  InterfaceServer server(serve());
+  InterfaceDialog dialog(server, [] { return QString(); });
+  for (const QLabel* label : dialog.findChildren<QLabel*>())
+    QVERIFY2(!label->text().contains('&') || label->buddy(), qPrintable(label->text()));
 }
 
 void TestInterfaceDialog::endsWithItsOwner() {

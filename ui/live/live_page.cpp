@@ -16,8 +16,10 @@
 #include <utility>
 
 #include "core/live/session_log.h"
+#include "core/live/session_players.h"
 #include "core/spec/error.h"
 #include "core/spec/file_kind.h"
+#include "core/spec/json_reader.h"
 #include "ui/common/format.h"
 #include "ui/common/message_banner.h"
 #include "ui/common/resources.h"
@@ -108,6 +110,7 @@ void LivePage::connectTools() {
   connect(tools_, &LiveTools::replayFileChosen, this, &LivePage::replayWithDialog);
   connect(tools_, &LiveTools::replaySessionChosen, this, &LivePage::replaySession);
   connect(replayer_, &LiveReplayer::goneOn, this, [this] {
+    process_->askGame();  // what the log's hands hold and pull is ours now
     showReplaying();
     banner_->showMessage(MessageBanner::Kind::information,
                          tr("A session again, from %1 s on. Undo leads back to the replay.")
@@ -129,6 +132,10 @@ void LivePage::connectWorld() {
     showSelected();
   });
   connect(world_, &LiveWorld::gameChanged, this, &LivePage::showGame);
+  connect(process_, &LiveProcess::gameTold, this, [this] {
+    undoing_ = false;
+    takeBack(0);
+  });
   connect(world_, &LiveWorld::handsChanged, this, &LivePage::showHands);
   connect(process_, &LiveProcess::undoTold, this, [this](const QString& undo, const QString& redo) {
     undo_ = undo;
@@ -136,8 +143,11 @@ void LivePage::connectWorld() {
     showUndo();
   });
   connect(world_, &LiveWorld::handsRefused, this, [this] {
-    banner_->showMessage(MessageBanner::Kind::warning,
-                         tr("Hands are off while a session is played again; “Go on from here” makes it one of yours."));
+    banner_->showMessage(
+        MessageBanner::Kind::warning,
+        process_->isReady()
+            ? tr("Hands are off while a session is played again; “Go on from here” makes it one of yours.")
+            : tr("Nothing can be done here: the world has ended. “Reset” opens it again."));
     process_->askGame();  // what was not done is shown as it is
     showSelected();
   });
@@ -159,8 +169,12 @@ void LivePage::connectWorld() {
   });
   connect(process_, &LiveProcess::failed, this, [this](const QString& why) {
     banner_->showMessage(MessageBanner::Kind::error, why);
+    undo_.clear();
+    redo_.clear();
+    showReplaying();  // nothing can be done or saved any more
     tools_->setFailed();
   });
+  connect(process_, &LiveProcess::logLost, this, &LivePage::loseLog);
   connect(view_, &LiveView::picked, world_, [this](const std::string& object, bool toggle) { pick(object, toggle); });
   connect(view_, &LiveView::ledTo, hands_, &LiveHands::lead);
   connect(view_, &LiveView::letGo, this, [this] {
@@ -242,24 +256,58 @@ QString LivePage::newLog() const {
   return QDir(logs_).filePath(QDateTime::currentDateTime().toString("yyyy-MM-dd'T'HH-mm-ss-zzz") + ".log");
 }
 
+void LivePage::sayIfNoLog() {
+  if (log_.isEmpty() && !logs_.isEmpty())
+    banner_->showMessage(MessageBanner::Kind::warning,
+                         tr("No log of this session is kept: the folder %1 cannot be made.").arg(logs_));
+}
+
+/// The world goes on without. What was written until then is whole.
+void LivePage::loseLog(const QString& why) {
+  const bool begun = QFileInfo(log_).size() > 0 && isSessionLog(log_.toStdString());
+  if (!begun) log_.clear();
+  banner_->showMessage(MessageBanner::Kind::warning,
+                       begun ? tr("The world goes on, but this session's log ends here: %1.").arg(why)
+                             : tr("The world runs, but no log of this session is kept: %1.").arg(why));
+  showSelected();
+}
+
 /// For another world.
 void LivePage::prepare() {
   log_ = newLog();
   banner_->clear();
   undo_.clear();
   redo_.clear();
+  undoing_ = false;
+  undosLeft_ = 0;
   world_->forget();
   fresh_ = true;
   if (isVisible()) view_->setFocus();  // whoever opens a world goes on with its keys: Space plays it
 }
 
+/// A world that runs is given up only for a file that can be one. What else is wrong with it its process says.
+bool LivePage::canBecomeWorld(const QString& file) {
+  if (!world_->isReady()) return true;
+  try {
+    const Game game = loadGame(file.toStdString());
+    loadModels(game.scene);
+    checkPlayers(game, world_->host());
+    return true;
+  } catch (const std::exception& error) {
+    banner_->showMessage(MessageBanner::Kind::error, tr("%1. The world that was open goes on.").arg(error.what()));
+    return false;
+  }
+}
+
 void LivePage::open(const QString& file) {
   if (isSessionLog(file.toStdString())) return openReplay(file);
+  if (!canBecomeWorld(file)) return;
   replayer_->stop();
   file_ = file;
   prepare();
   process_->start(file, log_);
   showReplaying();
+  sayIfNoLog();
   emit opened(file);
 }
 
@@ -267,6 +315,7 @@ void LivePage::openReplay(const QString& log, long at) {
   QString game;
   try {
     const LogHead head = headOfSessionLog(log.toStdString());
+    if (world_->isReady()) loadSessionLog(log.toStdString());  // a damaged one is nothing to give a world up for
     if (!head.hasGame) {
       QStringList files{file_};
       for (const QString& folder : {QFileInfo(log).path(), resourceDirectory() + "/games"})
@@ -285,6 +334,7 @@ void LivePage::openReplay(const QString& log, long at) {
   replayer_->start(log, game, log_, at);
   replayer_->setSpeed(tools_->speed());
   showReplaying();
+  sayIfNoLog();
 }
 
 void LivePage::replayWithDialog() {
@@ -302,7 +352,7 @@ void LivePage::replaySession() {
 
 /// Hands are off, or on.
 void LivePage::showReplaying() {
-  const bool hands = world_->handsAreOn();
+  const bool hands = world_->handsAreOn() && !process_->hasFailed();
   for (QWidget* panel : std::initializer_list<QWidget*>{selection_, joints_, simulator_, palette_})
     panel->setEnabled(hands);
   showUndo();
@@ -326,12 +376,7 @@ void LivePage::showEvent(QShowEvent* event) {
 void LivePage::setDatabase(DatabaseReader& reader) { selection_->setDatabase(&reader); }
 
 void LivePage::reset() {
-  if (file_.isEmpty()) return;
-  open(file_);
-  if (replayer_->isOn()) return;  // it knows the speed
-  connect(
-      process_, &LiveProcess::gameTold, this, [this] { process_->setSpeed(tools_->speed()); },
-      Qt::SingleShotConnection);
+  if (!file_.isEmpty()) open(file_);
 }
 
 void LivePage::openWithDialog() {
@@ -377,8 +422,12 @@ void LivePage::saveExperiment() {
 void LivePage::saveLog() {
   const QString file = QFileDialog::getSaveFileName(this, tr("Save log"), "session.log", tr("Session logs (*.log)"));
   if (file.isEmpty()) return;
-  QFile::remove(file);
-  if (!QFile::copy(log_, file)) banner_->showMessage(MessageBanner::Kind::error, tr("%1 cannot be written.").arg(file));
+  try {
+    if (QFileInfo(file) != QFileInfo(log_)) writeFile(file.toStdString(), readFile(log_.toStdString()));
+    banner_->showMessage(MessageBanner::Kind::information, tr("Saved: %1").arg(file));
+  } catch (const InputError& error) {
+    banner_->showMessage(MessageBanner::Kind::error, QString::fromUtf8(error.what()));
+  }
 }
 
 void LivePage::showObjects() {
@@ -454,11 +503,22 @@ void LivePage::rename(const std::string& object, const std::string& name) {
 // Numbers may have changed that only the game tells.
 void LivePage::undo() {
   if (undo_.isEmpty() && replayer_->wentOnAt()) return openReplay(replayer_->log(), *replayer_->wentOnAt());
-  process_->undo();
-  process_->askGame();
+  takeBack(-1);
 }
-void LivePage::redo() {
-  process_->redo();
+void LivePage::redo() { takeBack(1); }
+
+/// One after the other, and never more than there is, however fast a key repeats: the game is told behind each.
+void LivePage::takeBack(int steps) {
+  undosLeft_ += steps;
+  if (undoing_ || undosLeft_ == 0) return;
+  const bool back = undosLeft_ < 0;
+  if (!process_->isReady() || (back ? undo_ : redo_).isEmpty()) {
+    undosLeft_ = 0;
+    return;
+  }
+  undosLeft_ += back ? 1 : -1;
+  undoing_ = true;
+  back ? process_->undo() : process_->redo();
   process_->askGame();
 }
 

@@ -26,8 +26,7 @@ LiveProcess::LiveProcess(const QString& program, QObject* parent)
   connect(&process_, &QProcess::readyReadStandardError, this, [this] { words_ += process_.readAllStandardError(); });
   connect(&process_, &QProcess::finished, this, &LiveProcess::finished);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error == QProcess::FailedToStart)
-      emit failed(tr("%1 cannot be started: %2").arg(program_, process_.errorString()));
+    if (error == QProcess::FailedToStart) fail(tr("%1 cannot be started: %2").arg(program_, process_.errorString()));
   });
 }
 
@@ -41,6 +40,9 @@ void LiveProcess::start(const QString& file, const QString& log, const QString& 
     const QSignalBlocker quiet(this);  // its end was asked for
     end();
   }
+  failed_ = false;
+  acts_ = 0;
+  grips_.reset();
   pending_.clear();
   words_.clear();
   told_.clear();
@@ -69,6 +71,7 @@ void LiveProcess::send(const QByteArray& line) {
 }
 
 void LiveProcess::act(const Act& act) {
+  if (ready_) ++acts_;
   json line = toJson(act);
   if (gestureDepth_ > 0) line["gesture"] = gesture_;
   send(QByteArray::fromStdString(line.dump()));
@@ -81,7 +84,10 @@ void LiveProcess::endGesture() { gestureDepth_ = std::max(0, gestureDepth_ - 1);
 void LiveProcess::type(const std::string& robot, const QString& line) {
   send(QByteArray::fromStdString(json{{"do", "type"}, {"robot", robot}, {"text", line.toStdString() + "\n"}}.dump()));
 }
-void LiveProcess::kickOff() { send(R"({"act": "kick_off"})"); }
+void LiveProcess::kickOff() {
+  if (ready_) ++acts_;
+  send(R"({"act": "kick_off"})");
+}
 void LiveProcess::undo() { send(R"({"do": "undo"})"); }
 void LiveProcess::redo() { send(R"({"do": "redo"})"); }
 void LiveProcess::askGame() { send(R"({"do": "game"})"); }
@@ -99,6 +105,7 @@ void LiveProcess::step(int periods) {
   send(QByteArray::fromStdString(json{{"do", "step"}, {"periods", periods}}.dump()));
 }
 void LiveProcess::setSpeed(double times) {
+  speed_ = times;
   send(QByteArray::fromStdString(json{{"do", "speed"}, {"times", times}}.dump()));
 }
 void LiveProcess::save(const QString& path, const std::string& view) {
@@ -152,13 +159,17 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("hangs")) return emit hangs(wordsOf(line.at("hangs")));
     if (line.contains("fault")) return;  // why it ends; its last words on standard error say it, too
     if (line.contains("saved")) return emit saved(wordsOf(line.at("saved")), wordsOf(line.value("what", json("game"))));
+    if (line.contains("log_lost")) return emit logLost(wordsOf(line.at("log_lost")));
     if (line.contains("log")) return tellLog(line.at("log"));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
     if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
   } catch (const std::exception& error) {
-    emit failed(tr("What btr live told cannot be read: %1").arg(error.what()));
-    end();
+    {
+      const QSignalBlocker quiet(this);  // why is said below
+      end();
+    }
+    fail(tr("What btr live told cannot be read: %1").arg(error.what()));
   }
 }
 
@@ -166,9 +177,22 @@ void LiveProcess::tellGame(const json& line) {
   const Game game = gameFromJson(line.at("game").dump(), "game", line.at("directory").get<std::string>());
   const ModelSet models = modelsOf(game.scene);
   const bool first = !std::exchange(ready_, true);
+  tellGrips(line);
   if (first && !signals_.empty()) sendSignals();
   if (first && contacts_) setContacts(true);
+  if (first && speed_ != 1) setSpeed(speed_);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+}
+
+void LiveProcess::tellGrips(const json& line) {
+  grips_.reset();
+  if (line.at("acts").get<long>() != acts_) return;
+  grips_.emplace();
+  for (const auto& [robot, joints] : line.at("held").items()) grips_->held[robot] = joints.get<Values>();
+  for (const json& pull : line.at("pulls")) {
+    const Act act = actFromJson(pull.dump(), "pulls");
+    if (const auto* is = std::get_if<PullAct>(&act)) grips_->pulls[is->object] = *is;
+  }
 }
 
 void LiveProcess::tellLog(const json& line) {
@@ -216,6 +240,11 @@ void LiveProcess::finished(int code, QProcess::ExitStatus status) {
     why = tr("The world's process crashed. Its log is kept up to the last act. %1").arg(why);
   else if (why.isEmpty())
     why = tr("The world's process ended (exit code %1).").arg(code);
+  fail(why);
+}
+
+void LiveProcess::fail(const QString& why) {
+  failed_ = true;
   emit failed(why);
 }
 

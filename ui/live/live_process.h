@@ -2,7 +2,9 @@
 #include <QObject>
 #include <QProcess>
 #include <QString>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "core/live/act.h"
 #include "core/live/game.h"
@@ -32,6 +34,12 @@ struct LiveLog {
   std::vector<LoggedActs> acts;
 };
 
+/// What hands hold and pull, as the session says.
+struct LiveGrips {
+  std::map<std::string, Values> held;    ///< by robot and joint
+  std::map<std::string, PullAct> pulls;  ///< by object
+};
+
 /// A session in a process of its own (btr live --steered): the window never waits for it, and survives it. What it
 /// tells comes as signals; of rows that came together only the newest, and those
 /// that tell what happened once.
@@ -49,11 +57,14 @@ class LiveProcess : public QObject {
   bool isRunning() const { return process_.state() != QProcess::NotRunning; }
   /// Whether act() and ask() are obeyed: from the first game on until it ends.
   bool isReady() const { return ready_; }
+  /// Whether the last one ended by itself.
+  bool hasFailed() const { return failed_; }
 
   void act(const Act& act);
   void play(bool on);
   void step(int periods);
-  void setSpeed(double times);  ///< 0: as fast as possible
+  /// 0: as fast as possible. Also in sessions that are started later.
+  void setSpeed(double times);
   /// `view`: what the window wants to find again, JSON; "" nothing.
   void save(const QString& path, const std::string& view = {});
   void saveScene(const QString& path);
@@ -69,6 +80,9 @@ class LiveProcess : public QObject {
   void askGame();
   /// From now on, also in sessions that are started later, these channels are told of every control period.
   void setSignals(const std::vector<std::string>& channels);
+
+  /// With the game that was told last; nothing while acts are under way that it does not know yet.
+  const std::optional<LiveGrips>& grips() const { return grips_; }
 
   /// What is done between these two is one step of undo. May be nested.
   void beginGesture();
@@ -94,6 +108,8 @@ class LiveProcess : public QObject {
   void saved(const QString& path, const QString& what);
   /// Once, of a log that is played again.
   void logTold(const btr::ui::LiveLog& log);
+  /// Its log has no more room, or cannot be written; it goes on. Once.
+  void logLost(const QString& why);
   /// It ended by itself: why.
   void failed(const QString& why);
 
@@ -102,20 +118,25 @@ class LiveProcess : public QObject {
   void read();
   void tell(const QByteArray& line);
   void tellGame(const nlohmann::json& line);
+  void tellGrips(const nlohmann::json& line);
   void tellLog(const nlohmann::json& line);
   void tellSamples(const nlohmann::json& line);
   ModelSet modelsOf(const SceneSpec& scene);
   void sendSignals();
   void finished(int code, QProcess::ExitStatus status);
+  void fail(const QString& why);
 
   QString program_;
   QProcess process_;
   QByteArray pending_, words_;
-  bool ready_ = false, contacts_ = false;
+  bool ready_ = false, contacts_ = false, failed_ = false;
+  double speed_ = 1;                  ///< also of sessions that are started later
   std::vector<std::string> signals_;  ///< that are wanted
   std::vector<std::string> told_;     ///< to which the samples belong that are told
   ModelSet models_;                   ///< of files that were read for this session
   std::string modelsFrom_;            ///< where their relative paths start
+  std::optional<LiveGrips> grips_;
+  long acts_ = 0;  ///< that were sent to this session
   int gestureDepth_ = 0;
   long gesture_ = 0;
 };

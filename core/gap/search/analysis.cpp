@@ -15,6 +15,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
+#include "core/gap/search/explanation.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/laws/law_search.h"
 #include "core/gap/search/laws/law_words.h"
@@ -228,7 +229,6 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     ready.jobs = options.jobs;
     return ready;
   };
-  FitProblem problem = prepare(given.recordings, -1);
   SearchOptions search;
   search.jobs = options.jobs;
   search.maximumEffects = options.maximumEffects;
@@ -236,35 +236,11 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   search.seed = options.seed;
   search.thresholds = limits;
   search.progress = progress;
-  SearchResult found = searchEffects(problem, search);
-  if (found.unstable) {
-    // A loop near its limit of stability: a hair of a parameter decides where a free run ends.
-    problem = prepare(given.recordings, 1);
-    problem.notes.push_back("free runs depend on the last digits of the parameters: windows of 1 s instead");
-    found = searchEffects(problem, search);
-  }
-
-  const double window_s = problem.window_s;
-  const Agreement agreement =
-      agreeOn(given.recordings, problem, found, search,
-              [&](const std::vector<Recording>& recordings) { return prepare(recordings, window_s); });
-  if (agreement.without) {
-    problem = agreement.without->problem;
-    found = agreement.without->found;
-  }
-
-  if (found.step_s < problem.scene.step_s) {
-    problem.scene.step_s = found.step_s;
-    if (found.step_s < given.scene.step_s)
-      problem.notes.push_back("what was found needs a step of " + toText(found.step_s) +
-                              " s: set step_s so where this simulator is used");
-  }
-
-  LawBesideNames law;
-  if (options.learnRest) {
-    if (progress && !progress("measuring what has no name", 0.93)) throw Cancelled{};
-    law = learnBesideNames(problem, found, search);
-  }
+  const Explanation explanation = explain(given.recordings, prepare, search, options.learnRest);
+  const FitProblem& problem = explanation.problem;
+  const SearchResult& found = explanation.found;
+  const Agreement& agreement = explanation.agreement;
+  const LawBesideNames& law = explanation.law;
   const SearchResult final = law.law ? withLearned(problem, found, *law.law) : found;
 
   GapReport report;

@@ -199,6 +199,7 @@ SearchResult StructureSearch::run() {
       RivalFinder(service_, confirmer_, candidates_, calibration_.calibrated, firstRound_).find(std::move(selection_));
   selection_ = std::move(rivals.selection);
 
+  raiseUnreached(service_, selection_.final.fit);
   Measurement measured = measure(service_, selection_.final.fit);
   if (const auto back = backAsGiven(service_, selection_.final, measured)) {
     if (selection_.final.fit.model.effects.empty())

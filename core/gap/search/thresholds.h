@@ -58,6 +58,7 @@ struct SearchThresholds {
     double unstableRatio = 1.5;  ///< held-out error over that of the fit; more in free runs asks for windows [hand]
     double unstableError = 1.3;  ///< and held-out error of at least this [hand]
     double chiSquared95 = 3.84;  ///< χ² of one number: what going back to the value as given may cost [statistics]
+    double unreached = 0.1;      ///< of all squared residuals: what is unknown above changes less [case: wind-up]
     double farFromGiven = 2;     ///< typical changes: a calibration that moved a number farther may have bent it [hand]
     double muchLeft = 1;         ///< and excess from which effects are looked for from the numbers as given, too [hand]
     double leastToFitOn = 0.1;   ///< excess at which what was accepted is fitted on [case: curved valleys]

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -76,13 +77,16 @@ SignalsPanel::SignalsPanel(LiveWorld& world, QWidget* parent)
   plots->setWidgetResizable(true);
   plots->setFrameShape(QFrame::NoFrame);
   plots->setWidget(plotRow_);
-  picker_->setMinimumWidth(180);
-  values_->setMinimumWidth(250);
+  // On a small screen the plots are what keeps its room.
+  plots->setMinimumWidth(220);
+  picker_->setMinimumWidth(120);
+  values_->setMinimumWidth(150);
   auto* split = new QSplitter(this);
   split->addWidget(picker_);
   split->addWidget(plots);
   split->addWidget(values_);
   split->setStretchFactor(1, 1);
+  split->setSizes({200, 600, 250});
   split->setChildrenCollapsible(false);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 4, 0, 0);
@@ -92,8 +96,12 @@ SignalsPanel::SignalsPanel(LiveWorld& world, QWidget* parent)
   connect(picker_, &SignalPicker::chosenChanged, this, &SignalsPanel::choose);
   connect(picker_, &SignalPicker::tooMany, this,
           [this] { emit problem(tr("%1 signals at once are the most.").arg(SignalPicker::most)); });
-  connect(&world_, &LiveWorld::objectsChanged, this, [this] { picker_->setSignals(signalsOf(world_.channels())); });
-  connect(&world_, &LiveWorld::forgotten, this, &SignalsPanel::clear);
+  connect(&world_, &LiveWorld::objectsChanged, this,
+          [this] { picker_->setSignals(signalsOf(world_.channels()), !std::exchange(another_, false)); });
+  connect(&world_, &LiveWorld::forgotten, this, [this] {
+    another_ = true;
+    clear();
+  });
   connect(&world_.process(), &LiveProcess::sampled, this, &SignalsPanel::take);
   connect(&world_, &LiveWorld::rowChanged, this, [this] {
     stale_ = stale_ || world_.row().playing != wasPlaying_;

@@ -8,6 +8,7 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/model_comparison.h"
+#include "core/gap/search/thresholds.h"
 
 namespace btr {
 namespace {
@@ -64,7 +65,26 @@ FitModel asGiven(const FitModel& model, std::size_t number, const FitModel& whol
   return kept;
 }
 
+/// A number of an effect that says where something ends, not how large it is.
+bool mayBeUnreached(const FitParameter& p, const SearchThresholds::Candidates& limits) {
+  return p.effect >= 0 && !p.hasNeutral && p.minimum > 0 && p.maximum / p.minimum > limits.wideRange;
+}
+
 }  // namespace
+
+void raiseUnreached(const FitService& service, Fit& fit) {
+  const FitProblem& problem = service.problem();
+  const auto squares = [&](const FitModel& model) { return residualsOf(problem, model, fit.shifts).squaredNorm(); };
+  std::optional<double> before;
+  for (std::size_t i = 0; i < fit.model.parameters.size(); ++i) {
+    const FitParameter& p = fit.model.parameters[i];
+    if (!mayBeUnreached(p, service.thresholds().candidates) || fit.model.values[i] >= p.maximum) continue;
+    if (!before) before = squares(fit.model);
+    FitModel raised = fit.model;
+    raised.values[i] = p.maximum;
+    if (squares(raised) <= *before + service.thresholds().calibration.unreached) fit.model = std::move(raised);
+  }
+}
 
 Measurement measure(const FitService& service, const Fit& fit) {
   Measurement measured;

@@ -10,6 +10,11 @@
 
 namespace btr {
 
+/// A limit that the recorded motions never reach (of what an integral part adds up to, of a warming that has hardly
+/// begun) is known from below only, and a fit leaves it just above what was reached. Other motions go farther: it is as
+/// high as it may be, where that changes nothing of the recorded ones.
+void raiseUnreached(const FitService& service, Fit& fit);
+
 /// Sensitivities and uncertainties of a model.
 struct Measurement {
   Eigen::VectorXd stepChange;  ///< of the residuals with half the step

@@ -58,6 +58,8 @@ Agreement oneRound(const std::vector<Recording>& recordings, const FitProblem& p
   const std::vector<std::size_t> suspects = outlyingTrials(problem, found, options.jobs, limits);
   if (suspects.empty()) return result;
   auto without = searched(recordings, suspects, options, ready);
+  // Free runs of the others depend on the last digits: what they made of anything is not known.
+  if (without.found.unstable) return result;
   const FitModel& others = without.found.final.fit.model;
 
   // What was found of all of them fits the suspects and the others as well: they show more, and nothing is wrong.
@@ -76,6 +78,7 @@ Agreement oneRound(const std::vector<Recording>& recordings, const FitProblem& p
   }
   if (result.aside.empty()) return result;
   if (result.aside != suspects) without = searched(recordings, result.aside, options, ready);
+  if (without.found.unstable) return {};
   result.without = std::move(without);
   return result;
 }

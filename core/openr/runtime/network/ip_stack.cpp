@@ -168,9 +168,15 @@ void IpStack::submit(antEnvMsg* message, std::function<void()> done) {
   operations_.push_back(std::move(operation));
 }
 
-void IpStack::poll() {
+void IpStack::poll(Polled polled) {
   for (auto at = operations_.begin(); at != operations_.end();) {
     const auto endpoint = endpoints_.find(at->endpoint);
+    const bool listens = endpoint != endpoints_.end() && endpoint->second.type == EndpointType_TCP &&
+                         at->message->dstOperation == TCPEndpoint_Operation_Listen;
+    if (polled == Polled::listening && !listens) {
+      ++at;
+      continue;
+    }
     bool over = true;
     if (endpoint == endpoints_.end())
       static_cast<TCPEndpointBaseMsg*>(at->message)->error = TCP_FAIL;

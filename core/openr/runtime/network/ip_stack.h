@@ -25,7 +25,8 @@ class IpStack {
   /// The operation of `message` begins. `done` is called, perhaps at once, with its answer in `message`.
   void submit(antEnvMsg* message, std::function<void()> done);
   /// Goes on with what waits.
-  void poll();
+  enum class Polled { all, listening };
+  void poll(Polled polled = Polled::all);
   void closeAll();
   const NetworkSettings& settings() const { return settings_; }
 

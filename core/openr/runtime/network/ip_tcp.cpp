@@ -98,6 +98,8 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
       }
       const bool enough = operation.received > 0 && operation.received >= receive->sizeMin;
       if (!enough && error == TCP_SUCCESS && receive->sizeMax > 0) return false;
+      // Who connected before these bytes were sent is told before them: a server of files answers on that connection.
+      poll(Polled::listening);
       receive->sizeMin = receive->sizeMax = operation.received;
       return answer(enough ? TCP_SUCCESS : error);
     }

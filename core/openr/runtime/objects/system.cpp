@@ -139,6 +139,7 @@ void System::run(RunningObject& object) {
   FaultState& fault = faultState();
   fault.object = &object;
   fault.selector = object.running.selector;
+  setMethod(fault, object.methodName(object.running.selector));
   ++fault.serial;
   if (sigsetjmp(fault.home, 1) == 0) {
     current_ = &object;

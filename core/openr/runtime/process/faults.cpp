@@ -46,7 +46,7 @@ void lastMessage(const char* what) {
   bytes[at++] = 1;                              // ended
   bytes[at++] = static_cast<std::uint8_t>(Ended::Why::crash);
   text(state.object == nullptr ? "" : state.object->name.c_str(), 200);
-  text("", 0);
+  text(state.method, sizeof state.method);
   text(what, 200);
   const auto size = static_cast<std::uint32_t>(at - 4);
   for (int i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(size >> (8 * i));
@@ -58,38 +58,48 @@ void lastMessage(const char* what) {
   }
 }
 
-std::string described(int signal, const siginfo_t* info, const ucontext_t* context) {
-  char address[64];
-  std::snprintf(address, sizeof(address), "%p", info->si_addr);
-  if (info->si_addr == nullptr) std::strcpy(address, "0");
+const char* described(int signal, const siginfo_t* info, const ucontext_t* context) {
+  static char said[160];
+  const auto at = [&](const char* what) {
+    if (info->si_addr == nullptr)
+      std::snprintf(said, sizeof said, "%s 0", what);
+    else
+      std::snprintf(said, sizeof said, "%s %p", what, info->si_addr);
+    return said;
+  };
   switch (signal) {
     case SIGSEGV: {
-      const char* at = static_cast<const char*>(info->si_addr);
+      const char* address = static_cast<const char*>(info->si_addr);
       const char* stack = state.object == nullptr ? nullptr : state.object->stack;
-      if (stack != nullptr && at >= stack - 65536 && at < stack + 4096)
+      if (stack != nullptr && address >= stack - 65536 && address < stack + 4096)
         return "its stack is full: calls that do not end, or local variables too large";
       const bool wrote = (context->uc_mcontext.gregs[REG_ERR] & 2) != 0;
-      return std::string(wrote ? "it wrote at address " : "it read at address ") + address;
+      if (!wrote) return at("it read at address");
+      return at(info->si_code == SEGV_ACCERR ? "it wrote to what is to be read only (a literal, a constant) at address"
+                                             : "it wrote at address");
     }
     case SIGBUS:
-      return std::string("it accessed memory that is not there at address ") + address;
+      return at("it accessed memory that is not there at address");
     case SIGILL:
     case SIGTRAP:
-      return "it read or wrote a number at an address that is no multiple of the number's size, or ran into code that "
-             "this processor does not have";
+      return "it ran into code that this processor does not have, or used a number at an address that is no multiple "
+             "of its size";
     case SIGFPE:
       if (info->si_code == FPE_INTDIV) return "it divided an integer by zero";
       return "it computed what is no number, or made an integer of a number that is too large or none";
     case SIGABRT:
       return "the C library found its memory damaged: something was written beyond its end, or freed twice";
     default:
-      return "signal " + std::to_string(signal);
+      std::snprintf(said, sizeof said, "signal %d", signal);
+      return said;
   }
 }
 
 void onFault(int signal, siginfo_t* info, void* context) {
   if (faulted || !state.inMethod) {
-    lastMessage("it crashed, and what it left cannot go on");
+    // A second one, of what the first has left; or one between methods, of what the last method has left.
+    if (!faulted) state.what = described(signal, info, static_cast<const ucontext_t*>(context));
+    lastMessage(state.what);
     syscall(SYS_exit_group, 70);
   }
   faulted = true;
@@ -111,7 +121,9 @@ void onTick(int) {
   if (ticks < limitTicks) return;
   faulted = true;
   state.endless = true;
-  state.what = "it has computed for " + std::to_string(limitTicks / ticksPerSecond) + " s without coming back";
+  static char said[80];
+  std::snprintf(said, sizeof said, "it has computed for %d s without coming back", limitTicks / ticksPerSecond);
+  state.what = said;
   siglongjmp(state.home, 1);
 }
 
@@ -140,6 +152,16 @@ void watchFaults(int link, int limit_s) {
   itimerval every{};
   every.it_interval.tv_usec = every.it_value.tv_usec = 1000000 / ticksPerSecond;
   setitimer(ITIMER_PROF, &every, nullptr);
+}
+
+void fail(const char* what) {
+  if (!state.inMethod || faulted) {
+    lastMessage(what);
+    syscall(SYS_exit_group, 70);
+  }
+  faulted = true;
+  state.what = what;
+  siglongjmp(state.home, 1);
 }
 
 void numbersTrap() { feenableexcept(FE_INVALID); }

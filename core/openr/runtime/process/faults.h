@@ -14,15 +14,22 @@ struct FaultState {
   unsigned selector = 0;
   unsigned serial = 0;  ///< counts methods, so that the watchdog sees another one
   sigjmp_buf home;
-  std::string what;  ///< filled by the handler
+  const char* what = "";  ///< what happened, as the handler says it: no heap, that may be what is damaged
+  char method[96] = "";   ///< its name
   bool endless = false;
 };
 FaultState& faultState();
+inline void setMethod(FaultState& state, const std::string& name) {
+  state.method[name.copy(state.method, sizeof state.method - 1)] = '\0';
+}
 
 /// Crashes and endless loops of methods come back to `faultState().home`; a second crash writes a last message over
 /// `link`
 /// (-1: none) and ends the process. A method may use `limit_s` of the processor's time at a stretch.
 void watchFaults(int link, int limit_s);
+
+/// The running method has failed: as after a crash, with this text, which stays where it is.
+[[noreturn]] void fail(const char* what);
 
 /// Inside methods: what is no number, or too large for an integer, is a fault as on the robot.
 void numbersTrap();

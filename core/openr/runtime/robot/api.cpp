@@ -444,6 +444,13 @@ sError AllowToAttachMemoryRegion(MemoryRegionID id, MemoryProtectionInfo, OID, b
 sError DeleteRegion(void* address) { return deleteRegion(btr::openr::regionAt(address)) ? sSUCCESS : sINVALID_ARG; }
 sError DeleteSharedMemoryRegion(MemoryRegionID id) { return deleteRegion(id) ? sSUCCESS : sINVALID_ARG; }
 
+sError GetPageSize(longword* bytes) {
+  constexpr longword ofTheRobot = 4096;
+  if (bytes == nullptr) return sINVALID_ARG;
+  *bytes = ofTheRobot;
+  return sSUCCESS;
+}
+
 sError WhoAmI(OID* id) {
   auto* object = System::instance().current();
   if (object == nullptr) return sFAIL;
@@ -452,3 +459,7 @@ sError WhoAmI(OID* id) {
 }
 
 extern "C" void Prologue() {}
+
+// For programs with a new and a delete of their own: see mkbin.
+extern "C" void* btr_openr_new(std::size_t bytes) { return ::operator new(bytes); }
+extern "C" void btr_openr_delete(void* memory) { ::operator delete(memory); }

@@ -17,8 +17,12 @@ static const word headGains[][3] = {{0x0a, 0x04, 0x02}, {0x08, 0x02, 0x04}, {0x0
 static const word legGains[][3] = {{0x1c, 0x08, 0x01}, {0x14, 0x04, 0x01}, {0x1c, 0x08, 0x01}};
 static const word pShift = 0x0e, iShift = 0x02, dShift = 0x0f;
 
-// What counts as the ball's orange: red and no blue, bright enough. At least so many pixels of layer C.
-static const byte crMax = 255, crMin = 150, cbMax = 100, cbMin = 0;
+// What counts as a ball's colour, bright enough: the league's orange, red and no blue, and the robot's own pink. A
+// channel of the table each. At least so many pixels of layer C.
+static const int colours = 2;
+static const OCdtChannel channel[colours] = {ocdtCHANNEL0, ocdtCHANNEL1};
+static const byte crMax[colours] = {255, 230}, crMin[colours] = {150, 150}, cbMax[colours] = {100, 190},
+                  cbMin[colours] = {0, 120};
 static const int darkestSegment = 6, leastPixels = 12;
 
 // The camera sees so much from side to side and from top to bottom [rad]; of what the ball is off the middle, the head
@@ -87,7 +91,7 @@ void BallHead::Look(const ONotifyEvent& event) {
   if (image.IsValid())
     for (int y = 0; y < image.Height() - 1; y++)  // the last row is a tag
       for (int x = 0; x < image.Width(); x++)
-        if (image.Pixel(x, y) & ocdtCHANNEL0) {
+        if (image.Pixel(x, y) & (channel[0] | channel[1])) {
           sumX += x;
           sumY += y;
           count++;
@@ -133,10 +137,12 @@ void BallHead::SetColour() {
   MemoryRegionID id;
   OCdtVectorData* table;
   OPENR::NewCdtVectorData(&id, &table);
-  table->SetNumData(1);
-  table->GetInfo(0)->Init(camera, ocdtCHANNEL0);
-  for (int segment = darkestSegment; segment < ocdtMAX_Y_SEGMENT; segment++)
-    table->GetInfo(0)->Set(segment, crMax, crMin, cbMax, cbMin);
+  table->SetNumData(colours);
+  for (int c = 0; c < colours; c++) {
+    table->GetInfo(c)->Init(camera, channel[c]);
+    for (int segment = darkestSegment; segment < ocdtMAX_Y_SEGMENT; segment++)
+      table->GetInfo(c)->Set(segment, crMax[c], crMin[c], cbMax[c], cbMin[c]);
+  }
   OPENR::SetCdtVectorData(id);
   OPENR::DeleteCdtVectorData(id);
 }

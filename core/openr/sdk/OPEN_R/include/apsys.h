@@ -37,6 +37,16 @@ sError NewRegion(size_t size, T** address) {
   return NewRegion(size, reinterpret_cast<void**>(address));
 }
 
+/// Regions are made of pages of so many bytes; programs that share memory ask for whole ones.
+sError GetPageSize(longword* bytes);
+inline sError GetPageSize(size_t* bytes) {
+  longword size = 0;
+  const sError error = GetPageSize(&size);
+  *bytes = size;
+  return error;
+}
+inline sError GetPageSize(int* bytes) { return GetPageSize(reinterpret_cast<longword*>(bytes)); }
+
 /// The object whose method runs.
 sError WhoAmI(OID* id);
 

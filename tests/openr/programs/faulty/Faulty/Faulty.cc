@@ -12,6 +12,11 @@
 
 #include <stdexcept>
 
+struct Link {
+  Link* next;
+  long number;
+};
+
 Faulty::Faulty() {}
 
 OStatus Faulty::DoInit(const OSystemEvent& event) {
@@ -78,6 +83,16 @@ void Faulty::Notify(const ONotifyEvent& event) {
     char bytes[16];
     none = *(volatile int*)(bytes + 1 + none);
   }
+  // Pointers have 4 bytes on the robot, and memory is dealt out by fours.
+  static double room[8];
+  char* by4 = (char*)room + 4 + none;
+  if (strcmp(line, "half a double") == 0) huge = *(volatile double*)by4;
+  if (strcmp(line, "pool") == 0) {
+    Link* link = new (by4) Link;
+    link->next = link;
+    link->number = 3;
+    OSYSPRINT(("pool %d %d\n", link->next->number, link->next == link));
+  }
   if (strcmp(line, "heap") == 0) {
     char* memory = (char*)malloc(24);
     for (int i = 0; i < 4096; i++) ((volatile char*)memory)[i] = 0x55;
@@ -89,6 +104,12 @@ void Faulty::Notify(const ONotifyEvent& event) {
     free(memory);
     free(memory);
   }
+  if (strcmp(line, "gone") == 0) {
+    RCRegion* region = new RCRegion(5000);
+    region->RemoveReference();
+    region->RemoveReference();
+  }
+  if (strcmp(line, "literal") == 0) *(volatile char*)"literal" = 'L';
   if (strcmp(line, "deep") == 0) none = deep(0);
   if (strcmp(line, "loop") == 0)
     for (;;) none = none + 1;

@@ -1,0 +1,46 @@
+/// The disc of a turning sensor sits off its axis, or its magnet does: once in a turn it says too much and too little,
+///   y = q + a·cos q + b·sin q      √(a² + b²) in rad: the disc's offset over its radius
+/// With `closes_loop` 1 the servo's law acts on c − y, with 0 the sensor is the recorder's own, and the servo has
+/// another.
+/// (Single-turn error of an eccentric scale: Slocum 1992, Precision Machine Design, ch. 4.) Neutral: a = b = 0.
+#include <cmath>
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class SensorEccentricity final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
+    loop.integer = true;
+    return {{"cosine_rad", "rad", "a of a·cos q", -0.3, 0.3, 0.02, 0.0},
+            {"sine_rad", "rad", "b of b·sin q", -0.3, 0.3, 0.02, 0.0},
+            loop};
+  }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::sensor, "a sensor whose disc sits off its axis", "y = q + a·cos q + b·sin q",
+            "a: cosine_rad; b: sine_rad; q: joint", "Slocum 1992"};
+  }
+  Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::sensor; }
+
+  btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
+                             std::span<double>, double) const override {
+    if (values[2] == 0 || !joint.followsPosition) return command;
+    const double off = error(joint.position, values);
+    return {command.before - off, command.after - off};
+  }
+  double measured(double position, const btr::JointState& joint, std::span<const double> values, std::span<double>,
+                  double) const override {
+    return position + error(joint.position, values);
+  }
+
+  static double error(double position, std::span<const double> values) {
+    return values[0] * std::cos(position) + values[1] * std::sin(position);
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(SensorEccentricity, "sensor_eccentricity")

@@ -1,0 +1,42 @@
+/// The position sensor's gain is wrong (another gear ratio, counts per turn, a potentiometer's reference voltage): it
+/// says
+///   y = (1 + s)·q      s: share by which it says too much
+/// about the position 0 of the joint. With `closes_loop` 1 the servo's law acts on c − y, with 0 the sensor is the
+/// recorder's own, and the servo has another. (Mooring, Roth and Driels 1991, Fundamentals of Manipulator Calibration:
+/// the joint transducer's gain.) Neutral: s = 0.
+#include <memory>
+
+#include "core/plugin/plugin.h"
+
+namespace {
+
+class SensorScale final : public btr::Effect {
+  std::vector<btr::Parameter> parameters() const override {
+    btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
+    loop.integer = true;
+    return {{"excess", "", "share by which it says too much", -0.5, 0.5, 0.03, 0.0}, loop};
+  }
+  btr::EffectLaw law() const override {
+    return {btr::EffectLaw::Acts::sensor, "a sensor whose gain is wrong",
+            "y = (1 + s)·q, and with closes_loop 1 the servo acts on c − y", "s: excess; q: joint",
+            "Mooring, Roth and Driels 1991"};
+  }
+  Place place() const override { return Place::joint; }
+  Stage stage() const override { return Stage::sensor; }
+
+  btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
+                             std::span<double>, double) const override {
+    if (values[1] == 0 || !joint.followsPosition) return command;
+    const double off = values[0] * joint.position;
+    return {command.before - off, command.after - off};
+  }
+  double measured(double position, const btr::JointState& joint, std::span<const double> values, std::span<double>,
+                  double) const override {
+    // Other effects may have changed what is measured; the gain is of the joint's own way.
+    return position + values[0] * joint.position;
+  }
+};
+
+}  // namespace
+
+BTR_EFFECT(SensorScale, "sensor_scale")

@@ -78,6 +78,7 @@ MainWindow::MainWindow(std::shared_ptr<const PluginHost> host, Theme& theme, con
   const WindowLinks links{*this, bench_, layout_, pages_, *drafts_, *runs_, *grids_};
   linkTree(links);
   linkStartPage(links);
+  linkReplay(links);
   linkScene(links);
   linkDrops(links);
   makeWindowMenus({*this, theme_, bench_, layout_, pages_, *drafts_, *runs_, *replays_},

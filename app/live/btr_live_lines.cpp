@@ -66,9 +66,13 @@ json lamps(const Session& session) {
 }  // namespace
 
 json gameLine(const Session& session) {
-  return {{"game", json::parse(toJsonText(session.game()))},
-          {"directory", session.game().scene.directory},
-          {"channels", session.channels()}};
+  json line{{"game", json::parse(toJsonText(session.game()))},
+            {"directory", session.game().scene.directory},
+            {"channels", session.channels()},
+            {"pulls", json::array()},
+            {"held", session.held()}};
+  for (const auto& [object, pull] : session.pulls()) line["pulls"].push_back(toJson(pull));
+  return line;
 }
 
 json rowLine(const Session& session, bool playing, double realTimeFactor) {

@@ -163,6 +163,7 @@ void LiveSteering::goBack(long period) {
 }
 
 void LiveSteering::act(JsonReader& reader) {
+  ++acts_;
   requireHands();
   std::optional<long> gesture;
   if (reader.has("gesture")) gesture = static_cast<long>(reader.integer("gesture", 0, 1'000'000'000));
@@ -264,7 +265,9 @@ void LiveSteering::chooseSignals(JsonReader& reader) {
 void LiveSteering::tellGame() {
   gameChanged_ = false;
   signals_.resolve(session_.channels());
-  say(gameLine(session_));
+  nlohmann::json line = gameLine(session_);
+  line["acts"] = acts_;
+  say(line);
 }
 
 // Objects that come or go are told at once: samples belong to the channels that were told.

@@ -73,6 +73,7 @@ class LiveSteering {
   bool over_ = false;         ///< the referee's game
   bool gameChanged_ = false;  ///< since it was told, by a log's acts
   std::optional<long> goal_;  ///< a period to which a log is played as fast as possible
+  long acts_ = 0;             ///< that were read, refused ones too
   long eventsTold_ = 0;       ///< of the referee
   double speed_ = 1;          ///< simulated seconds a second; 0: as fast as possible
   double anchor_s_ = 0;       ///< wall time …

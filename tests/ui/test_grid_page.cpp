@@ -361,6 +361,20 @@ class TestGridPage : public QObject {
       return said && form.problem().isEmpty() && start->isEnabled();
     };
     QVERIFY(refused(bearings, "−20, x, 20", "\"x\""));
+    // Decimal commas, where it is clear that they are: what could be one number or two is asked about.
+    QVERIFY(refused(bearings, "−7,5, 7,5", "one number or two"));
+    auto* distances = form.findChild<QLineEdit*>("distances_m");
+    QVERIFY(refused(distances, "0,16", "one number or two"));
+    const QString given = distances->text();
+    for (const char* text : {"0.14, 0.16", "0.14,0.16", "0,14; 0,16", "0,14;0,16", "0,14 0,16"}) {
+      distances->setText(text);
+      QCOMPARE(form.spec().axes[0], (std::vector<double>{0.14, 0.16}));
+    }
+    distances->setText(given);
+    const QString angles = bearings->text();
+    bearings->setText("−20,−10,0,10,20");
+    QCOMPARE(form.spec().axes[1].size(), std::size_t(5));
+    bearings->setText(angles);
     QVERIFY(refused(bearings, "−20, 0, 30", "symmetric"));
     QVERIFY(refused(bearings, "", "bearings_rad"));
     QVERIFY(refused(form.findChild<QLineEdit*>("seeds"), "1.5", "whole numbers"));

@@ -2,6 +2,7 @@
 // that dies, folders that cannot be made. Through the widgets and with the real program.
 #include <signal.h>
 
+#include <QApplication>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -36,12 +37,25 @@ QString programAfter(const QTemporaryDir& folder, const QString& line) {
   return file;
 }
 
+nlohmann::json emptyScene() {
+  return {{"format", "uchilsim-scene-1"}, {"step_s", 0.008}, {"control_period_s", 0.008}, {"floor", {{"friction", 1}}}};
+}
+
+/// A game of one dog.
+std::string dogGame(const char* model, const char* controller) {
+  nlohmann::json scene = emptyScene();
+  scene["robots"] = {{{"name", "dog"}, {"model", model}}};
+  nlohmann::json players;
+  players["dog"]["controller"]["plugin"] = controller;
+  return nlohmann::json{{"format", "uchilsim-game-1"}, {"scene", scene}, {"robots", players}}.dump();
+}
+
 /// A game of a ball alone.
 QString ballIn(const QTemporaryDir& folder) {
   const QString file = folder.filePath("ball.json");
-  writeFile(file.toStdString(), R"({"format": "uchilsim-game-1", "scene": {"format": "uchilsim-scene-1",
-    "step_s": 0.008, "control_period_s": 0.008, "floor": {"friction": 1},
-    "balls": [{"name": "ball", "position_m": [0, 0, 0.0425]}]}})");
+  nlohmann::json scene = emptyScene();
+  scene["balls"] = {{{"name", "ball"}, {"position_m", {0, 0, 0.0425}}}};
+  writeFile(file.toStdString(), nlohmann::json{{"format", "uchilsim-game-1"}, {"scene", scene}}.dump());
   return file;
 }
 
@@ -78,16 +92,12 @@ class TestLiveFaults : public QObject {
     open.action("livePlay")->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(open.page.row().period > 10, patience_ms);
     const QString bad = open.folder.filePath("bad.json"), log = open.page.log();
-    const std::string scene = R"("scene": {"format": "uchilsim-scene-1", "step_s": 0.008, "control_period_s": 0.008,
-      "robots": [{"name": "dog", "model": ")";
-    const std::string there = SOURCE_DIR "/resources/robots/ers7.wrl";
+    const nlohmann::json bare{{"format", "uchilsim-game-1"}};
     for (const auto& [content, why] :
          {std::pair<std::string, const char*>{"{", "bad.json"},
-          {R"({"format": "uchilsim-game-1"})", "a scene"},
-          {R"({"format": "uchilsim-game-1", )" + scene + "no-such-dog.wrl\"}]}}", "no-such-dog.wrl"},
-          {R"({"format": "uchilsim-game-1", )" + scene + there +
-               R"("}]}, "robots": {"dog": {"controller": {"plugin": "somersault"}}}})",
-           "somersault"}}) {
+          {bare.dump(), "a scene"},
+          {dogGame("no-such-dog.wrl", "walk"), "no-such-dog.wrl"},
+          {dogGame(SOURCE_DIR "/resources/robots/ers7.wrl", "somersault"), "somersault"}}) {
       writeFile(bad.toStdString(), content);
       const long period = open.page.row().period;
       open.page.open(bad);

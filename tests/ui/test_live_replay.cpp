@@ -225,6 +225,22 @@ class TestLiveReplay : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(!open.page.row().replay && open.page.row().period == 125, patience_ms);
   }
 
+  // It is ours from there on: shown, and let go.
+  void whatTheLogHoldsIsKnownWhereItGoesOn() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.page.process().act(HoldAct{"dog", "LF_J1", 0.3, std::nullopt});
+    open.page.process().step(10);
+    QTRY_COMPARE_WITH_TIMEOUT(open.page.row().period, 10L, patience_ms);
+    open.action("liveReplaySession")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.row().replay && open.page.row().period == 0, patience_ms);
+    QTest::keyClick(&open.page.view(), Qt::Key_End);
+    QTRY_COMPARE_WITH_TIMEOUT(open.page.row().period, 10L, patience_ms);
+    emit open.page.findChild<ReplayBar*>()->goOnWanted();
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.world().handsAreOn(), patience_ms);
+    QTRY_COMPARE(open.page.world().held("dog"), (Values{{"LF_J1", 0.3}}));
+  }
+
   // As they were written before the game stood in them: it is found where games are.
   void aLogWithoutItsGameFindsIt() {
     Played open;

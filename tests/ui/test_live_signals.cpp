@@ -142,6 +142,46 @@ class TestLiveSignals : public QObject {
     }
   }
 
+  // Until its robot comes back; what was recorded stays.
+  void aSignalOfARobotThatIsTakenAwayIsKept() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.action("liveShowSignals")->trigger();
+    auto* tree = open.page.findChild<QTreeWidget*>("liveSignals");
+    auto* picker = open.page.findChild<SignalPicker*>();
+    const auto isChosen = [&] {
+      QTreeWidgetItem* item = signalItem(tree, "dog.LF_J1.position_rad");
+      return item && item->checkState(0) == Qt::Checked;
+    };
+    signalItem(tree, "dog.LF_J1.position_rad")->setCheckState(0, Qt::Checked);
+    open.page.process().step(20);
+    QTRY_COMPARE(open.page.row().period, 20L);
+    open.select("dog");
+    open.action("liveRemove")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(2));
+    QVERIFY(isChosen());
+    open.page.process().step(10);
+    QTRY_COMPARE(open.page.row().period, 30L);
+    open.action("liveUndo")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(3));
+    QVERIFY(isChosen());
+    open.page.process().step(10);
+    QTRY_COMPARE(open.page.row().period, 40L);
+    QTemporaryDir folder;
+    const QString csv = folder.filePath("signals.csv");
+    open.page.findChild<SignalsPanel*>()->exportTo(csv);
+    const QStringList lines = QString::fromStdString(readFile(csv.toStdString())).trimmed().split('\n');
+    QCOMPARE(lines.size(), 41);
+    for (const auto& [line, known] : {std::pair{1, true}, {20, true}, {25, false}, {40, true}})
+      QCOMPARE(!lines[line].endsWith(','), known);
+    // Another world has none of them; one that is gone can be left out by hand.
+    open.select("dog");
+    open.action("liveRemove")->trigger();
+    QTRY_COMPARE(open.count(), std::size_t(2));
+    signalItem(tree, "dog.LF_J1.position_rad")->setCheckState(0, Qt::Unchecked);
+    QVERIFY(picker->chosen().empty());
+  }
+
   void plotsByUnitCursorAndHold() {
     OpenPage open;
     QVERIFY(open.isThere());

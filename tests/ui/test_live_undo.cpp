@@ -86,6 +86,47 @@ class TestLiveUndo : public QObject {
     open.action("liveRedo")->trigger();
     QTRY_VERIFY(std::abs(form->value("length_m") - before) > 0.01);
   }
+
+  // The window shows what the session has, not what was done here.
+  void whatIsUndoneIsNoLongerHeldOrPulled() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    LiveWorld& world = open.page.world();
+    QSignalSpy refused(&open.page.process(), &LiveProcess::refused);
+    open.action("livePlay")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(open.page.row().period > 5, 20000);
+    open.select("crate");
+    QTest::keyClick(&open.page.view(), Qt::Key_Right);
+    QCOMPARE(world.pulls().size(), std::size_t(1));
+    QTRY_VERIFY(open.action("liveUndo")->isEnabled());
+    open.action("liveUndo")->trigger();
+    QTRY_VERIFY(world.pulls().empty());
+    QTest::keyClick(&open.page.view(), Qt::Key_Escape);  // nothing is let go that nobody holds
+    world.act(HoldAct{"dog", "LF_J1", 0.3, std::nullopt});
+    QCOMPARE(world.held("dog").size(), std::size_t(1));
+    QTRY_VERIFY(open.action("liveUndo")->isEnabled());
+    open.action("liveUndo")->trigger();
+    QTRY_VERIFY(world.held("dog").empty());
+    open.action("liveRedo")->trigger();
+    QTRY_COMPARE(world.held("dog"), (Values{{"LF_J1", 0.3}}));
+    QCOMPARE(refused.count(), 0);
+  }
+
+  void aKeyThatRepeatsAsksForNoMoreThanThereIs() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    QSignalSpy refused(&open.page.process(), &LiveProcess::refused);
+    for (int i = 1; i <= 4; ++i) {
+      emit open.page.view().ledTo("ball", {0.1 + 0.05 * i, 0, 0.0425});
+      emit open.page.view().letGo("ball");
+    }
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.3) < 1e-9 && open.action("liveUndo")->isEnabled());
+    for (int i = 0; i < 10; ++i) QTest::keyClick(&open.page.view(), Qt::Key_Z, Qt::ControlModifier);
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.1) < 1e-9 && !open.action("liveUndo")->isEnabled());
+    for (int i = 0; i < 10; ++i) QTest::keyClick(&open.page.view(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    QTRY_VERIFY(offAlong(open, "ball", 0, 0.3) < 1e-9 && !open.action("liveRedo")->isEnabled());
+    QCOMPARE(refused.count(), 0);
+  }
 };
 
 QTEST_MAIN(TestLiveUndo)

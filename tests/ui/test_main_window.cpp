@@ -46,6 +46,7 @@
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/measurement_view.h"
 #include "ui/measure/question_bar.h"
+#include "ui/scene3d/replay_panel.h"
 
 using namespace btr;
 using namespace btr::ui;
@@ -169,6 +170,21 @@ class TestMainWindow : public QObject {
     QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().name, std::string("Kick"));
     // The specification says 1; the run was made with 5.
     QCOMPARE(window->findChild<ExperimentForm*>("spec")->spec().seed, std::uint64_t(5));
+  }
+
+  void whatTheReplaysCameraFollowsIsRemembered() {
+    Desk desk;
+    const auto after = [&](const QList<Qt::Key>& keys) {
+      auto window = desk.open(desk.folder.filePath("a.db"));
+      SceneView& view = window->findChild<ReplayPanel*>()->view();
+      for (const Qt::Key key : keys) QTest::keyClick(&view, key);
+      return view.follow();
+    };
+    QCOMPARE(after({}), SceneView::Follow::nothing);
+    QCOMPARE(after({Qt::Key_F, Qt::Key_F}), SceneView::Follow::ball);
+    QCOMPARE(after({}), SceneView::Follow::ball);
+    QCOMPARE(after({Qt::Key_H}), SceneView::Follow::nothing);
+    QCOMPARE(after({}), SceneView::Follow::nothing);
   }
 
   void followsGenerationsThatAnotherProcessStores() {

@@ -1,5 +1,6 @@
 // The window on the screen: it never grows by itself, fits small screens, and its keys reach what can be seen only.
 #include <QAction>
+#include <QDialog>
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenu>
@@ -9,6 +10,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTest>
+#include <QTimer>
 
 #include "tests/ui/stored_run.h"
 #include "ui/gap/gap_page.h"
@@ -252,6 +254,39 @@ class TestWindowLayout : public QObject {
   }
 
   // Tab goes through all that can be seen and comes back to where it began; what is behind a tab never gets the focus.
+  void dialogsFitTheScreenAndTheirKeysAreKeys() {
+    Desk desk;
+    auto window = desk.open();
+    const QSize room = window->screen()->availableSize();
+    int seen = 0;
+    const auto look = [&] {
+      for (QWidget* each : QApplication::topLevelWidgets()) {
+        auto* dialog = qobject_cast<QDialog*>(each);
+        if (!dialog || !dialog->isVisible()) continue;
+        ++seen;
+        QVERIFY2(dialog->width() < room.width() && dialog->height() < room.height() - 20,
+                 qPrintable(dialog->windowTitle()));
+        // Elsewhere an & is shown as it is.
+        for (const QLabel* label : dialog->findChildren<QLabel*>())
+          QVERIFY2(!label->text().contains('&') || label->buddy(), qPrintable(label->text()));
+        dialog->close();
+      }
+    };
+    QStringList dialogs{"On several machines", "Open interface", "Plugins", "Keyboard shortcuts"};
+    for (QAction* menu : window->menuBar()->actions())
+      for (QAction* entry : menu->menu()->actions())
+        for (const QString& name : dialogs) {
+          if (!entry->text().remove('&').startsWith(name)) continue;
+          QTimer::singleShot(0, window.get(), look);  // some of them wait until they are closed
+          entry->trigger();
+          QCoreApplication::processEvents();
+        }
+    QTRY_COMPARE(seen, int(dialogs.size()));
+    for (const QLabel* label : window->findChildren<QLabel*>())
+      QVERIFY2(!label->text().contains('&') || label->buddy() || label->textFormat() != Qt::AutoText,
+               qPrintable(label->text()));
+  }
+
   void tabGoesRoundThroughWhatIsInFrontOnly() {
     Desk desk;
     const auto window = desk.open();

@@ -17,6 +17,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include "ui/common/fit_screen.h"
 #include "ui/common/format.h"
 #include "ui/common/reading_table.h"
 #include "ui/common/resources.h"
@@ -91,7 +92,7 @@ MachinesDialog::MachinesDialog(MachinesController& controller, std::function<QSt
   column->addWidget(progress_);
   column->addLayout(makeButtons());
   orderTabs(*this);
-  resize(860, 620);
+  resizeWithinScreen(*this, {860, 620});
   connect(&controller_, &MachinesController::changed, this, &MachinesDialog::refresh);
   connect(&controller_, &MachinesController::told, this, &MachinesDialog::tell);
   showWay();

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "core/plugin/plugin_host.h"
+#include "ui/common/fit_screen.h"
 
 namespace btr::ui {
 namespace {
@@ -70,7 +71,7 @@ PluginsDialog::PluginsDialog(const PluginHost& host, QWidget* parent) : QDialog(
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   column->addWidget(buttons);
-  resize(900, 560);
+  resizeWithinScreen(*this, {900, 560});
 }
 
 }  // namespace btr::ui

@@ -11,12 +11,14 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollArea>
+#include <algorithm>
 #include <filesystem>
 
 #include "core/run/grid/grid_cells.h"
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
+#include "ui/common/fit_screen.h"
 #include "ui/common/format.h"
 #include "ui/common/resources.h"
 #include "ui/common/theme.h"
@@ -49,7 +51,30 @@ auto listIn(const QString& text, const std::string& what, const std::string& num
   return values;
 }
 
-std::vector<double> numbersIn(const QString& text, const std::string& what) {
+/// One comma inside of what might be a number, and nothing that says what it means.
+QString doubtfulPart(const QString& text) {
+  static const QRegularExpression space(QStringLiteral("\\s+")), one(QStringLiteral("^[^,.]*\\d,\\d[^,.]*$"));
+  const QStringList words = text.split(space, Qt::SkipEmptyParts);
+  const bool commasBetween = std::ranges::any_of(words, [](const QString& word) { return word.endsWith(','); });
+  if (words.size() > 1 && !commasBetween) return {};
+  for (const QString& word : words)
+    if (one.match(word.endsWith(',') ? word.chopped(1) : word).hasMatch()) return word;
+  return {};
+}
+
+/// "0.1, 0.2", "0.1,0.2" and "0.1 0.2", or "0,1; 0,2" and "0,1 0,2". "5,7" alone could be one number or two.
+std::vector<double> numbersIn(QString text, const std::string& what) {
+  static const QRegularExpression decimal(QStringLiteral("(\\d),(\\d)"));
+  const bool semicolons = text.contains(';');
+  const QString doubtful = semicolons ? QString() : doubtfulPart(text);
+  if (!doubtful.isEmpty())
+    throw InputError(what, "\"" + doubtful.toStdString() + "\", which could be one number or two",
+                     "a point in a number, or a semicolon or a space between two");
+  const QStringList words = text.simplified().split(' ');
+  const bool spaced = words.size() > 1 && std::ranges::none_of(words, [](const QString& word) {
+                        return word.endsWith(',') || word.count(',') > 1 || (word.contains(',') && word.contains('.'));
+                      });
+  if (semicolons || spaced) text.replace(decimal, QStringLiteral("\\1.\\2"));
   return listIn(text, what, "numbers", [](const QString& part, bool* good) { return part.toDouble(good); });
 }
 
@@ -87,8 +112,10 @@ GridForm::GridForm(QWidget* parent) : QDialog(parent) {
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
     axes_[axis].edit = new QLineEdit;
     axes_[axis].edit->setObjectName(GridSpec::axisKeys[axis]);
-    axes_[axis].edit->setToolTip(axis == 0 ? tr("From the neck to the ball, ascending, with commas between them")
-                                           : tr("0 ahead, positive left; ascending, with commas between them"));
+    axes_[axis].edit->setToolTip(
+        axis == 0 ? tr("From the neck to the ball, ascending, with commas between them; with decimal commas "
+                       "semicolons")
+                  : tr("0 ahead, positive left; ascending, with commas between them"));
     form->addRow(labels[axis], axes_[axis].edit);
   }
   mirrored_ = new QCheckBox(tr("Kicks to the right are mirror images of those to the left"));
@@ -131,7 +158,7 @@ GridForm::GridForm(QWidget* parent) : QDialog(parent) {
   layout->addWidget(summary_);
   layout->addWidget(problem_);
   layout->addLayout(makeButtons());
-  resize(640, 660);
+  resizeWithinScreen(*this, {640, 660});
 
   for (QLineEdit* edit : {name_, experiment_, seeds_, axes_[0].edit, axes_[1].edit, axes_[2].edit})
     connect(edit, &QLineEdit::textChanged, this, &GridForm::refresh);

@@ -110,6 +110,7 @@ void LivePage::connectTools() {
   connect(tools_, &LiveTools::replayFileChosen, this, &LivePage::replayWithDialog);
   connect(tools_, &LiveTools::replaySessionChosen, this, &LivePage::replaySession);
   connect(replayer_, &LiveReplayer::goneOn, this, [this] {
+    process_->askGame();  // what the log's hands hold and pull is ours now
     showReplaying();
     banner_->showMessage(MessageBanner::Kind::information,
                          tr("A session again, from %1 s on. Undo leads back to the replay.")
@@ -131,6 +132,10 @@ void LivePage::connectWorld() {
     showSelected();
   });
   connect(world_, &LiveWorld::gameChanged, this, &LivePage::showGame);
+  connect(process_, &LiveProcess::gameTold, this, [this] {
+    undoing_ = false;
+    takeBack(0);
+  });
   connect(world_, &LiveWorld::handsChanged, this, &LivePage::showHands);
   connect(process_, &LiveProcess::undoTold, this, [this](const QString& undo, const QString& redo) {
     undo_ = undo;
@@ -273,6 +278,8 @@ void LivePage::prepare() {
   banner_->clear();
   undo_.clear();
   redo_.clear();
+  undoing_ = false;
+  undosLeft_ = 0;
   world_->forget();
   fresh_ = true;
   if (isVisible()) view_->setFocus();  // whoever opens a world goes on with its keys: Space plays it
@@ -496,11 +503,22 @@ void LivePage::rename(const std::string& object, const std::string& name) {
 // Numbers may have changed that only the game tells.
 void LivePage::undo() {
   if (undo_.isEmpty() && replayer_->wentOnAt()) return openReplay(replayer_->log(), *replayer_->wentOnAt());
-  process_->undo();
-  process_->askGame();
+  takeBack(-1);
 }
-void LivePage::redo() {
-  process_->redo();
+void LivePage::redo() { takeBack(1); }
+
+/// One after the other, and never more than there is, however fast a key repeats: the game is told behind each.
+void LivePage::takeBack(int steps) {
+  undosLeft_ += steps;
+  if (undoing_ || undosLeft_ == 0) return;
+  const bool back = undosLeft_ < 0;
+  if (!process_->isReady() || (back ? undo_ : redo_).isEmpty()) {
+    undosLeft_ = 0;
+    return;
+  }
+  undosLeft_ += back ? 1 : -1;
+  undoing_ = true;
+  back ? process_->undo() : process_->redo();
   process_->askGame();
 }
 

@@ -110,6 +110,7 @@ class LivePage : public QWidget {
   void rename(const std::string& object, const std::string& name);
   void undo();
   void redo();
+  void takeBack(int steps);
 
   QString logs_, file_, log_, later_;
   QString undo_, redo_;  ///< as the session says
@@ -128,7 +129,9 @@ class LivePage : public QWidget {
   SimulatorPanel* simulator_;
   ThingPalette* palette_;
   SignalsPanel* signals_;
-  bool fresh_ = true;  ///< nothing of the opened game was shown yet
+  int undosLeft_ = 0;     ///< that were asked for; redos where positive
+  bool undoing_ = false;  ///< one is under way
+  bool fresh_ = true;     ///< nothing of the opened game was shown yet
 };
 
 }  // namespace btr::ui

@@ -41,6 +41,8 @@ void LiveProcess::start(const QString& file, const QString& log, const QString& 
     end();
   }
   failed_ = false;
+  acts_ = 0;
+  grips_.reset();
   pending_.clear();
   words_.clear();
   told_.clear();
@@ -69,6 +71,7 @@ void LiveProcess::send(const QByteArray& line) {
 }
 
 void LiveProcess::act(const Act& act) {
+  if (ready_) ++acts_;
   json line = toJson(act);
   if (gestureDepth_ > 0) line["gesture"] = gesture_;
   send(QByteArray::fromStdString(line.dump()));
@@ -81,7 +84,10 @@ void LiveProcess::endGesture() { gestureDepth_ = std::max(0, gestureDepth_ - 1);
 void LiveProcess::type(const std::string& robot, const QString& line) {
   send(QByteArray::fromStdString(json{{"do", "type"}, {"robot", robot}, {"text", line.toStdString() + "\n"}}.dump()));
 }
-void LiveProcess::kickOff() { send(R"({"act": "kick_off"})"); }
+void LiveProcess::kickOff() {
+  if (ready_) ++acts_;
+  send(R"({"act": "kick_off"})");
+}
 void LiveProcess::undo() { send(R"({"do": "undo"})"); }
 void LiveProcess::redo() { send(R"({"do": "redo"})"); }
 void LiveProcess::askGame() { send(R"({"do": "game"})"); }
@@ -171,10 +177,22 @@ void LiveProcess::tellGame(const json& line) {
   const Game game = gameFromJson(line.at("game").dump(), "game", line.at("directory").get<std::string>());
   const ModelSet models = modelsOf(game.scene);
   const bool first = !std::exchange(ready_, true);
+  tellGrips(line);
   if (first && !signals_.empty()) sendSignals();
   if (first && contacts_) setContacts(true);
   if (first && speed_ != 1) setSpeed(speed_);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+}
+
+void LiveProcess::tellGrips(const json& line) {
+  grips_.reset();
+  if (line.at("acts").get<long>() != acts_) return;
+  grips_.emplace();
+  for (const auto& [robot, joints] : line.at("held").items()) grips_->held[robot] = joints.get<Values>();
+  for (const json& pull : line.at("pulls")) {
+    const Act act = actFromJson(pull.dump(), "pulls");
+    if (const auto* is = std::get_if<PullAct>(&act)) grips_->pulls[is->object] = *is;
+  }
 }
 
 void LiveProcess::tellLog(const json& line) {

@@ -2,7 +2,9 @@
 #include <QObject>
 #include <QProcess>
 #include <QString>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "core/live/act.h"
 #include "core/live/game.h"
@@ -30,6 +32,12 @@ struct LiveLog {
   long marks = 0;            ///< places where bits can be compared
   bool goesBack = false;     ///< without beginning anew
   std::vector<LoggedActs> acts;
+};
+
+/// What hands hold and pull, as the session says.
+struct LiveGrips {
+  std::map<std::string, Values> held;    ///< by robot and joint
+  std::map<std::string, PullAct> pulls;  ///< by object
 };
 
 /// A session in a process of its own (btr live --steered): the window never waits for it, and survives it. What it
@@ -73,6 +81,9 @@ class LiveProcess : public QObject {
   /// From now on, also in sessions that are started later, these channels are told of every control period.
   void setSignals(const std::vector<std::string>& channels);
 
+  /// With the game that was told last; nothing while acts are under way that it does not know yet.
+  const std::optional<LiveGrips>& grips() const { return grips_; }
+
   /// What is done between these two is one step of undo. May be nested.
   void beginGesture();
   void endGesture();
@@ -107,6 +118,7 @@ class LiveProcess : public QObject {
   void read();
   void tell(const QByteArray& line);
   void tellGame(const nlohmann::json& line);
+  void tellGrips(const nlohmann::json& line);
   void tellLog(const nlohmann::json& line);
   void tellSamples(const nlohmann::json& line);
   ModelSet modelsOf(const SceneSpec& scene);
@@ -123,6 +135,8 @@ class LiveProcess : public QObject {
   std::vector<std::string> told_;     ///< to which the samples belong that are told
   ModelSet models_;                   ///< of files that were read for this session
   std::string modelsFrom_;            ///< where their relative paths start
+  std::optional<LiveGrips> grips_;
+  long acts_ = 0;  ///< that were sent to this session
   int gestureDepth_ = 0;
   long gesture_ = 0;
 };

@@ -108,6 +108,12 @@ void LiveWorld::takeGame(const Game& game, const ModelSet& models, const std::ve
   const bool same = !row_.values.empty() && channels == channels_ && game.scene == game_.scene;
   game_ = game;
   models_ = models;
+  // After undo, in a game that was saved with them, or where a replay was gone on from: not what was done here.
+  if (const auto& grips = process_.grips()) {
+    held_ = grips->held;
+    pulls_ = grips->pulls;
+    emit handsChanged();
+  }
   if (same) return emit gameChanged();
   channels_ = channels;
   scene_ = LiveScene(game, models, channels);

@@ -55,9 +55,9 @@ class LiveWorld : public QObject {
   std::string selected() const { return selection_.empty() ? "" : selection_.back(); }
   const LiveObject* selectedObject() const;
 
-  /// The joints of a robot that hands hold from here, and where [rad, m].
+  /// The joints of a robot that hands hold, and where [rad, m].
   Values held(const std::string& robot) const;
-  /// What hands pull from here, by object.
+  /// What hands pull, by object.
   const std::map<std::string, PullAct>& pulls() const { return pulls_; }
   /// A hand pulls it by its middle to a place in the world.
   void pullTo(const std::string& object, const Eigen::Vector3d& target_m);

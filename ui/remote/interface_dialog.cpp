@@ -59,9 +59,11 @@ InterfaceDialog::InterfaceDialog(InterfaceServer& server, std::function<QString(
   connect(turn_, &QPushButton::clicked, this, &InterfaceDialog::turn);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
   auto* column = new QVBoxLayout(this);
-  column->addWidget(
-      new QLabel(tr("Other people's programs watch worlds, drive them and learn in them. It is on until "
-                    "you switch it off or close the window.")));
+  auto* what = new QLabel(tr(
+      "Other people's programs watch worlds, drive them and learn in them. It is on until you switch it off or close "
+      "the window."));
+  what->setWordWrap(true);
+  column->addWidget(what);
   column->addLayout(form);
   column->addWidget(state_);
   column->addWidget(buttons);

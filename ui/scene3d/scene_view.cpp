@@ -182,6 +182,7 @@ void SceneView::setFollow(Follow follow) {
   followAction_->setText(names[int(follow)]);
   applyFollow();
   redraw();
+  emit followChanged();
 }
 
 void SceneView::setKeepingInView(bool on) { keep_->setChecked(on); }
@@ -238,8 +239,7 @@ ViewCamera SceneView::homeCamera() const {
 }
 
 void SceneView::goHome() {
-  follow_ = Follow::nothing;
-  followAction_->setText(tr("Follow"));
+  setFollow(Follow::nothing);
   keep_->setChecked(true);
   setCamera(homeCamera());
 }

@@ -82,6 +82,7 @@ class SceneView : public QWidget {
 
  signals:
   void cameraChanged();
+  void followChanged();
   void markToggled(btr::ui::Mark mark, bool on);
   void panned();  ///< by the user
 

@@ -11,6 +11,8 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
+#include "ui/common/fit_screen.h"
+
 namespace btr::ui {
 namespace {
 
@@ -60,7 +62,7 @@ ShortcutsDialog::ShortcutsDialog(QWidget& window) : QDialog(&window), table_(new
   auto* column = new QVBoxLayout(this);
   column->addWidget(table_, 1);
   column->addWidget(buttons);
-  resize(620, 560);
+  resizeWithinScreen(*this, {620, 560});
 }
 
 void ShortcutsDialog::add(const QString& place, const QAction& action) {

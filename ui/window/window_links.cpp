@@ -13,6 +13,7 @@
 #include "ui/gap/gap_page.h"
 #include "ui/live/live_page.h"
 #include "ui/main_window.h"
+#include "ui/scene3d/replay_panel.h"
 #include "ui/window/dock_layout.h"
 #include "ui/window/file_drops.h"
 #include "ui/window/start_page.h"
@@ -58,6 +59,18 @@ void linkTree(const WindowLinks& to) {
   QObject::connect(&bench, &Workbench::databaseOpened, tree, [tree, &bench] {
     const auto archived = bench.settings().archived(bench.path());
     tree->setArchived({archived.begin(), archived.end()});
+  });
+}
+
+/// What the replay's camera follows is as it was left.
+void linkReplay(const WindowLinks& to) {
+  SceneView& view = to.pages.replay->view();
+  Settings& settings = to.bench.settings();
+  if (settings.flag("replayFollowsRobot", false)) view.setFollow(SceneView::Follow::robot);
+  if (settings.flag("replayFollowsBall", false)) view.setFollow(SceneView::Follow::ball);
+  QObject::connect(&view, &SceneView::followChanged, &to.bench, [&view, &settings] {
+    settings.setFlag("replayFollowsRobot", view.follow() == SceneView::Follow::robot);
+    settings.setFlag("replayFollowsBall", view.follow() == SceneView::Follow::ball);
   });
 }
 

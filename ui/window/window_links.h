@@ -24,6 +24,8 @@ struct WindowLinks {
 void linkTree(const WindowLinks& to);
 /// The doors of the start page.
 void linkStartPage(const WindowLinks& to);
+/// What the replay's camera follows.
+void linkReplay(const WindowLinks& to);
 /// The running world: the last game, and the database whose individuals play.
 void linkScene(const WindowLinks& to);
 /// Files that are dropped on the window go where their content belongs.

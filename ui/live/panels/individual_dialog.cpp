@@ -13,6 +13,7 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "ui/common/database_reader.h"
+#include "ui/common/fit_screen.h"
 #include "ui/common/format.h"
 #include "ui/live/stored_controller.h"
 
@@ -54,7 +55,7 @@ IndividualDialog::IndividualDialog(DatabaseReader& reader, const PluginHost& hos
   column->addWidget(table_, 1);
   column->addWidget(message_);
   column->addWidget(buttons_);
-  resize(460, 420);
+  resizeWithinScreen(*this, {460, 420});
   askRuns();
 }
 

@@ -57,14 +57,19 @@ SignalPicker::SignalPicker(QWidget* parent)
 
 const Signal* SignalPicker::find(const std::string& name) const {
   const auto found = std::ranges::find(all_, name, &Signal::name);
-  return found == all_.end() ? nullptr : &*found;
+  if (found != all_.end()) return &*found;
+  const auto gone = std::ranges::find(chosen_, name, &Signal::name);
+  return gone == chosen_.end() ? nullptr : &*gone;
 }
 
-void SignalPicker::setSignals(std::vector<Signal> wanted) {
-  if (wanted == all_) return;
+bool SignalPicker::isGone(const Signal& signal) const { return std::ranges::find(all_, signal) == all_.end(); }
+
+void SignalPicker::setSignals(std::vector<Signal> wanted, bool keepGone) {
+  const bool same = wanted == all_;
   all_ = std::move(wanted);
   const std::size_t before = chosen_.size();
-  std::erase_if(chosen_, [this](const Signal& signal) { return std::ranges::find(all_, signal) == all_.end(); });
+  if (!keepGone) std::erase_if(chosen_, [this](const Signal& signal) { return isGone(signal); });
+  if (same && chosen_.size() == before) return;
   fill();
   if (chosen_.size() != before) emit chosenChanged();
 }
@@ -72,7 +77,10 @@ void SignalPicker::setSignals(std::vector<Signal> wanted) {
 void SignalPicker::fill() {
   const QSignalBlocker quiet(tree_);
   tree_->clear();
-  for (const Signal& signal : all_) {
+  std::vector<Signal> shown = all_;
+  for (const Signal& signal : chosen_)
+    if (isGone(signal)) shown.push_back(signal);
+  for (const Signal& signal : shown) {
     // Object, then joint or part, then quantity.
     QStringList parts = word(signal.name).split('.');
     QTreeWidgetItem* parent = tree_->invisibleRootItem();
@@ -81,8 +89,12 @@ void SignalPicker::fill() {
     item->setData(0, Qt::UserRole, word(signal.name));
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
     item->setCheckState(0, std::ranges::find(chosen_, signal) == chosen_.end() ? Qt::Unchecked : Qt::Checked);
-    if (const std::string unit = unitOfSignal(signal.name); !unit.empty())
+    if (isGone(signal)) {
+      item->setToolTip(0, tr("What it belongs to is gone; its plot goes on when that comes back"));
+      item->setForeground(0, palette().brush(QPalette::Disabled, QPalette::Text));
+    } else if (const std::string unit = unitOfSignal(signal.name); !unit.empty()) {
       item->setToolTip(0, tr("in %1").arg(word(unit)));
+    }
   }
   filter(search_->text());
 }
@@ -92,13 +104,14 @@ void SignalPicker::filter(const QString& text) {
 }
 
 bool SignalPicker::choose(const std::string& name, bool on) {
-  const Signal* signal = find(name);
-  if (!signal) return false;
-  const auto found = std::ranges::find(chosen_, *signal);
+  const Signal* known = find(name);
+  if (!known) return false;
+  const Signal signal = *known;  // it may be one of those that are erased below
+  const auto found = std::ranges::find(chosen_, signal);
   if (on == (found != chosen_.end())) return true;
   if (on && chosen_.size() >= most) return false;
   if (on)
-    chosen_.push_back(*signal);
+    chosen_.push_back(signal);
   else
     chosen_.erase(found);
   const QSignalBlocker quiet(tree_);

@@ -17,8 +17,9 @@ class SignalPicker : public QWidget {
   static constexpr std::size_t most = 20;
 
   explicit SignalPicker(QWidget* parent = nullptr);
-  /// Those that were chosen stay chosen where they still exist.
-  void setSignals(std::vector<Signal> wanted);
+  /// Those that were chosen stay chosen where they still exist; with `keepGone` also of objects that went: they are
+  /// there as long as they are chosen, and go on when their object comes back.
+  void setSignals(std::vector<Signal> wanted, bool keepGone);
   /// In the order in which they were chosen.
   const std::vector<Signal>& chosen() const { return chosen_; }
   /// False, with nothing changed, for what does not exist or would be one too many.
@@ -33,6 +34,8 @@ class SignalPicker : public QWidget {
   void filter(const QString& text);
   void check(QTreeWidgetItem* item);
   const Signal* find(const std::string& name) const;
+
+  bool isGone(const Signal& signal) const;
 
   std::vector<Signal> all_, chosen_;
   QLineEdit* search_;

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -95,8 +96,12 @@ SignalsPanel::SignalsPanel(LiveWorld& world, QWidget* parent)
   connect(picker_, &SignalPicker::chosenChanged, this, &SignalsPanel::choose);
   connect(picker_, &SignalPicker::tooMany, this,
           [this] { emit problem(tr("%1 signals at once are the most.").arg(SignalPicker::most)); });
-  connect(&world_, &LiveWorld::objectsChanged, this, [this] { picker_->setSignals(signalsOf(world_.channels())); });
-  connect(&world_, &LiveWorld::forgotten, this, &SignalsPanel::clear);
+  connect(&world_, &LiveWorld::objectsChanged, this,
+          [this] { picker_->setSignals(signalsOf(world_.channels()), !std::exchange(another_, false)); });
+  connect(&world_, &LiveWorld::forgotten, this, [this] {
+    another_ = true;
+    clear();
+  });
   connect(&world_.process(), &LiveProcess::sampled, this, &SignalsPanel::take);
   connect(&world_, &LiveWorld::rowChanged, this, [this] {
     stale_ = stale_ || world_.row().playing != wasPlaying_;

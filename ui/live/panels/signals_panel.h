@@ -65,6 +65,7 @@ class SignalsPanel : public QWidget {
   QDoubleSpinBox *span_, *cursor_;
   QTimer redraw_;
   bool stale_ = false, wasPlaying_ = false;
+  bool another_ = true;  ///< no signals of the opened world were taken yet
 };
 
 }  // namespace btr::ui

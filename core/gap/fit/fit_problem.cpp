@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/motion_noise.h"
 #include "core/gap/fit/noise_sharing.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
@@ -199,6 +200,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       for (const std::string& text : *list)
         if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
   }
+  leaveOutFilterEnds(ready);
   shareNoiseFloors(ready.trials, ready.notes);
   refuseWithoutNumbers(ready.trials);
 
@@ -234,6 +236,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   // 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
   if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
   cutSegments(ready, window_s);
+  addMotionNoise(ready);
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }

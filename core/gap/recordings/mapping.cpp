@@ -98,7 +98,9 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     mapping.columns.push_back(std::move(column));
   }
   reader.finish();
-  if (!hasTime) throw InputError(place + ": \"time_s\" is missing; it names the column of time");
+  // A mapping of no column at all leaves the file's own names and says only what is done with the rows.
+  const bool ofRowsAlone = mapping.columns.empty() && !reader.node().empty();
+  if (!hasTime && !ofRowsAlone) throw InputError(place + ": \"time_s\" is missing; it names the column of time");
   return mapping;
 }
 

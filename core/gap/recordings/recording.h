@@ -35,6 +35,8 @@ struct Recording {
   std::vector<std::string> notes;     ///< what was skipped or looks odd
   bool beginsAtRest = false;          ///< known beforehand: nothing moves at its first row
   FilePlaces places;
+  double filterPeriod_s = 0, filterCutoff_hz = 0;  ///< the rhythm that a low-pass filter worked at, and its cutoff; 0:
+                                                   ///< none (see resampled())
 
   std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
   double samplePeriod() const;                ///< mean [s]; of at least two rows

@@ -84,6 +84,24 @@ double rhythm(const Recording& recording) {
   return median(std::move(steps));
 }
 
+std::vector<double> noiseDrawn(const Recording& recording, std::size_t column, Random& random) {
+  const std::vector<double>& time = recording.columns[0];
+  const bool filtered = column < recording.filteredNoise.size() && recording.filteredNoise[column] > 0;
+  const double level = filtered ? recording.filteredNoise[column] : channelFloor(recording, column).level;
+  std::vector<double> noise(time.size());
+  if (!filtered) {
+    for (double& value : noise) value = level * random.normal();
+    return noise;
+  }
+  const double cutoff = recording.filterCutoff_hz, own = recording.filterPeriod_s;
+  const std::vector<double> fine = grid(time.front(), time.back(), own);
+  std::vector<double> white(fine.size());
+  for (double& value : white) value = level / passedOn(cutoff * own) * random.normal();
+  Samples left(fine, LowPass(4, cutoff, 1 / own).zeroPhase(white));
+  for (std::size_t row = 0; row < time.size(); ++row) noise[row] = left.at(time[row], false);
+  return noise;
+}
+
 Recording resampled(const Recording& recording, const Resampling& how) {
   if (recording.rows() < 2) throw InputError(recording.source, "one row", "at least two rows to resample");
   const std::vector<double>& time = recording.columns[0];
@@ -102,6 +120,10 @@ Recording resampled(const Recording& recording, const Resampling& how) {
   const std::vector<double> coarse = grid(time.front(), time.back(), period);
   result.columns[0] = coarse;
   result.places.line.clear();
+  if (cutoff > 0) {
+    result.filterPeriod_s = own;
+    result.filterCutoff_hz = cutoff;
+  }
   for (std::size_t column = 1; column < recording.columns.size(); ++column) {
     std::vector<double>& values = result.columns[column];
     Samples samples(time, recording.columns[column]);

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/gap/recordings/recording.h"
+#include "core/spec/random.h"
 
 namespace btr {
 
@@ -15,6 +16,10 @@ struct Resampling {
 /// that are no channels keep the last value before. An empty cell is passed over. Throws InputError for a filter or
 /// period that the recording cannot carry.
 Recording resampled(const Recording& recording, const Resampling& how);
+
+/// Noise like the channel's own, drawn anew, one a row [its unit]: white, or what the filter that the recording went
+/// through leaves of white noise.
+std::vector<double> noiseDrawn(const Recording& recording, std::size_t column, Random& random);
 
 /// The median time between rows, 0 where there are fewer than two. Where rows are of several topics, between those of
 /// the channel with the most numbers.

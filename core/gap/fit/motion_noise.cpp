@@ -1,0 +1,161 @@
+#include "core/gap/fit/motion_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/gap/recordings/channel_floor.h"
+#include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/lowpass.h"
+#include "core/gap/recordings/resample.h"
+#include "core/gap/replay/replay.h"
+#include "core/spec/figures.h"
+#include "core/spec/random.h"
+
+namespace btr {
+namespace {
+
+using Input = Binding::Input;
+using Measured = Binding::Measured;
+
+/// Columns of the positions that joints are made to follow.
+std::vector<std::size_t> followed(const FitTrial& trial) {
+  std::vector<std::size_t> columns;
+  for (const Input& input : trial.binding.inputs)
+    if (input.what == Input::What::motion) columns.push_back(input.column);
+  return columns;
+}
+
+bool followsMotion(const FitTrial& trial) {
+  return std::ranges::any_of(trial.binding.inputs,
+                             [](const Input& input) { return input.what == Input::What::motion; });
+}
+
+bool isComparedTorque(const FitTrial& trial, std::size_t channel) {
+  return trial.binding.measured[channel].what == Measured::What::torque && trial.noiseFloor[channel] > 0;
+}
+
+/// Of what noise in the positions makes of a torque.
+struct Spread {
+  double squares = 0;
+  std::size_t count = 0;
+  double rms() const { return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0; }
+};
+
+using Spreads = std::map<std::string, Spread>;
+
+void addSpread(const FitProblem& problem, const Segment& segment, const Recording& noisy, Spreads& spreads) {
+  const FitTrial& trial = problem.trials[segment.trial];
+  const Scene scene = problem.sceneOf(problem.given, segment.trial);
+  const auto replayed = [&](const Recording& recording) {
+    return replayRecording(scene, recording, trial.binding, segment.start, segment.first, segment.last);
+  };
+  const ReplayedRecording once = replayed(trial.recording), again = replayed(noisy);
+  for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
+    if (!isComparedTorque(trial, channel)) continue;
+    const std::size_t column = trial.binding.measured[channel].column;
+    Spread& spread = spreads[trial.recording.channels[column]];
+    for (std::size_t row = segment.scored; row < segment.last; ++row) {
+      if (!std::isfinite(trial.recording.columns[column][row])) continue;
+      const double difference = again.values[channel][row - segment.first] - once.values[channel][row - segment.first];
+      if (!std::isfinite(difference)) continue;
+      spread.squares += difference * difference;
+      ++spread.count;
+    }
+  }
+}
+
+/// The lowest cutoff that takes nothing but noise from the motions, 0 if each takes more, or none is needed.
+double cutoffForNoiseAlone(const FitProblem& problem) {
+  constexpr double noiseAlone = 1.15;  // of what the positions' noise is worth
+  const auto takesNoiseAlone = [&](const FitTrial& trial, double cutoff_hz) {
+    const double period_s = rhythm(trial.recording);
+    if (!(period_s > 0) || cutoff_hz >= 0.4 / period_s) return false;
+    const auto ends = static_cast<std::size_t>(2 / cutoff_hz / period_s);
+    return std::ranges::all_of(followed(trial), [&](std::size_t column) {
+      const std::vector<double>& path = trial.recording.columns[column];
+      if (path.size() < 4 * ends || !std::ranges::all_of(path, [](double x) { return std::isfinite(x); })) return false;
+      const std::vector<double> smooth = LowPass(4, cutoff_hz, 1 / period_s).zeroPhase(path);
+      Spread taken;
+      for (std::size_t row = ends; row + ends < path.size(); ++row) {
+        taken.squares += std::pow(path[row] - smooth[row], 2);
+        ++taken.count;
+      }
+      return taken.rms() < noiseAlone * channelFloor(trial.recording, column).level;
+    });
+  };
+  for (const double cutoff_hz : {1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0})
+    if (std::ranges::all_of(problem.trials, [&](const FitTrial& trial) { return takesNoiseAlone(trial, cutoff_hz); }))
+      return cutoff_hz;
+  return 0;
+}
+
+std::string remedy(const FitProblem& problem) {
+  const bool filtered =
+      std::ranges::any_of(problem.trials, [](const FitTrial& trial) { return trial.recording.filterCutoff_hz > 0; });
+  if (filtered) return "";
+  const double cutoff_hz = cutoffForNoiseAlone(problem);
+  if (!(cutoff_hz > 0)) return "";
+  return "; a mapping with \"resample\": {\"lowpass_hz\": " + toText(cutoff_hz) +
+         "} filters both, and takes nothing but noise from these motions";
+}
+
+}  // namespace
+
+void leaveOutFilterEnds(FitProblem& problem) {
+  constexpr double periods = 2;
+  std::set<std::string> said;
+  for (FitTrial& trial : problem.trials) {
+    Recording& recording = trial.recording;
+    if (!(recording.filterCutoff_hz > 0) || !followsMotion(trial)) continue;
+    const std::vector<double>& time = recording.columns[0];
+    const double end_s = std::min(periods / recording.filterCutoff_hz, (time.back() - time.front()) / 4);
+    for (const Measured& measured : trial.binding.measured) {
+      if (measured.what != Measured::What::torque) continue;
+      for (std::size_t row = 0; row < time.size(); ++row)
+        if (time[row] < time.front() + end_s || time[row] > time.back() - end_s)
+          recording.columns[measured.column][row] = NAN;
+    }
+    const std::string text =
+        "torques in the first and last " + digits(end_s, 2) +
+        " s of a trial are not compared: the filter of the motion knows nothing of what was before "
+        "and after";
+    if (said.insert(text).second) problem.notes.push_back(text);
+  }
+}
+
+void addMotionNoise(FitProblem& problem) {
+  constexpr std::uint64_t seed = 1;
+  constexpr double most = 3;  // times the floor without it: then it is nearly all of it
+  if (!std::ranges::any_of(problem.trials, followsMotion)) return;
+  std::vector<Recording> noisy;
+  for (std::size_t t = 0; t < problem.trials.size(); ++t) {
+    noisy.push_back(problem.trials[t].recording);
+    for (const std::size_t column : followed(problem.trials[t])) {
+      Random random = Random::forPurpose(seed, "noise of a followed motion", t * 1000 + column);
+      const std::vector<double> noise = noiseDrawn(problem.trials[t].recording, column, random);
+      for (std::size_t row = 0; row < noise.size(); ++row) noisy.back().columns[column][row] += noise[row];
+    }
+  }
+  Spreads spreads;
+  for (const Segment& segment : problem.segments) addSpread(problem, segment, noisy[segment.trial], spreads);
+
+  std::set<std::string> mostly;
+  for (FitTrial& trial : problem.trials)
+    for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
+      if (!isComparedTorque(trial, channel)) continue;
+      const std::string& name = trial.recording.channels[trial.binding.measured[channel].column];
+      const double ofMotion = spreads[name].rms();
+      if (ofMotion > most * trial.noiseFloor[channel] && mostly.insert(name).second)
+        problem.notes.push_back(name + ": the noise of the recorded positions, which the motion is made of, adds " +
+                                digits(ofMotion, 2) + " " + unitOfChannel(name) + " to a floor of " +
+                                digits(trial.noiseFloor[channel], 2) + remedy(problem));
+      trial.noiseFloor[channel] = std::hypot(trial.noiseFloor[channel], ofMotion);
+      for (double& floor : trial.sampleFloor[channel]) floor = std::hypot(floor, ofMotion);
+    }
+}
+
+}  // namespace btr

@@ -1,0 +1,21 @@
+#pragma once
+#include "core/gap/fit/fit_problem.h"
+
+namespace btr {
+
+/// Where joints follow their recorded motion (drive `motion`) and the torque that this takes is compared, that torque
+/// is a second derivative of recorded positions and has their noise in it: 0.05 mrad at 500 Hz on a link of 10 kg·m²
+/// are 300 N·m. These two make the floors of such torques what they are. Recordings without prescribed motion stay as
+/// they are.
+
+/// A low-pass filter knows nothing of what was before the first row and after the last: torques within two periods of
+/// its cutoff from either end, at most a quarter of the trial, are not compared.
+void leaveOutFilterEnds(FitProblem& problem);
+
+/// Adds to the noise floors of torques what the noise of the positions makes of them: each segment is replayed with
+/// the motion as recorded and with noise like its own once more (drawn from a seed of its own), and the r.m.s. of the
+/// difference over all trials counts. Says so, with the filter that would help, where that is most of a floor. Call it
+/// when segments are cut.
+void addMotionNoise(FitProblem& problem);
+
+}  // namespace btr

@@ -46,9 +46,7 @@ class ProcessEye final : public CameraEye {
   }
 
  private:
-  void tell(const nlohmann::json& line) {
-    gone_ = gone_ || !process_.send(line.dump());
-  }
+  void tell(const nlohmann::json& line) { gone_ = gone_ || !process_.send(line.dump()); }
   void hear(std::uint8_t* bytes, std::size_t count) {
     if (!process_.read(bytes, count)) gone();
   }

@@ -142,14 +142,18 @@ void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::s
 /// Functions of which the compiler does not say where they are; headers of 2003 had them by others.
 const std::map<std::string, std::string>& systemHeaders() {
   static const std::map<std::string, std::string> all = {
-      {"access", "unistd.h"},         {"close", "unistd.h"},        {"getcwd", "unistd.h"},   {"lseek", "unistd.h"},
-      {"read", "unistd.h"},           {"rmdir", "unistd.h"},        {"sleep", "unistd.h"},    {"unlink", "unistd.h"},
-      {"usleep", "unistd.h"},         {"write", "unistd.h"},        {"open", "fcntl.h"},      {"O_RDONLY", "fcntl.h"},
-      {"O_RDWR", "fcntl.h"},          {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},  {"stat", "sys/stat.h"},
-      {"chmod", "sys/stat.h"},        {"opendir", "dirent.h"},      {"readdir", "dirent.h"},  {"closedir", "dirent.h"},
-      {"gettimeofday", "sys/time.h"}, {"bzero", "strings.h"},       {"index", "strings.h"},   {"rindex", "strings.h"},
-      {"strcasecmp", "strings.h"},    {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"}, {"htons", "arpa/inet.h"},
-      {"ntohl", "arpa/inet.h"},       {"ntohs", "arpa/inet.h"}};
+      {"access", "unistd.h"},      {"close", "unistd.h"},        {"getcwd", "unistd.h"},
+      {"lseek", "unistd.h"},       {"read", "unistd.h"},         {"rmdir", "unistd.h"},
+      {"sleep", "unistd.h"},       {"unlink", "unistd.h"},       {"usleep", "unistd.h"},
+      {"write", "unistd.h"},       {"open", "fcntl.h"},          {"O_RDONLY", "fcntl.h"},
+      {"O_RDWR", "fcntl.h"},       {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},
+      {"stat", "sys/stat.h"},      {"chmod", "sys/stat.h"},      {"opendir", "dirent.h"},
+      {"readdir", "dirent.h"},     {"closedir", "dirent.h"},     {"gettimeofday", "sys/time.h"},
+      {"bzero", "strings.h"},      {"index", "strings.h"},       {"rindex", "strings.h"},
+      {"strcasecmp", "strings.h"}, {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"},
+      {"htons", "arpa/inet.h"},    {"ntohl", "arpa/inet.h"},     {"ntohs", "arpa/inet.h"},
+      {"strlwr", "btr_newlib.h"},  {"strupr", "btr_newlib.h"},   {"M_TWOPI", "btr_newlib.h"},
+      {"M_3PI_4", "btr_newlib.h"}, {"M_SQRTPI", "btr_newlib.h"}, {"M_SQRT3", "btr_newlib.h"}};
   return all;
 }
 

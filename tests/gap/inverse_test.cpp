@@ -127,6 +127,49 @@ TEST(Inverse, AWindowThatBeginsInTheMiddleHasTheSameForces) {
   EXPECT_TRUE(std::isnan(replayed.values[0][99]));
 }
 
+/// The hinge leaning by half a radian, where its weight has 0.47 N·m, with what a sensor adds, in one swing of
+/// `beyond_rad` around it.
+Recording leaning(double noise_rad, double beyond_rad) {
+  Recording recording;
+  recording.source = "made";
+  recording.channels = {"time_s", "rig.hinge.position_rad", "rig.hinge.torque_nm"};
+  recording.columns.resize(3);
+  for (int i = 0; i < 400; ++i) {
+    const double time = 0.005 * i;
+    recording.columns[0].push_back(time);
+    recording.columns[1].push_back(0.5 + noise_rad * std::sin(2 * M_PI * 5 * time) +
+                                   beyond_rad * std::sin(2 * M_PI * 0.5 * time));
+    recording.columns[2].push_back(0);
+  }
+  return recording;
+}
+
+std::vector<double> torqueOf(const Recording& recording, double dryFriction) {
+  Scene scene = rigScene(R"("hinge": {"drive": "motion"}, "rail": {"drive": "none"})");
+  scene.robots[0].drives[0].coulombFriction = dryFriction;
+  const Binding binding = bind(scene, recording);
+  return replayRecording(scene, recording, binding, startState(scene, recording, binding)).values[0];
+}
+
+TEST(Inverse, WhereAJointRestsItsFrictionCarriesWhatItCan) {
+  const Recording rests = leaning(1e-4, 0);
+  const double weight = 0.5 * 9.81 * 0.2 * std::sin(0.5);
+  const auto held = torqueOf(rests, 0.6), partly = torqueOf(rests, 0.3), none = torqueOf(rests, 0);
+  for (std::size_t row = 1; row < 400; ++row) {
+    EXPECT_NEAR(held[row], 0, 0.01) << row;
+    EXPECT_NEAR(partly[row], weight - 0.3, 0.01) << row;
+    EXPECT_NEAR(none[row], weight, 0.01) << row;
+  }
+  // A joint that moves has friction against its motion, also where it turns round.
+  const Recording moves = leaning(0, 0.4);
+  const auto with = torqueOf(moves, 0.3), without = torqueOf(moves, 0);
+  for (std::size_t row = 10; row < 390; ++row) {
+    const double rate = std::cos(2 * M_PI * 0.5 * moves.columns[0][row]);
+    if (std::abs(rate) < 0.1) continue;
+    EXPECT_NEAR(with[row] - without[row], std::copysign(0.3, rate), 1e-3) << row;
+  }
+}
+
 TEST(Inverse, RelativeErrorIsThatOfTheNorms) {
   const Scene scene = rigScene(R"("rail": {"drive": "force"}, "hinge": {"drive": "none"})");
   const InverseReport report = inverse(scene, {accelerated(3, 2000)}, {100, 10});

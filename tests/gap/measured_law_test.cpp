@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "core/gap/fit/fit.h"
 #include "core/gap/report/report_plain.h"
+#include "core/gap/search/laws/law_screen.h"
 #include "core/gap/search/laws/law_shape.h"
 #include "core/gap/search/laws/law_terms.h"
 #include "tests/gap/pendulum_world.h"
@@ -89,6 +91,29 @@ TEST(MeasuredLaw, LeavesFrictionItsNameBesideADetent) {
       EXPECT_NEAR(effect.parameters[0].value, 0.08, 0.02) << toPlainText(report);
     }
   EXPECT_THAT(names, testing::ElementsAre("coulomb_friction"));
+}
+
+TEST(MeasuredLaw, EndsWhereTheRecordingsDo) {
+  const GapProblem recorded = test::pendulumProblem([](double q, double, double) { return -4 * q * q * q; });
+  const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
+  const Fit fit = fitModel(problem, givenModel(problem), {}, {0});
+  SearchThresholds::Law limits;
+  limits.leastPromise = -INFINITY;  // all curves are looked at
+  const std::vector<LawOption> options = screenLaws(problem, fit.model, fit, linearise(problem, fit), {}, 1, limits);
+  const auto curveOver = [&](LawTerm::On on) {
+    const auto option = std::ranges::find_if(options, [&](const LawOption& o) {
+      return o.law.terms[0].on == on && o.law.terms[0].kind == LawTerm::Kind::force;
+    });
+    EXPECT_NE(option, options.end());
+    return option->law;
+  };
+  // The motor has 3 N·m; holding and moving the weight never takes half of that.
+  const Law load = curveOver(LawTerm::On::load), position = curveOver(LawTerm::On::position);
+  EXPECT_LT(load.terms[0].high, 2.5);
+  EXPECT_GT(load.terms[0].low, -2.5);
+  EXPECT_GE(load.terms[0].knots, 3);
+  EXPECT_EQ(load.values[0].size(), static_cast<std::size_t>(load.terms[0].knots));
+  EXPECT_EQ(position.terms[0].knots, limits.firstKnots) << "all of it was passed";
 }
 
 /// The effect as the host has it.

@@ -145,6 +145,17 @@ TEST(Verdict, SaysWhatRecordingsThatNoFitSawAreLeftBy) {
   EXPECT_THAT(judged(400, 100, 1, true).sentence, Not(HasSubstr("no fit saw")));
 }
 
+TEST(Verdict, OfOneRecordingSaysThatAnotherMotionIsNotKnown) {
+  const char* once = "learned from one recording and checked on other parts of the same motion";
+  EXPECT_THAT(judged(400, 100, 1, true).sentence, HasSubstr(once));
+  FitProblem two = recorded();
+  two.trials.push_back(two.trials[0]);
+  EXPECT_THAT(judged(400, 100, 1, true, false, two).sentence, Not(HasSubstr(once)));
+  EXPECT_THAT(judged(400, 100, 1, true, false, recorded(), {}, unseen(18, 9, 1.5)).sentence, Not(HasSubstr(once)))
+      << "another one was held out";
+  EXPECT_THAT(judged(1, 1, 1, false).sentence, Not(HasSubstr(once))) << "there is nothing to adopt";
+}
+
 /// All samples of the channel compared, in one segment.
 FitProblem compared() {
   FitProblem problem = recorded();

@@ -114,7 +114,10 @@ TEST(SourceCure, NamesOfTheStandardLibraryWithoutItsNamespaceAreFound) {
 TEST(Dialect, NamesAreFoundWithoutTheirNamespaceAsBeforeTheStandard) {
   const std::string all = runStick(stickOf("plain"), 3).all();
   EXPECT_THAT(all, HasSubstr("kick  5;walk  3; most 5\n"));
+  EXPECT_THAT(all, HasSubstr("and so on, 110 letters\n"));  // with a new and a delete of its own
   EXPECT_THAT(all, HasSubstr("same type 1\n"));
+  EXPECT_THAT(all, HasSubstr("kept 11111\n"));
+  EXPECT_THAT(all, HasSubstr("NECK 11\n"));  // of the robot's C library
   EXPECT_THAT(all, HasSubstr("page 0 4096 1\n"));
 }
 

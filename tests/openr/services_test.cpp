@@ -209,7 +209,9 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
                                                         {"divide", "divided"},
                                                         {"nan", "no number"},
                                                         {"overflow", "too large"},
-                                                        {"misaligned", "multiple of"},
+                                                        {"misaligned", "Faulty.cc:"},
+                                                        {"misaligned", "int' at address 0x"},
+                                                        {"half a double", "no multiple of 8"},
                                                         {"by zero", "divided"},
                                                         {"smash", "address"},
                                                         {"deep", "stack is full"},
@@ -253,6 +255,7 @@ TEST(Faults, AbortAndAFailedAssertionEndTheMethodOnly) {
 
 TEST(Faults, WhatTheOldCompilerLetPassRuns) {
   EXPECT_THAT(faulty("forget").all(), HasSubstr("lives on"));
+  EXPECT_THAT(faulty("pool").all(), HasSubstr("pool 3 1\nFaulty: lives on"));
   EXPECT_THAT(faulty("delete").all(), HasSubstr("delete 1\nFaulty: delete 0\nFaulty: lives on"));
 }
 
@@ -289,6 +292,20 @@ TEST(Process, WhatIsNoModuleIsLeftOut) {
   EXPECT_THAT(run.all(), HasSubstr("MIPS.BIN is no module"));
   EXPECT_THAT(run.all(), HasSubstr("/MS/ABSENT.BIN is not on the stick"));
   EXPECT_THAT(run.all(), HasSubstr("named 1"));
+}
+
+TEST(Process, AWrongConnectionSaysWhatThereIs) {
+  const std::string stick = stickOf("senser");
+  std::ofstream(stick + "/OPEN-R/MW/CONF/CONNECT.CFG", std::ios::app)
+      << "OVirtualRobotComm.Sensr.OSensorFrameVectorData.S Senser.Sensors.OSensorFrameVectorData.O\n"
+         "A.Eye.OFbkImageVectorData.O OVirtualRobotComm.FbkImageSensor.OFbkImageVectorData.S\n";
+  const std::string all = runStick(stick, 3).all();
+  EXPECT_THAT(all,
+              HasSubstr("nobody here has OVirtualRobotComm.Sensr.OSensorFrameVectorData.S: not connected; there is "
+                        "OVirtualRobotComm.Sensor.OSensorFrameVectorData.S, "));
+  EXPECT_THAT(all,
+              HasSubstr("the subject OVirtualRobotComm.FbkImageSensor.OFbkImageVectorData.S is to stand before the "
+                        "observer A.Eye.OFbkImageVectorData.O"));
 }
 
 TEST(Process, ThatVanishesIsNamed) {

@@ -149,7 +149,7 @@ def sets(root):
         [Fold("pulses", [os.path.join(emps, "DATA_EMPS.csv")], [os.path.join(emps, "DATA_EMPS_PULSES.csv")])],
         relative_torque(scene("emps"), ["emps.slide.force_n"]),
         "67.2 mass only, 5.98 symmetric (5.95 here), 5.34 asymmetric [%]",
-        "relative force error [%], the published filter; fitted on the motion-followed scene at 250 Hz"))
+        "relative force error [%], the published filter; fitted on the motion-followed scene at 500 Hz"))
 
     arms = os.path.join(root, "multiarm_pendulum")
     for name, channels, published in (

@@ -472,4 +472,43 @@ TEST_F(WorldDeskTest, NoPictureTakesThePlaceOfOneThatNobodyCouldAskFor) {
   }
 }
 
+/// Writes down when it is asked and when its picture is taken.
+class NotedEye final : public CameraEye {
+ public:
+  NotedEye(std::string robot, std::string& notes) : robot_(std::move(robot)), notes_(notes) {}
+  void ask(const Session&) override { notes_ += "ask " + robot_ + "; "; }
+  std::optional<CameraPicture> look(const Session&) override {
+    notes_ += "look " + robot_ + "; ";
+    return CameraPicture{1, 1, {0, 0, 0}};
+  }
+
+ private:
+  const std::string robot_;
+  std::string& notes_;
+};
+
+TEST_F(WorldDeskTest, AllCamerasOfAWorldDrawBeforeTheFirstIsWaitedFor) {
+  std::string notes;
+  WorldDesk seeing(plugins(), folder,
+                   [&](const std::string& robot) { return std::make_unique<NotedEye>(robot, notes); });
+  v1::OpenRequest open;
+  open.set_game("dog.json");
+  open.set_unlogged(true);
+  answered<v1::World>(seeing, Method::open, open, worldName);
+  v1::StepRequest step;
+  step.set_periods(1);
+  step.add_acts()->set_json(
+      R"({"act": "add", "robot": {"name": "blue1", "model": "robots/ers7.wrl", "position_m": [1, 0, 0]}})");
+  answered<v1::State>(seeing, Method::step, step);
+  step.clear_acts();
+  v1::PictureRequest request;
+  for (const char* robot : {"red1", "blue1"}) {
+    request.set_robot(robot);
+    answered<v1::PictureReply>(seeing, Method::picture, request);
+  }
+  notes.clear();
+  answered<v1::State>(seeing, Method::step, step);
+  EXPECT_EQ(notes, "ask blue1; ask red1; look blue1; look red1; ");
+}
+
 }  // namespace

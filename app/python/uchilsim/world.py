@@ -120,7 +120,10 @@ class _Steps:
 
 
 class PoseStream:
-    """A body that somebody else moves: motion capture of a real robot or ball. Put there before the next period."""
+    """A body that somebody else moves: motion capture of a real robot or ball. Put there before the next period.
+
+    A step that the same program asks for right after send() may be made before the pose comes; World.place() waits.
+    """
 
     def __init__(self, world: "World", name: str):
         self._name, self._world = name, world

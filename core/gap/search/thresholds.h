@@ -277,6 +277,8 @@ struct SearchThresholds {
     std::size_t joints = 2;      ///< that are looked at, those with the largest errors [time]
     int firstKnots = 11;         ///< of the first look [time]
     int knots = 25;              ///< of what is fitted: a detent is a tenth of a motion wide [hand]
+    double reached = 0.01;       ///< of what the most sensitive knot changes: knots at an end that change less are not
+                                 ///< reached by the recordings [case: real servo, 15 N·m where no trial was]
     double turnsForAngle = 1.5;  ///< of a joint's motion, from which its angle is a quantity of its own [hand]
     double leastPromise = 0.02;  ///< of the squared residuals of other trials [hand]
     std::size_t fitted = 3;      ///< options that are refined in replay, of those that promise [time]

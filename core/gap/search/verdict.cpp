@@ -223,9 +223,14 @@ std::string colourText(const Findings& e) {
 /// Recordings that no fit saw. Other gains or speeds than those that were fitted show there what blocks of the fitted
 /// recordings cannot: a number or an effect that fits, and misleads.
 /// `named`: effects, or a law that was measured, are in the final simulator.
-std::string unseenText(const GapReport& report, bool named, const SearchThresholds::Verdict& limits) {
+std::string unseenText(const GapReport& report, bool named, std::size_t fittedTrials,
+                       const SearchThresholds::Verdict& limits) {
   const auto unseen = unseenError(report);
-  if (!unseen) return "";  // none was held out
+  if (!unseen)  // None was held out; of one recording all blocks have the same motion.
+    return fittedTrials == 1 ? "It was learned from one recording and checked on other parts of the same motion: "
+                               "whether it holds for another motion or another gain is not known; hold such a "
+                               "recording out before it is adopted. "
+                             : "";
   const auto floors = [](double error) {
     return std::isnan(error) ? "a fault of the simulation" : inFloors(error * error);
   };
@@ -390,7 +395,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
     report.sentence += "Nothing in the recordings moves by more than " + toText(limits.leastMotion) + noiseFloors +
                        ": they can show little. ";
   if (leavesSomethingToAdopt(report.verdict))
-    report.sentence += unseenText(report, e.named || report.law.known(), limits);
+    report.sentence += unseenText(report, e.named || report.law.known(), problem.trials.size(), limits);
   if (report.verdict == Verdict::unexplained || report.verdict == Verdict::partlyExplained ||
       e.beyondStep() > limits.clearlyLeft)
     report.sentence += swingText(problem, report, thresholds);

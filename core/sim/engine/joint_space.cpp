@@ -151,7 +151,7 @@ bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
       add(drive.torqueAt(0), 0);
     else
       bounded_.push_back({i, 1, drive.p / drive.d, 1 / drive.d, drive.limit});
-    if (rows[j].dry > 0) bounded_.push_back({i, 1, 0, 0, rows[j].dry});
+    if (rows[j].dry > 0) bounded_.push_back({i, 1, rows[j].heldRate, 0, rows[j].dry});
   }
   if (!coupled_.empty()) coupleEquations();
   const Eigen::Index joints = right_.size();

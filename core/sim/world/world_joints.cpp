@@ -118,6 +118,22 @@ void World::Impl::addStop(DriveRow& passive, const RobotJoint& joint, double h) 
   if (beyond * joint.rate > 0) passive.d += 2 * joint.heldInertia * stopFrequency_rad_s;
 }
 
+namespace {
+
+/// A joint that is moved as it was recorded never stands quite still: it follows the sensor's noise. Where it moves no
+/// faster than that it rests, and its drive need not give what dry friction can carry: friction that opposed every
+/// noise would be a torque that nobody recorded. 0: it moves.
+double restingRate(const DriveRow& motion, const RobotJoint& joint) {
+  // A hundredth of a radian within a second or so; where friction is measured, "at rest" is said of less than 0.01 to
+  // 0.05 rad/s [hand].
+  constexpr double stands_rad_s = 0.02, stands_m_s = 2e-5;
+  const double rate = motion.d > 0 ? motion.p / motion.d : 0;
+  // Before the step as well: a joint that only turns round does not rest.
+  return std::max(std::abs(rate), std::abs(joint.rate)) < (joint.slides ? stands_m_s : stands_rad_s) ? rate : 0;
+}
+
+}  // namespace
+
 void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointInput& input, double now, double h) {
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
@@ -200,7 +216,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
     if (joint.leader >= 0) row = followLeader(robot, index, h);
   }
   if (robot.alone)
-    robot.rows[index] = {row, passive, dry};
+    robot.rows[index] = {row, passive, dry, prescribed ? restingRate(row, joint) : 0};
   else
     setRows(robot, index, {row, passive, dry});
 }
@@ -234,7 +250,8 @@ void World::Impl::leadOthers(DriveRow& passive, const WorldRobot& robot, std::si
 void World::Impl::setRows(WorldRobot& robot, std::size_t index, const JointRows& rows) {
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
-  auto [row, passive, dry] = rows;
+  DriveRow row = rows.drive, passive = rows.passive;
+  const double dry = rows.dry;
   const bool apart = row.limited() && passive.d > noDamping;
   if (!joint.extra && (dry > 0 || apart)) robot.body->makeExtraRows(joint);
   if (dry > 0 || drive.dryRow) setExtraRow(joint, 0, 0, 0, dry);

@@ -173,9 +173,29 @@ Regression regress(const Eigen::MatrixXd& columns, const Eigen::VectorXd& left, 
   return best;
 }
 
+/// Takes the ends of the last term's curve away that the recordings do not reach: no fit knows a value there, and what
+/// it made up would be met by a motion that goes farther. Beyond what is left the ends' values hold.
+void keepWhatIsReached(Law& law, Eigen::MatrixXd& curve, double reached) {
+  LawTerm& term = law.terms.back();
+  if (term.on == LawTerm::On::angle) return;  // its ends are one place
+  const Eigen::VectorXd seen = curve.colwise().norm();
+  const double least = reached * seen.maxCoeff();
+  Eigen::Index first = 0, last = seen.size() - 1;
+  while (first < last && seen[first] < least) ++first;
+  while (last > first && seen[last] < least) --last;
+  if (last == first || last - first + 1 == seen.size()) return;
+  const double low = term.knot(static_cast<int>(first)), high = term.knot(static_cast<int>(last));
+  term.low = low;
+  term.high = high;
+  term.knots = static_cast<int>(last - first + 1);
+  law.values.back().assign(static_cast<std::size_t>(term.knots), 0.0);
+  curve = curve.middleCols(first, last - first + 1).eval();
+}
+
 /// The law's last term over its knots, with values and share.
-LawOption promised(const Linearised& linear, const Eigen::MatrixXd& curve, const Law& law, const Parts& parts,
-                   double costWithout) {
+LawOption promised(const Linearised& linear, Eigen::MatrixXd curve, Law law, const Parts& parts, double costWithout,
+                   double reached) {
+  keepWhatIsReached(law, curve, reached);
   Eigen::MatrixXd columns(linear.columns.rows(), linear.columns.cols() + curve.cols());
   columns << linear.columns, curve;
   const Regression found = regress(columns, -linear.profiled, static_cast<int>(curve.cols()), parts);
@@ -251,7 +271,7 @@ std::vector<LawOption> screenLaws(const FitProblem& problem, const FitModel& nam
   std::vector<LawOption> options;
   for (std::size_t i = 0; i < laws.size(); ++i) {
     if (columns[i].squaredNorm() <= 0) continue;
-    const LawOption option = promised(linear, columns[i], laws[i], parts, without);
+    const LawOption option = promised(linear, columns[i], laws[i], parts, without, thresholds.reached);
     if (option.share > thresholds.leastPromise) options.push_back(option);
   }
   std::ranges::stable_sort(options, std::ranges::greater{}, &LawOption::share);
@@ -270,7 +290,7 @@ LawOption refineTerm(const FitProblem& problem, const FitModel& named, const Fit
   const std::vector<Eigen::MatrixXd> columns = columnsOf(problem, named, fit, linear, {law}, jobs);
   if (columns[0].squaredNorm() <= 0) return option;
   const Parts parts = partsOf(problem);
-  const LawOption finer = promised(linear, columns[0], law, parts, costWithout(linear, parts));
+  const LawOption finer = promised(linear, columns[0], law, parts, costWithout(linear, parts), thresholds.reached);
   return finer.share > option.share ? finer : option;
 }
 

@@ -27,11 +27,28 @@ void System::connect() {
       if (!std::getline(in, found, '.')) return std::string();
     return found;
   };
+  // Of the object that `name` begins with: what it has of the kind.
+  const auto others = [&](const std::string& name, bool subject) {
+    std::string all;
+    for (const auto& object : objects_)
+      for (const auto& service : subject ? object->subjects : object->observers)
+        if (part(service.name, 0) == part(name, 0)) all += (all.empty() ? "; there is " : ", ") + service.name;
+    return all;
+  };
+  const auto endsWith = [](const std::string& name, const char* end) {
+    return name.size() > 2 && name.compare(name.size() - 2, 2, end) == 0;
+  };
   for (const auto& [subject, observer] : config.connections) {
+    if (endsWith(subject, ".O") && endsWith(observer, ".S")) {
+      say("",
+          "CONNECT.CFG: the subject " + observer + " is to stand before the observer " + subject + ": not connected");
+      continue;
+    }
     OServiceEntry control, ready, connectTo, notify;
     const bool hasSubject = find(subject, true, control, ready), hasObserver = find(observer, false, connectTo, notify);
     if (!hasSubject || !hasObserver) {
-      say("", "CONNECT.CFG: nobody here has " + (hasSubject ? observer : subject) + ": not connected");
+      say("", "CONNECT.CFG: nobody here has " + (hasSubject ? observer : subject) + ": not connected" +
+                  others(hasSubject ? observer : subject, !hasSubject));
       continue;
     }
     if (part(subject, 2) != part(observer, 2)) {

@@ -148,8 +148,11 @@ void System::loadObject(const std::string& path) {
 
 void System::addStack(RunningObject& object) {
   const std::size_t guard = 65536;
-  auto* memory = static_cast<char*>(
-      mmap(nullptr, stackBytes + guard, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0));
+  const int kind = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  // Below 2 GiB, where there is room: addresses of local variables, too, are kept in an int.
+  void* place = mmap(nullptr, stackBytes + guard, PROT_NONE, kind | MAP_32BIT, -1, 0);
+  if (place == MAP_FAILED) place = mmap(nullptr, stackBytes + guard, PROT_NONE, kind, -1, 0);
+  auto* memory = static_cast<char*>(place);
   if (memory == MAP_FAILED) throw InputError("there is no memory for the stack of another object");
   object.stack = memory + guard;
   mprotect(object.stack, stackBytes, PROT_READ | PROT_WRITE);

@@ -82,8 +82,8 @@ const char* described(int signal, const siginfo_t* info, const ucontext_t* conte
       return at("it accessed memory that is not there at address");
     case SIGILL:
     case SIGTRAP:
-      return "it read or wrote a number at an address that is no multiple of the number's size, or ran into code that "
-             "this processor does not have";
+      return "it ran into code that this processor does not have, or used a number at an address that is no multiple "
+             "of its size";
     case SIGFPE:
       if (info->si_code == FPE_INTDIV) return "it divided an integer by zero";
       return "it computed what is no number, or made an integer of a number that is too large or none";
@@ -152,6 +152,16 @@ void watchFaults(int link, int limit_s) {
   itimerval every{};
   every.it_interval.tv_usec = every.it_value.tv_usec = 1000000 / ticksPerSecond;
   setitimer(ITIMER_PROF, &every, nullptr);
+}
+
+void fail(const char* what) {
+  if (!state.inMethod || faulted) {
+    lastMessage(what);
+    syscall(SYS_exit_group, 70);
+  }
+  faulted = true;
+  state.what = what;
+  siglongjmp(state.home, 1);
 }
 
 void numbersTrap() { feenableexcept(FE_INVALID); }

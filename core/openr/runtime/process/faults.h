@@ -28,6 +28,9 @@ inline void setMethod(FaultState& state, const std::string& name) {
 /// (-1: none) and ends the process. A method may use `limit_s` of the processor's time at a stretch.
 void watchFaults(int link, int limit_s);
 
+/// The running method has failed: as after a crash, with this text, which stays where it is.
+[[noreturn]] void fail(const char* what);
+
 /// Inside methods: what is no number, or too large for an integer, is a fault as on the robot.
 void numbersTrap();
 

@@ -1,6 +1,7 @@
 // The process in which the program of one robot runs: reads sensor frames from its link, answers each with an order
 // frame. Started by RobotProcess, not by hand.
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -116,6 +117,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   fixAddresses(argv);
+  mallopt(M_MMAP_MAX, 0);  // all of the heap is in one place, behind this program: see CMakeLists.txt
   quietPlace(arguments.link);
   fcntl(arguments.link, F_SETFD, FD_CLOEXEC);
   const bool confined = confine(arguments.stick);

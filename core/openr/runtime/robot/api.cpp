@@ -459,3 +459,7 @@ sError WhoAmI(OID* id) {
 }
 
 extern "C" void Prologue() {}
+
+// For programs with a new and a delete of their own: see mkbin.
+extern "C" void* btr_openr_new(std::size_t bytes) { return ::operator new(bytes); }
+extern "C" void btr_openr_delete(void* memory) { ::operator delete(memory); }

@@ -12,6 +12,11 @@
 
 #include <stdexcept>
 
+struct Link {
+  Link* next;
+  long number;
+};
+
 Faulty::Faulty() {}
 
 OStatus Faulty::DoInit(const OSystemEvent& event) {
@@ -77,6 +82,16 @@ void Faulty::Notify(const ONotifyEvent& event) {
   if (strcmp(line, "misaligned") == 0) {
     char bytes[16];
     none = *(volatile int*)(bytes + 1 + none);
+  }
+  // Pointers have 4 bytes on the robot, and memory is dealt out by fours.
+  static double room[8];
+  char* by4 = (char*)room + 4 + none;
+  if (strcmp(line, "half a double") == 0) huge = *(volatile double*)by4;
+  if (strcmp(line, "pool") == 0) {
+    Link* link = new (by4) Link;
+    link->next = link;
+    link->number = 3;
+    OSYSPRINT(("pool %d %d\n", link->next->number, link->next == link));
   }
   if (strcmp(line, "heap") == 0) {
     char* memory = (char*)malloc(24);

@@ -92,6 +92,7 @@ void LiveSteering::obey(const std::string& line) {
                            "contacts", "type", "undo", "redo", "go_to", "go_on", "end"});
     if (wanted == "undo" || wanted == "redo") {
       reader.finish();
+      ++undos_;
       requireHands();
       return change([&] { wanted == "undo" ? undo_.undo(session_) : undo_.redo(session_); });
     }
@@ -181,8 +182,8 @@ void LiveSteering::change(const std::function<void()>& work) {
   } catch (const InputError& error) {
     refused = error.what();
   }
-  if (session_.channels() != channels) tellGame();
   tellUndo();
+  if (session_.channels() != channels) tellGame();
   if (!refused.empty()) return say({{"refused", refused}});
   tellRow();
 }
@@ -267,6 +268,7 @@ void LiveSteering::tellGame() {
   signals_.resolve(session_.channels());
   nlohmann::json line = gameLine(session_);
   line["acts"] = acts_;
+  line["undos"] = undos_;
   say(line);
 }
 

@@ -259,6 +259,13 @@ TEST(Mapping, RefusesWhatItDoesNotKnow) {
               HasSubstr("file_contains"));
 }
 
+TEST(Mapping, MaySayWhatIsDoneWithTheRowsAlone) {
+  const Mapping mapping = mappingFromJson(R"({"resample": {"lowpass_hz": 10}})", "m.json");
+  EXPECT_TRUE(mapping.columns.empty());
+  EXPECT_EQ(mapping.lowpass_hz, 10);
+  EXPECT_THAT(mappingRefusal("{}"), HasSubstr("\"time_s\" is missing"));
+}
+
 TEST(Mapping, MissesNoColumnSilently) {
   const Mapping needed = mappingOf(R"({"time_s": {"column": "t"}, "ball.x_m": {"column": "x"}})");
   EXPECT_THAT(refusalOf("t,y\n0,1\n", &needed),

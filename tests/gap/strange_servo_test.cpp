@@ -296,6 +296,23 @@ TEST(StrangeServo, WhoseIntegralIsNeverFullIsNotSaidToBe) {
   EXPECT_NEAR(found.at("gain_nm_rad_s"), plant.integral, 0.3);
 }
 
+// It winds up until it swings over the top: no free run ends where it did, whatever the numbers, and nothing was found.
+TEST(StrangeServo, WhoseWholeTrialsAreLostIsLookedAtInWindows) {
+  strange::Plant plant;
+  plant.maxTorque = 1.05;
+  plant.integral = 40;
+  plant.integralClamp = 50;
+  AnalysisOptions options;
+  options.effects = {"integral_action"};
+  options.designNext = false;
+  const GapReport report = analyse(strangeProblem(plant, 24, 3, {7, 0.28, 1.4, false}),
+                                   {test::host().effectFactory(), test::host().effects()}, options);
+  EXPECT_EQ(report.window_s, 1) << toPlainText(report);
+  const Values found = sizesOf(report, "integral_action");
+  ASSERT_TRUE(found.contains("gain_nm_rad_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("gain_nm_rad_s"), plant.integral, 0.2 * plant.integral);
+}
+
 // No effect of the library is one. A straight spring takes most of the error, and a curve beside it the rest, which is
 // a wrong name and a wrong curve: the curve alone is what it is.
 TEST(StrangeServo, WithSoftStopsOnEitherSideHasASpringWithADeadZoneAndNoOtherName) {

@@ -45,6 +45,20 @@ TEST(DirectionGain, IsStrongerForOneSignOfTheErrorOrOfTheTorque) {
   EXPECT_DOUBLE_EQ(-0.75 * 0.7, gain->driveTorque(-0.7, {}, Numbers{0.25, 1}, {}, 1e-3));
 }
 
+TEST(DriveLag, FollowsExponentiallyAndNoFasterThanItMay) {
+  const auto lag = effect("drive_lag");
+  Numbers state{1, 0};
+  double mean = 0;
+  for (int i = 0; i < 20; ++i) mean = lag->driveTorque(0.5, {}, Numbers{0.02, 0}, state, 1e-3);
+  EXPECT_NEAR(0.5 * (1 - std::exp(-1.0)), state[1], 1e-12);
+  EXPECT_NEAR(0.5 * (1 - std::exp(-0.0195 / 0.02)), mean, 1e-4);
+  state = {1, 0};
+  for (int i = 0; i < 20; ++i) lag->driveTorque(0.5, {}, Numbers{0, 0.1}, state, 1e-3);
+  EXPECT_NEAR(0.2, state[1], 1e-12);
+  state = {0, 0};
+  EXPECT_EQ(0.5, lag->driveTorque(0.5, {}, Numbers{0.02, 0.1}, state, 1e-3)) << "it gave that before";
+}
+
 /// What a sensor says, and what the servo sees in place of its command.
 struct Says {
   double recorded = 0, followed = 0;

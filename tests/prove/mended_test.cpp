@@ -250,11 +250,11 @@ TEST(Mended, RivalsBesideTheSameEffectsAreLookedForOnce) {
   // Drawn from the effects that there were when it was found.
   Hideable then = plugins.library;
   std::erase_if(then.names, [](const std::string& name) {
-    return std::set<std::string>{"bristle_friction", "command_filter",  "command_profile",     "direction_gain",
-                                 "drive_dead_band",  "error_dead_band", "fluid_drag",          "gravity_compensation",
-                                 "integral_action",  "measured_law",    "rate_feedforward",    "restitution_by_speed",
-                                 "sampled_loop",     "sensor_drift",    "sensor_eccentricity", "sensor_scale",
-                                 "strength_decline", "viscous_drag"}
+    return std::set<std::string>{"bristle_friction",     "command_filter",   "command_profile", "direction_gain",
+                                 "drive_dead_band",      "drive_lag",        "error_dead_band", "fluid_drag",
+                                 "gravity_compensation", "integral_action",  "measured_law",    "rate_feedforward",
+                                 "restitution_by_speed", "sampled_loop",     "sensor_drift",    "sensor_eccentricity",
+                                 "sensor_scale",         "strength_decline", "viscous_drag"}
         .contains(name);
   });
   const BlindCase blind = drawCase({20261171, 18, "ode", "pendulum", "two"}, then);

@@ -6,10 +6,14 @@
 #include <QMenu>
 #include <QProcess>
 #include <QPushButton>
+#include <QSet>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
+#include <QToolButton>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/spec/json_reader.h"
@@ -54,6 +58,36 @@ class TestLivePage : public QObject {
     QTRY_VERIFY(open.action("livePlay")->isEnabled());
     QTest::keyClick(QApplication::focusWidget(), Qt::Key_Space);
     QTRY_VERIFY(open.page.row().playing);
+  }
+
+  void everyButtonIsReachedWithoutAMouse() {
+    OpenPage open;
+    QVERIFY(open.isThere());
+    open.page.activateWindow();
+    open.page.view().setFocus();
+    QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(&open.page.view()));
+    QSet<QWidget*> reached;
+    for (QWidget* at = &open.page.view(); at && !reached.contains(at); at = QApplication::focusWidget()) {
+      reached.insert(at);
+      QTest::keyClick(at, Qt::Key_Tab);
+    }
+    for (const char* name :
+         {"liveOpen", "livePlay", "liveStep", "liveReset", "liveAdd", "liveSaves", "liveShowSignals", "liveViews"}) {
+      const QList<QObject*> shown = open.action(name)->associatedObjects();
+      QVERIFY2(std::any_of(shown.begin(), shown.end(),
+                           [&](QObject* each) { return reached.contains(qobject_cast<QToolButton*>(each)); }),
+               name);
+    }
+    // Space opens a menu.
+    QMenu* things = open.action("liveAdd")->menu();
+    bool opened = false;
+    connect(things, &QMenu::aboutToShow, this, [&] {
+      opened = true;
+      QTimer::singleShot(0, things, &QMenu::close);
+    });
+    for (QObject* each : open.action("liveAdd")->associatedObjects())
+      if (auto* button = qobject_cast<QToolButton*>(each)) QTest::keyClick(button, Qt::Key_Space);
+    QTRY_VERIFY(opened);
   }
 
   void aFileThatIsNoWorldLeavesTheOneThatIsThere() {

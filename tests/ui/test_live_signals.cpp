@@ -174,6 +174,10 @@ class TestLiveSignals : public QObject {
     QCOMPARE(lines.size(), 41);
     for (const auto& [line, known] : {std::pair{1, true}, {20, true}, {25, false}, {40, true}})
       QCOMPARE(!lines[line].endsWith(','), known);
+    // No line leads over the time in which it was gone.
+    auto* plot = open.page.findChild<SignalsPanel*>()->findChild<PlotWidget*>();
+    QTRY_VERIFY(!plot->drawnPoints("dog.LF_J1.position").empty());
+    for (const QPointF& point : plot->drawnPoints("dog.LF_J1.position")) QVERIFY(point.x() < 20.5 * 0.008);
     // Another world has none of them; one that is gone can be left out by hand.
     open.select("dog");
     open.action("liveRemove")->trigger();

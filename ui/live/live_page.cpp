@@ -132,10 +132,7 @@ void LivePage::connectWorld() {
     showSelected();
   });
   connect(world_, &LiveWorld::gameChanged, this, &LivePage::showGame);
-  connect(process_, &LiveProcess::gameTold, this, [this] {
-    undoing_ = false;
-    takeBack(0);
-  });
+  connect(process_, &LiveProcess::gameTold, this, [this] { takeBack(0); });
   connect(world_, &LiveWorld::handsChanged, this, &LivePage::showHands);
   connect(process_, &LiveProcess::undoTold, this, [this](const QString& undo, const QString& redo) {
     undo_ = undo;
@@ -278,7 +275,6 @@ void LivePage::prepare() {
   banner_->clear();
   undo_.clear();
   redo_.clear();
-  undoing_ = false;
   undosLeft_ = 0;
   world_->forget();
   fresh_ = true;
@@ -510,14 +506,13 @@ void LivePage::redo() { takeBack(1); }
 /// One after the other, and never more than there is, however fast a key repeats: the game is told behind each.
 void LivePage::takeBack(int steps) {
   undosLeft_ += steps;
-  if (undoing_ || undosLeft_ == 0) return;
+  if (process_->isUndoing() || undosLeft_ == 0) return;
   const bool back = undosLeft_ < 0;
   if (!process_->isReady() || (back ? undo_ : redo_).isEmpty()) {
     undosLeft_ = 0;
     return;
   }
   undosLeft_ += back ? 1 : -1;
-  undoing_ = true;
   back ? process_->undo() : process_->redo();
   process_->askGame();
 }

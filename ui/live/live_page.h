@@ -129,9 +129,8 @@ class LivePage : public QWidget {
   SimulatorPanel* simulator_;
   ThingPalette* palette_;
   SignalsPanel* signals_;
-  int undosLeft_ = 0;     ///< that were asked for; redos where positive
-  bool undoing_ = false;  ///< one is under way
-  bool fresh_ = true;     ///< nothing of the opened game was shown yet
+  int undosLeft_ = 0;  ///< that were asked for; redos where positive
+  bool fresh_ = true;  ///< nothing of the opened game was shown yet
 };
 
 }  // namespace btr::ui

@@ -41,7 +41,7 @@ void LiveProcess::start(const QString& file, const QString& log, const QString& 
     end();
   }
   failed_ = false;
-  acts_ = 0;
+  acts_ = undos_ = undosTold_ = 0;
   grips_.reset();
   pending_.clear();
   words_.clear();
@@ -88,8 +88,14 @@ void LiveProcess::kickOff() {
   if (ready_) ++acts_;
   send(R"({"act": "kick_off"})");
 }
-void LiveProcess::undo() { send(R"({"do": "undo"})"); }
-void LiveProcess::redo() { send(R"({"do": "redo"})"); }
+void LiveProcess::undo() {
+  if (ready_) ++undos_;
+  send(R"({"do": "undo"})");
+}
+void LiveProcess::redo() {
+  if (ready_) ++undos_;
+  send(R"({"do": "redo"})");
+}
 void LiveProcess::askGame() { send(R"({"do": "game"})"); }
 
 void LiveProcess::setSignals(const std::vector<std::string>& channels) {
@@ -177,6 +183,7 @@ void LiveProcess::tellGame(const json& line) {
   const Game game = gameFromJson(line.at("game").dump(), "game", line.at("directory").get<std::string>());
   const ModelSet models = modelsOf(game.scene);
   const bool first = !std::exchange(ready_, true);
+  undosTold_ = line.at("undos").get<long>();
   tellGrips(line);
   if (first && !signals_.empty()) sendSignals();
   if (first && contacts_) setContacts(true);

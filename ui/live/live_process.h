@@ -88,6 +88,8 @@ class LiveProcess : public QObject {
   void beginGesture();
   void endGesture();
   void undo();
+  /// Until a game is told behind the last undo or redo.
+  bool isUndoing() const { return undosTold_ != undos_; }
   /// On the console of a robot's program, as if a line was typed there.
   void type(const std::string& robot, const QString& line);
   void kickOff();  ///< of the referee, where there is one
@@ -136,7 +138,8 @@ class LiveProcess : public QObject {
   ModelSet models_;                   ///< of files that were read for this session
   std::string modelsFrom_;            ///< where their relative paths start
   std::optional<LiveGrips> grips_;
-  long acts_ = 0;  ///< that were sent to this session
+  long acts_ = 0, undos_ = 0;  ///< that were sent to this session
+  long undosTold_ = 0;         ///< that the game that was told last knows
   int gestureDepth_ = 0;
   long gesture_ = 0;
 };

@@ -107,6 +107,9 @@ LiveTools::LiveTools(QWidget* parent) : QToolBar(parent), things_(new QMenu(this
   score_->setTextFormat(Qt::PlainText);
   scoreAction_ = addWidget(score_);
   scoreAction_->setVisible(false);
+  // These are in no menu of the window: without a mouse they are reached by Tab, and Space opens their menus. So is the
+  // one that shows what has no room.
+  for (QToolButton* button : findChildren<QToolButton*>()) button->setFocusPolicy(Qt::TabFocus);
 }
 
 QAction* LiveTools::add(const QString& name, const QString& icon, const QString& text, const QString& tip) {

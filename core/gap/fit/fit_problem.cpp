@@ -9,6 +9,7 @@
 #include "core/gap/fit/motion_noise.h"
 #include "core/gap/fit/noise_sharing.h"
 #include "core/gap/fit/segments.h"
+#include "core/gap/fit/torques_lead_away.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/trial_scenes.h"
@@ -237,6 +238,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
   cutSegments(ready, window_s);
   addMotionNoise(ready);
+  sayIfTorquesLeadAway(ready);
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;
 }

@@ -60,7 +60,8 @@ Explanation explain(const std::vector<Recording>& recordings, const MadeReady& r
   if (found.unstable)
     return inWindows(recordings, ready, search, learnRest, "free runs depend on the last digits of the parameters");
   Explanation made = completed(recordings, ready, std::move(problem), std::move(found), search, learnRest);
-  const bool isWhole = made.problem.window_s == 0 && !made.problem.walks && !made.problem.impacts;
+  const bool isWhole =
+      !made.problem.scene.robots.empty() && made.problem.window_s == 0 && !made.problem.walks && !made.problem.impacts;
   if (!isWhole || !explainsNothing(made, search.thresholds)) return made;
   Explanation windowed = inWindows(recordings, ready, search, learnRest,
                                    "whole trials are lost whatever the numbers, and tell nothing from anything");

@@ -216,19 +216,27 @@ PlotData SignalsPanel::dataOf(const QString& unit) const {
   data.yTitle = unit.isEmpty() ? tr("no unit") : unit;
   data.empty = tr("Nothing yet: the world waits");
   const std::size_t rows = record_.rows();
+  int colour = 0;
   for (std::size_t i = 0; i < record_.all().size(); ++i) {
     const std::string& name = record_.all()[i].name;
     if (word(unitOfSignal(name)) != unit) continue;
+    // No line leads over a time in which what it belongs to was gone.
     PlotSeries series;
     series.name = shortName(name);
-    series.colour = int(data.series.size());
-    series.points.reserve(rows);
+    series.colour = colour++;
+    const auto endPiece = [&] {
+      if (thinned && rows > 0)
+        series.points = decimate(series.points, record_.time_s(0), record_.time_s(rows - 1), plots_[unit]->width());
+      data.series.push_back(series);
+      series.points.clear();
+      series.name.clear();  // it stands once in the legend
+    };
     for (std::size_t row = 0; row < rows; ++row)
       if (const double value = record_.value(row, i); std::isfinite(value))
         series.points.emplace_back(record_.time_s(row), value);
-    if (thinned && rows > 0)
-      series.points = decimate(series.points, record_.time_s(0), record_.time_s(rows - 1), plots_[unit]->width());
-    data.series.push_back(std::move(series));
+      else if (!series.points.empty())
+        endPiece();
+    if (!series.points.empty() || !series.name.isEmpty()) endPiece();
   }
   for (const PlotMarker& mark : marks_)
     if (rows > 0 && mark.x >= record_.time_s(0)) data.markers.push_back(mark);

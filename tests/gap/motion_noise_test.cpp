@@ -1,0 +1,102 @@
+// A joint that follows its recorded motion: what the noise of the positions makes of the torque that this takes.
+#include "core/gap/fit/motion_noise.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/segments.h"
+#include "core/gap/recordings/resample.h"
+#include "core/spec/random.h"
+#include "tests/gap/recorded_hinge.h"
+
+namespace btr {
+namespace motion_noise {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr double inertia = 0.5 * 0.2 * 0.2 + 1e-4, weight = 0.5 * 9.81 * 0.2;
+constexpr double period_s = 0.002, positionNoise = 1e-4, torqueNoise = 1e-3;
+
+/// A swing of three sines and the torque that it takes, I·q̈ + m·g·l·sin q, each with white noise.
+Recording followedSwing(std::uint64_t number) {
+  Random random = Random::forPurpose(11, "swing", number);
+  Recording recording;
+  recording.source = "swing_" + std::to_string(number) + ".csv";
+  recording.channels = {"time_s", "rig.hinge.position_rad", "rig.hinge.torque_nm"};
+  recording.columns.resize(3);
+  const double phase = random.uniform(0, 6);
+  for (int i = 0; i < 2000; ++i) {
+    const double t = i * period_s;
+    double q = 0, second = 0;
+    for (const double hertz : {0.4, 0.9, 1.7}) {
+      const double omega = 2 * M_PI * hertz, part = 0.25 * std::sin(omega * t + phase * hertz);
+      q += part;
+      second -= omega * omega * part;
+    }
+    recording.columns[0].push_back(t);
+    recording.columns[1].push_back(q + positionNoise * random.normal());
+    recording.columns[2].push_back(inertia * second + weight * std::sin(q) + torqueNoise * random.normal());
+  }
+  return recording;
+}
+
+FitProblem prepared(double lowpass_hz) {
+  GapProblem problem = hingeProblem();
+  problem.scene.step_s = period_s;
+  problem.scene.robots[0].servos["hinge"] = {"motion", {}};
+  problem.scene.calibrate.clear();
+  std::vector<Recording> recordings;
+  for (std::uint64_t trial = 0; trial < 3; ++trial) {
+    recordings.push_back(followedSwing(trial));
+    if (lowpass_hz > 0) recordings.back() = resampled(recordings.back(), {0, lowpass_hz});
+  }
+  return makeFitProblem(problem, recordings, library());
+}
+
+double rootMeanSquareOf(const FitProblem& problem) {
+  double sum = 0, count = 0;
+  for (const Segment& segment : problem.segments)
+    for (const double residual : residualsOf(problem, segment, problem.sceneOf(problem.given, segment.trial),
+                                             std::vector<double>(segment.nuisances.size(), 0))) {
+      sum += residual * residual;
+      ++count;
+    }
+  EXPECT_GT(count, 1000);
+  return std::sqrt(sum / count);
+}
+
+TEST(MotionNoise, IsTheSecondDifferenceOfThePositionsNoise) {
+  const FitProblem problem = prepared(0);
+  // σ·√(1 + 4 + 1)/h² of the acceleration.
+  const double ofMotion = inertia * positionNoise * std::sqrt(6.0) / (period_s * period_s);
+  EXPECT_NEAR(problem.trials[0].noiseFloor[0], std::hypot(ofMotion, torqueNoise), 0.1 * ofMotion);
+  EXPECT_NEAR(rootMeanSquareOf(problem), 1, 0.1);
+}
+
+TEST(MotionNoise, IsSaidWithTheFilterThatTakesNothingElse) {
+  EXPECT_THAT(prepared(0).notes, Contains(HasSubstr("\"lowpass_hz\": ")));
+  EXPECT_THAT(prepared(10).notes, Not(Contains(HasSubstr("\"lowpass_hz\": "))));
+}
+
+TEST(MotionNoise, OfAFilteredMotionIsWhatTheFilterLeft) {
+  const FitProblem problem = prepared(10);
+  EXPECT_LT(problem.trials[0].noiseFloor[0], 0.05);  // unfiltered: 1.2 N·m
+  EXPECT_NEAR(rootMeanSquareOf(problem), 1, 0.3);
+}
+
+TEST(MotionNoise, TheEndsOfAFilterAreNotCompared) {
+  const FitProblem problem = prepared(10);
+  const std::vector<double>& time = problem.trials[0].recording.columns[0];
+  for (const Segment& segment : problem.segments)
+    for (const std::size_t row : segment.row) {
+      EXPECT_GE(time[row], 0.2 - 1e-9);
+      EXPECT_LE(time[row], time.back() - 0.2 + 1e-9);
+    }
+}
+
+}  // namespace motion_noise
+}  // namespace btr

@@ -8,10 +8,18 @@
 namespace btr {
 namespace {
 
-bool isOfAJoint(const FitTrial& trial, std::size_t channel) {
-  using What = Binding::Measured::What;
-  const What what = trial.binding.measured[channel].what;
-  return what == What::position || what == What::rate;
+using What = Binding::Measured::What;
+
+/// The torque that a followed motion takes.
+bool isOfAFollowedMotion(const Binding& binding, const Binding::Measured& measured) {
+  return measured.what == What::torque && std::ranges::any_of(binding.inputs, [&](const Binding::Input& input) {
+           return input.what == Binding::Input::What::motion && input.robot == measured.object &&
+                  input.joint == measured.part;
+         });
+}
+
+bool isOfAJoint(const Binding& binding, const Binding::Measured& measured) {
+  return measured.what == What::position || measured.what == What::rate || isOfAFollowedMotion(binding, measured);
 }
 
 /// How long a servo's damping holds it back behind its command.
@@ -30,12 +38,14 @@ std::vector<double> clockColumn(const FitProblem& problem, const Segment& segmen
   const auto simulated = [&](std::size_t k) {
     const std::size_t c = segment.channel[k];
     const double recorded = trial.recording.columns[trial.binding.measured[c].column][segment.row[k]];
-    return recorded / trial.noiseFloor[c] + residuals[k];
+    return recorded + residuals[k] * trial.floorAt(c, segment.row[k]);
   };
   // Rows of a channel follow one another; between three of them, the parabola.
   for (std::size_t k = 1; k + 1 < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k];
-    if (!isOfAJoint(trial, c) || segment.channel[k - 1] != c || segment.channel[k + 1] != c) continue;
+    if (!isOfAJoint(trial.binding, trial.binding.measured[c]) || segment.channel[k - 1] != c ||
+        segment.channel[k + 1] != c)
+      continue;
     if (residuals[k - 1] == afterFault || residuals[k] == afterFault || residuals[k + 1] == afterFault) continue;
     const double now = time[segment.row[k]];
     const double earlier_s = now - time[segment.row[k - 1]], later_s = time[segment.row[k + 1]] - now;
@@ -43,7 +53,7 @@ std::vector<double> clockColumn(const FitProblem& problem, const Segment& segmen
     const double after = (simulated(k + 1) - simulated(k)) / later_s;
     const double first = (before * later_s + after * earlier_s) / (earlier_s + later_s);
     const double second = 2 * (after - before) / (earlier_s + later_s);
-    column[k] = first + damps_s(scene, trial.binding.measured[c]) * second;
+    column[k] = (first + damps_s(scene, trial.binding.measured[c]) * second) / trial.floorAt(c, segment.row[k]);
   }
   return column;
 }
@@ -64,9 +74,20 @@ Eigen::VectorXd clockColumn(const FitProblem& problem, const Eigen::VectorXd& re
   return column;
 }
 
+double mostShift_s(const FitProblem& problem) {
+  constexpr double slack = 1.1;  // so that half a row is not at the bound
+  double most_s = problem.givenStep_s / 2;
+  for (const FitTrial& trial : problem.trials)
+    if (std::ranges::any_of(trial.binding.measured, [&](const Binding::Measured& measured) {
+          return isOfAFollowedMotion(trial.binding, measured);
+        }))
+      most_s = std::max(most_s, slack * trial.recording.samplePeriod() / 2);
+  return most_s;
+}
+
 double bestShift_s(const FitProblem& problem, const Eigen::VectorXd& residuals, const Eigen::VectorXd& column,
                    const Eigen::VectorXd& counts) {
-  const double most_s = problem.givenStep_s / 2;
+  const double most_s = mostShift_s(problem);
   const double norm = counts.dot(column.cwiseAbs2());
   if (!(norm > 0)) return 0;
   // In all, with what is shifted already.

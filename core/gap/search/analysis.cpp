@@ -200,9 +200,10 @@ void addAlignment(GapReport& report, const FitProblem& problem, const Scored& fi
                   const SearchThresholds::Shift& limits) {
   const double shift_s = final.aligned.shift_s;
   if (!(final.aligned.took > limits.leastTaken) || shift_s == 0) return;
-  report.notes.push_back("positions are compared with those simulated " + digits(std::abs(1000 * shift_s), 2) + " ms " +
-                         (shift_s > 0 ? "later" : "earlier") + ": within half a step of the scene (" +
-                         toText(1000 * problem.givenStep_s) +
+  report.notes.push_back("joints are compared with what is simulated " + digits(std::abs(1000 * shift_s), 2) + " ms " +
+                         (shift_s > 0 ? "later" : "earlier") +
+                         ": within half a step of the scene or, where motions are followed, half a row (" +
+                         digits(1000 * mostShift_s(problem), 2) +
                          " ms), where what made the recordings may have integrated or read them; no physics is "
                          "looked for in that");
 }

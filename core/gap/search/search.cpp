@@ -25,8 +25,7 @@ namespace {
 /// A shift that takes something, and that is not as far as it may be, where it would stand for something else.
 bool isKnown(const Alignment& aligned, const FitService& service) {
   const SearchThresholds::Shift& limits = service.thresholds().shift;
-  return aligned.took > limits.leastTaken &&
-         std::abs(aligned.shift_s) < limits.inside * service.problem().givenStep_s / 2;
+  return aligned.took > limits.leastTaken && std::abs(aligned.shift_s) < limits.inside * mostShift_s(service.problem());
 }
 
 /// One search: holds its parts and calls one after another.

@@ -26,7 +26,7 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       if (robot.model.joints[j].type == Joint::Type::fixed) continue;
       const Drive::Kind kind = robot.drives[j].kind;
-      if (kind == Drive::Kind::servo) continue;
+      if (kind == Drive::Kind::servo || kind == Drive::Kind::motion) continue;
       const bool commanded = std::any_of(trial.binding.inputs.begin(), trial.binding.inputs.end(), [&](const auto& i) {
         return i.what == Binding::Input::What::command && i.robot == r && i.joint == j;
       });

@@ -60,7 +60,7 @@ void addSpread(const FitProblem& problem, const Segment& segment, const Recordin
     Spread& spread = spreads[trial.recording.channels[column]];
     for (std::size_t row = segment.scored; row < segment.last; ++row) {
       if (!std::isfinite(trial.recording.columns[column][row])) continue;
-      const double difference = again.values[channel][row - segment.first] - once.values[channel][row - segment.first];
+      const double difference = again.values[channel][row] - once.values[channel][row];
       if (!std::isfinite(difference)) continue;
       spread.squares += difference * difference;
       ++spread.count;

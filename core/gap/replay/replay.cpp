@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/hanging.h"
 #include "core/gap/replay/start_state.h"
@@ -182,6 +183,18 @@ class Prescribed {
       }
   }
 
+  /// The recorded torques went through the same filter as the motion; friction that turns with it is then no step.
+  void filter(std::vector<std::vector<double>>& values) const {
+    constexpr int order = 4;
+    const double rate_hz = 1 / recording_.samplePeriod();
+    const bool whole = first_ == 0 && last_ == recording_.rows();
+    if (!whole || !(recording_.filterCutoff_hz > 0) || 2 * recording_.filterCutoff_hz >= rate_hz) return;
+    const LowPass lowPass(order, recording_.filterCutoff_hz, rate_hz);
+    for (const std::size_t i : torques_)
+      if (std::ranges::all_of(values[i], [](double value) { return std::isfinite(value); }))
+        values[i] = lowPass.zeroPhase(values[i]);
+  }
+
  private:
   const Recording& recording_;
   std::size_t first_, last_;
@@ -299,6 +312,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     }
   }
   prescribed.align(replayed.values);
+  prescribed.filter(replayed.values);
   return replayed;
 }
 

@@ -67,11 +67,12 @@ void sayIfTorquesLeadAway(FitProblem& problem) {
       }
   }
   if (driven == 0 || 2 * lost <= driven) return;
-  problem.notes.insert(
-      problem.notes.begin(),
-      "the recorded torques lead most joints away from their recorded paths, by half of what these move "
-      "or more, before anything is fitted: little can be judged so, and it takes long. Let the joints "
-      "follow the recorded motion, \"drive\": \"motion\" in the scene; then torques are compared");
+  problem.notes.emplace_back(
+      "the recorded torques lead most joints away from their recorded paths, by half of what these move or more, "
+      "before "
+      "anything is fitted: little can be judged so, and it takes long. Let the joints follow the recorded motion, "
+      "\"drive\": \"motion\" in the scene; then torques are compared");
+  std::rotate(problem.notes.begin(), problem.notes.end() - 1, problem.notes.end());
 }
 
 }  // namespace btr

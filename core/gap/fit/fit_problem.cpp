@@ -201,7 +201,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       for (const std::string& text : *list)
         if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
   }
-  leaveOutFilterEnds(ready);
+  prepareFilteredMotions(ready);
   shareNoiseFloors(ready.trials, ready.notes);
   refuseWithoutNumbers(ready.trials);
 

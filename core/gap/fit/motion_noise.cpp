@@ -11,6 +11,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/resample.h"
+#include "core/gap/replay/followed_torques.h"
 #include "core/gap/replay/replay.h"
 #include "core/spec/figures.h"
 #include "core/spec/random.h"
@@ -105,16 +106,17 @@ std::string remedy(const FitProblem& problem) {
 
 }  // namespace
 
-void leaveOutFilterEnds(FitProblem& problem) {
-  constexpr double periods = 2;
+void prepareFilteredMotions(FitProblem& problem) {
+  constexpr double periods = 2;  // of half the cutoff, below which torques are compared
   std::set<std::string> said;
   for (FitTrial& trial : problem.trials) {
     Recording& recording = trial.recording;
     if (!(recording.filterCutoff_hz > 0) || !followsMotion(trial)) continue;
     const std::vector<double>& time = recording.columns[0];
-    const double end_s = std::min(periods / recording.filterCutoff_hz, (time.back() - time.front()) / 4);
-    for (const Measured& measured : trial.binding.measured) {
-      if (measured.what != Measured::What::torque) continue;
+    const double end_s = std::min(2 * periods / recording.filterCutoff_hz, (time.back() - time.front()) / 4);
+    filterFollowedTorques(recording, trial.binding);
+    for (const std::size_t torque : followedTorques(trial.binding)) {
+      const Measured& measured = trial.binding.measured[torque];
       for (std::size_t row = 0; row < time.size(); ++row)
         if (time[row] < time.front() + end_s || time[row] > time.back() - end_s)
           recording.columns[measured.column][row] = NAN;

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/gap/recordings/binding.h"
-#include "core/gap/recordings/lowpass.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/followed_torques.h"
 #include "core/gap/replay/hanging.h"
 #include "core/gap/replay/start_state.h"
 #include "core/sim/world.h"
@@ -122,11 +122,7 @@ class Prescribed {
       : recording_(recording), first_(first), last_(last) {
     for (const Input& input : binding.inputs)
       if (input.what == Input::What::motion) inputs_.push_back(input);
-    for (std::size_t i = 0; i < binding.measured.size(); ++i)
-      for (const Input& input : inputs_)
-        if (binding.measured[i].what == Measured::What::torque && binding.measured[i].object == input.robot &&
-            binding.measured[i].part == input.joint)
-          torques_.push_back(i);
+    torques_ = followedTorques(binding);
   }
   bool any() const { return !inputs_.empty(); }
 
@@ -183,16 +179,10 @@ class Prescribed {
       }
   }
 
-  /// The recorded torques went through the same filter as the motion; friction that turns with it is then no step.
+  /// As the recorded ones are; the ends of a window know nothing of what is beside it.
   void filter(std::vector<std::vector<double>>& values) const {
-    constexpr int order = 4;
-    const double rate_hz = 1 / recording_.samplePeriod();
-    const bool whole = first_ == 0 && last_ == recording_.rows();
-    if (!whole || !(recording_.filterCutoff_hz > 0) || 2 * recording_.filterCutoff_hz >= rate_hz) return;
-    const LowPass lowPass(order, recording_.filterCutoff_hz, rate_hz);
-    for (const std::size_t i : torques_)
-      if (std::ranges::all_of(values[i], [](double value) { return std::isfinite(value); }))
-        values[i] = lowPass.zeroPhase(values[i]);
+    if (first_ != 0 || last_ != recording_.rows()) return;
+    for (const std::size_t i : torques_) filterAsCompared(recording_, values[i]);
   }
 
  private:

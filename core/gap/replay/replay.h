@@ -25,7 +25,7 @@ struct ReplayedRecording {
 /// Joints whose motion is prescribed start where the recording has them, with the central difference as their rate; one
 /// step then covers the time between two samples, so that the torque of a row is that of the path's second difference
 /// there. (In the last row there is none: that of the row before.) Of a recording that went
-/// through a low-pass filter, the torques of a replay of all rows do, too.
+/// through a low-pass filter, the torques of a replay of all rows do, too (followed_torques.h).
 /// `goesOn` is asked now and then; when it says no, this throws Cancelled.
 ReplayedRecording replayRecording(const Scene& scene, const Recording& recording, const Binding& binding,
                                   const StartState& start, std::size_t first = 0,

@@ -11,6 +11,7 @@
 #include "core/gap/recordings/doctor/doctor.h"
 #include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/followed_torques.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual_parts.h"
 #include "core/gap/replay/residual_text.h"
@@ -59,12 +60,14 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
   const StartState start = estimated ? *estimated : startState(scene, recording, binding);
   Scene finer = scene;
   finer.step_s /= 2;
+  Recording compared = recording;
+  filterFollowedTorques(compared, binding);
   const ReplayedRecording replayed = replayRecording(scene, recording, binding, start, 0, recording.rows(), goesOn);
   const ReplayedRecording check = replayRecording(finer, recording, binding, start, 0, recording.rows(), goesOn);
   if (!replayed.fault.empty()) note("the simulation was ended: " + replayed.fault);
 
   for (std::size_t i = 0; i < binding.measured.size(); ++i) {
-    ChannelError error = compare(recording, binding.measured[i].column, replayed.values[i], check.values[i]);
+    ChannelError error = compare(compared, binding.measured[i].column, replayed.values[i], check.values[i]);
     if (error.stepError > error.resolution)
       note(error.channel + ": the integration's own error, " + toText(error.stepError) + " " +
            unitOfChannel(error.channel) + " at a step of " + toText(scene.step_s) +

@@ -56,6 +56,7 @@ void addRecording(const Scene& given, const Recording& raw, const InverseOptions
     throw InputError(raw.source + " --every", std::to_string(options.every),
                      "1 to a fortieth of the " + std::to_string(raw.rows()) + " rows");
   Recording recording = resampled(raw, {});
+  recording.filterCutoff_hz = 0;  // both torques are filtered below, whatever filter there was before
   const Scene scene = prescribed(given, recording);
   const Binding binding = bind(scene, recording);
   const LowPass filter(4, options.lowpass_hz, rate);

@@ -40,13 +40,23 @@ std::vector<double> clockColumn(const FitProblem& problem, const Segment& segmen
     const double recorded = trial.recording.columns[trial.binding.measured[c].column][segment.row[k]];
     return recorded + residuals[k] * trial.floorAt(c, segment.row[k]);
   };
-  // Rows of a channel follow one another; between three of them, the parabola.
-  for (std::size_t k = 1; k + 1 < residuals.size(); ++k) {
+  // Rows of a channel follow one another; between three of them, the parabola. At its ends a torque, which has no state
+  // that began there, has the slope to its one neighbour.
+  const auto isThere = [&](std::size_t k, std::size_t c) {
+    return k < residuals.size() && segment.channel[k] == c && residuals[k] != afterFault;
+  };
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
     const std::size_t c = segment.channel[k];
-    if (!isOfAJoint(trial.binding, trial.binding.measured[c]) || segment.channel[k - 1] != c ||
-        segment.channel[k + 1] != c)
+    const Binding::Measured& measured = trial.binding.measured[c];
+    if (!isOfAJoint(trial.binding, measured) || !isThere(k, c)) continue;
+    const bool hasBefore = k > 0 && isThere(k - 1, c), hasAfter = isThere(k + 1, c);
+    if (!hasBefore || !hasAfter) {
+      if (hasBefore == hasAfter || !isOfAFollowedMotion(trial.binding, measured)) continue;
+      const std::size_t other = hasBefore ? k - 1 : k + 1;
+      column[k] = (simulated(other) - simulated(k)) / (time[segment.row[other]] - time[segment.row[k]]) /
+                  trial.floorAt(c, segment.row[k]);
       continue;
-    if (residuals[k - 1] == afterFault || residuals[k] == afterFault || residuals[k + 1] == afterFault) continue;
+    }
     const double now = time[segment.row[k]];
     const double earlier_s = now - time[segment.row[k - 1]], later_s = time[segment.row[k + 1]] - now;
     const double before = (simulated(k) - simulated(k - 1)) / earlier_s;

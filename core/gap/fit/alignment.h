@@ -28,7 +28,7 @@ double mostShift_s(const FitProblem& problem);
 
 /// By how much a residual changes where all joints are a second further on, by what is simulated before and after it;
 /// 0 for what is not the position or the rate of a joint of a robot whose base is fixed or the torque of one that
-/// follows its recorded motion, beside the ends of a segment,
+/// follows its recorded motion, for other than torques beside the ends of a segment,
 /// and where a fault ended the simulation.
 Eigen::VectorXd clockColumn(const FitProblem& problem, const Eigen::VectorXd& residuals);
 /// Of one segment, whose gains `scene` tells.

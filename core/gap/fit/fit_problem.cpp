@@ -201,7 +201,6 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
       for (const std::string& text : *list)
         if (said.insert(text).second) ready.notes.push_back(name + ": " + text);
   }
-  prepareFilteredMotions(ready);
   shareNoiseFloors(ready.trials, ready.notes);
   refuseWithoutNumbers(ready.trials);
 
@@ -236,6 +235,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   // enough to begin there. (With its true numbers a walking dog's error is 1.1 noise floors² from the start, and 5 to
   // 11 in windows of 0.25 s to 2 s whose initial states are fitted.)
   if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
+  if (prepareFilteredMotions(ready, window_s == 0)) shareNoiseFloors(ready.trials, ready.notes);
   cutSegments(ready, window_s);
   addMotionNoise(ready);
   sayIfTorquesLeadAway(ready);

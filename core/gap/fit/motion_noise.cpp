@@ -106,15 +106,18 @@ std::string remedy(const FitProblem& problem) {
 
 }  // namespace
 
-void prepareFilteredMotions(FitProblem& problem) {
-  constexpr double periods = 2;  // of half the cutoff, below which torques are compared
+bool prepareFilteredMotions(FitProblem& problem, bool whole) {
+  constexpr double periods = 3;  // of the lowest cutoff: a kink of 1 is 1e-4 then
+  bool prepared = false;
   std::set<std::string> said;
   for (FitTrial& trial : problem.trials) {
     Recording& recording = trial.recording;
     if (!(recording.filterCutoff_hz > 0) || !followsMotion(trial)) continue;
     const std::vector<double>& time = recording.columns[0];
-    const double end_s = std::min(2 * periods / recording.filterCutoff_hz, (time.back() - time.front()) / 4);
-    filterFollowedTorques(recording, trial.binding);
+    prepared = true;
+    const double lowest_hz = recording.filterCutoff_hz / (whole ? 2 : 1);
+    const double end_s = std::min(periods / lowest_hz, (time.back() - time.front()) / 4);
+    if (whole) filterFollowedTorques(recording, trial.binding);
     for (const std::size_t torque : followedTorques(trial.binding)) {
       const Measured& measured = trial.binding.measured[torque];
       for (std::size_t row = 0; row < time.size(); ++row)
@@ -127,6 +130,7 @@ void prepareFilteredMotions(FitProblem& problem) {
         "and after";
     if (said.insert(text).second) problem.notes.push_back(text);
   }
+  return prepared;
 }
 
 void addMotionNoise(FitProblem& problem) {

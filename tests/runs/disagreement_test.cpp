@@ -69,12 +69,13 @@ TEST(Reason, KeepsItsNumbersWhileTheSimulatedFitnessIsHidden) {
   EXPECT_EQ("best", reasonOf({}, "m", true));
 }
 
-/// Ten of a generation, of which four are measured: two of the best and two with the largest disagreement.
+/// Ten of a generation (or `population`), of which four are measured: two of the best and two with the largest
+/// disagreement.
 class Disagreeing : public testing::Test {
  protected:
-  static test::SmallKickRun run(int jobs, int disagreeing = 2, double heldOut = 0) {
+  static test::SmallKickRun run(int jobs, int disagreeing = 2, double heldOut = 0, int population = 10) {
     return test::SmallKickRun(
-        10, 4,
+        population, 4,
         [&](nlohmann::json& text) {
           text["stages"]["disagreeing_individuals"] = disagreeing;
           text["stages"]["candidate_simulators"] = 3;
@@ -152,7 +153,8 @@ TEST_F(Disagreeing, AreMeasuredBesideTheBestAndTheirSpreadIsThatOfTheCandidatesT
 }
 
 TEST_F(Disagreeing, HaveAfterAnAdaptationItsGoodCandidatesToDisagree) {
-  test::SmallKickRun r = run(2);
+  // So many that some hit the ball: about those that miss it all simulators agree.
+  test::SmallKickRun r = run(2, 2, 0, 30);
   ASSERT_EQ(RunEnd::waiting, r.goOn());
   measure(r);
   ASSERT_EQ(RunEnd::waiting, r.goOn());

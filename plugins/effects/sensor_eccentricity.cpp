@@ -1,5 +1,6 @@
 /// The disc of a turning sensor sits off its axis, or its magnet does: once in a turn it says too much and too little,
 ///   y = q + a·cos q + b·sin q      √(a² + b²) in rad: the disc's offset over its radius
+/// On a slide joint q in metres stands for radians.
 /// With `closes_loop` 1 the servo's law acts on c − y, with 0 the sensor is the recorder's own, and the servo has
 /// another.
 /// (Single-turn error of an eccentric scale: Slocum 1992, Precision Machine Design, ch. 4.) Neutral: a = b = 0.
@@ -14,8 +15,8 @@ class SensorEccentricity final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
     loop.integer = true;
-    return {{"cosine_rad", "rad", "a of a·cos q", -0.3, 0.3, 0.02, 0.0},
-            {"sine_rad", "rad", "b of b·sin q", -0.3, 0.3, 0.02, 0.0},
+    return {{"cosine_rad", "rad", "a of a·cos q, m on a slide joint", -0.3, 0.3, 0.02, 0.0},
+            {"sine_rad", "rad", "b of b·sin q, m on a slide joint", -0.3, 0.3, 0.02, 0.0},
             loop};
   }
   btr::EffectLaw law() const override {

@@ -4,7 +4,8 @@
 /// (Dahl 1968, A solid friction model, with exponent 1; LuGre friction of Canudas de Wit et al. 1995 has this in it.)
 /// The torque after a reversal depends on the way since then: a loop of hysteresis over the position. With s near
 /// nothing it is Coulomb's friction. It is reckoned at the drive; a joint without one has none. Neutral: T = 0; s then
-/// says nothing. State: z/s.
+/// says nothing. State: z/s; of what stands still at the beginning, what drive and weight leave for it to carry.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -32,10 +33,14 @@ class BristleFriction final : public btr::Effect {
                      std::span<double> state, double dt) const override {
     if (values[0] == 0) return torque;
     // Exact for a rate that is constant within the step; the mean of its ends over it.
-    const double before = state[0], way = std::abs(joint.rate) * dt / values[1];
+    double& bent = state[0];
+    constexpr double still = 0.1;  // of s in a second
+    if (bent == 0 && std::abs(joint.rate) < still * values[1])
+      bent = std::clamp((torque + joint.load) / values[0], -1.0, 1.0);
+    const double before = bent, way = std::abs(joint.rate) * dt / values[1];
     const double end = std::copysign(1.0, joint.rate);
-    state[0] = end + (before - end) * std::exp(-way);
-    return torque - values[0] * (before + state[0]) / 2;
+    bent = end + (before - end) * std::exp(-way);
+    return torque - values[0] * (before + bent) / 2;
   }
 };
 

@@ -165,9 +165,9 @@ void Session::step() {
     const std::string& name = scene_.robots[i].name;
     if (const auto found = players_.find(name); found != players_.end()) {
       Player& player = found->second;
-      const bool over = player.isOver(period);
-      if (over && game_.robots.at(name).controller->repeats) player = playerOf(game_, scene_, name, 0);
-      if (!over || player.clock < period / 2) askController(i, player);
+      const bool repeats = game_.robots.at(name).controller->repeats, asked = player.isAsked(period, repeats);
+      if (repeats && player.isOver(period)) player = playerOf(game_, scene_, name, 0);
+      if (asked) askController(i, player);
       player.clock += period;
     }
     if (const auto found = held_.find(name); found != held_.end())

@@ -93,6 +93,8 @@ class Session {
     std::unique_ptr<Motion> motion;
     double clock = 0;  ///< time since the motion began [s]
     bool isOver(double period_s) const { return clock >= motion->duration() - period_s / 2; }
+    /// In this period: its motion goes on, or is just beginning, or begins again.
+    bool isAsked(double period_s, bool repeats) const { return !isOver(period_s) || repeats || clock < period_s / 2; }
   };
 
   void change(const PlaceAct& act);

@@ -54,9 +54,7 @@ void Session::askEyes() {
   for (auto& [name, eye] : eyes_) {
     const auto found = players_.find(name);
     if (!eye || found == players_.end() || !found->second.controller->looks()) continue;
-    const bool moves =
-        !found->second.isOver(period) || game_.robots.at(name).controller->repeats || found->second.clock < period / 2;
-    if (moves) eye->ask(*this);
+    if (found->second.isAsked(period, game_.robots.at(name).controller->repeats)) eye->ask(*this);
   }
 }
 

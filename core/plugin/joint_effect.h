@@ -31,6 +31,19 @@ inline double weakened(double torque, const JointState& joint, double share, boo
   return withinLimits(share * (torque + joint.beyond - own) + own, torque, joint, share);
 }
 
+/// Whether the servo follows a sensor that is off, too, a whole number that an analysis tries one by one.
+inline Parameter closesLoopParameter() {
+  Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
+  loop.integer = true;
+  return loop;
+}
+
+/// What a servo's law makes of a command when its sensor says `off` too much [rad or m]: it acts on c − (q + off).
+inline CommandAround seenThrough(const CommandAround& command, const JointState& joint, double off) {
+  if (!joint.followsPosition) return command;
+  return {command.before - off, command.after - off};
+}
+
 /// What a servo's loop follows and what is recorded, where motor and joint can part: a whole number that an analysis
 /// tries one by one. Further ways to build it follow from 4 on.
 inline Parameter sensorsParameter(int most = 3, const std::string& further = "") {

@@ -21,8 +21,7 @@ class PositionOffset final : public btr::Effect {
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
                              std::span<double>, double) const override {
-    if (!joint.followsPosition) return command;
-    return {command.before - values[0], command.after - values[0]};
+    return btr::seenThrough(command, joint, values[0]);
   }
   double measured(double position, const btr::JointState&, std::span<const double> values, std::span<double>,
                   double) const override {

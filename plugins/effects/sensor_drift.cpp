@@ -12,9 +12,8 @@ namespace {
 
 class SensorDrift final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
-    loop.integer = true;
-    return {{"rate_rad_s", "rad/s", "by which its zero creeps, m/s on a slide joint", -0.2, 0.2, 0.01, 0.0}, loop};
+    return {{"rate_rad_s", "rad/s", "by which its zero creeps, m/s on a slide joint", -0.2, 0.2, 0.01, 0.0},
+            btr::closesLoopParameter()};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::sensor, "a sensor whose zero creeps",
@@ -26,9 +25,7 @@ class SensorDrift final : public btr::Effect {
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
                              std::span<double>, double) const override {
-    if (values[1] == 0 || !joint.followsPosition) return command;
-    const double off = values[0] * joint.time;
-    return {command.before - off, command.after - off};
+    return values[1] == 0 ? command : btr::seenThrough(command, joint, values[0] * joint.time);
   }
   double measured(double position, const btr::JointState& joint, std::span<const double> values, std::span<double>,
                   double) const override {

@@ -13,11 +13,9 @@ namespace {
 
 class SensorEccentricity final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
-    loop.integer = true;
     return {{"cosine_rad", "rad", "a of a·cos q, m on a slide joint", -0.3, 0.3, 0.02, 0.0},
             {"sine_rad", "rad", "b of b·sin q, m on a slide joint", -0.3, 0.3, 0.02, 0.0},
-            loop};
+            btr::closesLoopParameter()};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::sensor, "a sensor whose disc sits off its axis", "y = q + a·cos q + b·sin q",
@@ -28,9 +26,7 @@ class SensorEccentricity final : public btr::Effect {
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
                              std::span<double>, double) const override {
-    if (values[2] == 0 || !joint.followsPosition) return command;
-    const double off = error(joint.position, values);
-    return {command.before - off, command.after - off};
+    return values[2] == 0 ? command : btr::seenThrough(command, joint, error(joint.position, values));
   }
   double measured(double position, const btr::JointState& joint, std::span<const double> values, std::span<double>,
                   double) const override {

@@ -12,9 +12,7 @@ namespace {
 
 class SensorScale final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    btr::Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
-    loop.integer = true;
-    return {{"excess", "", "share by which it says too much", -0.5, 0.5, 0.03, 0.0}, loop};
+    return {{"excess", "", "share by which it says too much", -0.5, 0.5, 0.03, 0.0}, btr::closesLoopParameter()};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::sensor, "a sensor whose gain is wrong",
@@ -26,9 +24,7 @@ class SensorScale final : public btr::Effect {
 
   btr::CommandAround command(btr::CommandAround command, const btr::JointState& joint, std::span<const double> values,
                              std::span<double>, double) const override {
-    if (values[1] == 0 || !joint.followsPosition) return command;
-    const double off = values[0] * joint.position;
-    return {command.before - off, command.after - off};
+    return values[1] == 0 ? command : btr::seenThrough(command, joint, values[0] * joint.position);
   }
   double measured(double position, const btr::JointState& joint, std::span<const double> values, std::span<double>,
                   double) const override {

@@ -4,22 +4,15 @@
 
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
+#include "core/gap/replay/followed_torques.h"
 
 namespace btr {
 namespace {
 
 using What = Binding::Measured::What;
 
-/// The torque that a followed motion takes.
-bool isOfAFollowedMotion(const Binding& binding, const Binding::Measured& measured) {
-  return measured.what == What::torque && std::ranges::any_of(binding.inputs, [&](const Binding::Input& input) {
-           return input.what == Binding::Input::What::motion && input.robot == measured.object &&
-                  input.joint == measured.part;
-         });
-}
-
 bool isOfAJoint(const Binding& binding, const Binding::Measured& measured) {
-  return measured.what == What::position || measured.what == What::rate || isOfAFollowedMotion(binding, measured);
+  return measured.what == What::position || measured.what == What::rate || isFollowedTorque(binding, measured);
 }
 
 /// How long a servo's damping holds it back behind its command.
@@ -51,7 +44,7 @@ std::vector<double> clockColumn(const FitProblem& problem, const Segment& segmen
     if (!isOfAJoint(trial.binding, measured) || !isThere(k, c)) continue;
     const bool hasBefore = k > 0 && isThere(k - 1, c), hasAfter = isThere(k + 1, c);
     if (!hasBefore || !hasAfter) {
-      if (hasBefore == hasAfter || !isOfAFollowedMotion(trial.binding, measured)) continue;
+      if (hasBefore == hasAfter || !isFollowedTorque(trial.binding, measured)) continue;
       const std::size_t other = hasBefore ? k - 1 : k + 1;
       column[k] = (simulated(other) - simulated(k)) / (time[segment.row[other]] - time[segment.row[k]]) /
                   trial.floorAt(c, segment.row[k]);
@@ -88,10 +81,7 @@ double mostShift_s(const FitProblem& problem) {
   constexpr double slack = 1.1;  // so that half a row is not at the bound
   double most_s = problem.givenStep_s / 2;
   for (const FitTrial& trial : problem.trials)
-    if (std::ranges::any_of(trial.binding.measured, [&](const Binding::Measured& measured) {
-          return isOfAFollowedMotion(trial.binding, measured);
-        }))
-      most_s = std::max(most_s, slack * trial.recording.samplePeriod() / 2);
+    if (!followedTorques(trial.binding).empty()) most_s = std::max(most_s, slack * trial.recording.samplePeriod() / 2);
   return most_s;
 }
 

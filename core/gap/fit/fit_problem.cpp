@@ -27,10 +27,7 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
       if (robot.model.joints[j].type == Joint::Type::fixed) continue;
       const Drive::Kind kind = robot.drives[j].kind;
       if (kind == Drive::Kind::servo || kind == Drive::Kind::motion) continue;
-      const bool commanded = std::any_of(trial.binding.inputs.begin(), trial.binding.inputs.end(), [&](const auto& i) {
-        return i.what == Binding::Input::What::command && i.robot == r && i.joint == j;
-      });
-      if (kind != Drive::Kind::dcMotor || !commanded) return true;
+      if (kind != Drive::Kind::dcMotor || !trial.binding.input(Binding::Input::What::command, r, j)) return true;
     }
   }
   return false;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/lowpass.h"
@@ -30,23 +29,14 @@ std::vector<std::size_t> followed(const FitTrial& trial) {
   return columns;
 }
 
-bool followsMotion(const FitTrial& trial) {
-  return std::ranges::any_of(trial.binding.inputs,
-                             [](const Input& input) { return input.what == Input::What::motion; });
-}
+bool followsMotion(const FitTrial& trial) { return !followed(trial).empty(); }
 
 bool isComparedTorque(const FitTrial& trial, std::size_t channel) {
   return trial.binding.measured[channel].what == Measured::What::torque && trial.noiseFloor[channel] > 0;
 }
 
-/// Of what noise in the positions makes of a torque.
-struct Spread {
-  double squares = 0;
-  std::size_t count = 0;
-  double rms() const { return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0; }
-};
-
-using Spreads = std::map<std::string, Spread>;
+/// What noise in the positions makes of torques, by channel.
+using Spreads = std::map<std::string, Squares>;
 
 void addSpread(const FitProblem& problem, const Segment& segment, const Recording& noisy, Spreads& spreads) {
   const FitTrial& trial = problem.trials[segment.trial];
@@ -58,13 +48,11 @@ void addSpread(const FitProblem& problem, const Segment& segment, const Recordin
   for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
     if (!isComparedTorque(trial, channel)) continue;
     const std::size_t column = trial.binding.measured[channel].column;
-    Spread& spread = spreads[trial.recording.channels[column]];
+    Squares& spread = spreads[trial.recording.channels[column]];
     for (std::size_t row = segment.scored; row < segment.last; ++row) {
       if (!std::isfinite(trial.recording.columns[column][row])) continue;
       const double difference = again.values[channel][row] - once.values[channel][row];
-      if (!std::isfinite(difference)) continue;
-      spread.squares += difference * difference;
-      ++spread.count;
+      if (std::isfinite(difference)) spread.add(difference);
     }
   }
 }
@@ -80,11 +68,8 @@ double cutoffForNoiseAlone(const FitProblem& problem) {
       const std::vector<double>& path = trial.recording.columns[column];
       if (path.size() < 4 * ends || !std::ranges::all_of(path, [](double x) { return std::isfinite(x); })) return false;
       const std::vector<double> smooth = LowPass(4, cutoff_hz, 1 / period_s).zeroPhase(path);
-      Spread taken;
-      for (std::size_t row = ends; row + ends < path.size(); ++row) {
-        taken.squares += std::pow(path[row] - smooth[row], 2);
-        ++taken.count;
-      }
+      Squares taken;
+      for (std::size_t row = ends; row + ends < path.size(); ++row) taken.add(path[row] - smooth[row]);
       return taken.rms() < noiseAlone * channelFloor(trial.recording, column).level;
     });
   };

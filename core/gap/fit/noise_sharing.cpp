@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
@@ -51,15 +52,6 @@ struct Known {
   bool few = false;                      ///< numbers in a trial
   bool jitters = false;                  ///< speed times jitter is part of a level
   std::vector<double> sensor, jitter_s;  ///< of the trials where it is: what is left of a level, and of the stamps
-};
-
-struct Squares {
-  double sum = 0, count = 0;
-  void add(double value) {
-    sum += value * value;
-    ++count;
-  }
-  double rms() const { return std::sqrt(sum / count); }
 };
 
 double rootMeanSquare(const std::vector<double>& values) {
@@ -126,11 +118,8 @@ std::vector<double> commandLateness(const FitTrial& trial, const Measured& measu
   const std::vector<double>& time = trial.recording.columns[0];
   std::vector<double> lateness(time.size(), 0);
   if (measured.what != Measured::What::position && measured.what != Measured::What::rate) return lateness;
-  const auto command = std::ranges::find_if(trial.binding.inputs, [&](const Binding::Input& input) {
-    return input.what == Binding::Input::What::command && input.robot == measured.object &&
-           input.joint == measured.part;
-  });
-  if (command == trial.binding.inputs.end()) return lateness;
+  const auto* command = trial.binding.input(Binding::Input::What::command, measured.object, measured.part);
+  if (!command) return lateness;
   const std::vector<double>& commands = trial.recording.columns[command->column];
   std::vector<std::pair<double, double>> changes;  // when, and by how much
   std::size_t oldest = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/gap/fit/segments.h"
+#include "core/gap/fit/squares.h"
 #include "core/gap/recordings/binding.h"
 
 namespace btr {
@@ -16,25 +17,22 @@ bool followsTorque(const FitTrial& trial, const Scene& scene, std::size_t channe
   const Measured& measured = trial.binding.measured[channel];
   return measured.what == Measured::What::position && trial.noiseFloor[channel] > 0 &&
          scene.robots[measured.object].drives[measured.part].kind == Drive::Kind::torque &&
-         std::ranges::any_of(trial.binding.inputs, [&](const Binding::Input& input) {
-           return input.what == Binding::Input::What::command && input.robot == measured.object &&
-                  input.joint == measured.part;
-         });
+         trial.binding.input(Binding::Input::What::command, measured.object, measured.part);
 }
 
 /// Of one channel in one trial.
 struct Way {
-  double error = 0, sum = 0, squares = 0, count = 0;
+  Squares error, values;
+  double sum = 0;
   void add(double difference, double value) {
-    error += difference * difference;
+    error.add(difference);
+    values.add(value);
     sum += value;
-    squares += value * value;
-    ++count;
   }
   bool isLost() const {
     constexpr double lost = 0.5;  // of how far the joint moves, r.m.s.
-    const double mean = sum / count;
-    return error / count > lost * lost * (squares / count - mean * mean);
+    const double mean = sum / values.count;
+    return error.sum / error.count > lost * lost * (values.sum / values.count - mean * mean);
   }
 };
 
@@ -61,7 +59,7 @@ void sayIfTorquesLeadAway(FitProblem& problem) {
       }
     }
     for (const Way& way : ways)
-      if (way.count > 0) {
+      if (way.error.count > 0) {
         ++driven;
         if (way.isLost()) ++lost;
       }

@@ -200,4 +200,10 @@ Binding bind(const Scene& scene, const Recording& recording) {
   return binding;
 }
 
+const Binding::Input* Binding::input(Input::What what, std::size_t robot, std::size_t joint) const {
+  const auto found = std::ranges::find_if(
+      inputs, [&](const Input& input) { return input.what == what && input.robot == robot && input.joint == joint; });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
 }  // namespace btr

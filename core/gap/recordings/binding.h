@@ -24,6 +24,8 @@ struct Binding {
     std::size_t column = 0;
   };
   std::vector<Input> inputs;
+  /// A joint's input of that kind, nullptr where the recording has none.
+  const Input* input(Input::What what, std::size_t robot, std::size_t joint) const;
   std::vector<Measured> measured;
   std::vector<Measured> startOnly;  ///< give the start but are not compared (Recording::notCompared)
   std::vector<std::string> notes;   ///< columns that the simulator has no counterpart of, joints without a command

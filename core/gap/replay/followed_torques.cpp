@@ -7,13 +7,15 @@
 
 namespace btr {
 
+bool isFollowedTorque(const Binding& binding, const Binding::Measured& measured) {
+  return measured.what == Binding::Measured::What::torque &&
+         binding.input(Binding::Input::What::motion, measured.object, measured.part);
+}
+
 std::vector<std::size_t> followedTorques(const Binding& binding) {
   std::vector<std::size_t> torques;
   for (std::size_t i = 0; i < binding.measured.size(); ++i)
-    for (const Binding::Input& input : binding.inputs)
-      if (input.what == Binding::Input::What::motion && binding.measured[i].what == Binding::Measured::What::torque &&
-          binding.measured[i].object == input.robot && binding.measured[i].part == input.joint)
-        torques.push_back(i);
+    if (isFollowedTorque(binding, binding.measured[i])) torques.push_back(i);
   return torques;
 }
 

@@ -7,7 +7,9 @@
 
 namespace btr {
 
-/// Measured torques of joints that follow their recorded motion, by Binding::measured.
+/// The torque that a joint takes which follows its recorded motion.
+bool isFollowedTorque(const Binding& binding, const Binding::Measured& measured);
+/// All of them, by Binding::measured.
 std::vector<std::size_t> followedTorques(const Binding& binding);
 
 /// Below which frequency these torques are compared [Hz], where the recording went through a low-pass filter: half its

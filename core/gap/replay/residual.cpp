@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "core/gap/recordings/binding.h"
@@ -60,8 +61,9 @@ void addRecording(const Scene& scene, const Recording& recording, bool asRecorde
   const StartState start = estimated ? *estimated : startState(scene, recording, binding);
   Scene finer = scene;
   finer.step_s /= 2;
-  Recording compared = recording;
-  filterFollowedTorques(compared, binding);
+  std::optional<Recording> filtered;
+  if (comparedBelow_hz(recording) > 0) filterFollowedTorques(filtered.emplace(recording), binding);
+  const Recording& compared = filtered ? *filtered : recording;
   const ReplayedRecording replayed = replayRecording(scene, recording, binding, start, 0, recording.rows(), goesOn);
   const ReplayedRecording check = replayRecording(finer, recording, binding, start, 0, recording.rows(), goesOn);
   if (!replayed.fault.empty()) note("the simulation was ended: " + replayed.fault);

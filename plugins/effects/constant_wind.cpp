@@ -1,12 +1,14 @@
 /// A steady wind u pushes balls: the drag of the air relative to them, less what they would feel in still air (that is
 /// the effect air_drag's business):
 ///   F = D(u − v) − D(−v),   D(w) = ½·ρ·c·π·r²·|w|·w      ρ = 1.2 kg/m³, c = 0.47 (smooth sphere)
-/// Newton's drag at the speed relative to the air (Hoerner 1965, Fluid-Dynamic Drag). Together with air_drag at 0.47 it
-/// is exactly the drag in the wind. Robots feel none. Neutral: u = 0.
+/// unless the simulator has an air_drag that says another: then c is that number, the mean of several balls'. Newton's
+/// drag at the speed relative to the air (Hoerner 1965, Fluid-Dynamic Drag). Together with air_drag it is exactly the
+/// drag in the wind. Robots feel none. Neutral: u = 0.
 #include <memory>
 #include <numbers>
 
 #include "core/plugin/plugin.h"
+#include "plugins/effects/drag_in_wind.h"
 
 namespace {
 
@@ -17,12 +19,16 @@ class ConstantWind final : public btr::Effect {
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::air, "a steady wind", "F = D(u − v) − D(−v),  D(w) = ½·ρ·c·π·r^2·|w|·w",
-            "u: x_m_s, y_m_s; c = 0.47; ρ = 1.2 kg/m³", "Hoerner 1965"};
+            "u: x_m_s, y_m_s; c: drag number of air_drag, 0.47 without; ρ = 1.2 kg/m³", "Hoerner 1965"};
   }
   Place place() const override { return Place::world; }
+  void changeScene(btr::Scene& scene, const std::string&, std::span<const double>) const override {
+    btr::tellWindOfDrag(scene);
+  }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
-    constexpr double air_kg_m3 = 1.2, dragNumber = 0.47;
+    constexpr double air_kg_m3 = 1.2;
+    const double dragNumber = btr::dragNumberInWind(values);
     const Eigen::Vector3d wind(values[0], values[1], 0);
     if (wind.isZero(0)) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d relative = wind - ball.velocity_m_s;

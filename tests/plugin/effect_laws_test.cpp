@@ -15,10 +15,31 @@ using test::effect;
 
 TEST(StribeckFriction, FadesFromRestToSliding) {
   const auto friction = effect("stribeck_friction");
-  const Numbers values{0.02, 0.05, 0.1};
-  EXPECT_DOUBLE_EQ(0.07, friction->frictionLimit({}, values));
-  EXPECT_NEAR(0.02 + 0.05 / std::numbers::e, friction->frictionLimit({.rate = -0.1}, values), 1e-15);
-  EXPECT_NEAR(0.02, friction->frictionLimit({.rate = 5}, values), 1e-15);
+  for (const double exponent : {1.0, 2.0, 12.0}) {
+    const Numbers values{0.02, 0.05, 0.1, exponent};
+    EXPECT_DOUBLE_EQ(0.07, friction->frictionLimit({}, values));
+    EXPECT_NEAR(0.02 + 0.05 / std::numbers::e, friction->frictionLimit({.rate = -0.1}, values), 1e-15);
+    EXPECT_NEAR(0.02, friction->frictionLimit({.rate = 5}, values), 1e-15);
+  }
+}
+
+TEST(StribeckFriction, WithALargeExponentIsAStep) {
+  const auto friction = effect("stribeck_friction");
+  const Numbers values{0.02, 0.05, 0.8, 12};
+  EXPECT_NEAR(0.07, friction->frictionLimit({.rate = 0.5}, values), 1e-3);
+  EXPECT_NEAR(0.02, friction->frictionLimit({.rate = -1}, values), 1e-6);
+}
+
+TEST(ThinningFriction, IsViscousWhenSlowAndFadesBeyond) {
+  const auto friction = effect("thinning_friction");
+  EXPECT_NEAR(0.3, friction->damping({.rate = 0.01}, Numbers{0.3, 2.5, 2}), 1e-5);
+  EXPECT_DOUBLE_EQ(0.15, friction->damping({.rate = -2.5}, Numbers{0.3, 2.5, 2}));
+  const auto torque = [&](double rate, double exponent) {
+    return rate * friction->damping({.rate = rate}, Numbers{0.3, 2.5, exponent});
+  };
+  EXPECT_GT(torque(2.5, 2), torque(2, 2)) << "an eddy current brake is strongest there";
+  EXPECT_GT(torque(2.5, 2), torque(3, 2));
+  EXPECT_NEAR(0.3 * 2.5, torque(1e4, 1), 1e-3) << "and this one keeps its torque";
 }
 
 TEST(LoadDependentFriction, AddsSharesOfDriveAndWeightWhereOneHoldsTheOther) {
@@ -234,6 +255,25 @@ TEST(ConstantWind, WithAirDragIsDragInTheWind) {
   const Eigen::Vector3d relative(3, -1, -2);
   const Eigen::Vector3d expected = 0.5 * 1.2 * 0.47 * std::numbers::pi * 0.01 * relative.norm() * relative;
   EXPECT_NEAR(0, (both - expected).norm(), 1e-15);
+}
+
+TEST(ConstantWind, FollowsTheDragNumberOfStillAir) {
+  Scene scene;
+  const SceneEffect wind{effect("constant_wind"), "constant_wind", "world", {4, -1}};
+  const SceneEffect drag{effect("air_drag"), "air_drag", "ball", {0.25}};
+  const BallState ball{.velocity_m_s = {1, 0, 2}, .radius_m = 0.02, .mass_kg = 0.0027};
+  const Eigen::Vector3d relative(3, -1, -2);
+  const Eigen::Vector3d expected = 0.5 * 1.2 * 0.25 * std::numbers::pi * 4e-4 * relative.norm() * relative;
+  for (const bool windFirst : {true, false}) {
+    scene.effects.clear();
+    for (const SceneEffect& placed : windFirst ? std::vector{wind, drag} : std::vector{drag, wind}) {
+      scene.effects.push_back(placed);
+      placed.effect->changeScene(scene, placed.at, placed.values);
+    }
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (const SceneEffect& placed : scene.effects) force += placed.effect->ballForce(ball, placed.values);
+    EXPECT_NEAR(0, (force - expected).norm(), 1e-15);
+  }
 }
 
 TEST(AnisotropicRollingResistance, SlowsABallByItsNumberAlongEachAxis) {

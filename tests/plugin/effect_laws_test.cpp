@@ -32,14 +32,18 @@ TEST(StribeckFriction, WithALargeExponentIsAStep) {
 
 TEST(ThinningFriction, IsViscousWhenSlowAndFadesBeyond) {
   const auto friction = effect("thinning_friction");
-  EXPECT_NEAR(0.3, friction->damping({.rate = 0.01}, Numbers{0.3, 2.5, 2}), 1e-5);
-  EXPECT_DOUBLE_EQ(0.15, friction->damping({.rate = -2.5}, Numbers{0.3, 2.5, 2}));
-  const auto torque = [&](double rate, double exponent) {
-    return rate * friction->damping({.rate = rate}, Numbers{0.3, 2.5, exponent});
+  const auto torque = [&](double rate, double fading, double suddenness) {
+    return rate * friction->damping({.rate = rate}, Numbers{0.3, 2.5, fading, suddenness});
   };
-  EXPECT_GT(torque(2.5, 2), torque(2, 2)) << "an eddy current brake is strongest there";
-  EXPECT_GT(torque(2.5, 2), torque(3, 2));
-  EXPECT_NEAR(0.3 * 2.5, torque(1e4, 1), 1e-3) << "and this one keeps its torque";
+  for (const double fading : {1.0, 2.0}) EXPECT_NEAR(0.3 * 0.01, torque(0.01, fading, 2), 1e-7);
+  // An eddy current brake: k·ω/(1 + (ω/ωc)²).
+  for (const double rate : {0.5, 2.5, 9.0})
+    EXPECT_NEAR(0.3 * rate / (1 + rate * rate / 6.25), torque(rate, 2, 2), 1e-12);
+  EXPECT_GT(torque(2.5, 2, 2), torque(2, 2, 2)) << "it is strongest there";
+  EXPECT_GT(torque(2.5, 2, 2), torque(3, 2, 2));
+  // A second slope, here 0, at once.
+  EXPECT_NEAR(0.3 * 1.5, torque(1.5, 1, 12), 1e-3);
+  EXPECT_NEAR(0.3 * 2.5, torque(4, 1, 12), 1e-3);
 }
 
 TEST(LoadDependentFriction, AddsSharesOfDriveAndWeightWhereOneHoldsTheOther) {

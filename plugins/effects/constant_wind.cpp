@@ -25,6 +25,8 @@ class ConstantWind final : public btr::Effect {
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double>) const override {
     btr::tellWindOfDrag(scene);
   }
+  /// By itself it would drive a ball on that flies before the wind: air that does so slows one that flies against it.
+  std::vector<std::string> needs() const override { return {"air_drag", "viscous_drag"}; }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
     constexpr double air_kg_m3 = 1.2;

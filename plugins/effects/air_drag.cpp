@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/plugin/plugin.h"
-#include "plugins/effects/drag_in_wind.h"
+#include "core/plugin/drag_in_wind.h"
 
 namespace {
 

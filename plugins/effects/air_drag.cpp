@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/plugin/plugin.h"
-#include "core/plugin/drag_in_wind.h"
 
 namespace {
 
@@ -19,9 +18,6 @@ class AirDrag final : public btr::Effect {
   }
   Place place() const override { return Place::ball; }
   bool dissipative() const override { return true; }
-  void changeScene(btr::Scene& scene, const std::string&, std::span<const double>) const override {
-    btr::tellWindOfDrag(scene);
-  }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
     constexpr double air_kg_m3 = 1.2;

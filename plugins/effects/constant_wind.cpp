@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "core/plugin/plugin.h"
-#include "core/plugin/drag_in_wind.h"
 
 namespace {
 
@@ -22,15 +21,20 @@ class ConstantWind final : public btr::Effect {
             "u: x_m_s, y_m_s; c: drag number of air_drag, 0.47 without; ρ = 1.2 kg/m³", "Hoerner 1965"};
   }
   Place place() const override { return Place::world; }
+  /// Its own numbers, along x and y, are followed by the drag number.
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double>) const override {
-    btr::tellWindOfDrag(scene);
+    double sum = 0, count = 0;
+    for (const btr::SceneEffect& placed : scene.effects)
+      if (placed.name == "air_drag" && placed.values[0] > 0) sum += placed.values[0], ++count;
+    for (btr::SceneEffect& placed : scene.effects)
+      if (placed.effect.get() == this && count > 0) placed.values = {placed.values[0], placed.values[1], sum / count};
   }
   /// By itself it would drive a ball on that flies before the wind: air that does so slows one that flies against it.
   std::vector<std::string> needs() const override { return {"air_drag", "viscous_drag"}; }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
     constexpr double air_kg_m3 = 1.2;
-    const double dragNumber = btr::dragNumberInWind(values);
+    const double dragNumber = values.size() > 2 ? values[2] : 0.47;
     const Eigen::Vector3d wind(values[0], values[1], 0);
     if (wind.isZero(0)) return Eigen::Vector3d::Zero();
     const Eigen::Vector3d relative = wind - ball.velocity_m_s;

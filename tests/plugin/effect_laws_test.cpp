@@ -262,18 +262,15 @@ TEST(ConstantWind, WithAirDragIsDragInTheWind) {
 }
 
 TEST(ConstantWind, FollowsTheDragNumberOfStillAir) {
-  Scene scene;
-  const SceneEffect wind{effect("constant_wind"), "constant_wind", "world", {4, -1}};
-  const SceneEffect drag{effect("air_drag"), "air_drag", "ball", {0.25}};
   const BallState ball{.velocity_m_s = {1, 0, 2}, .radius_m = 0.02, .mass_kg = 0.0027};
   const Eigen::Vector3d relative(3, -1, -2);
   const Eigen::Vector3d expected = 0.5 * 1.2 * 0.25 * std::numbers::pi * 4e-4 * relative.norm() * relative;
-  for (const bool windFirst : {true, false}) {
-    scene.effects.clear();
-    for (const SceneEffect& placed : windFirst ? std::vector{wind, drag} : std::vector{drag, wind}) {
-      scene.effects.push_back(placed);
-      placed.effect->changeScene(scene, placed.at, placed.values);
-    }
+  const PlacedEffect wind{"constant_wind", "world", {{"x_m_s", 4}, {"y_m_s", -1}}};
+  const PlacedEffect drag{"air_drag", "ball", {{"drag_number", 0.25}}};
+  SceneSpec spec;
+  spec.balls.push_back({.name = "ball"});
+  for (const auto& effects : {std::vector{wind, drag}, std::vector{drag, wind}}) {
+    const Scene scene = makeScene(spec, {}, {.values = {}, .effects = effects}, test::host().effectFactory());
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     for (const SceneEffect& placed : scene.effects) force += placed.effect->ballForce(ball, placed.values);
     EXPECT_NEAR(0, (force - expected).norm(), 1e-15);

@@ -173,6 +173,7 @@ void emptyRepeated(Recording& trial) {
     const std::size_t failure = longestFailure(trial, columns, readings);
     const std::size_t each = failure > rhythm ? failure + 1 : rhythm;  // a longer one may be in slow motion
     if (each < 2) continue;
+    constexpr std::size_t rests = 3;
     std::size_t emptied = 0;
     for (std::size_t k = 0; k < readings.runs.size(); ++k) {
       const Run& run = readings.runs[k];
@@ -180,7 +181,8 @@ void emptyRepeated(Recording& trial) {
         const auto after = static_cast<std::size_t>(readings.place[row] - readings.place[run.rows[0]]);
         // When a value came of which the first reading is lost, nobody knows; what rests is not late.
         const bool isKnown = k == 0 || run.dated || after >= 2 * each;
-        const bool isNew = isKnown && after % each == 0;
+        // Reads that fail have no rhythm: later rows are new only where the joint plainly rests.
+        const bool isNew = isKnown && after % each == 0 && (rhythm >= failure || after == 0 || after >= rests * each);
         if (isNew) continue;
         for (const std::size_t column : columns) trial.columns[column][row] = std::numeric_limits<double>::quiet_NaN();
         ++emptied;

@@ -14,7 +14,7 @@
 namespace btr {
 namespace {
 
-constexpr double forgets_s = 0.6;  // a servo, how it came where it is
+constexpr double forgets_s = 1.0;  // a servo, how it came where it is
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 struct Loss {
@@ -99,7 +99,7 @@ void putBack(Recording& trial, const Loss& loss, const std::vector<std::size_t>&
 }  // namespace
 
 void fillLostRows(Recording& trial) {
-  constexpr double mostForgotten = 0.3;  // of the trial
+  constexpr double mostForgotten = 0.6;  // of the trial
   const std::vector<std::size_t> inputs = inputsOf(trial);
   std::vector<Loss> losses = lossesOf(trial.columns[0]);
   if (inputs.empty() || losses.empty()) return;
@@ -131,7 +131,7 @@ void fillLostRows(Recording& trial) {
       forget(trial, step.robot, static_cast<std::size_t>(row));
     }
     note += "; where one steps meanwhile (" + std::to_string(steps.size()) +
-            " times) nobody knows when, and the next 0.6 s are not compared";
+            " times) nobody knows when, and the next second is not compared";
   }
   trial.notes.push_back(note);
 }

@@ -65,11 +65,15 @@ bool RivalFinder::isHollow(const TriedCandidate& other, const PlacedEffect& simp
 }
 
 bool RivalFinder::isAllThatShows(const TriedCandidate& simpler, const Scored& final, std::size_t i) const {
+  const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const PlacedEffect& own = final.fit.model.effects[i];
-  return isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) &&
-         simpler.scored.mean() <= service_.thresholds().rivals.allThatShows * final.mean() &&
-         showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(),
-                         final.fit, i);
+  if (!isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) ||
+      simpler.scored.mean() > limits.nothingShows * final.mean() ||
+      !showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(), final.fit,
+                       i))
+    return false;
+  return simpler.scored.mean() <= limits.allThatShows * final.mean() ||
+         shownSizes(service_.problem(), final.fit, i) == 0;
 }
 
 bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {

@@ -162,6 +162,9 @@ const std::map<std::string, std::string>& systemHeaders() {
         {"setjmp.h", "setjmp longjmp jmp_buf"},
         {"signal.h", "signal raise SIGFPE SIGINT SIGSEGV"},
         {"limits.h", "PATH_MAX"},
+        {"limits", "numeric_limits"},
+        {"memory", "auto_ptr"},
+        {"strstream", "istrstream ostrstream strstream"},
         {"stdint.h", "uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t"},
         {"values.h", "MAXINT MAXLONG MAXSHORT MAXFLOAT MAXDOUBLE MINDOUBLE MINFLOAT MININT"}};
     std::map<std::string, std::string> headers;

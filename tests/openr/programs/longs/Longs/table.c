@@ -4,4 +4,9 @@ struct entry {
 };
 void in_c(text, number) char* text;
 long number;
-{ sprintf(text, "%d %ld", (int)sizeof(struct entry), number); }
+{
+#ifndef __MIPSEL__
+#error "in which order do bytes lie?"
+#endif
+  sprintf(text, "%d %ld", (int)sizeof(struct entry), number);
+}

@@ -1,6 +1,7 @@
 #include "ui/window/start_page.h"
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QFileInfo>
 #include <QFrame>
 #include <QHBoxLayout>
@@ -117,8 +118,7 @@ QVBoxLayout* StartPage::addDoor(const QString& name, const QString& icon, const 
 
 void StartPage::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange)
-    for (const auto& [picture, icon] : pictures_)
-      picture->setPixmap(themeIcon(icon).pixmap(pictureSize, pictureSize));
+    for (const auto& [picture, icon] : pictures_) picture->setPixmap(themeIcon(icon).pixmap(pictureSize, pictureSize));
   QWidget::changeEvent(event);
 }
 

@@ -11,7 +11,7 @@ namespace {
 // One row of a Cholesky factor, from a row of the matrix in `line` (0 … row): writes its entries into the factor's
 // columns above, `line` keeps the diagonal before its root. What stands left of an entry's own column in a line of four
 // is overwritten, and never read again.
-BTR_WIDE void factorLine(double* line, double* factor, const double* inverse, unsigned stride, unsigned row) {
+BTR_INLINE void factorLine(double* line, double* factor, const double* inverse, unsigned stride, unsigned row) {
   for (unsigned k = 0; k < row; ++k) {
     double* column = factor + static_cast<std::size_t>(k) * stride;
     const double entry = line[k] * inverse[k];
@@ -24,13 +24,13 @@ BTR_WIDE void factorLine(double* line, double* factor, const double* inverse, un
 }
 
 // to −= factor · from
-BTR_WIDE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
+BTR_INLINE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
   for (unsigned chunk = first / wideLanes; chunk * wideLanes < count; ++chunk)
     *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
         factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
 }
 
-BTR_WIDE void addTimes(double* to, double factor, const double* from, unsigned count) {
+BTR_INLINE void addTimes(double* to, double factor, const double* from, unsigned count) {
   for (unsigned chunk = 0; chunk * wideLanes < count; ++chunk)
     *reinterpret_cast<Four*>(to + chunk * wideLanes) +=
         factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
@@ -61,7 +61,7 @@ void BoxSolver::take(const LcpProblem& p) {
 }
 
 // Rows of the factor that are of the same rows of A as before stay as they are.
-bool BoxSolver::factorFree() {
+BTR_WIDE bool BoxSolver::factorFree() {
   const auto count = static_cast<unsigned>(free_.size());
   const std::size_t same = static_cast<std::size_t>(
       std::mismatch(free_.begin(), free_.end(), factored_.begin(), factored_.end()).first - free_.begin());
@@ -79,7 +79,7 @@ bool BoxSolver::factorFree() {
 }
 
 // Free rows by Cholesky, the others at their bounds.
-bool BoxSolver::solveFree() {
+BTR_WIDE bool BoxSolver::solveFree() {
   free_.clear();
   for (unsigned i = 0; i < n_; ++i) {
     if (side_[i] == Side::free) free_.push_back(i);
@@ -107,7 +107,7 @@ bool BoxSolver::solveFree() {
 }
 
 // Rows that contradict their side.
-void BoxSolver::findWrong(double largest) {
+BTR_WIDE void BoxSolver::findWrong(double largest) {
   for (unsigned i = 0; i < n_; ++i) product_[i] = -b_[i];
   for (unsigned j = 0; j < n_; ++j)
     if (x_[j] != 0) addTimes(product_.data(), x_[j], lineOf(a_, j), n_);

@@ -8,7 +8,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double faster_m_s = 0.25;  ///< than a part is now, it may become
-constexpr double apart_m = 0.03;    ///< within which steps are divided, and some room
+constexpr double apart_m = 0.03;     ///< within which steps are divided, and some room
 
 Vector3d horizontal(const Vector3d& v) { return {v.x(), v.y(), 0}; }
 

@@ -150,7 +150,7 @@ TEST(Dog, AKicksWayConvergesWithTheStep) {
   EXPECT_LT(fine, 0.7 * coarse);
 }
 
-// Mouth and tail of this scene are locked: bodies where they begin, and nothing of them can be driven or read.
+// Head, mouth and tail of this scene are locked: bodies where they begin, and nothing of them can be driven or read.
 TEST(Dog, LockedJointsAreRigidWhereTheyBegin) {
   const SceneSpec locked = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
   SceneSpec free = locked;
@@ -164,7 +164,7 @@ TEST(Dog, LockedJointsAreRigidWhereTheyBegin) {
   for (std::size_t link = 0; link < poses.size(); ++link)
     EXPECT_TRUE(poses[link].isApprox(expected[link], 1e-9)) << scene.robots[0].model.links[link].name;
   const auto channels = world.channels();
-  for (const char* joint : {"MOUTH", "TAIL_TILT", "TAIL_PAN"})
+  for (const char* joint : {"NECK_TILT", "HEAD_PAN", "HEAD_TILT", "MOUTH", "TAIL_TILT", "TAIL_PAN"})
     EXPECT_EQ(std::find(channels.begin(), channels.end(), std::string("ers7.") + joint + ".position_rad"),
               channels.end());
   world.advance(hold(scene), 0.4);

@@ -27,18 +27,22 @@ bool isPushed(const WorldBall& ball) {
 
 }  // namespace
 
-/// The gap between both is a concave function of time: where it is open now and at the end, it stays open.
+/// Of each solid of the body, which lies within a sphere. The gap between that and the ball is a concave function of
+/// time: where it is open now and at the end, it stays open.
 bool World::Impl::outruns(const WorldBall& ball, const RobotBody& body, double horizon_s) const {
-  const Vector3d way = ball.state.position_m - body.pose.translation();
-  const double gap = way.norm() - body.reach_m - ball.spec->radius_m - apart_m;
-  if (gap <= 0) return false;
-  const Vector3d direction = way.normalized(), rolling = rollingVelocity(ball.state, ball.spec->inertiaFactor);
-  const double slowest = std::min(rolling.dot(direction), ball.state.velocity_m_s.dot(direction));
-  if (slowest <= 0) return false;
+  const Vector3d rolling = rollingVelocity(ball.state, ball.spec->inertiaFactor);
   const double fastest = body.velocity_m_s.norm() + body.spin_rad_s.norm() * body.reach_m + faster_m_s;
   const double deceleration = ball.spec->rollingDeceleration_m_s2;
-  const double rolls_s = deceleration > 0 ? std::min(horizon_s, slowest / deceleration) : horizon_s;
-  return gap + (slowest - deceleration / 2 * rolls_s) * rolls_s - fastest * horizon_s > 0;
+  return std::all_of(body.colliders.begin(), body.colliders.end(), [&](const Collider& collider) {
+    const Vector3d way = ball.state.position_m - body.pose * collider.pose.translation();
+    const double gap = way.norm() - collider.bound_m - ball.spec->radius_m - apart_m;
+    if (gap <= 0) return false;
+    const Vector3d direction = way.normalized();
+    const double slowest = std::min(rolling.dot(direction), ball.state.velocity_m_s.dot(direction));
+    if (slowest <= 0) return false;
+    const double rolls_s = deceleration > 0 ? std::min(horizon_s, slowest / deceleration) : horizon_s;
+    return gap + (slowest - deceleration / 2 * rolls_s) * rolls_s - fastest * horizon_s > 0;
+  });
 }
 
 bool World::ballsOutrun(double horizon_s) const {

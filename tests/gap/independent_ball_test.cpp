@@ -102,6 +102,11 @@ TEST(IndependentBall, LiftBySpinIsNamedInFlightsThatBounce) {
   const GapReport report = analyse(thrown(plant, {.spin_rad_s = 250, .told = true}, 0.5), library(), quickly());
   EXPECT_THAT(namesIn(report), testing::ElementsAre("magnus_lift")) << report.sentence;
   EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, plant.liftNumber, 0.1 * plant.liftNumber) << report.sentence;
+  // What is told of the spins, within a tenth each, says the lift nearly as well.
+  const auto interval = report.tried.at(0).parameters.at(0).ci95;
+  EXPECT_LT(interval.high - interval.low, 0.5 * plant.liftNumber) << report.sentence;
+  EXPECT_LT(interval.low, plant.liftNumber);
+  EXPECT_GT(interval.high, plant.liftNumber);
   expectAtTheNoise(report);
 }
 
@@ -116,6 +121,24 @@ TEST(IndependentBall, WindIsNamedInFlightsThatBounce) {
   EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, plant.wind_m_s.x(), 0.15);
   EXPECT_NEAR(report.tried.at(0).parameters.at(1).value, plant.wind_m_s.y(), 0.15);
   expectAtTheNoise(report);
+}
+
+// As one who plays knows it: nobody tells the spin, the air slows and lifts the ball. A wind that drives it on where it
+// flies one way and holds it where it flies the other takes as much, and is no physics without drag.
+TEST(IndependentBall, DragAndLiftByASpinThatNobodyTellsAreNoWind) {
+  test::BallPlant plant;
+  plant.dragNumber = 0.45;
+  plant.liftNumber = 0.8;
+  const GapReport report = analyse(thrown(plant, {.spin_rad_s = 200}, 0.5), library(), quickly());
+  EXPECT_THAT(namesIn(report), testing::UnorderedElementsAre("air_drag", "magnus_lift")) << report.sentence;
+}
+
+TEST(IndependentBall, WindIsNamedBesideTheDragThatItComesWith) {
+  test::BallPlant plant;
+  plant.dragNumber = 0.47;
+  plant.wind_m_s << 2, -1.2, 0;
+  const GapReport report = analyse(thrown(plant, {}, 0.5), library(), quickly());
+  EXPECT_THAT(namesIn(report), testing::UnorderedElementsAre("air_drag", "constant_wind")) << report.sentence;
 }
 
 // A replay begins as a report's does: of a ball in the air, drag left out, where all of its samples say, not where the

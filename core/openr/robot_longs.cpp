@@ -88,7 +88,8 @@ void narrowSystemNames(const std::string& text, Changes& changes) {
       {{"typedef unsigned long int ulong;", "typedef unsigned      int ulong;"},
        {"typedef __u_long u_long;", "typedef unsigned u_long;"}}};
   for (const auto& [before, after] : lines)
-    if (const auto at = text.find(before); at != std::string::npos) changes[at] = {before.size(), std::string(after)};
+    for (auto at = text.find(before); at != std::string::npos; at = text.find(before, at + 1))
+      changes[at] = {before.size(), std::string(after)};
 }
 
 }  // namespace

@@ -157,6 +157,7 @@ struct SearchThresholds {
     double leastOfBest = 0.1;        ///< promise, of the best one's [hand]
     int iterations = 8;              ///< of the first fits [time]
     double hopeless = 4;             ///< by cost, of the best after those: no rival [hand]
+    double hopelessOfMuch = 2;       ///< the same where the best leaves more than rivals.muchLeft [time]
     double inReach = 16;  ///< by cost: a wrong number of waves leaves many times what the right one does [case]
     double lastChanceExcess = 0.3;  ///< before nothing is said to help with more left, others are fitted, too; also
                                     ///< the least at which pairs are tried [prototype]
@@ -221,6 +222,14 @@ struct SearchThresholds {
     double smallestForm = 0.02, largestForm = 50, formRatio = 1.15;
     std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
     double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
+    /// Error of the final model from which so much is unexplained that its rivals run a shorter race (verdict.muchLeft):
+    /// costs are mostly of what nothing explains there, and what is a few times as high is no valley's other end. [time]
+    double muchLeft = 25;
+    std::size_t screenedOfMuch = 16;  ///< candidates, after a first look at all [time]
+    std::size_t handedToOfMuch = 4;   ///< as handedTo [time]
+    double valleyOfMuch = 1.7, valleyEndOfMuch = 1.4;  ///< as valley and valleyEnd [time]
+    int raceIterations = 10;       ///< of what arrives, after which what is not within valleyEndOfMuch is left [time]
+    double formRatioOfMuch = 1.3;  ///< as formRatio [time]
   };
 
   /// Where the error lies that calibration leaves (locate.h): describes, decides nothing.

@@ -53,6 +53,7 @@ void RivalFinder::add(const HandedOver& arrived, std::vector<TriedCandidate>& ot
   known->scored = scored;
   known->fit = scored.fit;
   known->attempt.values = scored.fit.model.simulator(service_.problem()).effects.back().parameters;
+  known->settled_s = scored.step_s;
 }
 
 bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {
@@ -118,8 +119,10 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
 void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
   const SearchThresholds& limits = service_.thresholds();
   confirmer_.settle(selection, false, "rivals", 0.95);
+  const bool muchLeft = selection.final.mean() > limits.rivals.muchLeft;
   for (TriedCandidate& other : others) {
     if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
+    if (muchLeft && other.settled_s == service_.step_s()) continue;
     if (excessOf(selection.final) >= limits.calibration.leastToFitOn ||
         isDistinguished(other.scored, selection.final, limits.rivals))
       other.scored =
@@ -127,6 +130,7 @@ void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandid
                             "rivals", 0.95, 0.95)[0];
     service_.bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
+    other.settled_s = service_.step_s();
   }
 }
 
@@ -164,7 +168,8 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
                                     .stage = ", rivals",
                                     .from = 0.88,
                                     .to = 0.95,
-                                    .hopeless = limits.inReach * final.fit.cost});
+                                    .hopeless = limits.inReach * final.fit.cost,
+                                    .shortRace = final.mean() > service_.thresholds().rivals.muchLeft});
   return {std::move(round.without), std::move(round.tried)};
 }
 

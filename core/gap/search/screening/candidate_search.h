@@ -19,6 +19,9 @@ struct Round {
   Scored without;                     ///< the model without them, with the present step
 };
 
+/// Screening that takes only a first look at most.
+SearchThresholds::Screening inShort(const SearchThresholds& thresholds);
+
 /// One round of a search: screening, then confirmation.
 class CandidateSearch {
  public:
@@ -35,6 +38,7 @@ class CandidateSearch {
     double from = 0, to = 1;                                    ///< shares of the search
     double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
+    bool shortRace = false;   ///< few are screened in full, none is begun again in windows
   };
   /// Where something passes that needs a finer step, that step stays.
   Round search(const Request& request);

@@ -79,8 +79,9 @@ TEST(Calibrator, FitsTheNumbersAndHoldsThoseToWhichNothingIsSensitive) {
 
 TEST(Screener, PromisesMostOfWhatIsMissing) {
   Parts parts(dryFriction, considering({"command_delay", "coulomb_friction", "joint_spring"}));
-  const Screening screening = Screener(parts.service).screenBeside(
-      {parts.calibration.base.fit}, nullptr, parts.service.thresholds().screening, "", 0, 1);
+  const Screening screening =
+      Screener(parts.service)
+          .screenBeside({parts.calibration.base.fit}, nullptr, parts.service.thresholds().screening, "", 0, 1);
   ASSERT_FALSE(screening.tried.empty());
   EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
   EXPECT_EQ(screening.tried[0].attempt.rank, 1);

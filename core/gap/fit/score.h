@@ -23,8 +23,6 @@ struct Scored {
 /// The parameters as either half of the blocks alone would have them (a linear step from the fit to everything); each
 /// scores the other half. Initial states stay: they are part of what is scored.
 Scored crossValidate(const FitProblem& problem, const Fit& fit);
-/// Where the fit's sensitivities are known.
-Scored crossValidate(const FitProblem& problem, const Fit& fit, const Linearised& linear);
 /// The same for a model that nothing is fitted of but initial states.
 Scored scoreAsIs(const FitProblem& problem, const Fit& fit);
 

@@ -157,7 +157,6 @@ struct SearchThresholds {
     double leastOfBest = 0.1;        ///< promise, of the best one's [hand]
     int iterations = 8;              ///< of the first fits [time]
     double hopeless = 4;             ///< by cost, of the best after those: no rival [hand]
-    static constexpr double hopelessOfMuch = 2;       ///< the same where the best leaves more than rivals.muchLeft [time]
     double inReach = 16;  ///< by cost: a wrong number of waves leaves many times what the right one does [case]
     double lastChanceExcess = 0.3;  ///< before nothing is said to help with more left, others are fitted, too; also
                                     ///< the least at which pairs are tried [prototype]
@@ -188,7 +187,6 @@ struct SearchThresholds {
     int iterations = 15;          ///< of the last fits [time]
     double worthMore = 1.5;       ///< by cost, of the best: restarts are tried; where feet walk, [time]
     double worthMoreOfWalks = 1;  ///< only of the best itself [time]
-    static constexpr double worthMoreOfMuch = 1.1;  ///< where the best leaves more than rivals.muchLeft [time]
     double leastForFarSizes = 1.3, mostForFarSizes = 10;  ///< error: between them far sizes are tried; with more, a
                                                           ///< better start does not help [hand]
     double leastForValley = 1.03, mostForValley = 4;  ///< error: between them valleys are followed; with less nothing
@@ -223,14 +221,6 @@ struct SearchThresholds {
     double smallestForm = 0.02, largestForm = 50, formRatio = 1.15;
     std::array<double, 4> formCloser{0.93, 0.97, 1.03, 1.07};  ///< and around the best of them [hand]
     double widerAmong = 2;  ///< times its own interval: a number's interval over all rivals is reported [hand]
-    /// Error of the final model from which so much is unexplained that its rivals run a shorter race (verdict.muchLeft):
-    /// costs are mostly of what nothing explains there, and what is a few times as high is no valley's other end. [time]
-    static constexpr double muchLeft = 25;
-    static constexpr std::size_t screenedOfMuch = 16;  ///< candidates, after a first look at all [time]
-    static constexpr std::size_t handedToOfMuch = 4;   ///< as handedTo [time]
-    static constexpr double valleyOfMuch = 1.7, valleyEndOfMuch = 1.4;  ///< as valley and valleyEnd [time]
-    static constexpr int raceIterations = 10;       ///< of what arrives, after which what is not within valleyEndOfMuch is left [time]
-    static constexpr double formRatioOfMuch = 1.3;  ///< as formRatio [time]
   };
 
   /// Where the error lies that calibration leaves (locate.h): describes, decides nothing.

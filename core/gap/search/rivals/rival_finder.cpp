@@ -8,6 +8,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/short_race.h"
 
 namespace btr {
 namespace {
@@ -119,7 +120,7 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
 void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
   const SearchThresholds& limits = service_.thresholds();
   confirmer_.settle(selection, false, "rivals", 0.95);
-  const bool muchLeft = selection.final.mean() > limits.rivals.muchLeft;
+  const bool muchLeft = shortRace.isRun(selection.final.mean());
   for (TriedCandidate& other : others) {
     if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
     if (muchLeft && other.settled_s == service_.step_s()) continue;
@@ -169,7 +170,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
                                     .from = 0.88,
                                     .to = 0.95,
                                     .hopeless = limits.inReach * final.fit.cost,
-                                    .shortRace = final.mean() > service_.thresholds().rivals.muchLeft});
+                                    .shortRace = shortRace.isRun(final.mean())});
   return {std::move(round.without), std::move(round.tried)};
 }
 

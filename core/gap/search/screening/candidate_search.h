@@ -19,9 +19,6 @@ struct Round {
   Scored without;                     ///< the model without them, with the present step
 };
 
-/// Screening that takes only a first look at most.
-SearchThresholds::Screening inShort(const SearchThresholds& thresholds);
-
 /// One round of a search: screening, then confirmation.
 class CandidateSearch {
  public:

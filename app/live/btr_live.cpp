@@ -33,9 +33,12 @@ void addLiveCommand(CLI::App& app, Shell& shell) {
   live->add_option("--patience", a->patience_s, "how long a controller may take for one control period [s]")
       ->transform(decimalNumber(0.01, 1e6))
       ->capture_default_str();
+  // Who steers is told each row: a table or a video of what others do is theirs to write.
   live->add_flag("--steered", a->steered, "obeys lines of JSON on standard input, answers on standard output")
       ->excludes(seconds)
-      ->excludes(until);
+      ->excludes(until)
+      ->excludes(live->get_option("--csv"))
+      ->excludes(live->get_option("--camera"));
   live->callback([=, &shell] {
     if (game->count() == 0 && replay->count() == 0) throw CLI::RequiredError("game, or --replay with a log,");
     runLive(*a, seconds->count() > 0, shell);

@@ -20,6 +20,8 @@ class ConstantWind final : public btr::Effect {
             "u: x_m_s, y_m_s; c = 0.47; ρ = 1.2 kg/m³", "Hoerner 1965"};
   }
   Place place() const override { return Place::world; }
+  /// By itself it would drive a ball on that flies before the wind: air that does so slows one that flies against it.
+  std::vector<std::string> needs() const override { return {"air_drag", "viscous_drag"}; }
 
   Eigen::Vector3d ballForce(const btr::BallState& ball, std::span<const double> values) const override {
     constexpr double air_kg_m3 = 1.2, dragNumber = 0.47;

@@ -78,6 +78,8 @@ expect 0 "the log alone" "$btr" --json live --replay "$folder/log"
 says out '"identical": true'
 says out '"identical_until": 150'
 expect 2 "neither" "$btr" live
+expect 2 "a table of what others steer" "$btr" live "$match" --steered --csv "$folder/steered.csv"
+says err "--csv"
 expect 1 "beyond its end" "$btr" live --replay "$folder/log" --until 9
 says err "at most 1.2 s"
 sed 's/"velocity_m_s":\[2.0,/"velocity_m_s":[2.1,/' "$folder/log" > "$folder/other.log"

@@ -118,6 +118,24 @@ TEST(IndependentBall, WindIsNamedInFlightsThatBounce) {
   expectAtTheNoise(report);
 }
 
+// As one who plays knows it: nobody tells the spin, the air slows and lifts the ball. A wind that drives it on where it
+// flies one way and holds it where it flies the other takes as much, and is no physics without drag.
+TEST(IndependentBall, DragAndLiftByASpinThatNobodyTellsAreNoWind) {
+  test::BallPlant plant;
+  plant.dragNumber = 0.45;
+  plant.liftNumber = 0.8;
+  const GapReport report = analyse(thrown(plant, {.spin_rad_s = 200}, 0.5), library(), quickly());
+  EXPECT_THAT(namesIn(report), testing::UnorderedElementsAre("air_drag", "magnus_lift")) << report.sentence;
+}
+
+TEST(IndependentBall, WindIsNamedBesideTheDragThatItComesWith) {
+  test::BallPlant plant;
+  plant.dragNumber = 0.47;
+  plant.wind_m_s << 2, -1.2, 0;
+  const GapReport report = analyse(thrown(plant, {}, 0.5), library(), quickly());
+  EXPECT_THAT(namesIn(report), testing::UnorderedElementsAre("air_drag", "constant_wind")) << report.sentence;
+}
+
 // A replay begins as a report's does: of a ball in the air, drag left out, where all of its samples say, not where the
 // first 50 ms do.
 TEST(IndependentBall, AStartIsFittedToTheWholeTrial) {

@@ -113,6 +113,27 @@ std::vector<SimulatorSpec> simplerStarts(const Effect& effect, PlacedEffect rela
   return chosen;
 }
 
+/// A wind without the drag of still air is no physics where a ball is fast enough to feel that: it is hidden beside it.
+bool waitsForAnother(const Effect& effect, const BlindWorld& world, const SimulatorSpec& before,
+                     const std::vector<std::string>& names, const EffectFactory& effects) {
+  constexpr double felt = 2;  // noise floors, as what is hidden at least
+  const std::vector<std::string> needs = effect.needs();
+  const auto isNeeded = [&](const std::string& name) { return std::ranges::count(needs, name) > 0; };
+  if (std::ranges::any_of(before.effects, isNeeded, &PlacedEffect::effect)) return false;
+  for (const std::string& name : names) {
+    if (!isNeeded(name)) continue;
+    const auto other = effects(name);
+    for (const std::string& at : placesOf(other->place(), world)) {
+      SimulatorSpec with = before;
+      with.effects.push_back({name, at, {}});
+      for (const Parameter& parameter : other->parameters())
+        with.effects.back().parameters[parameter.name] = parameter.byDefault;
+      if (difference(noiseless(world, with, effects), noiseless(world, before, effects)) >= felt) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, const SimulatorSpec& before,
@@ -127,6 +148,8 @@ std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, 
   placed.at = places[random.below(places.size())];
   for (const PlacedEffect& other : before.effects)
     if (other.effect == placed.effect) return std::nullopt;
+
+  if (waitsForAnother(*effect, world, before, names, effects)) return std::nullopt;
 
   const auto parameters = effect->parameters();
   for (const Parameter& parameter : parameters)

@@ -177,6 +177,8 @@ class TestMeasurementSheet : public QObject {
     QTest::newRow("decimal commas") << "0,5\n0,6" << QStringList{"0,5", "0,6"};
     QTest::newRow("CSV") << "0.5,0.6\n0.7,0.8" << QStringList{"0.5|0.6", "0.7|0.8"};
     QTest::newRow("semicolons and decimal commas") << "0,5;0,6" << QStringList{"0,5|0,6"};
+    QTest::newRow("thousands and a decimal comma") << "0,5\n1.234,5" << QStringList{"0,5", "1.234,5"};
+    QTest::newRow("CSV of numbers below one") << "0.123,45" << QStringList{"0.123|45"};
     QTest::newRow("gap") << "1\n\n3" << QStringList{"1", "", "3"};
   }
   void blocksAreSplitAsTheirTextSuggests() {
@@ -297,6 +299,37 @@ class TestMeasurementSheet : public QObject {
     QVERIFY(!s.model().hasUnsaved());
     QTest::keyClick(&s.sheet.view(), Qt::Key_Y, Qt::ControlModifier);
     QCOMPARE(s.text(2, first + 1), QString("0.4"));
+  }
+
+  void aPastedNumberThatMayBeThousandsIsLeftOutAndSaid_data() {
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("above");
+    QTest::addColumn<QString>("below");
+    QTest::newRow("a point between decimal commas") << "0,5\n1.234"
+                                                    << "0.5"
+                                                    << "";
+    QTest::newRow("a comma between decimal points") << "0.5\t\n1,234"
+                                                    << "0.5"
+                                                    << "";
+    QTest::newRow("nothing beside it says so") << "1.2\n1.234"
+                                               << "1.2"
+                                               << "1.234";
+    QTest::newRow("no thousands") << "1,234\n0,5"
+                                  << "1.234"
+                                  << "0.5";
+  }
+  void aPastedNumberThatMayBeThousandsIsLeftOutAndSaid() {
+    QFETCH(QString, text);
+    QFETCH(QString, above);
+    QFETCH(QString, below);
+    Stored s(2);
+    QApplication::clipboard()->setText(text);
+    s.goTo(0, first);
+    s.press(Qt::Key_V, Qt::ControlModifier);
+    QCOMPARE(s.text(0, first), above);
+    QCOMPARE(s.text(1, first), below);
+    auto* banner = s.sheet.findChild<MessageBanner*>();
+    QCOMPARE(banner->text().contains("thousands"), below.isEmpty());
   }
 
   void aPasteThatReachesBelowTheSheetKeepsWhatFits() {

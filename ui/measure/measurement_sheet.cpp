@@ -66,6 +66,7 @@ MeasurementSheet::MeasurementSheet(QWidget* parent)
       banner_, &MessageBanner::shown, view_, [this] { view_->scrollTo(view_->currentIndex()); }, Qt::QueuedConnection);
   connect(&model_.undoStack(), &QUndoStack::indexChanged, this, &MeasurementSheet::editsChanged);
   connect(view_, &MeasurementView::leftOut, this, &MeasurementSheet::sayLeftOut);
+  connect(view_, &MeasurementView::unclear, this, &MeasurementSheet::sayUnclear);
   connect(question_, &QuestionBar::answered, this, [this](bool yes) {
     view_->setFocus();
     if (yes)
@@ -369,6 +370,13 @@ void MeasurementSheet::sayLeftOut(const QStringList& texts) {
   saysEdit_ = true;
   banner_->showMessage(MessageBanner::Kind::warning,
                        tr("Not pasted, as there is no free cell for it: %1")
+                           .arg(texts.mid(0, 5).join(QStringLiteral("; ")) + (texts.size() > 5 ? "; …" : "")));
+}
+
+void MeasurementSheet::sayUnclear(const QStringList& texts) {
+  saysEdit_ = true;
+  banner_->showMessage(MessageBanner::Kind::warning,
+                       tr("Not pasted, as the other numbers' decimal mark makes it thousands, or it is none: %1")
                            .arg(texts.mid(0, 5).join(QStringLiteral("; ")) + (texts.size() > 5 ? "; …" : "")));
 }
 

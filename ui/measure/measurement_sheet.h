@@ -79,6 +79,7 @@ class MeasurementSheet : public QWidget {
   bool askBeforeSaving();
   void store();
   void sayLeftOut(const QStringList& texts);
+  void sayUnclear(const QStringList& texts);
   void editsChanged();
   bool completesStage() const;
   QAction* addKey(const QString& text, const char* icon, const QKeySequence& keys);

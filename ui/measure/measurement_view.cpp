@@ -7,14 +7,50 @@
 #include <QKeyEvent>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QRegularExpression>
 #include <QToolButton>
 #include <algorithm>
 #include <set>
 
+#include "ui/common/number_entry.h"
 #include "ui/common/theme.h"
 #include "ui/measure/measurement_delegate.h"
 
 namespace btr::ui {
+namespace {
+
+/// "1.234" or "1,234": with this mark between thousands it would be another number.
+bool mayBeThousands(const QString& text, QChar mark) {
+  static const QRegularExpression points(QStringLiteral(R"(^[-+\x{2212}]?[1-9]\d{0,2}(\.\d{3})+$)")),
+      commas(QStringLiteral(R"(^[-+\x{2212}]?[1-9]\d{0,2}(,\d{3})+$)"));
+  return (mark == '.' ? points : commas).match(text.trimmed()).hasMatch();
+}
+
+/// "1.234,5": one number with a decimal comma, or two that a comma divides.
+bool mayBeGermanThousands(const QString& line) {
+  static const QRegularExpression grouped(QStringLiteral(R"(^\s*[-+\x{2212}]?[1-9]\d{0,2}(\.\d{3})+,\d+\s*$)"));
+  return grouped.match(line).hasMatch();
+}
+
+/// The decimal mark of a block, as those of its numbers show that can be read in one way only; both may be there.
+struct DecimalMarks {
+  bool point = false, comma = false;
+  explicit DecimalMarks(const std::vector<QStringList>& cells) {
+    for (const QStringList& line : cells)
+      for (const QString& cell : line) {
+        if (!readNumber(cell).value) continue;
+        point |= cell.contains('.') && !mayBeThousands(cell, '.');
+        comma |= cell.contains(',') && !mayBeThousands(cell, ',');
+      }
+  }
+  /// Whether the other mark of the block says that this one divides thousands.
+  bool contradict(const QString& cell) const {
+    return (comma && mayBeThousands(cell, '.')) || (point && mayBeThousands(cell, ','));
+  }
+};
+
+}  // namespace
+
 MeasurementView::MeasurementView(MeasurementModel& model, QWidget* parent) : QTableView(parent), model_(model) {
   setModel(&model);
   setItemDelegate(new MeasurementDelegate(model, this));
@@ -174,14 +210,18 @@ void MeasurementView::paste() {
   const bool isNote = corner.column() == model_.noteColumn();
   if (!isNote && !model_.isRepeat(corner.column())) return;
   std::vector<MeasurementModel::Text> texts;
-  QStringList leftOut;
+  QStringList leftOut, unclear;
   int row = corner.row();
-  for (const QStringList& line : cellsOf(QApplication::clipboard()->text())) {
+  const std::vector<QStringList> cells = cellsOf(QApplication::clipboard()->text());
+  const DecimalMarks marks(cells);
+  for (const QStringList& line : cells) {
     // A block may be wider than the sheet: it adds repeats. Only the note column takes anything but repeats.
     for (int i = 0; i < line.size(); ++i) {
       const int column = corner.column() + i;
       const bool isStored = model_.savedAt(model_.index(row, column)) != nullptr;
-      if (row < model_.rowCount() && !isStored && (!isNote || i == 0))
+      if (!isNote && marks.contradict(line[i]))
+        unclear << line[i].trimmed();
+      else if (row < model_.rowCount() && !isStored && (!isNote || i == 0))
         texts.push_back({row, column, line[i]});
       else if (!line[i].trimmed().isEmpty())
         leftOut << line[i].trimmed();
@@ -190,6 +230,7 @@ void MeasurementView::paste() {
   }
   model_.write(texts, tr("paste"));
   if (!leftOut.isEmpty()) emit this->leftOut(leftOut);
+  if (!unclear.isEmpty()) emit this->unclear(unclear);
 }
 
 void MeasurementView::clearUnsaved() {
@@ -257,7 +298,7 @@ std::vector<QStringList> cellsOf(const QString& text) {
   QChar between = '\t';
   if (!clean.contains('\t')) {
     const bool manyCommas = std::any_of(lines.begin(), lines.end(), [](const QString& line) {
-      return line.count(',') > 1 || (line.contains(',') && line.contains('.'));
+      return line.count(',') > 1 || (line.contains(',') && line.contains('.') && !mayBeGermanThousands(line));
     });
     between = clean.contains(';') ? ';' : manyCommas ? ',' : '\t';
   }

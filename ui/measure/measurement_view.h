@@ -26,6 +26,8 @@ class MeasurementView : public QTableView {
  signals:
   /// Pasted texts for which there was no free cell.
   void leftOut(const QStringList& texts);
+  /// Pasted texts like "1.234" between decimal commas: not pasted, as they may be thousands.
+  void unclear(const QStringList& texts);
   void replayRequested(btr::Id individual);
   void voidRequested(const QModelIndex& savedCell);
   void parametersRequested(const std::vector<btr::Id>& individuals, bool asFile);
@@ -51,7 +53,7 @@ class MeasurementView : public QTableView {
 };
 
 /// Rows and cells of text from a clipboard or a CSV file: lines, then tabs; without tabs semicolons; without these
-/// commas, unless every comma of the block can be a decimal one (at most one a line).
+/// commas, unless every comma of the block can be a decimal one (at most one a line; "1.234,5" stays whole).
 std::vector<QStringList> cellsOf(const QString& text);
 
 }  // namespace btr::ui

@@ -204,7 +204,7 @@ void addSpin(const Scene& scene, const FitTrial& trial, std::size_t ball, bool b
   const double spin = std::hypot(spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2]);
   const double any = std::max(least_rad_s, fastest(trial, ball) / spec.radius_m);
   const double spread = known && (begins || !bounces) ? least_rad_s + share * spin : any;
-  for (std::size_t axis = 0; axis < (known ? 3u : 2u); ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis)
     nuisances.push_back({Nuisance::What::ballSpin, ball, axis, least_rad_s, least_rad_s / spread});
 }
 

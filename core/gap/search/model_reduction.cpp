@@ -1,5 +1,6 @@
 #include "core/gap/search/model_reduction.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/gap/fit/fit.h"
@@ -21,6 +22,13 @@ bool isNeutral(const FitModel& model, std::size_t effect) {
     if (std::abs(model.values[i] - p.given) > close * p.scale) return false;
   }
   return hasSize;
+}
+
+/// An effect that another one of the model needs.
+bool isNeeded(const FitProblem& problem, const std::vector<PlacedEffect>& effects, std::size_t which) {
+  return std::ranges::any_of(effects, [&](const PlacedEffect& other) {
+    return std::ranges::count(problem.library.make(other.effect)->needs(), effects[which].effect) > 0;
+  });
 }
 
 void dropNeutral(const FitService& service, Selection& selection) {
@@ -46,7 +54,9 @@ void dropRedundant(FitService& service, Selection& selection) {
       jobs.push_back({selection.final.fit.model.without(i), selection.final.fit.shifts});
     auto scored = service.fitAndScore(jobs, selection.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
-      if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;
+      if (isNeeded(service.problem(), selection.final.fit.model.effects, i) ||
+          isMissed(scored[i], selection.final, service.thresholds().confirmation))
+        continue;
       service.bringToStep(scored[i], "dropping each in turn", 0.86);
       if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;
       const std::string dropped = selection.final.fit.model.effects[i].text();

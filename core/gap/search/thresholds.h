@@ -205,6 +205,8 @@ struct SearchThresholds {
     double fitsWorse = 1.005;   ///< by cost: what fits as well and predicts worse only pays for a number more [case:
                                 ///< gravity that leans and a sensor's offset are one law]
     double equals = 1.25;       ///< by error, where a paired test does not tell them apart [case: simpler laws]
+    double ofEquals = 0.95;     ///< by error and by cost: of two with as many numbers it has the name [case: drag of a
+                                ///< ball by its speed or by the square of that]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
     int replaced = 3;                 ///< times at most that one takes another's place [time]
     int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]

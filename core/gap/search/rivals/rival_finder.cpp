@@ -79,7 +79,11 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
     // Where much is unexplained, few blocks tell little: equals leave about the same.
     const bool equal = !isRefuted(other.scored, selection.final, limits.rivals) &&
                        other.scored.mean() <= limits.rivals.equals * selection.final.mean();
-    if (clearlyBetter || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
+    // What was the better of two when fewer others stood beside it need not be so any more.
+    const bool betterOfEquals = equal && numbersOf(other) == sizeOf(model, i) &&
+                                other.scored.mean() < limits.rivals.ofEquals * selection.final.mean() &&
+                                other.scored.fit.cost < limits.rivals.ofEquals * selection.final.fit.cost;
+    if (clearlyBetter || betterOfEquals || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
   }
   if (!chosen) return false;
   const std::string text = chosen->attempt.candidate.text();

@@ -60,6 +60,17 @@ Promise promiseOf(const EffectCandidate& candidate, std::size_t c, const std::ve
   return promise;
 }
 
+/// True if an effect that another one needs is none of `there` and promises something by itself: then that one is due.
+bool waitsFor(const EffectLibrary& library, const std::string& effect, const std::vector<PlacedEffect>& there,
+              const std::vector<EffectCandidate>& candidates, const std::vector<Promise>& promises) {
+  const std::vector<std::string> needs = library.make(effect)->needs();
+  const auto isNeeded = [&](const std::string& name) { return std::ranges::count(needs, name) > 0; };
+  if (std::ranges::any_of(there, isNeeded, &PlacedEffect::effect)) return false;
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    if (isNeeded(candidates[c].effect) && promises[c].excited) return true;
+  return false;
+}
+
 /// What has no fit comes last.
 bool isBetter(const TriedCandidate& a, const TriedCandidate& b) {
   if (a.attempt.fitted != b.attempt.fitted) return a.attempt.fitted;
@@ -96,6 +107,16 @@ Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearise
   for (std::size_t c = 0; c < candidates.size(); ++c)
     screening.promises.push_back(
         promiseOf(candidates[c], c, screened, totals, service_.thresholds().candidates.mostKinds));
+  std::vector<PlacedEffect> there = service_.problem().given.effects;
+  const std::vector<PlacedEffect>& found = screening.bases[0].fit.model.effects;
+  there.insert(there.end(), found.begin(), found.end());
+  std::vector<bool> waits(candidates.size());
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    waits[c] = waitsFor(service_.problem().library, candidates[c].effect, there, candidates, screening.promises);
+    if (!waits[c]) continue;
+    screening.promises[c].starts.clear();
+    screening.promises[c].share = 0;
+  }
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -110,7 +131,7 @@ Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearise
     each.attempt.excited = promise.excited;
     each.attempt.rank = static_cast<int>(screening.tried.size()) + 1;
     if (!promise.starts.empty()) each.attempt.values = promise.starts[0].from.effect;
-    each.attempt.reason = reasonOf(promise);
+    each.attempt.reason = waits[i] ? "looked for only beside an effect that comes first" : reasonOf(promise);
     screening.tried.push_back(std::move(each));
   }
   return screening;

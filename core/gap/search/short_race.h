@@ -14,6 +14,7 @@ struct ShortRace {
   double worthMore = 1.1;     ///< instead of confirmation.worthMore
   std::size_t screened = 16;  ///< candidates for an effect's place, after a first look at all
   std::size_t handedTo = 4;   ///< instead of rivals.handedTo
+  int wayIterations = 8;      ///< instead of rivals.wayIterations
   double valley = 1.7;        ///< instead of rivals.valley
   double valleyEnd = 1.4;     ///< instead of rivals.valleyEnd
   int iterations = 10;        ///< of what arrives there; what is not within valleyEnd then is fitted no more

@@ -10,7 +10,7 @@ namespace btr {
 /// left; all of these bound the work [time] and were chosen by hand on a real servo (50 noise floors left).
 struct ShortRace {
   double muchLeft = 25;       ///< error from which it is run (as verdict.muchLeft) [noise floors²]
-  double hopeless = 2;        ///< instead of screening.hopeless
+  double hopeless = 2;        ///< instead of screening.hopeless, and of screening.inReach beside the final model
   double worthMore = 1.1;     ///< instead of confirmation.worthMore
   std::size_t screened = 16;  ///< candidates for an effect's place, after a first look at all
   std::size_t handedTo = 4;   ///< instead of rivals.handedTo

@@ -167,14 +167,16 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  const bool isShort = shortRace.isRun(final.mean());
+  const double inReach = isShort ? shortRace.hopeless : limits.inReach;
   Round round = candidates_.search({.without = without,
                                     .models = {without.fit},
                                     .toFit = limits.fittedAsRivals,
                                     .stage = ", rivals",
                                     .from = 0.88,
                                     .to = 0.95,
-                                    .hopeless = limits.inReach * final.fit.cost,
-                                    .shortRace = shortRace.isRun(final.mean())});
+                                    .hopeless = inReach * final.fit.cost,
+                                    .shortRace = isShort});
   return {std::move(round.without), std::move(round.tried)};
 }
 

@@ -134,6 +134,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
   const StepGuard coarse = service_.guardStep(service_.stepToSearchWith(whole));
   const double finalCost = residualsOf(problem, whole.model, whole.shifts).squaredNorm() / 2;
   const bool muchLeft = shortRace.isRun(final.mean());
+  const int iterations = muchLeft ? shortRace.wayIterations : limits.wayIterations;
   const double onTheWay = finalCost * (muchLeft ? shortRace.valley : limits.valley);
   const double atItsEnd = finalCost * (muchLeft ? shortRace.valleyEnd : limits.valleyEnd);
 
@@ -151,7 +152,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
       if (k > 0) way.before = here;
       jobs.push_back({next, way.fit.shifts, nullptr, limits.wayTolerance});
     }
-    const auto fits = service_.tryFits(jobs, limits.wayIterations, "handing over", 0.95, 0.95);
+    const auto fits = service_.tryFits(jobs, iterations, "handing over", 0.95, 0.95);
     const double most = kept[k] > 0 ? onTheWay : atItsEnd;
     std::vector<Way> goOn;
     for (std::size_t w = 0; w < ways.size(); ++w) {

@@ -65,11 +65,10 @@ Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSp
   for (const bool mass : {true, false})
     for (const auto& [name, value] : simulator.values)
       if (!isParameter(name) && name.ends_with(".mass_kg") == mass) setByPath(scene, name, value);
-  for (const auto& placed : simulator.effects) {
-    scene.effects.push_back(placeEffect(scene, placed, effects));
-    const SceneEffect effect = scene.effects.back();
+  for (const auto& placed : simulator.effects) scene.effects.push_back(placeEffect(scene, placed, effects));
+  // Of what else is there an effect may ask, in whichever order they stand.
+  for (const SceneEffect& effect : std::vector<SceneEffect>(scene.effects))
     effect.effect->changeScene(scene, effect.at, effect.values);
-  }
   // Hits need a millisecond, whatever the rest of a kick can bear.
   constexpr double nearStep_s = 0.001;
   if (!scene.robots.empty() && !scene.balls.empty())

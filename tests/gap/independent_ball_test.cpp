@@ -102,6 +102,11 @@ TEST(IndependentBall, LiftBySpinIsNamedInFlightsThatBounce) {
   const GapReport report = analyse(thrown(plant, {.spin_rad_s = 250, .told = true}, 0.5), library(), quickly());
   EXPECT_THAT(namesIn(report), testing::ElementsAre("magnus_lift")) << report.sentence;
   EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, plant.liftNumber, 0.1 * plant.liftNumber) << report.sentence;
+  // What is told of the spins, within a tenth each, says the lift nearly as well.
+  const auto interval = report.tried.at(0).parameters.at(0).ci95;
+  EXPECT_LT(interval.high - interval.low, 0.5 * plant.liftNumber) << report.sentence;
+  EXPECT_LT(interval.low, plant.liftNumber);
+  EXPECT_GT(interval.high, plant.liftNumber);
   expectAtTheNoise(report);
 }
 

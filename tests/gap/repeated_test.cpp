@@ -116,6 +116,43 @@ TEST(Repeated, ASensorThatMeasuresInEveryRowKeepsAll) {
       }
 }
 
+// A bus on which a read fails now and then: the value before stands once more, the next one catches up.
+TEST(Repeated, ReadsThatFailAreTakenOut) {
+  for (const double chance : {0.1, 0.3})
+    for (const double count : {0.0, 2 * M_PI / 4096}) {
+      Recording trial = readEvery4ms(0.004, count, 1e-4, 11);
+      Random random(5);
+      std::vector<bool> failed(trial.rows(), false);
+      for (std::size_t row = 1; row < trial.rows(); ++row)
+        if ((failed[row] = random.chance(chance))) trial.columns[2][row] = trial.columns[2][row - 1];
+      emptyRepeated(trial);
+      EXPECT_THAT(trial.notes, ElementsAre(HasSubstr("now and then no new value came in time"))) << chance << count;
+      std::size_t late = 0;
+      for (std::size_t row = 0; row < trial.rows(); ++row)
+        if (failed[row] && std::isfinite(trial.columns[2][row]) &&
+            std::abs(trial.columns[2][row] - turning(0.004 * static_cast<double>(row))) > count + 5e-4)
+          ++late;
+      EXPECT_EQ(late, 0u) << chance << " " << count;
+      EXPECT_NEAR(noiseFloor(trial.columns[0], trial.columns[2]), count > 0 ? 0.00046 : 1e-4, 1e-4);
+    }
+}
+
+// What sticks and slips stands between steps, too, but leaves slowly.
+TEST(Repeated, StickingAndSlippingIsNoFailure) {
+  Recording trial;
+  trial.channels = {"time_s", "leg.knee.command_rad", "leg.knee.position_rad"};
+  trial.columns.resize(3);
+  for (int i = 0; i < 1500; ++i) {
+    const double phase = std::fmod(i, 12), slip = std::max(0.0, phase - 3) / 9;  // stands for three rows
+    trial.columns[0].push_back(0.004 * i);
+    trial.columns[1].push_back(0);
+    const double value = 0.1 * (std::floor(i / 12.0) + (1 - std::cos(M_PI * slip)) / 2);
+    trial.columns[2].push_back(0.0015 * std::round(value / 0.0015));
+  }
+  emptyRepeated(trial);
+  EXPECT_THAT(trial.notes, IsEmpty());
+}
+
 TEST(Repeated, TheNoiseFloorIsThatOfTheValuesThatAreNew) {
   Recording trial = readEvery4ms(0.012, 0, 0.001, 9);
   EXPECT_GT(noiseFloor(trial.columns[2]), 0.003);  // stairs look like noise

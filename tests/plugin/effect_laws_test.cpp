@@ -15,10 +15,35 @@ using test::effect;
 
 TEST(StribeckFriction, FadesFromRestToSliding) {
   const auto friction = effect("stribeck_friction");
-  const Numbers values{0.02, 0.05, 0.1};
-  EXPECT_DOUBLE_EQ(0.07, friction->frictionLimit({}, values));
-  EXPECT_NEAR(0.02 + 0.05 / std::numbers::e, friction->frictionLimit({.rate = -0.1}, values), 1e-15);
-  EXPECT_NEAR(0.02, friction->frictionLimit({.rate = 5}, values), 1e-15);
+  for (const double exponent : {1.0, 2.0, 12.0}) {
+    const Numbers values{0.02, 0.05, 0.1, exponent};
+    EXPECT_DOUBLE_EQ(0.07, friction->frictionLimit({}, values));
+    EXPECT_NEAR(0.02 + 0.05 / std::numbers::e, friction->frictionLimit({.rate = -0.1}, values), 1e-15);
+    EXPECT_NEAR(0.02, friction->frictionLimit({.rate = 5}, values), 1e-15);
+  }
+}
+
+TEST(StribeckFriction, WithALargeExponentIsAStep) {
+  const auto friction = effect("stribeck_friction");
+  const Numbers values{0.02, 0.05, 0.8, 12};
+  EXPECT_NEAR(0.07, friction->frictionLimit({.rate = 0.5}, values), 1e-3);
+  EXPECT_NEAR(0.02, friction->frictionLimit({.rate = -1}, values), 1e-6);
+}
+
+TEST(ThinningFriction, IsViscousWhenSlowAndFadesBeyond) {
+  const auto friction = effect("thinning_friction");
+  const auto torque = [&](double rate, double fading, double suddenness) {
+    return rate * friction->damping({.rate = rate}, Numbers{0.3, 2.5, fading, suddenness});
+  };
+  for (const double fading : {1.0, 2.0}) EXPECT_NEAR(0.3 * 0.01, torque(0.01, fading, 2), 1e-7);
+  // An eddy current brake: k·ω/(1 + (ω/ωc)²).
+  for (const double rate : {0.5, 2.5, 9.0})
+    EXPECT_NEAR(0.3 * rate / (1 + rate * rate / 6.25), torque(rate, 2, 2), 1e-12);
+  EXPECT_GT(torque(2.5, 2, 2), torque(2, 2, 2)) << "it is strongest there";
+  EXPECT_GT(torque(2.5, 2, 2), torque(3, 2, 2));
+  // A second slope, here 0, at once.
+  EXPECT_NEAR(0.3 * 1.5, torque(1.5, 1, 12), 1e-3);
+  EXPECT_NEAR(0.3 * 2.5, torque(4, 1, 12), 1e-3);
 }
 
 TEST(LoadDependentFriction, AddsSharesOfDriveAndWeightWhereOneHoldsTheOther) {
@@ -234,6 +259,22 @@ TEST(ConstantWind, WithAirDragIsDragInTheWind) {
   const Eigen::Vector3d relative(3, -1, -2);
   const Eigen::Vector3d expected = 0.5 * 1.2 * 0.47 * std::numbers::pi * 0.01 * relative.norm() * relative;
   EXPECT_NEAR(0, (both - expected).norm(), 1e-15);
+}
+
+TEST(ConstantWind, FollowsTheDragNumberOfStillAir) {
+  const BallState ball{.velocity_m_s = {1, 0, 2}, .radius_m = 0.02, .mass_kg = 0.0027};
+  const Eigen::Vector3d relative(3, -1, -2);
+  const Eigen::Vector3d expected = 0.5 * 1.2 * 0.25 * std::numbers::pi * 4e-4 * relative.norm() * relative;
+  const PlacedEffect wind{"constant_wind", "world", {{"x_m_s", 4}, {"y_m_s", -1}}};
+  const PlacedEffect drag{"air_drag", "ball", {{"drag_number", 0.25}}};
+  SceneSpec spec;
+  spec.balls.push_back({.name = "ball"});
+  for (const auto& effects : {std::vector{wind, drag}, std::vector{drag, wind}}) {
+    const Scene scene = makeScene(spec, {}, {.values = {}, .effects = effects}, test::host().effectFactory());
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (const SceneEffect& placed : scene.effects) force += placed.effect->ballForce(ball, placed.values);
+    EXPECT_NEAR(0, (force - expected).norm(), 1e-15);
+  }
 }
 
 TEST(AnisotropicRollingResistance, SlowsABallByItsNumberAlongEachAxis) {

@@ -45,6 +45,19 @@ TEST(DirectionGain, IsStrongerForOneSignOfTheErrorOrOfTheTorque) {
   EXPECT_DOUBLE_EQ(-0.75 * 0.7, gain->driveTorque(-0.7, {}, Numbers{0.25, 1}, {}, 1e-3));
 }
 
+TEST(RateFilter, DampsWhatTheRateWas) {
+  const auto filter = effect("rate_filter");
+  const JointState joint{.rate = 2, .limit = 9, .damping = 0.3};
+  Numbers state{1, 0};
+  double torque = 0;
+  for (int i = 0; i < 20; ++i) torque = filter->driveTorque(-0.6, joint, Numbers{0.02}, state, 1e-3);
+  EXPECT_NEAR(2 * (1 - std::exp(-1.0)), state[1], 1e-12);
+  EXPECT_NEAR(-0.3 * 2 * (1 - std::exp(-0.0195 / 0.02)), torque, 1e-4);
+  state = {0, 0};
+  EXPECT_NEAR(-0.6, filter->driveTorque(-0.6, joint, Numbers{0.02}, state, 1e-3), 1e-15) << "it turned as fast before";
+  EXPECT_EQ(-0.6, filter->driveTorque(-0.6, joint, Numbers{0}, state, 1e-3));
+}
+
 TEST(DriveLag, FollowsExponentiallyAndNoFasterThanItMay) {
   const auto lag = effect("drive_lag");
   Numbers state{1, 0};

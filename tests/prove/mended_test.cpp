@@ -254,7 +254,8 @@ TEST(Mended, RivalsBesideTheSameEffectsAreLookedForOnce) {
                                  "drive_dead_band",      "drive_lag",        "error_dead_band", "fluid_drag",
                                  "gravity_compensation", "integral_action",  "measured_law",    "rate_feedforward",
                                  "restitution_by_speed", "sampled_loop",     "sensor_drift",    "sensor_eccentricity",
-                                 "sensor_scale",         "strength_decline", "viscous_drag"}
+                                 "sensor_scale",         "strength_decline", "viscous_drag",    "rate_filter",
+                                 "thinning_friction"}
         .contains(name);
   });
   const BlindCase blind = drawCase({20261171, 18, "ode", "pendulum", "two"}, then);

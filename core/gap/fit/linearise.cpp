@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "core/gap/fit/linearise.h"
@@ -67,6 +68,27 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
   return all;
 }
 
+/// A spin is known from elsewhere, not from the samples that are compared: what holds it counts like a measurement.
+bool isSpinTold(const Segment& segment) {
+  return std::ranges::any_of(segment.nuisances, [](const Nuisance& n) { return n.what == Nuisance::What::ballSpin; });
+}
+
+/// An orthonormal basis of what a segment's initial state explains, in standard deviations of its prior, shrunk as far
+/// as the prior holds it: by λ/√(1+λ²), where it comes from the samples that are compared. Beside a spin, which was
+/// measured, too, what is left weighs 1/√(1+λ²), so that its square is what residuals and prior cost together.
+Eigen::MatrixXd explainedByStart(const Segment& segment, Eigen::MatrixXd starts) {
+  if (starts.cols() == 0) return starts;
+  for (Eigen::Index i = 0; i < starts.cols(); ++i) starts.col(i) /= segment.nuisances[static_cast<std::size_t>(i)].hold;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(starts, Eigen::ComputeThinU);
+  Eigen::MatrixXd basis = svd.matrixU();
+  const bool told = isSpinTold(segment);
+  for (Eigen::Index i = 0; i < basis.cols(); ++i) {
+    const double lambda = svd.singularValues()[i], left = 1 / std::sqrt(1 + lambda * lambda);
+    basis.col(i) *= told ? std::sqrt(1 - left) : lambda * left;
+  }
+  return basis;
+}
+
 }  // namespace
 
 Linearised linearise(const FitProblem& problem, const Fit& fit) {
@@ -82,6 +104,7 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
   const auto total = static_cast<Eigen::Index>(problem.residuals());
   result.residuals.resize(total);
   result.raw.resize(total, parameters);
+  Eigen::VectorXd atSaid = Eigen::VectorXd::Zero(total);
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < problem.segments.size(); ++s) {
     const auto count = static_cast<Eigen::Index>(problem.segments[s].row.size());
@@ -89,25 +112,16 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     const Eigen::Map<const Eigen::MatrixXd> all(numbers[s].data(), count, width);
     result.residuals.segment(at, count) = all.col(0);
     if (parameters > 0) result.raw.middleRows(at, count) = all.middleCols(1, parameters);
-    Eigen::MatrixXd starts = all.rightCols(width - 1 - parameters);
+    const Eigen::MatrixXd starts = all.rightCols(width - 1 - parameters);
     result.first.push_back(at);
     result.rawStarts.push_back(starts);
-    if (starts.cols() > 0) {
-      // With their prior, in its standard deviations: an orthonormal basis B of what they explain, shrunk by λ/√(1+λ²).
-      for (Eigen::Index i = 0; i < starts.cols(); ++i)
-        starts.col(i) /= problem.segments[s].nuisances[static_cast<std::size_t>(i)].hold;
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(starts, Eigen::ComputeThinU);
-      Eigen::MatrixXd basis = svd.matrixU();
-      for (Eigen::Index i = 0; i < basis.cols(); ++i) {
-        const double lambda = svd.singularValues()[i];
-        basis.col(i) *= lambda / std::sqrt(1 + lambda * lambda);
-      }
-      starts = basis;
-    }
-    result.starts.push_back(starts);
+    result.starts.push_back(explainedByStart(problem.segments[s], starts));
+    // What was measured of a spin is an error of its own: residuals are those at what was said.
+    if (isSpinTold(problem.segments[s]))
+      atSaid.segment(at, count) -= starts * Eigen::Map<const Eigen::VectorXd>(fit.shifts[s].data(), starts.cols());
     at += count;
   }
-  result.profiled = result.profile(problem, result.residuals);
+  result.profiled = result.profile(problem, result.residuals + atSaid);
   result.columns.resize(total, parameters);
   for (Eigen::Index i = 0; i < parameters; ++i) result.columns.col(i) = result.profile(problem, result.raw.col(i));
   return result;

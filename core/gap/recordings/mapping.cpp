@@ -57,6 +57,10 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
   }
 
   mapping.retime_s = retimeFrom(reader);
+  if (const nlohmann::json* lost = reader.any("lost_rows")) {
+    if (!lost->is_string() || (*lost != "hold" && *lost != "fill")) reader.refuse("lost_rows", "\"fill\" or \"hold\"");
+    mapping.lostRowsHold = *lost == "hold";
+  }
   if (auto resample = reader.objectIfAny("resample")) {
     mapping.period_s = resample->number("period_s", 1e-6, 1e6, 0);
     mapping.lowpass_hz = resample->number("lowpass_hz", 1e-6, 1e6, 0);
@@ -65,7 +69,9 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
 
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
-    if (channel == "settings" || channel == "segments" || channel == "resample" || channel == "retime") continue;
+    if (channel == "settings" || channel == "segments" || channel == "resample" || channel == "retime" ||
+        channel == "lost_rows")
+      continue;
     if (channel != "time_s" && !parseChannel(channel))
       throw InputError(place, "channel \"" + channel + "\"",
                        "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "

@@ -38,11 +38,12 @@ struct Mapping {
   std::optional<double> retime_s;       ///< rows are even samples of this period, 0: of the one that the stamps show
   double period_s = 0, lowpass_hz = 0;  ///< see Resampling; both 0: the samples as they are
   std::string segmentColumn;            ///< whenever its number changes a new trial begins; "": the file is one trial
+  bool lostRowsHold = false;            ///< inputs hold where rows are missing (see fillLostRows())
 };
 
 /// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
-/// "segments": {"column": "piece"}, "retime": "even", "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws
-/// InputError for what is not a channel, a channel or a key that nobody knows.
+/// "segments": {"column": "piece"}, "retime": "even", "lost_rows": "hold", "resample": {"period_s": 0.01, "lowpass_hz":
+/// 20}}. Throws InputError for what is not a channel, a channel or a key that nobody knows.
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is

@@ -7,6 +7,7 @@
 
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/counts.h"
+#include "core/gap/recordings/doctor/lost_rows.h"
 #include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/doctor/repeated.h"
 #include "core/gap/recordings/doctor/retime.h"
@@ -104,6 +105,7 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
     if (mapping && mapping->retime_s) retime(trial, *mapping->retime_s);
     refuseJumps(trial);
     emptyRepeated(trial);
+    if (!mapping || !mapping->lostRowsHold) fillLostRows(trial);
   }
   if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))
     for (Recording& trial : trials) trial = resampled(trial, {mapping->period_s, mapping->lowpass_hz});

@@ -207,6 +207,8 @@ struct SearchThresholds {
     double equals = 1.25;       ///< by error, where a paired test does not tell them apart [case: simpler laws]
     double ofEquals = 0.95;     ///< by error and by cost: of two with as many numbers it has the name [case: drag of a
                                 ///< ball by its speed or by the square of that]
+    double allThatShows = 1.1;  ///< by error, of a richer one of whose sizes no more show: the simpler has the name
+                                ///< [case: friction by load with shares of 0 to 0.03]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
     int replaced = 3;                 ///< times at most that one takes another's place [time]
     int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]

@@ -88,16 +88,57 @@ std::size_t rhythmOfChanges(const Readings& readings) {
   return 1;
 }
 
-/// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
-std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Readings& readings) {
-  // A few runs are enough where all of them are held: noise alone never repeats in all columns at once.
-  constexpr double severalCounts = 5, leastShare = 0.35, nearlyAll = 0.9;
-  constexpr std::size_t enough = 20, few = 6;
+/// What is a motion beyond rounding, by column: a few counts.
+std::vector<double> severalCountsOf(const Recording& trial, const Columns& columns) {
+  constexpr double several = 5;
   std::vector<double> counts;
   for (const std::size_t column : columns) {
     const double digit = column < trial.places.lastDigit.size() ? trial.places.lastDigit[column] : 0;
-    counts.push_back(severalCounts * std::max(quantisationStep(trial.columns[column]), digit));
+    counts.push_back(several * std::max(quantisationStep(trial.columns[column]), digit));
   }
+  return counts;
+}
+
+/// Where a read failed in motion, the value before stands once more, and the next one catches up: its step is as many
+/// of the steps around it as the run has rows. (What sticks and slips begins slowly again.) Returns the longest of such
+/// runs, 1 where too few show it.
+std::size_t longestFailure(const Recording& trial, const Columns& columns, const Readings& readings) {
+  constexpr double nearlyAll = 0.8, slower = 0.6, faster = 1.6;
+  constexpr std::size_t enough = 8;
+  const std::vector<double> counts = severalCountsOf(trial, columns);
+  const auto change = [&](std::size_t k, std::size_t column) {  // from run k to the next, in a row's time
+    const std::vector<double>& values = trial.columns[column];
+    return (values[readings.runs[k + 1].rows[0]] - values[readings.runs[k].rows[0]]) /
+           static_cast<double>(readings.runs[k].rows.size());
+  };
+  std::size_t held = 0, caughtUp = 0, longest = 1;
+  for (std::size_t k = 1; k + 2 < readings.runs.size(); ++k) {
+    const Run &run = readings.runs[k], &next = readings.runs[k + 1];
+    const std::size_t rows = run.rows.size();
+    if (rows < 2 || !readings.runs[k - 1].whole || !run.dated || !run.whole || !next.dated || !next.whole) continue;
+    const auto moved = [&](std::size_t i) {
+      return std::min(std::abs(change(k - 1, columns[i])), std::abs(change(k + 1, columns[i]))) - counts[i] / 2;
+    };
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < columns.size(); ++i)
+      if (moved(i) > moved(most)) most = i;
+    const double before = change(k - 1, columns[most]), after = change(k + 1, columns[most]);
+    if (!(moved(most) > 0) || before * after <= 0) continue;
+    ++held;
+    const double ratio = change(k, columns[most]) / ((before + after) / 2);
+    if (!(ratio > slower && ratio < faster)) continue;
+    ++caughtUp;
+    longest = std::max(longest, rows);
+  }
+  return caughtUp >= enough && static_cast<double>(caughtUp) >= nearlyAll * static_cast<double>(held) ? longest : 1;
+}
+
+/// How often the sensor is read for every time that it measures; 1: never in vain, as far as it shows.
+std::size_t readingsPerMeasurement(const Recording& trial, const Columns& columns, const Readings& readings) {
+  // A few runs are enough where all of them are held: noise alone never repeats in all columns at once.
+  constexpr double leastShare = 0.35, nearlyAll = 0.9;
+  constexpr std::size_t enough = 20, few = 6;
+  const std::vector<double> counts = severalCountsOf(trial, columns);
   std::vector<double> lengths;
   std::size_t held = 0;
   for (std::size_t k = 1; k + 1 < readings.runs.size(); ++k) {
@@ -128,8 +169,11 @@ void emptyRepeated(Recording& trial) {
   const std::size_t rows = trial.rows();
   for (const auto& [sensor, columns] : sensorsOf(trial)) {
     const Readings readings = readingsOf(trial, columns);
-    const std::size_t each = std::max(readingsPerMeasurement(trial, columns, readings), rhythmOfChanges(readings));
+    const std::size_t rhythm = std::max(readingsPerMeasurement(trial, columns, readings), rhythmOfChanges(readings));
+    const std::size_t failure = longestFailure(trial, columns, readings);
+    const std::size_t each = failure > rhythm ? failure + 1 : rhythm;  // a longer one may be in slow motion
     if (each < 2) continue;
+    constexpr std::size_t rests = 3;
     std::size_t emptied = 0;
     for (std::size_t k = 0; k < readings.runs.size(); ++k) {
       const Run& run = readings.runs[k];
@@ -137,18 +181,21 @@ void emptyRepeated(Recording& trial) {
         const auto after = static_cast<std::size_t>(readings.place[row] - readings.place[run.rows[0]]);
         // When a value came of which the first reading is lost, nobody knows; what rests is not late.
         const bool isKnown = k == 0 || run.dated || after >= 2 * each;
-        const bool isNew = isKnown && after % each == 0;
+        // Reads that fail have no rhythm: later rows are new only where the joint plainly rests.
+        const bool isNew = isKnown && after % each == 0 && (rhythm >= failure || after == 0 || after >= rests * each);
         if (isNew) continue;
         for (const std::size_t column : columns) trial.columns[column][row] = std::numeric_limits<double>::quiet_NaN();
         ++emptied;
       }
     }
     for (const std::size_t column : columns) trial.thinned.push_back(trial.channels[column]);
-    trial.notes.push_back((columns.size() == 1 ? trial.channels[columns[0]] : sensor) + ": " + std::to_string(emptied) +
-                          " of " + std::to_string(rows) +
-                          " readings only repeat the one before, as its sensor measures every " +
-                          digits(static_cast<double>(rows) / static_cast<double>(rows - emptied), 2) +
-                          " rows; compared where new values come");
+    trial.notes.push_back(
+        (columns.size() == 1 ? trial.channels[columns[0]] : sensor) + ": " + std::to_string(emptied) + " of " +
+        std::to_string(rows) + " readings only repeat the one before, as " +
+        (rhythm >= failure ? "its sensor measures every " +
+                                 digits(static_cast<double>(rows) / static_cast<double>(rows - emptied), 2) + " rows"
+                           : "now and then no new value came in time") +
+        "; compared where new values come");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/search/model_comparison.h"
+#include "core/gap/search/rivals/shown_sizes.h"
 #include "core/gap/search/screening/search_discoveries.h"
 #include "core/gap/search/short_race.h"
 
@@ -57,6 +58,22 @@ void RivalFinder::add(const HandedOver& arrived, std::vector<TriedCandidate>& ot
   known->settled_s = scored.step_s;
 }
 
+bool RivalFinder::isHollow(const TriedCandidate& other, const PlacedEffect& simpler) const {
+  if (!isRicher(service_.problem().library, other.attempt.candidate, simpler)) return false;
+  std::size_t sizes = 0;
+  for (const Parameter& p : service_.problem().library.make(simpler.effect)->parameters())
+    sizes += p.neutral && !p.integer;
+  return showsNoMoreThan(sizes, service_.problem(), other.fit, other.fit.model.effects.size() - 1);
+}
+
+bool RivalFinder::isAllThatShows(const TriedCandidate& simpler, const Scored& final, std::size_t i) const {
+  const PlacedEffect& own = final.fit.model.effects[i];
+  return isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) &&
+         simpler.scored.mean() <= service_.thresholds().rivals.allThatShows * final.mean() &&
+         showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(),
+                         final.fit, i);
+}
+
 bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {
   const SearchThresholds& limits = service_.thresholds();
   const FitModel& model = selection.final.fit.model;
@@ -83,7 +100,8 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
     const bool betterOfEquals = equal && numbersOf(other) == sizeOf(model, i) &&
                                 other.scored.mean() < limits.rivals.ofEquals * selection.final.mean() &&
                                 other.scored.fit.cost < limits.rivals.ofEquals * selection.final.fit.cost;
-    if (clearlyBetter || betterOfEquals || (numbersOf(other) < sizeOf(model, i) && equal)) chosen = &other;
+    const bool takes = clearlyBetter || betterOfEquals || (numbersOf(other) < sizeOf(model, i) && equal);
+    if ((takes && !isHollow(other, own)) || (!takes && isAllThatShows(other, selection.final, i))) chosen = &other;
   }
   if (!chosen) return false;
   const std::string text = chosen->attempt.candidate.text();

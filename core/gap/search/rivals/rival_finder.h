@@ -52,6 +52,11 @@ class RivalFinder {
   /// What comes near the final model is fitted as far as that was and scored with the same step, the finest that any of
   /// them needed.
   void compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others);
+  /// True if a richer effect than `simpler` shows nothing beyond that: it does not take its place.
+  bool isHollow(const TriedCandidate& other, const PlacedEffect& simpler) const;
+  /// True if a simpler effect is all that the final model's effect `i`, which contains it, shows, and leaves hardly
+  /// more, whatever a paired test makes of that little.
+  bool isAllThatShows(const TriedCandidate& simpler, const Scored& final, std::size_t i) const;
   /// True if another effect took the place of effect `i`: the simpler of equals, or simply a better one.
   bool replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const;
   /// The final model's effect `i` with its rivals; attempts that turn out to be one say so.

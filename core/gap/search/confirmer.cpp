@@ -5,6 +5,7 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/short_race.h"
 #include "core/gap/search/starts/held_numbers.h"
 #include "core/gap/search/starts/restarts.h"
 #include "core/gap/search/starts/whole_numbers.h"
@@ -111,9 +112,12 @@ std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vect
 void Confirmer::restart(Fit& fit, double least, const std::string& what, double at) const {
   const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
-  if (fit.cost > (service_.problem().walks ? limits.worthMoreOfWalks : limits.worthMore) * least) return;
+  double left = service_.leftBy(fit);
+  const double usual = shortRace.isRun(left) ? shortRace.worthMore : limits.worthMore;
+  const double worth = service_.problem().walks ? limits.worthMoreOfWalks : usual;
+  if (fit.cost > worth * least) return;
   climbWholeNumbers(service_, fit, what, at);
-  const double left = service_.leftBy(fit);
+  left = service_.leftBy(fit);
   if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
     restartFarOff(service_, fit, what, at);
   // What leaves no more than the noise may still stop behind a better one.

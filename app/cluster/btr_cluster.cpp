@@ -20,8 +20,6 @@
 namespace btr::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double longestJob_s = 120;
 constexpr std::chrono::seconds betweenPlaces(1);
 /// With more ranks than this, rank 0 has enough to do without evaluating trials itself.
@@ -105,11 +103,39 @@ void tellHosts(const std::vector<PlaceReport>& places, const char* what) {
                  sum.places, sum.jobs, what, sum.pieces, sum.worked_s, sum.losses);
 }
 
+void PlacesFile::begin(const std::string& file) {
+  file_ = file;
+  tell("", 0, 0, {});
+  shareBefore_ = -1;
+}
+
+void PlacesFile::tell(const std::string& stage, double share, double jobsPerSecond,
+                      const std::vector<PlaceReport>& places, bool isRare) {
+  const Clock::time_point now = Clock::now();
+  if (file_.empty() || (now - told_ < betweenPlaces && share < 1 && !isRare)) return;
+  told_ = now;
+  if (shareBefore_ < 0) shareBefore_ = share;
+  const double gained = share - shareBefore_, elapsed_s = std::chrono::duration<double>(now - begun_).count();
+  nlohmann::json hosts = nlohmann::json::array();
+  for (const auto& [host, sum] : hostsOf(places))
+    hosts.push_back({{"host", host},
+                     {"workers", sum.places},
+                     {"pieces", sum.pieces},
+                     {"trials", sum.jobs},
+                     {"lost", sum.losses},
+                     {"worked_s", sum.worked_s}});
+  const nlohmann::json all{{"format", "uchilsim-places-1"},
+                           {"stage", stage},
+                           {"share", share},
+                           {"seconds_left", gained > 0 ? elapsed_s * (1 - share) / gained : -1},
+                           {"trials_per_second", jobsPerSecond},
+                           {"hosts", hosts}};
+  writeFile(file_, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
 struct ClusterJob::Impl {
   std::unique_ptr<Coordinator> coordinator;
-  std::string file;  ///< of tellTo()
-  Clock::time_point begun = Clock::now(), told = Clock::now() - std::chrono::hours(1);
-  double shareBefore = -1;  ///< of what had been done when it began; negative: not known yet
+  PlacesFile places;
 };
 
 ClusterJob::ClusterJob(Shell& shell, const std::string& database, int jobs) : impl_(new Impl) {
@@ -135,35 +161,13 @@ void ClusterJob::tell(const char* what) const {
 }
 
 void ClusterJob::tellTo(const std::string& file) {
-  if (file.empty() || isDone_) return;
-  impl_->file = file;
-  tellProgress("", 0, 0);
-  impl_->shareBefore = -1;
+  if (!file.empty() && !isDone_) impl_->places.begin(file);
 }
 
 void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond, bool isRare) const {
-  const Clock::time_point now = Clock::now();
-  if (impl_->file.empty() || (now - impl_->told < betweenPlaces && share < 1 && !isRare)) return;
-  impl_->told = now;
-  if (impl_->shareBefore < 0) impl_->shareBefore = share;
-  const double gained = share - impl_->shareBefore,
-               elapsed_s = std::chrono::duration<double>(now - impl_->begun).count();
-  nlohmann::json hosts = nlohmann::json::array();
-  if (impl_->coordinator)
-    for (const auto& [host, sum] : hostsOf(impl_->coordinator->report()))
-      hosts.push_back({{"host", host},
-                       {"workers", sum.places},
-                       {"pieces", sum.pieces},
-                       {"trials", sum.jobs},
-                       {"lost", sum.losses},
-                       {"worked_s", sum.worked_s}});
-  const nlohmann::json all{{"format", "uchilsim-places-1"},
-                           {"stage", stage},
-                           {"share", share},
-                           {"seconds_left", gained > 0 ? elapsed_s * (1 - share) / gained : -1},
-                           {"trials_per_second", trialsPerSecond},
-                           {"hosts", hosts}};
-  writeFile(impl_->file, all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (!impl_->places.isKept()) return;
+  const auto places = impl_->coordinator ? impl_->coordinator->report() : std::vector<PlaceReport>{};
+  impl_->places.tell(stage, share, trialsPerSecond, places, isRare);
 }
 
 void addPlacesOption(CLI::App* command, std::string& file) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,23 @@ RankRole takeRole(Shell& shell, CoordinatorOptions options);
 /// Who did how much, on stderr: a line for each host.
 void tellHosts(const std::vector<PlaceReport>& places, const char* what);
 
+/// A JSON file ("uchilsim-places-1") of who does how much. Without a name nothing is written.
+class PlacesFile {
+ public:
+  /// Writes it for the first time. Throws InputError if it cannot be written.
+  void begin(const std::string& file);
+  /// At most once a second, and at the end: which part of all (0 to 1) is done, by whom. `isRare`: every time.
+  void tell(const std::string& stage, double share, double jobsPerSecond, const std::vector<PlaceReport>& places,
+            bool isRare = false);
+  bool isKept() const { return !file_.empty(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string file_;
+  Clock::time_point begun_ = Clock::now(), told_ = begun_ - std::chrono::hours(1);
+  double shareBefore_ = -1;  ///< of what had been done when it began; negative: not known yet
+};
+
 /// This process as one of the ranks that mpirun or srun started; nothing is loaded where it was started alone.
 class ClusterJob {
  public:
@@ -41,8 +59,7 @@ class ClusterJob {
   CaseForce* caseForce() const;  ///< the same
   /// Who did how much, on stderr: a line for each host. `what`: its jobs are.
   void tell(const char* what = "trials") const;
-  /// From now on tellProgress() keeps a JSON file ("uchilsim-places-1") of who does how much; of rank 0. Throws
-  /// InputError if it cannot be written.
+  /// From now on tellProgress() keeps a PlacesFile; of rank 0. Throws InputError if it cannot be written.
   void tellTo(const std::string& file);
   /// At most once a second: which part of all (0 to 1) is done. `isRare`: every time.
   void tellProgress(const std::string& stage, double share, double trialsPerSecond, bool isRare = false) const;

@@ -1,9 +1,12 @@
 // btr gap residual: recorded against simulated.
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/btr_commands.h"
 #include "app/cluster/btr_cluster.h"
@@ -70,37 +73,68 @@ void residualCommand(const ResidualArguments& arguments, Shell& shell) {
   if (stopped) shell.exitCode = stoppedEarly;
 }
 
+/// All is done once the report is written, not before.
+constexpr double nearlyAll = 0.999;
+
+long jobsOf(const std::vector<PlaceReport>& places) {
+  return std::accumulate(places.begin(), places.end(), 0L,
+                         [](long sum, const PlaceReport& place) { return sum + place.jobs; });
+}
+
 /// Of one of several ranks: rank 0 hands out the work and prints, the others return when it lets them.
-void analyseOnRanks(const AnalysisRequest& request, const ProgressLine& progress, Shell& shell) {
+void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFile, const ProgressLine& progress,
+                    Shell& shell) {
   const int workers = request.options.jobs > 0 ? request.options.jobs : shareOfProcessors();
   CoordinatorOptions options;
   options.secondsPerJob = longestAnalysisJob_s;
   options.command.insert(options.command.end(), {"--workers", std::to_string(workers)});
   RankRole role = takeRole(shell, std::move(options));
   if (role.isDone) return;
+  PlacesFile places;
+  if (!placesFile.empty()) places.begin(placesFile);
   SharedAnalysis analysis(std::move(role.link), shell.plugins(), role.options);
-  const auto text = analysis.run(request, progress, *shell.stop);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto tell = [&](const std::string& stage, double share) {
+    if (!places.isKept()) return;
+    const auto report = analysis.report();
+    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    places.tell(stage, share, elapsed_s > 0 ? static_cast<double>(jobsOf(report)) / elapsed_s : 0, report);
+  };
+  const auto text = analysis.run(
+      request,
+      [&](const std::string& stage, double share) {
+        tell(stage, std::min(share, nearlyAll));
+        return progress(stage, share);
+      },
+      *shell.stop);
+  tell("", 1);
   progress.end();
   for (const std::string& note : analysis.notes()) std::fprintf(stderr, "btr: %s\n", note.c_str());
   tellHosts(analysis.report(), "parts of the analysis");
   std::cout << (shell.json ? text.json : text.plain);
 }
 
-void analyseHere(AnalysisRequest request, const ProgressLine& progress, Shell& shell) {
+void analyseHere(AnalysisRequest request, const std::string& placesFile, const ProgressLine& progress, Shell& shell) {
   if (request.options.jobs == 0) request.options.jobs = processorCount();
+  PlacesFile places;
+  if (!placesFile.empty()) places.begin(placesFile);
   const EffectLibrary library{shell.plugins().effectFactory(), shell.plugins().effects()};
-  const GapReport report = runAnalysis(request, library, progress);
+  const GapReport report = runAnalysis(request, library, [&](const std::string& stage, double share) {
+    places.tell(stage, std::min(share, nearlyAll), 0, {});
+    return progress(stage, share);
+  });
+  places.tell("", 1, 0, {});
   progress.end();
   std::cout << (shell.json ? toJsonText(report) : toPlainText(report));
 }
 
-void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
+void analyseCommand(const AnalysisRequest& request, const std::string& places, bool lines, Shell& shell) {
   const ProgressLine progress(shell, lines);
   try {
     if (launchOfThisProcess().size > 1)
-      analyseOnRanks(request, progress, shell);
+      analyseOnRanks(request, places, progress, shell);
     else
-      analyseHere(request, progress, shell);
+      analyseHere(request, places, progress, shell);
   } catch (const Cancelled&) {
     progress.end();
     std::fprintf(stderr, "stopped; nothing was written\n");
@@ -111,6 +145,7 @@ void analyseCommand(const AnalysisRequest& request, bool lines, Shell& shell) {
 void addAnalyse(CLI::App& gap, Shell& shell) {
   auto request = std::make_shared<AnalysisRequest>();
   auto lines = std::make_shared<bool>(false);
+  auto places = std::make_shared<std::string>();
   request->options.jobs = 0;
   CLI::App* analyse = gap.add_subcommand("analyse", "find the physics that the simulator left out");
   analyse->add_option("SCENE.json", request->scene, "scene file; its \"calibrate\" list is what a fit may change")
@@ -136,7 +171,8 @@ void addAnalyse(CLI::App& gap, Shell& shell) {
   analyse->add_flag("--as-recorded", request->options.asRecorded,
                     "go on although a column is certainly not what its name says");
   analyse->add_flag("--progress", *lines, "a line STAGE SHARE on standard error at every step");
-  analyse->callback([request, lines, &shell] { analyseCommand(*request, *lines, shell); });
+  addPlacesOption(analyse, *places);
+  analyse->callback([request, lines, places, &shell] { analyseCommand(*request, *places, *lines, shell); });
 }
 
 void predictCommand(const PredictRequest& request, Shell& shell) try {

@@ -64,8 +64,12 @@ class Trial {
         }
         break;
       }
+      if (options_.ballsOnly && !robotsStopped_ && world_.ballsOutrun(motionEnd + afterMotion_s - world_.time())) {
+        world_.stopRobots();
+        robotsStopped_ = true;
+      }
       // After its end a motion's last commands are held.
-      if (moving) {
+      if (moving && !robotsStopped_) {
         if (senses_) motion->sense(sensed());
         motion->command(world_.time(), readings_, inputs_[0]);
       }
@@ -98,7 +102,7 @@ class Trial {
   /// Reads the first robot, too.
   void record(TrialResult& result) {
     if (options_.recordTrace) world_.sample(result.trace.values);
-    if (scene_.robots.empty()) return;
+    if (scene_.robots.empty() || robotsStopped_) return;
     world_.read(0, readings_);
     const auto& axes = readings_.base.linear();
     result.basePath.push_back({readings_.base.translation(), std::atan2(axes(1, 0), axes(0, 0)), axes(2, 2)});
@@ -177,6 +181,9 @@ class Trial {
     result.fell = base.linear()(2, 2) < 0.5;
   }
 
+  /// A ball that rolls lets a trial end with the motion, or soon after it.
+  static constexpr double afterMotion_s = 0.1;
+
   const Scene& scene_;
   const TrialOptions& options_;
   std::uint64_t seed_;
@@ -186,6 +193,7 @@ class Trial {
   std::optional<Senses> senses_;
   std::vector<double> row_;  ///< of the senses, as last sampled
   long period_ = 0;
+  bool robotsStopped_ = false;
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ struct TrialOptions {
   double settle_s = 1.0;  ///< after the motion, while the ball is still touched or not rolling
   bool recordTrace = false;
   bool closedFormRoll = true;  ///< end when the ball rolls free and add the closed form
+  bool ballsOnly = false;  ///< of the result only outcome and balls matter: robots that no ball can meet any more stop
 };
 
 /// A pure function: the same scene, controller, settings, parameters and seed give the same bits, on any worker, at any

@@ -98,18 +98,18 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
   if (!whole) count = static_cast<long>(std::ceil(duration / scene.step_s));
   const double stepSize = whole ? scene.step_s : duration / static_cast<double>(count);
   for (long i = 0; i < count && fault.empty(); ++i) {
-    const int parts = scene.nearSubsteps > 1 && nearBall(inputs, stepSize) ? scene.nearSubsteps : 1;
+    const int parts = scene.nearSubsteps > 1 && !robotsStopped && nearBall(inputs, stepSize) ? scene.nearSubsteps : 1;
     const double h = stepSize / parts, begin = time() + (whole ? 0 : static_cast<double>(i) * stepSize);
     for (int part = 0; part < parts && fault.empty(); ++part) step(inputs, begin + part * h, h);
     if (whole) ++steps;
   }
   // Time is counted in whole steps so that it does not gather rounding; what lies between is added as it is.
   if (!whole) start_s += duration;
-  if (fault.empty())
+  if (fault.empty() && !robotsStopped)
     for (auto& robot : robots) sense(robot, duration);
 }
 
-void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, double now, double h) {
+void World::Impl::driveRobots(const std::vector<std::vector<JointInput>>& inputs, double now, double h) {
   for (auto& robot : robots) {
     // Leapfrog: positions belong to the steps' ends, velocities to their middles. A rig that was put somewhere at an
     // instant gets half of the first step's forces. (Free robots are corrected in flight instead, and contacts know no
@@ -128,6 +128,10 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
+}
+
+void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, double now, double h) {
+  if (!robotsStopped) driveRobots(inputs, now, h);
   if (inOde) {
     makeContacts(h);
     for (auto& ball : balls) driveBall(ball, now, h);
@@ -140,14 +144,30 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     }
     contacts.clear();
   }
+  if (!robotsStopped && !takeRobots(h)) return;
+  for (auto& ball : balls) {
+    const BallState before = ball.state;
+    readBall(ball, now + h);
+    if (ball.touched || ball.state.onFloor) continue;
+    ball.state.position_m += h / 2 * (before.velocity_m_s - ball.state.velocity_m_s);
+    bounce(ball, before, h);
+    const Eigen::Vector3d& p = ball.state.position_m;
+    dBodySetPosition(ball.id, p.x(), p.y(), p.z());
+    ball.pose.translation() = p;
+  }
+  settleObstacles(h);
+  checkFault();
+}
 
+/// What the step made of the robots. False (and a fault) if one of them cannot be moved.
+bool World::Impl::takeRobots(double h) {
   for (auto& robot : robots) {
     for (std::size_t j = 0; j < robot.drives.size(); ++j) robot.drives[j].rateBefore = robot.body->joints[j].rate;
     if (!robot.alone) {
       robot.body->refresh();
     } else if (!robot.alone->step(*robot.body, robot.rows, robot.kick, h)) {
       fault = robot.scene->name + " cannot be moved: its forces are not finite";
-      return;
+      return false;
     }
     // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
@@ -169,18 +189,7 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
       if (end * joint.rate > 0) drive.rate = end;
     }
   }
-  for (auto& ball : balls) {
-    const BallState before = ball.state;
-    readBall(ball, now + h);
-    if (ball.touched || ball.state.onFloor) continue;
-    ball.state.position_m += h / 2 * (before.velocity_m_s - ball.state.velocity_m_s);
-    bounce(ball, before, h);
-    const Eigen::Vector3d& p = ball.state.position_m;
-    dBodySetPosition(ball.id, p.x(), p.y(), p.z());
-    ball.pose.translation() = p;
-  }
-  settleObstacles(h);
-  checkFault();
+  return true;
 }
 
 World::World(const Scene& scene, std::uint64_t seed) : impl_(std::make_unique<Impl>(scene, seed)) {}

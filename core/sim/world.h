@@ -93,6 +93,14 @@ class World {
   /// unit vector; a ray that begins within something sees nothing of the world: 0.
   double rayDistance_m(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double farthest_m,
                        std::size_t robotLeftOut) const;
+  /// True if no robot can reach a ball in the next `horizon_s`: the balls roll away under nothing but friction and
+  /// their uniform deceleration, and for every part of a robot that would need more than its present speed and another
+  /// 0.5 m/s, towards the ball, all the time. False wherever more than that is to be weighed (obstacles, hands, forces
+  /// on balls, fixed robots, several balls).
+  bool ballsOutrun(double horizon_s) const;
+  /// From now on no robot is simulated: all stay where they are and touch nothing. The balls go on with the bits that
+  /// they would have had as long as no robot came near.
+  void stopRobots();
   /// True while any link of any robot touches the ball.
   bool ballTouched(std::size_t index) const;
   /// Kinetic plus gravitational energy of everything [J]; gravitational zero at the world's origin.

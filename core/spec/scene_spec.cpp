@@ -55,7 +55,7 @@ std::string nameOf(JsonReader& reader, std::set<std::string>& taken) {
 
 ServoSpec servoFrom(JsonReader reader) {
   ServoSpec servo;
-  servo.drive = reader.word("drive", {"servo", "dc_motor", "torque", "force", "motion", "none"}, "servo");
+  servo.drive = reader.word("drive", {"servo", "dc_motor", "torque", "force", "motion", "none", "locked"}, "servo");
   for (const Parameter& number : servoNumbers())
     if (reader.has(number.name))
       servo.numbers[number.name] = reader.number(number.name, number.minimum, number.maximum);

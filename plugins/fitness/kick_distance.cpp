@@ -10,11 +10,12 @@
 #include <memory>
 #include <numbers>
 
+#include "core/plugin/ball_fitness.h"
 #include "core/plugin/plugin.h"
 
 namespace {
 
-class KickDistance final : public btr::Fitness {
+class KickDistance final : public btr::BallFitness {
   std::string unit() const override { return "m"; }
   bool canBeNegative() const override { return false; }
 
@@ -34,6 +35,10 @@ class KickDistance final : public btr::Fitness {
     if (scene.balls.empty())
       throw btr::InputError(
           "fitness kick_distance: the scene has no ball; choose a scene with one, or another fitness");
+  }
+
+  bool seesBallsOnly(const btr::Values& settings) const override {
+    return btr::valueOf(this->settings(), settings, "fall_factor") == 1;
   }
 
   double evaluate(const btr::TrialResult& result, const btr::Values& settings,

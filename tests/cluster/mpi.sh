@@ -116,6 +116,15 @@ for words in "1 1" "2 1" "3 1" "2 2"; do
   same_report "analysis-$n-$jobs" "an analysis on $n ranks with $jobs workers each"
 done
 says err "parts of the analysis in"
+expect 0 "an analysis that tells its places" on_ranks 2 --jobs 1 --places "$folder/places.json" --out "$folder/analysis-places"
+cp "$folder/out" "$folder/analysis-places/printed"
+same_report "analysis-places" "an analysis that tells its places"
+python3 -c '
+import json, sys
+places = json.load(open(sys.argv[1]))
+assert places["share"] == 1 and places["trials_per_second"] > 0 and sum(h["workers"] for h in places["hosts"]) == 2, places
+assert sum(h["trials"] for h in places["hosts"]) > 0, places' "$folder/places.json" || fail "what --places says of an analysis"
+expect 1 "places that cannot be written" analysis --places "$folder/none/places.json" --out "$folder/analysis-none"
 for ((kill = 0; kill < 3; kill++)); do
   : > "$folder/err" # what was said before is no sign of it
   on_ranks 2 --jobs 1 --progress --out "$folder/analysis-killed-$kill" > "$folder/out" 2> "$folder/err" &

@@ -74,6 +74,29 @@ TEST(KickTrial, SomeRandomKicksMoveTheBall) {
   EXPECT_GE(moved, 3);
 }
 
+TEST(KickTrial, WhereTheFitnessAloneIsWantedItIsTheSameToTheLastBit) {
+  const auto experiment = kickExperiment(-0.25);
+  const Scene scene = experiment.scene(experiment.spec.simulator);
+  Random random(3);
+  for (int i = 0; i < 25; ++i) {
+    std::vector<double> kick = sweep;
+    for (std::size_t j = 0; j + 1 < kick.size() && i > 0; ++j) kick[j] += 0.1 * random.normal();
+    const TrialResult whole = experiment.trial(scene, kick, 1, false);
+    const TrialResult shorter = experiment.trialForFitness(scene, kick, 1);
+    EXPECT_EQ(whole.outcome, shorter.outcome);
+    EXPECT_EQ(experiment.fitnessOf(whole), experiment.fitnessOf(shorter)) << i;
+  }
+}
+
+TEST(KickTrial, RobotsAreSimulatedToTheEndForAFitnessThatLooksAtThem) {
+  auto experiment = kickExperiment(-0.25);
+  const Scene scene = experiment.scene(experiment.spec.simulator);
+  const std::size_t whole = experiment.trial(scene, sweep, 1, false).basePath.size();
+  EXPECT_LT(experiment.trialForFitness(scene, sweep, 1).basePath.size(), whole);
+  experiment.spec.fitness.settings["fall_factor"] = 0.5;
+  EXPECT_EQ(experiment.trialForFitness(scene, sweep, 1).basePath.size(), whole);
+}
+
 TEST(KickTrial, AMirroredKickAtAMirroredBallGoesTheMirroredWay) {
   for (const double bearing : {0.0, 0.25, -0.25}) {
     const auto here = kickExperiment(bearing), there = kickExperiment(-bearing);

@@ -1,6 +1,8 @@
 // The ERS-7 from its file: standing, kicking left and right, many workers' determinism.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/model/kinematics.h"
@@ -8,6 +10,7 @@
 #include "core/sim/trial.h"
 #include "core/spec/random.h"
 #include "tests/plugin/built_plugins.h"
+#include "tests/refusal.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -145,6 +148,46 @@ TEST(Dog, AKicksWayConvergesWithTheStep) {
   const double fine = deviationOf(learnedWays(task, 0.0005), converged).rms;
   EXPECT_LT(coarse, 0.1);
   EXPECT_LT(fine, 0.7 * coarse);
+}
+
+// Head, mouth and tail of this scene are locked: bodies where they begin, and nothing of them can be driven or read.
+TEST(Dog, LockedJointsAreRigidWhereTheyBegin) {
+  const SceneSpec locked = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
+  SceneSpec free = locked;
+  free.robots[0].servos.clear();
+  const ModelSet models = loadModels(locked);
+  const Scene scene = makeScene(locked, models, {}, host().effectFactory());
+  const Scene other = makeScene(free, models, {}, host().effectFactory());
+  World world(scene, 1);
+  const auto poses = world.linkPoses(0);
+  const auto expected = forwardKinematics(other.robots[0].model, other.robots[0].start, other.robots[0].jointStart);
+  for (std::size_t link = 0; link < poses.size(); ++link)
+    EXPECT_TRUE(poses[link].isApprox(expected[link], 1e-9)) << scene.robots[0].model.links[link].name;
+  const auto channels = world.channels();
+  for (const char* joint : {"NECK_TILT", "HEAD_PAN", "HEAD_TILT", "MOUTH", "TAIL_TILT", "TAIL_PAN"})
+    EXPECT_EQ(std::find(channels.begin(), channels.end(), std::string("ers7.") + joint + ".position_rad"),
+              channels.end());
+  world.advance(hold(scene), 0.4);
+  const auto jaw = static_cast<std::size_t>(scene.robots[0].model.findJoint("MOUTH")) + 1;
+  const auto head = static_cast<std::size_t>(scene.robots[0].model.joints[jaw - 1].parentLink);
+  const auto later = world.linkPoses(0);
+  EXPECT_TRUE((later[head].inverse() * later[jaw]).isApprox(poses[head].inverse() * poses[jaw], 1e-9));
+  EXPECT_NEAR(massProperties(other.robots[0].model, other.robots[0].jointStart).mass_kg,
+              massProperties(scene.robots[0].model, scene.robots[0].jointStart).mass_kg, 1e-12);
+}
+
+TEST(Dog, ALockedJointHasNoNumbersAndNoVelocity) {
+  const SceneSpec spec = loadScene(SOURCE_DIR "/resources/scenes/kick.json");
+  const ModelSet models = loadModels(spec);
+  const auto said = [&](const SceneSpec& scene) {
+    return refusal([&] { makeScene(scene, models, {}, host().effectFactory()); });
+  };
+  SceneSpec wrong = spec;
+  wrong.robots[0].servos["MOUTH"].numbers["p"] = 3;
+  EXPECT_THAT(said(wrong), testing::HasSubstr("robots.ers7.servos.MOUTH"));
+  wrong = spec;
+  wrong.robots[0].jointRate["TAIL_PAN"] = 1;
+  EXPECT_THAT(said(wrong), testing::HasSubstr("joint_velocity.TAIL_PAN"));
 }
 
 TEST(Dog, AMeshAsCollisionModelStandsToo) {

@@ -26,7 +26,8 @@ struct Evidence {
 
   std::vector<TrialJob> jobs(const std::vector<RealFitness>& who, const SimulatorSpec& simulator) const {
     std::vector<TrialJob> jobs;
-    for (const RealFitness& r : who) jobs.push_back({simulator, r.parameters, trialSeed, false});
+    for (const RealFitness& r : who)
+      jobs.push_back({.simulator = simulator, .parameters = r.parameters, .seed = trialSeed, .fitnessOnly = true});
     return jobs;
   }
 };

@@ -15,7 +15,8 @@ std::string encode(const TrialJob& job) {
               {"parameters", job.parameters},
               {"seed", job.seed},
               {"wantTrace", job.wantTrace},
-              {"task", job.task}}
+              {"task", job.task},
+              {"fitnessOnly", job.fitnessOnly}}
       .dump();
 }
 
@@ -27,6 +28,7 @@ TrialJob decodeJob(const std::string& text) {
   job.seed = j.at("seed").get<std::uint64_t>();
   job.wantTrace = j.at("wantTrace").get<bool>();
   job.task = j.at("task").get<Values>();
+  job.fitnessOnly = j.at("fitnessOnly").get<bool>();
   return job;
 }
 
@@ -53,9 +55,15 @@ TrialReply decodeReply(const std::string& bytes) {
 }
 
 TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, const TrialJob& job) {
-  const TrialResult result = prepared.trial(scene, job.parameters, job.seed, true);
+  const TrialResult result = job.fitnessOnly ? prepared.trialForFitness(scene, job.parameters, job.seed)
+                                             : prepared.trial(scene, job.parameters, job.seed, true);
   TrialReply reply;
   reply.outcome = toText(result.outcome);
+  if (job.fitnessOnly) {
+    reply.detail = result.detail;
+    reply.fitness = prepared.fitnessOf(result);
+    return reply;
+  }
   reply.detail = prepared.detailOf(result);
   reply.figures = prepared.figuresOf(result);
   reply.fitness = prepared.fitnessOf(result);

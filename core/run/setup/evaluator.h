@@ -18,8 +18,9 @@ struct TrialJob {
   SimulatorSpec simulator;
   std::vector<double> parameters;  ///< in the order of the genotype
   std::uint64_t seed = 0;
-  bool wantTrace = false;  ///< send the packed trace back, not only its hash
-  Values task = {};        ///< settings of the controller in place of the experiment's; empty: none
+  bool wantTrace = false;    ///< send the packed trace back, not only its hash
+  Values task = {};          ///< settings of the controller in place of the experiment's; empty: none
+  bool fitnessOnly = false;  ///< wanted is the fitness (the same) with its outcome: no trace, no hash, no figures
 };
 
 /// What a trial was worth. A trial that failed in any way has the fitness of a failure and says why.
@@ -27,7 +28,7 @@ struct TrialReply {
   double fitness = 0;
   std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
   std::string detail;                ///< why it failed, or what else the fitness tells: "falls 0, straightness 0.97"
-  std::string traceSha256;           ///< "" if a worker died
+  std::string traceSha256;           ///< "" if a worker died, or none was wanted
   std::string packedTrace;           ///< if wanted
   Values figures = {};               ///< what else the fitness tells, as numbers
 };

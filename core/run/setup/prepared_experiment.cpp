@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/model/load_model.h"
+#include "core/plugin/ball_fitness.h"
 #include "core/run/setup/reality_settings.h"
 #include "core/sim/engine/ode_session.h"
 #include "core/sim/model_losses.h"
@@ -237,8 +238,21 @@ SimulatorSpec PreparedExperiment::adaptedTo(SimulatorSpec simulator, std::span<c
 TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
                                       bool recordTrace) const {
   TrialOptions options;
-  options.maximum_s = valueOf(stageParameters(), spec.stages, "trial_maximum_s");
   options.recordTrace = recordTrace;
+  return trial(arranged, parameters, seed, options);
+}
+
+TrialResult PreparedExperiment::trialForFitness(const Scene& arranged, std::span<const double> parameters,
+                                                std::uint64_t seed) const {
+  TrialOptions options;
+  const auto* ofBalls = dynamic_cast<const BallFitness*>(fitness.get());
+  options.ballsOnly = ofBalls && ofBalls->seesBallsOnly(spec.fitness.settings);
+  return trial(arranged, parameters, seed, options);
+}
+
+TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
+                                      TrialOptions options) const {
+  options.maximum_s = valueOf(stageParameters(), spec.stages, "trial_maximum_s");
   return runTrial(arranged, *controller, spec.controller.settings, parameters, seed, options);
 }
 

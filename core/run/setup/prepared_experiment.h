@@ -37,6 +37,9 @@ struct PreparedExperiment {
   Scene scene(const SimulatorSpec& simulator) const;
   TrialResult trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
                     bool recordTrace) const;
+  /// The same for fitnessOf() alone, which gets the same value: no trace, and robots are simulated only as long as the
+  /// fitness may depend on them (see BallFitness).
+  TrialResult trialForFitness(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed) const;
   /// The fitness plugin's value; ofFailure() for a trial that did not finish or a value that is not finite.
   double fitnessOf(const TrialResult& result) const;
   /// Why a trial failed; of a finished one what else the fitness plugin tells, "falls 0, straightness 0.97".
@@ -48,6 +51,8 @@ struct PreparedExperiment {
 
  private:
   Values task() const;  ///< all of the controller's settings, defaults filled in
+  TrialResult trial(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed,
+                    TrialOptions options) const;
 };
 
 /// Checks everything that can be checked before a run: plugins, settings, scene, models, that a scene can be built, and

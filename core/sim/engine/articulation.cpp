@@ -232,7 +232,8 @@ void Articulation::refresh() {
     const Vector3d x = other * joint.x;
     const double angle = std::atan2((mine * joint.w).dot(x), (mine * joint.u).dot(x));
     // The angle nearest to the last one: a joint may turn round many times.
-    joint.position += std::remainder(angle - joint.position, 2 * M_PI);
+    const double turned = angle - joint.position;
+    joint.position += std::abs(turned) <= M_PI ? turned : std::remainder(turned, 2 * M_PI);
     joint.axis = mine * (joint.axisFollowsChild ? joint.axisInChild : joint.axisInParent);
     joint.rate = joint.axis.dot(relative);
   }

@@ -8,29 +8,14 @@
 namespace btr {
 namespace {
 
-// One row of a Cholesky factor, from a row of the matrix in `line` (0 … row): writes its entries into the factor's
-// columns above, `line` keeps the diagonal before its root. What stands left of an entry's own column in a line of four
-// is overwritten, and never read again.
-BTR_WIDE void factorLine(double* line, double* factor, const double* inverse, unsigned stride, unsigned row) {
-  for (unsigned k = 0; k < row; ++k) {
-    double* column = factor + static_cast<std::size_t>(k) * stride;
-    const double entry = line[k] * inverse[k];
-    column[row] = entry;
-    const unsigned last = row / wideLanes;
-    for (unsigned chunk = (k + 1) / wideLanes; chunk <= last; ++chunk)
-      *reinterpret_cast<Four*>(line + chunk * wideLanes) -=
-          entry * *reinterpret_cast<const Four*>(column + chunk * wideLanes);
-  }
-}
-
 // to −= factor · from
-BTR_WIDE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
+BTR_INLINE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
   for (unsigned chunk = first / wideLanes; chunk * wideLanes < count; ++chunk)
     *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
         factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
 }
 
-BTR_WIDE void addTimes(double* to, double factor, const double* from, unsigned count) {
+BTR_INLINE void addTimes(double* to, double factor, const double* from, unsigned count) {
   for (unsigned chunk = 0; chunk * wideLanes < count; ++chunk)
     *reinterpret_cast<Four*>(to + chunk * wideLanes) +=
         factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
@@ -56,30 +41,48 @@ void BoxSolver::take(const LcpProblem& p) {
   inverse_.resize(n_);
   right_.resize(stride_);
   product_.resize(stride_);
-  line_.assign(stride_, 0);
   factored_.clear();
 }
 
-// Rows of the factor that are of the same rows of A as before stay as they are.
-bool BoxSolver::factorFree() {
+// Columns of the factor that are of the same rows of A as before stay as they are. The others are made together, line
+// by line: each of its numbers by the same operations in the same order as if they were made one after the other, but
+// they do not wait for each other. Left of a line's own column stand zeros, and at it.
+BTR_WIDE bool BoxSolver::factorFree() {
   const auto count = static_cast<unsigned>(free_.size());
-  const std::size_t same = static_cast<std::size_t>(
+  const auto same = static_cast<unsigned>(
       std::mismatch(free_.begin(), free_.end(), factored_.begin(), factored_.end()).first - free_.begin());
   factored_.resize(same);
-  for (auto i = static_cast<unsigned>(same); i < count; ++i) {
-    const double* row = lineOf(a_, free_[i]);
-    for (unsigned j = 0; j <= i; ++j) line_[j] = row[free_[j]];
-    const double before = line_[i];
-    factorLine(line_.data(), factor_.data(), inverse_.data(), stride_, i);
-    if (!(line_[i] > 1e-14 * before)) return false;
-    inverse_[i] = 1 / std::sqrt(line_[i]);
-    factored_.push_back(free_[i]);
+  if (same == count) return true;
+  const unsigned first = same / wideLanes * wideLanes, chunks = (count + wideLanes - 1) / wideLanes;
+  factored_.resize(first);
+  for (unsigned k = 0; k < count; ++k) {
+    const double* row = lineOf(a_, free_[k]);
+    double* line = lineOf(factor_, k);
+    for (unsigned j = std::max(k, first); j < count; ++j) line[j] = row[free_[j]];
   }
+  for (unsigned k = 0; k < count; ++k) {
+    double* line = lineOf(factor_, k);
+    if (k >= first) {
+      if (!(line[k] > 1e-14 * lineOf(a_, free_[k])[free_[k]])) return false;
+      inverse_[k] = 1 / std::sqrt(line[k]);
+    }
+    for (unsigned chunk = std::max(k, first) / wideLanes; chunk < chunks; ++chunk)
+      *reinterpret_cast<Four*>(line + chunk * wideLanes) *= inverse_[k];
+    for (unsigned i = k + 1; i < count; ++i) {
+      const double entry = line[i];
+      double* to = lineOf(factor_, i);
+      for (unsigned chunk = std::max(i, first) / wideLanes; chunk < chunks; ++chunk)
+        *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
+            entry * *reinterpret_cast<const Four*>(line + chunk * wideLanes);
+    }
+    if (k >= first) std::fill(line + k / wideLanes * wideLanes, line + k + 1, 0);
+  }
+  factored_ = free_;
   return true;
 }
 
 // Free rows by Cholesky, the others at their bounds.
-bool BoxSolver::solveFree() {
+BTR_WIDE bool BoxSolver::solveFree() {
   free_.clear();
   for (unsigned i = 0; i < n_; ++i) {
     if (side_[i] == Side::free) free_.push_back(i);
@@ -107,7 +110,7 @@ bool BoxSolver::solveFree() {
 }
 
 // Rows that contradict their side.
-void BoxSolver::findWrong(double largest) {
+BTR_WIDE void BoxSolver::findWrong(double largest) {
   for (unsigned i = 0; i < n_; ++i) product_[i] = -b_[i];
   for (unsigned j = 0; j < n_; ++j)
     if (x_[j] != 0) addTimes(product_.data(), x_[j], lineOf(a_, j), n_);

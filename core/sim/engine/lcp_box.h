@@ -51,7 +51,7 @@ class BoxSolver {
   std::vector<unsigned> factored_;  ///< rows that the factor was made of
   std::vector<double> factor_;      ///< line i: column i of the Cholesky factor of the free rows, from i on
   std::vector<double> inverse_;     ///< of the factor's diagonal
-  std::vector<double> right_, product_, line_;
+  std::vector<double> right_, product_;
   std::vector<Wrong> wrong_;
 };
 

@@ -14,9 +14,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 static_assert(wideLanes == lanes);
 
-// Small enough to be put where they are used, in each processor's version of the loops around them.
-#define BTR_INLINE [[gnu::always_inline]] inline
-
 // Cholesky factor of a 6×6 block in place, the diagonal inverted. False if it is not positive definite.
 BTR_INLINE bool factorBlock(double* a) {
   BTR_UNROLL
@@ -92,12 +89,17 @@ BTR_INLINE double subtractDot(double right, const double* row, std::size_t strid
   return right - ((sum[0] + sum[1]) + (sum[2] + sum[3]));
 }
 
+// Whether one of six rows of four columns is not zero
+BTR_INLINE bool anyRowNotZero(const double* rows) {
+  const FourBits* bits = reinterpret_cast<const FourBits*>(rows);
+  const FourBits all = ((bits[0] | bits[1]) | (bits[2] | bits[3])) | (bits[4] | bits[5]);
+  return ((all[0] | all[1] | all[2] | all[3]) << 1) != 0;
+}
+
 // x := L⁻¹ · x for six rows of four columns. False if they are all zero (then nothing is done).
 BTR_INLINE bool forwardBlock(const double* l, double* x) {
   Four* rows = reinterpret_cast<Four*>(x);
-  const FourBits* bits = reinterpret_cast<const FourBits*>(x);
-  const FourBits all = ((bits[0] | bits[1]) | (bits[2] | bits[3])) | (bits[4] | bits[5]);
-  if (((all[0] | all[1] | all[2] | all[3]) << 1) == 0) return false;
+  if (!anyRowNotZero(x)) return false;
   BTR_UNROLL
   for (unsigned r = 0; r < N; ++r) {
     Four sum = rows[r];
@@ -121,14 +123,15 @@ BTR_INLINE void subtractForward(const double* l, const double* from, double* to)
   }
 }
 
-// a −= rowᵀ·row, the lower triangle in chunks of four; the row stands in chunks that are `stride` apart.
-BTR_INLINE void subtractSquare(double* a, unsigned skip, const double* row, std::size_t stride, unsigned count) {
+// a −= leftᵀ·right for `count` of the four columns of `left`; both are six rows of four columns.
+BTR_INLINE void subtractTile(double* a, unsigned skip, const double* left, const double* right, unsigned count) {
+  const Four* rows = reinterpret_cast<const Four*>(right);
   for (unsigned i = 0; i < count; ++i) {
-    const double factor = row[(i / lanes) * stride + i % lanes];
-    if (factor == 0) continue;
     Four* to = reinterpret_cast<Four*>(a + i * skip);
-    for (unsigned chunk = 0; chunk <= i / lanes; ++chunk)
-      to[chunk] -= factor * *reinterpret_cast<const Four*>(row + chunk * stride);
+    Four sum = *to;
+    BTR_UNROLL
+    for (unsigned r = 0; r < N; ++r) sum -= left[r * lanes + i] * rows[r];
+    *to = sum;
   }
 }
 
@@ -233,13 +236,22 @@ void LcpReducer::gather(const LcpProblem& p) {
         for (unsigned c = 0; c < column.count; ++c)
           to[c * W + r] = i > k ? lower(row.rows[r], column.rows[c]) : lower(column.rows[c], row.rows[r]);
     }
-    for (unsigned r = 0; r < column.count; ++r) {
-      const unsigned own = column.rows[r];
-      for (unsigned b = 0; b < bounded_.size(); ++b)
-        chunkAt(k, b / lanes)[r * lanes + b % lanes] =
-            bounded_[b] > own ? lower(bounded_[b], own) : lower(own, bounded_[b]);
-      const auto last = static_cast<unsigned>(bounded_.size());
-      chunkAt(k, last / lanes)[r * lanes + last % lanes] = p.bx[2 * own];
+    const auto last = static_cast<unsigned>(bounded_.size());
+    for (unsigned r = 0; r < column.count; ++r)
+      chunkAt(k, last / lanes)[r * lanes + last % lanes] = p.bx[2 * column.rows[r]];
+    const unsigned first = column.rows[0], end = column.rows[column.count - 1];
+    for (unsigned b = 0; b < last; ++b) {
+      double* to = chunkAt(k, b / lanes) + b % lanes;
+      if (bounded_[b] > end) {
+        // A contact is coupled to few joints.
+        const double* row = p.a + static_cast<std::size_t>(bounded_[b]) * p.skip;
+        if (column.count == N && end - first + 1 == N && !anySixNotZero(row + first)) continue;
+        for (unsigned r = 0; r < column.count; ++r) to[r * lanes] = row[column.rows[r]];
+      } else {
+        for (unsigned r = 0; r < column.count; ++r)
+          to[r * lanes] =
+              bounded_[b] > column.rows[r] ? lower(bounded_[b], column.rows[r]) : lower(column.rows[r], bounded_[b]);
+      }
     }
   }
 }
@@ -277,16 +289,24 @@ BTR_WIDE void LcpReducer::forward() {
     }
 }
 
-// Schur complement, row of right_ by row of right_.
+// Schur complement, block by block; a chunk of columns that the block does not touch is left out.
 BTR_WIDE void LcpReducer::subtractEliminated(unsigned count) {
-  const std::size_t stride = N * lanes;
-  for (unsigned k = 0; k < blocks_.size(); ++k)
-    for (unsigned r = 0; r < N; ++r) {
-      const double* row = chunkAt(k, 0) + r * lanes;
-      subtractSquare(smallA_.data(), small_.skip, row, stride, count);
-      const double b = row[(count / lanes) * stride + count % lanes];
-      for (unsigned i = 0; i < count; ++i) smallBx_[2 * i] -= row[(i / lanes) * stride + i % lanes] * b;
+  const unsigned chunks = (count + lanes - 1) / lanes;
+  for (unsigned k = 0; k < blocks_.size(); ++k) {
+    const double* right = chunkAt(k, count / lanes) + count % lanes;
+    touched_.clear();
+    for (unsigned i = 0; i < chunks; ++i) {
+      const double* left = chunkAt(k, i);
+      if (!anyRowNotZero(left)) continue;
+      touched_.push_back(i);
+      const unsigned first = i * lanes, rows = count - first < lanes ? count - first : lanes;
+      for (const unsigned j : touched_)
+        subtractTile(smallA_.data() + first * small_.skip + j * lanes, small_.skip, left, chunkAt(k, j), rows);
+      for (unsigned r = 0; r < N; ++r)
+        for (unsigned row = 0; row < rows; ++row)
+          smallBx_[2 * (first + row)] -= left[r * lanes + row] * right[r * lanes];
     }
+  }
 }
 
 void LcpReducer::formSmall(const LcpProblem& p) {

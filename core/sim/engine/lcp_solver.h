@@ -69,6 +69,7 @@ class LcpReducer {
   std::vector<std::int16_t> slot_;  ///< of block pair in storage_, −1 empty
   std::vector<double> right_;       ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
   unsigned chunks_ = 0;
+  std::vector<unsigned> touched_;  ///< scratch: chunks of a block that are not zero
   LcpProblem small_;
   std::vector<double> smallA_, smallBx_, smallLoHi_, smallX_;
   std::vector<int> smallFindex_;

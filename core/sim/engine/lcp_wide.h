@@ -13,6 +13,8 @@ static_assert(sizeof(Four) == wideLanes * sizeof(double));
 #else
 #define BTR_WIDE
 #endif
+// Small enough to be put where they are used, in each processor's version of the loops around them.
+#define BTR_INLINE [[gnu::always_inline]] inline
 // Before a loop of six rows: written out, whatever the compiler's level of optimisation.
 #if defined(__GNUC__) && !defined(__clang__)
 #define BTR_UNROLL _Pragma("GCC unroll 6")

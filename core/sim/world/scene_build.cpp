@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "core/model/load_model.h"
 #include "core/sim/contact/collision.h"
@@ -33,11 +34,11 @@ Drive::Kind kindOf(const ServoSpec& servo, const Joint& joint, const std::string
   if (servo.drive == "servo") return Drive::Kind::servo;
   if (servo.drive == "dc_motor") return Drive::Kind::dcMotor;
   if (servo.drive == "motion") return Drive::Kind::motion;
-  if (servo.drive == "none") return Drive::Kind::none;
+  if (servo.drive == "none" || servo.drive == "locked") return Drive::Kind::none;
   if (servo.drive == (slides ? "force" : "torque")) return Drive::Kind::torque;
   throw InputError(place + ".drive", servo.drive,
-                   slides ? "servo, dc_motor, force, motion or none on a slide joint"
-                          : "servo, dc_motor, torque, motion or none on a rotary joint");
+                   slides ? "servo, dc_motor, force, motion, none or locked on a slide joint"
+                          : "servo, dc_motor, torque, motion, none or locked on a rotary joint");
 }
 
 int jointOf(const SceneRobot& robot, const std::string& name, const std::string& place) {
@@ -83,6 +84,24 @@ void setRates(SceneRobot& robot, const RobotSpec& spec, const std::string& place
       robot.jointStartRate[i] = mimic->multiplier * robot.jointStartRate[static_cast<std::size_t>(mimic->leader)];
 }
 
+/// A joint that is rigid where it begins: a fixed one from here on, so that what it carries is one body with the rest.
+void lock(SceneRobot& robot, std::size_t index, const RobotSpec& spec, const std::string& place) {
+  Joint& joint = robot.model.joints[index];
+  if (!spec.servos.at(joint.name).numbers.empty())
+    throw InputError(place + ".servos." + joint.name, "numbers", "none beside \"drive\": \"locked\"");
+  if (robot.jointStartRate[index] != 0)
+    throw InputError(place + ".joint_velocity." + joint.name, toText(robot.jointStartRate[index]), "0: it is locked");
+  for (const Joint& other : robot.model.joints)
+    if (other.mimic && other.mimic->leader == static_cast<int>(index))
+      throw InputError(place + ".servos." + joint.name + ".drive", "locked",
+                       "another drive: " + other.name + " follows it");
+  const double start = std::exchange(robot.jointStart[index], 0);
+  if (joint.type == Joint::Type::rotate) joint.origin.rotate(Eigen::AngleAxisd(start, joint.axis));
+  if (joint.type == Joint::Type::slide) joint.origin.translate(start * joint.axis);
+  joint.type = Joint::Type::fixed;
+  robot.drives[index] = driveFromModel(joint);
+}
+
 SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
   SceneRobot robot;
   robot.name = spec.name;
@@ -126,6 +145,8 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
     for (const auto& [number, value] : servo.numbers)
       setDriveNumber(drive, model.joints[joint], number, value, place + ".servos." + name);
   }
+  for (const auto& [name, servo] : spec.servos)
+    if (servo.drive == "locked") lock(robot, static_cast<std::size_t>(robot.model.findJoint(name)), spec, place);
   return robot;
 }
 

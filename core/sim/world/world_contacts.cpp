@@ -91,6 +91,7 @@ void World::Impl::makeContacts(double h) {
     ball.state.onFloor = false;
   }
   for (auto& robot : robots) {
+    if (robotsStopped) break;
     std::fill(robot.contact.begin(), robot.contact.end(), 0);
     robot.touches = false;
     for (auto& body : robot.body->bodies) {

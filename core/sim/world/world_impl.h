@@ -103,7 +103,8 @@ struct World::Impl {
   long steps = 0;
   double until = 0;  ///< end of the present advance [s]
   std::string fault;
-  bool inOde = true;  ///< something moves in ODE
+  bool inOde = true;           ///< something moves in ODE
+  bool robotsStopped = false;  ///< see World::stopRobots()
 
   /// In the order in which they were made in the world that remembers them.
   void remakeExtraRows(const WorldMemory& memory);
@@ -115,6 +116,8 @@ struct World::Impl {
 
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
   void step(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
+  void driveRobots(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
+  bool takeRobots(double h);
   bool nearBall(const std::vector<std::vector<JointInput>>& inputs, double h) const;
   bool strains(std::size_t robot, const std::vector<JointInput>& inputs) const;
 
@@ -147,6 +150,8 @@ struct World::Impl {
   void placeObstacle(WorldObstacle& obstacle, const ObstacleState& state);
   void readObstacle(WorldObstacle& obstacle);
   void settleObstacles(double h);
+  // world_stop.cpp
+  bool outruns(const WorldBall& ball, const RobotBody& body, double horizon_s) const;
   // world_hands.cpp
   void pullAll(double h);
   // world_sense.cpp

@@ -90,8 +90,10 @@ Session::~Session() = default;
 
 std::size_t Session::robotOf(const std::string& name) const {
   const auto i = objects::indexOf(game_.scene.robots, name);
-  if (i == game_.scene.robots.size()) throw InputError("robot", "\"" + name + "\"", "a robot of this game");
-  return i;
+  if (i < game_.scene.robots.size()) return i;
+  std::string known;
+  for (const RobotSpec& robot : game_.scene.robots) known += (known.empty() ? ": " : ", ") + robot.name;
+  throw InputError("robot", "\"" + name + "\"", "a robot of this game" + known);
 }
 
 std::size_t Session::jointOf(std::size_t robot, const std::string& joint) const {

@@ -139,21 +139,41 @@ void hoist(const std::string& text, const std::set<std::pair<std::size_t, std::s
   }
 }
 
-/// Functions of which the compiler does not say where they are; headers of 2003 had them by others.
+/// Names of which the compiler does not say where they are; headers of 2003 had them by others.
 const std::map<std::string, std::string>& systemHeaders() {
-  static const std::map<std::string, std::string> all = {
-      {"access", "unistd.h"},      {"close", "unistd.h"},        {"getcwd", "unistd.h"},
-      {"lseek", "unistd.h"},       {"read", "unistd.h"},         {"rmdir", "unistd.h"},
-      {"sleep", "unistd.h"},       {"unlink", "unistd.h"},       {"usleep", "unistd.h"},
-      {"write", "unistd.h"},       {"open", "fcntl.h"},          {"O_RDONLY", "fcntl.h"},
-      {"O_RDWR", "fcntl.h"},       {"O_WRONLY", "fcntl.h"},      {"mkdir", "sys/stat.h"},
-      {"stat", "sys/stat.h"},      {"chmod", "sys/stat.h"},      {"opendir", "dirent.h"},
-      {"readdir", "dirent.h"},     {"closedir", "dirent.h"},     {"gettimeofday", "sys/time.h"},
-      {"bzero", "strings.h"},      {"index", "strings.h"},       {"rindex", "strings.h"},
-      {"strcasecmp", "strings.h"}, {"strncasecmp", "strings.h"}, {"htonl", "arpa/inet.h"},
-      {"htons", "arpa/inet.h"},    {"ntohl", "arpa/inet.h"},     {"ntohs", "arpa/inet.h"},
-      {"strlwr", "btr_newlib.h"},  {"strupr", "btr_newlib.h"},   {"M_TWOPI", "btr_newlib.h"},
-      {"M_3PI_4", "btr_newlib.h"}, {"M_SQRTPI", "btr_newlib.h"}, {"M_SQRT3", "btr_newlib.h"}};
+  static const std::map<std::string, std::string> all = [] {
+    const std::pair<const char*, const char*> namesOf[] = {
+        {"unistd.h", "access close getcwd getpid isatty lseek read rmdir sbrk sleep unlink usleep write"},
+        {"fcntl.h", "open O_RDONLY O_RDWR O_WRONLY"},
+        {"sys/stat.h", "mkdir stat chmod"},
+        {"dirent.h", "opendir readdir closedir DIR"},
+        {"sys/time.h", "gettimeofday"},
+        {"strings.h", "bzero index rindex strcasecmp strncasecmp"},
+        {"arpa/inet.h", "htonl htons ntohl ntohs"},
+        {"btr_newlib.h", "strlwr strupr M_TWOPI M_3PI_4 M_SQRTPI M_SQRT3"},
+        {"math.h",
+         "M_E M_LN10 M_LN2 M_LOG10E M_LOG2E M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_SQRT1_2 M_SQRT2 HUGE_VAL acos asin atan "
+         "atan2 ceil cos cosh exp fabs floor fmod frexp ldexp log log10 modf pow sin sinh sqrt tan tanh cbrt copysign "
+         "expm1 finite hypot ilogb isinf isnan log1p logb nextafter remainder rint acosf asinf atanf atan2f ceilf cosf "
+         "expf fabsf floorf fmodf hypotf logf log10f powf rintf sinf sqrtf tanf round roundf lround trunc"},
+        {"ctype.h",
+         "isalnum isalpha iscntrl isdigit isgraph islower isprint ispunct isspace isupper isxdigit tolower toupper "
+         "isascii toascii"},
+        {"setjmp.h", "setjmp longjmp jmp_buf"},
+        {"signal.h", "signal raise SIGFPE SIGINT SIGSEGV"},
+        {"limits.h", "PATH_MAX"},
+        {"limits", "numeric_limits"},
+        {"memory", "auto_ptr"},
+        {"strstream", "istrstream ostrstream strstream"},
+        {"stdint.h", "uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t"},
+        {"values.h", "MAXINT MAXLONG MAXSHORT MAXFLOAT MAXDOUBLE MINDOUBLE MINFLOAT MININT"}};
+    std::map<std::string, std::string> headers;
+    for (const auto& [header, names] : namesOf) {
+      std::istringstream words(names);
+      for (std::string word; words >> word;) headers[word] = header;
+    }
+    return headers;
+  }();
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/openr/robot_link.h"
+#include "core/openr/robot_longs.h"
 #include "core/openr/source_cure.h"
 #include "core/openr/stick_config.h"
 #include "core/openr/stub_generator.h"
@@ -36,6 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 4: {
         const std::size_t half = count / 2;
         withoutRepeatedNames(text.substr(0, half), text.substr(half));
+        if (withRobotLongs(text, "").size() != text.size()) std::abort();
         break;
       }
     }

@@ -156,6 +156,7 @@ TEST(Session, WhatIsNotAllowedChangesNothing) {
       {R"({"act": "parameter", "robot": "blue1", "name": "length_m", "value": 0.05})", "a robot that has a controller"},
       {R"({"act": "controller", "robot": "blue1", "controller": {"plugin": "fly"}})", "fly"},
       {R"({"act": "hold", "robot": "blue1", "joint": "NOSE", "position": 0})", "NOSE"},
+      {R"({"act": "hold", "robot": "cat", "joint": "LF_J1"})", "a robot of this game: red1, blue1"},
       {R"({"act": "let_go", "object": "ball"})", "an object that is pulled"},
       {R"({"act": "number", "name": "frictoin", "value": 1})", "frictoin"},
       {R"({"act": "effect", "effect": "backlash", "at": "red1.NOSE"})", "ROBOT.JOINT of the scene"},

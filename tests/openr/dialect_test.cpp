@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/openr/robot_longs.h"
 #include "core/openr/source_cure.h"
 #include "tests/openr/run_program.h"
 
@@ -98,6 +99,10 @@ TEST(SourceCure, NamesMissingHeadersOnce) {
   EXPECT_THAT(missingHeaders("a.cc:1:1: error: 'rmdir' was not declared in this scope\n"
                              "a.cc:2:1: error: 'mine' was not declared in this scope\n"),
               ElementsAre("unistd.h"));
+  EXPECT_THAT(missingHeaders("a.cc:1:1: error: 'fabs' was not declared in this scope; did you mean 'labs'?\n"
+                             "a.cc:1:9: error: 'M_PI' was not declared in this scope\n"
+                             "a.cc:2:1: error: 'isdigit' was not declared in this scope\n"),
+              ElementsAre("math.h", "ctype.h"));
   EXPECT_THAT(missingHeaders("a.cc:1:1: error: must '#include <typeinfo>' before using 'typeid'\n"),
               ElementsAre("typeinfo"));
 }
@@ -109,6 +114,39 @@ TEST(SourceCure, NamesOfTheStandardLibraryWithoutItsNamespaceAreFound) {
               one);
   EXPECT_THAT(missingHeaders("c++/bits/stringfwd.h:77:33: note: 'std::string' declared here\n"), one);
   EXPECT_THAT(missingHeaders("a.cc:1:9: error: 'Mine' does not name a type\n"), ElementsAre());
+}
+
+TEST(RobotLongs, AreIntsInTheProgramsOwnFiles) {
+  const std::string marker = "# 1 \"a.cc\"\n";
+  const auto narrow = [&](const std::string& text) {
+    return withRobotLongs(marker + text, "/kit").substr(marker.size());
+  };
+  EXPECT_EQ(narrow("unsigned long a; const long int b[2];"), "unsigned int  a; const      int b[2];");
+  EXPECT_EQ(narrow("f((long)p, sizeof(long))"), "f((int )p, sizeof(int ))");
+  EXPECT_EQ(narrow("1L 12ul 0xfFUL 010lu"), "1  12u  0xfFU  010u ");
+  for (const char* same : {"long long a; unsigned long long int b; long double c;", "1.0L 3LL 1e3L .5L 1ULL 12 0x1F",
+                           "char* a = \"long\"; int longer, along;", "x.long_ = y1L;"})
+    EXPECT_EQ(narrow(same), same);
+}
+
+TEST(RobotLongs, StayInHeadersOfTheSystemAndOfTheKit) {
+  const std::string foreign =
+      "# 1 \"/usr/include/a.h\" 1 3 4\nlong a;\n# 1 \"/kit/b.h\" 1\nlong b;\n# 1 \"<built-in>\"\nlong c;\n";
+  EXPECT_EQ(withRobotLongs(foreign, "/kit"), foreign);
+  EXPECT_EQ(withRobotLongs(foreign + "# 7 \"a.cc\" 2\nlong d;\n", "/kit"), foreign + "# 7 \"a.cc\" 2\nint  d;\n");
+  EXPECT_EQ(withRobotLongs("# 1 \"t.h\" 3\ntypedef unsigned long int ulong;\n# 1 \"a.cc\"\nulong x;\n", ""),
+            "# 1 \"t.h\" 3\ntypedef unsigned      int ulong;\n# 1 \"a.cc\"\nulong x;\n");
+}
+
+TEST(Dialect, ALongHas32BitsInFilesStructuresAndArithmetic) {
+  const std::string all = runStick(stickOf("longs"), 3).all();
+  EXPECT_THAT(all, HasSubstr("sizes 4 4 8 12\n"));
+  EXPECT_THAT(all, HasSubstr("limits 2147483647 -2147483648 4294967295\n"));
+  EXPECT_THAT(all, HasSubstr("random 1337 1084\n"));  // products end after 32 bits
+  EXPECT_THAT(all, HasSubstr("read abcd 7 -2 of 12\n"));
+  EXPECT_THAT(all, HasSubstr("in C 4 -1\n"));
+  // Overloads for int and long are two with a long of 64 bits alone: so it stays in that file.
+  EXPECT_THAT(all, HasSubstr("overloads int long"));
 }
 
 TEST(Dialect, NamesAreFoundWithoutTheirNamespaceAsBeforeTheStandard) {

@@ -189,6 +189,14 @@ TEST(Net, ClosingEndsAListenAndABoundPortIsKept) {
   EXPECT_THAT(all, HasSubstr("listen 0 port 45678\n"));
 }
 
+// Robots of a game are switched on together: one may ask before the other listens.
+TEST(Net, WhoConnectsAtTheStartWaitsForWhoListensAMomentLater) {
+  const std::string all = runStick(stickOf("late"), 20).all();
+  EXPECT_THAT(all, HasSubstr("Late: listens\n"));
+  EXPECT_THAT(all, HasSubstr("somebody came 0\n"));
+  EXPECT_THAT(all, HasSubstr("connected 0\n"));
+}
+
 TEST(Net, WhoConnectedIsToldBeforeWhatWasSentAfterwards) {
   EXPECT_THAT(runStick(stickOf("passive"), 20).all(),
               HasSubstr("data connection 0\nPassive: order 0: LIST\nPassive: sent 0\n"));

@@ -111,6 +111,15 @@ TEST(MeasuredImport, ChecksTheHeader) {
   EXPECT_THAT(refusalOf("individual,value\n\n"), HasSubstr("measured.csv: holds no values"));
 }
 
+TEST(MeasuredImport, ADecimalCommaIsNotReadAsAValueAndItsNote) {
+  EXPECT_THAT(refusalOf("individual,value,note\n7,0,53\n"),
+              HasSubstr("line 2, column 2: \"0,53\" is not allowed; a value with a decimal point"));
+  EXPECT_THAT(refusalOf("individual,value,note\n7,-1,5\n"), HasSubstr("\"-1,5\""));
+  EXPECT_EQ("2nd", read("individual,value,note\n7,1,2nd\n").at(0).note);
+  EXPECT_EQ("2", read("individual,note,value\n7,2,1\n").at(0).note);
+  EXPECT_EQ("2", read("individual,value,note\n7,1.0,2\n").at(0).note);
+}
+
 TEST(MeasuredImport, NamesAFileThatCannotBeRead) {
   const auto folder = std::filesystem::temp_directory_path();
   for (const std::string& path : {(folder / "no_such_measured.csv").string(), folder.string()}) {

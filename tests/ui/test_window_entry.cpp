@@ -16,6 +16,7 @@
 #include <QTableWidget>
 #include <QTest>
 #include <QTimer>
+#include <cmath>
 
 #include "tests/ui/stored_run.h"
 #include "ui/common/file_choice.h"
@@ -302,6 +303,30 @@ class TestWindowEntry : public QObject {
     window->showPage({});
     window->showStartIfIdle();
     QVERIFY(!start->isVisible());
+  }
+
+  // The window may have been made light before the user's dark look is known.
+  void thePicturesOfTheStartPageAreSeenOnItsWindowWhateverItsLook() {
+    Desk desk;
+    StartPage page;
+    for (const Look look : {Look::light, Look::dark, Look::light}) {
+      desk.theme.apply(look);
+      const auto pictures = page.findChildren<QLabel*>("picture");
+      QCOMPARE(pictures.size(), 3);
+      for (const QLabel* picture : pictures) {
+        const QImage image = picture->pixmap().toImage();
+        double lightness = 0, opaque = 0;
+        for (int y = 0; y < image.height(); ++y)
+          for (int x = 0; x < image.width(); ++x) {
+            const QColor colour = image.pixelColor(x, y);
+            lightness += colour.alphaF() * colour.lightness();
+            opaque += colour.alphaF();
+          }
+        QVERIFY(opaque > 0);
+        const double window = page.palette().color(QPalette::Window).lightness();
+        QVERIFY2(std::abs(lightness / opaque - window) > 60, qPrintable(nameOf(look)));
+      }
+    }
   }
 
   // An experiment names a folder of plugins: the form knows what lies there, and shows it as any other.

@@ -1,6 +1,7 @@
 #include "ui/window/start_page.h"
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QFileInfo>
 #include <QFrame>
 #include <QHBoxLayout>
@@ -21,6 +22,7 @@ namespace btr::ui {
 namespace {
 
 constexpr std::size_t runsOffered = 5;
+constexpr int pictureSize = 32;
 
 QPushButton* button(const QString& name, const QString& icon, const QString& text, QWidget* parent) {
   auto* made = new QPushButton(themeIcon(icon), text, parent);
@@ -98,7 +100,9 @@ QVBoxLayout* StartPage::addDoor(const QString& name, const QString& icon, const 
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(8);
   auto* picture = new QLabel(door);
-  picture->setPixmap(themeIcon(icon).pixmap(32, 32));
+  picture->setObjectName("picture");
+  picture->setPixmap(themeIcon(icon).pixmap(pictureSize, pictureSize));
+  pictures_[picture] = icon;
   auto* caption = new QLabel(title, door);
   QFont bold = caption->font();
   bold.setPointSizeF(bold.pointSizeF() * 1.2);
@@ -110,6 +114,12 @@ QVBoxLayout* StartPage::addDoor(const QString& name, const QString& icon, const 
   column->addWidget(caption);
   column->addWidget(words);
   return column;
+}
+
+void StartPage::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange)
+    for (const auto& [picture, icon] : pictures_) picture->setPixmap(themeIcon(icon).pixmap(pictureSize, pictureSize));
+  QWidget::changeEvent(event);
 }
 
 bool StartPage::isSomethingOpen(const std::vector<RunRecord>& runs) {

@@ -6,6 +6,7 @@
 #include "core/store/records.h"
 
 class QCheckBox;
+class QLabel;
 class QVBoxLayout;
 
 namespace btr::ui {
@@ -31,9 +32,14 @@ class StartPage : public QWidget {
   void reportWanted();
   void shownAtStartChanged(bool shown);
 
+ protected:
+  /// Pictures of a light window are not seen on a dark one.
+  void changeEvent(QEvent* event) override;
+
  private:
   QVBoxLayout* addDoor(const QString& name, const QString& icon, const QString& title, const QString& text);
 
+  std::map<QLabel*, QString> pictures_;  ///< with the icon's name
   QVBoxLayout* finished_;
   std::vector<Id> offered_;
   QCheckBox* atStart_;

@@ -1,6 +1,7 @@
 // What the tools of the OPEN-R folder cannot do in a shell.
 //   openr_tool stub FILE FOLDER     makes the stub that a stub.cfg asks for
 //   openr_tool cure FILE.ii ERRORS  writes what the compiler's errors name as it wants it; 3 if there is nothing to do
+//   openr_tool longs FILE.ii KIT    makes a `long` 32 bits wide but in headers of the system and KIT; 3: there is none
 //   openr_tool headers ERRORS       says which headers are missing by the compiler's errors
 #include <cstdio>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/openr/robot_longs.h"
 #include "core/openr/source_cure.h"
 #include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
@@ -47,6 +49,12 @@ int main(int argc, char** argv) {
       write(argv[2], cured);
       return 0;
     }
+    if (what == "longs" && argc == 4) {
+      const std::string source = content(argv[2]), narrow = btr::openr::withRobotLongs(source, argv[3]);
+      if (narrow == source) return nothingToDo;
+      write(argv[2], narrow);
+      return 0;
+    }
     if (what == "headers" && argc == 3) {
       for (const std::string& header : btr::openr::missingHeaders(content(argv[2])))
         std::printf("%s\n", header.c_str());
@@ -56,6 +64,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }
-  std::fprintf(stderr, "openr_tool stub FILE FOLDER | openr_tool cure FILE.ii ERRORS | openr_tool headers ERRORS\n");
+  std::fprintf(stderr,
+               "openr_tool stub FILE FOLDER | openr_tool cure FILE.ii ERRORS | openr_tool longs FILE.ii KIT | "
+               "openr_tool headers ERRORS\n");
   return 2;
 }

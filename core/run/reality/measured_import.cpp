@@ -131,6 +131,15 @@ double readValue(const std::string& place, const std::string& cell, bool isVoid)
   return *value;
 }
 
+/// "101,0,53" in the columns individual, value, note: may be the individual 101 with 0,53.
+bool mayBeDecimalComma(const std::string& value, const std::string& note) {
+  const auto digitsOnly = [](const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const bool hasSign = !value.empty() && (value[0] == '-' || value[0] == '+');
+  return digitsOnly(hasSign ? value.substr(1) : value) && digitsOnly(note);
+}
+
 }  // namespace
 
 std::vector<MeasurementRecord> readMeasuredCsv(std::istream& stream, const std::string& place,
@@ -155,6 +164,9 @@ std::vector<MeasurementRecord> readMeasuredCsv(std::istream& stream, const std::
     if (cells.size() != width)
       throw InputError(table.at(), "a row of " + std::to_string(cells.size()) + " cells",
                        std::to_string(width) + " as in the header");
+    if (columns[noteColumn] == columns[valueColumn] + 1 && mayBeDecimalComma(cell(valueColumn), cell(noteColumn)))
+      throw InputError(at(valueColumn), quoted(cell(valueColumn) + "," + cell(noteColumn)),
+                       "a value with a decimal point, and a note that is more than digits");
     MeasurementRecord& m = all.emplace_back();
     m.individual = readIndividual(at(individualColumn), cell(individualColumn), tasks);
     m.isVoid = readVoid(at(voidColumn), cell(voidColumn));

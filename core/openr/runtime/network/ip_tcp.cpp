@@ -4,10 +4,19 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <cstdint>
+
 #include "core/openr/runtime/network/ip_sockets.h"
 #include "core/openr/runtime/network/ip_stack.h"
 
 namespace btr::openr {
+namespace {
+
+/// Robots of a game are switched on at one moment, but their programs here begin one after another: until then a port
+/// at which nobody listens yet is tried again with each frame.
+constexpr std::int64_t allHaveBegun_us = 64'000;
+
+}  // namespace
 
 void IpStack::beginConnect(Endpoint& endpoint, Port actual) {
   endpoint.socket = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
@@ -58,6 +67,11 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
         // Nobody at the twin: at the port itself, which a server of the computer's may have.
         const bool again = connect->fPort < firstFreePort && operation.sent == 0;
         operation.sent = 1;
+        if (!again && system_.time_us() < allHaveBegun_us) {
+          operation.begun = false;
+          operation.sent = 0;
+          return false;
+        }
         if (!again) return answer(TCP_PORT_UNREACHABLE);
         beginConnect(endpoint, connect->fPort);
         return false;

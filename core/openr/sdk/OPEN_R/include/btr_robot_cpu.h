@@ -23,6 +23,14 @@ BTR_OPENR_NOTHING(cache);
 BTR_OPENR_NOTHING(ssnop);
 #undef BTR_OPENR_NOTHING
 
+/* How its bytes lie, which sources ask that run on several computers. Not that it is a MIPS: that asks for assembler. */
+#ifndef __MIPSEL__
+#define __MIPSEL__ 1
+#define __MIPSEL 1
+#define _MIPSEL 1
+#define MIPSEL 1
+#endif
+
 #include "btr_openr_version.h"
 #ifdef __cplusplus
 #include "btr_old_operators.h"

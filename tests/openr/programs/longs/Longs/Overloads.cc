@@ -1,0 +1,21 @@
+#include "Longs.h"
+class Writer {
+ public:
+  Writer(char* text) : to(text) { *to = 0; }
+  Writer& operator<<(int) {
+    strcat(to, "int ");
+    return *this;
+  }
+  Writer& operator<<(long) {
+    strcat(to, "long ");
+    return *this;
+  }
+
+ private:
+  char* to;
+};
+void overloads(char* text) {
+  long number = 3;
+  Writer writer(text);
+  writer << 3 << number;
+}

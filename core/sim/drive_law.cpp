@@ -62,26 +62,40 @@ DriveRow servoRow(const Drive& drive, const JointState& state, double integral, 
   return row;
 }
 
-struct MotorVolts {
-  double given, slope;  ///< voltage on the winding and its fall with position [V, V/rad]
+/// A DC motor's law in one step: what does not depend on where the joint is.
+struct MotorNow {
+  MotorNow(const Drive& drive, const JointInput& input)
+      : perVolt(drive.torqueConstant_nm_a / drive.resistance_ohm),
+        constant(drive.torqueConstant_nm_a),
+        supply(input.supply_v >= 0 ? input.supply_v : drive.supply_v),
+        given(input.duty),
+        gain(drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0),
+        maxDuty(drive.maxDuty) {}
+
+  struct Volts {
+    double given, slope;  ///< voltage on the winding and its fall with position [V, V/rad]
+  };
+  Volts volts(double command, double position) const {
+    if (std::isfinite(given)) return {supply * given, 0};
+    const double duty = gain * (command - position);
+    if (std::abs(duty) > maxDuty) return {supply * std::copysign(maxDuty, duty), 0};
+    return {supply * duty, supply * gain};
+  }
+  double torque(double command, double position, double rate) const {
+    return perVolt * (volts(command, position).given - constant * rate);
+  }
+
+  double perVolt, constant, supply;
+  double given;          ///< duty that the recording has, or not finite
+  double gain, maxDuty;  ///< the firmware knows the supply that it was made for: a sagging one weakens its gain
 };
 
-MotorVolts motorVolts(const Drive& drive, const JointState& state, const JointInput& input) {
-  const double supply = input.supply_v >= 0 ? input.supply_v : drive.supply_v;
-  if (std::isfinite(input.duty)) return {supply * input.duty, 0};
-  // The firmware knows the supply that it was made for: a sagging one weakens its gain.
-  const double gain = drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0;
-  const double duty = gain * (state.command - state.position);
-  if (std::abs(duty) > drive.maxDuty) return {supply * std::copysign(drive.maxDuty, duty), 0};
-  return {supply * duty, supply * gain};
-}
-
 DriveRow dcMotorRow(const Drive& drive, const JointState& state, const JointInput& input, const StepOf& step) {
-  const MotorVolts volts = motorVolts(drive, state, input);
-  const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
+  const MotorNow motor(drive, input);
+  const MotorNow::Volts volts = motor.volts(state.command, state.position);
   DriveRow row;
-  row.p = perVolt * volts.given;
-  step.add(row, perVolt * volts.slope, perVolt * drive.torqueConstant_nm_a, state.rate);
+  row.p = motor.perVolt * volts.given;
+  step.add(row, motor.perVolt * volts.slope, motor.perVolt * drive.torqueConstant_nm_a, state.rate);
   return row;
 }
 
@@ -172,13 +186,12 @@ double askedTorque(const Drive& drive, const JointState& state, double integral)
 
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input) {
   if (!input.enabled) return drive.kind == Drive::Kind::dcMotor ? -backEmfDamping(drive, input) * state.rate : 0;
-  const double perVolt = drive.torqueConstant_nm_a / drive.resistance_ohm;
   switch (drive.kind) {
     case Drive::Kind::servo:
       return std::clamp(askedTorque(drive, state, integral), -largestTorque(drive, -state.rate),
                         largestTorque(drive, state.rate));
     case Drive::Kind::dcMotor:
-      return perVolt * (motorVolts(drive, state, input).given - drive.torqueConstant_nm_a * state.rate);
+      return MotorNow(drive, input).torque(state.command, state.position, state.rate);
     case Drive::Kind::torque:
       return std::clamp(state.command, -drive.maxTorque, drive.maxTorque);
     case Drive::Kind::motion:
@@ -255,29 +268,35 @@ double JointEffects::throughEffects(Torques torques, const JointState& given, do
   return torques.mean();
 }
 
-DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const JointState& state,
+DriveRow JointEffects::drive(const DriveRow& lawRow, const Drive& drive, const JointState& state,
                              const CommandAround& command, double integral, const JointInput& input,
                              const StepOf& step) {
   const double damps = ownDamping(drive, input);
   // Torque of law and effects as a function of position and rate, the effects' states held; and of the law alone.
-  const auto at = [&](double position, double rate) {
-    JointState moved = state;
-    moved.position += position;
-    moved.rate += rate;
-    moved.damping = damps;
-    return moved;
+  JointState moved = state;
+  moved.damping = damps;
+  const auto moveTo = [&](double position, double rate) {
+    moved.position = state.position + position;
+    moved.rate = state.rate + rate;
   };
-  const auto beyondOf = [&](const JointState& moved, double given) {
-    return drive.kind == Drive::Kind::servo && input.enabled ? askedTorque(drive, moved, integral) - given : 0;
+  const bool isMotor = drive.kind == Drive::Kind::dcMotor && input.enabled;
+  const std::optional<MotorNow> motor = isMotor ? std::optional<MotorNow>({drive, input}) : std::nullopt;
+  const auto torqueUnder = [&](double followed, double& torque, double& beyond) {
+    if (motor) {
+      torque = motor->torque(followed, moved.position, moved.rate);
+      return;
+    }
+    moved.command = followed;
+    torque = driveTorque(drive, moved, integral, input);
+    if (drive.kind == Drive::Kind::servo && input.enabled) beyond = askedTorque(drive, moved, integral) - torque;
+    moved.command = state.command;
   };
-  const auto lawAt = [&](JointState moved) {
-    moved.command = command.before;
-    const double earlier = driveTorque(drive, moved, integral, input), more = beyondOf(moved, earlier);
-    Torques torques{earlier, earlier, more, more, command.before, command.after};
-    if (command.before == command.after) return torques;
-    moved.command = command.after;
-    torques.after = driveTorque(drive, moved, integral, input);
-    torques.beyondAfter = beyondOf(moved, torques.after);
+  const auto law = [&] {
+    Torques torques{0, 0, 0, 0, command.before, command.after};
+    torqueUnder(command.before, torques.before, torques.beyondBefore);
+    torques.after = torques.before;
+    torques.beyondAfter = torques.beyondBefore;
+    if (command.before != command.after) torqueUnder(command.after, torques.after, torques.beyondAfter);
     return torques;
   };
   struct Slopes {
@@ -285,20 +304,24 @@ DriveRow JointEffects::drive(const DriveRow& law, const Drive& drive, const Join
   };
   const auto slopesAlong = [&](double position, double rate) {
     constexpr double small = 1e-6;  // rad, rad/s, m or m/s
-    JointState ahead = at(small * position, small * rate), behind = at(-small * position, -small * rate);
-    ahead.isTry = behind.isTry = true;
-    const Torques before = lawAt(behind), after = lawAt(ahead);
-    return Slopes{
-        (throughEffects(after, ahead, step.h, false) - throughEffects(before, behind, step.h, false)) / (2 * small),
-        (after.mean() - before.mean()) / (2 * small)};
+    moved.isTry = true;
+    moveTo(-small * position, -small * rate);
+    const Torques before = law();
+    const double behind = throughEffects(before, moved, step.h, false);
+    moveTo(small * position, small * rate);
+    const Torques after = law();
+    const double ahead = throughEffects(after, moved, step.h, false);
+    moved.isTry = state.isTry;
+    return Slopes{(ahead - behind) / (2 * small), (after.mean() - before.mean()) / (2 * small)};
   };
   const auto [byRate, lawByRate] = slopesAlong(0, 1);
   const auto [byPosition, lawByPosition] = slopesAlong(1, 0);
 
-  const Torques given = lawAt(state);
-  const double torque = throughEffects(given, at(0, 0), step.h, true);
+  moveTo(0, 0);
+  const Torques given = law();
+  const double torque = throughEffects(given, moved, step.h, true);
   // Effects that leave the torque alone leave the exact law alone.
-  if (torque == given.mean() && byRate == lawByRate && byPosition == lawByPosition) return law;
+  if (torque == given.mean() && byRate == lawByRate && byPosition == lawByPosition) return lawRow;
   const double damping = std::max(0.0, -byRate);
   DriveRow row;
   row.p = torque + damping * state.rate;

@@ -4,7 +4,7 @@
 /// m = 1: the torque tends to a constant k·ω_c, with a large a at once (beside the damping of a drive these are two
 /// slopes); m = a = 2: it is largest at ω_c and falls beyond, as that of eddy currents. (Carreau 1972, Trans. Soc.
 /// Rheol. 16, 99 and Yasuda 1979 for grease; Smythe 1942, On eddy currents in a rotating disk.) Neutral: k = 0; far
-/// below ω_c it is viscous friction.
+/// below ω_c it is viscous friction, and far beyond it with m = 1 dry friction.
 #include <cmath>
 #include <memory>
 
@@ -27,7 +27,7 @@ class ThinningFriction final : public btr::Effect {
             "Carreau 1972; Yasuda 1979; Smythe 1942"};
   }
   Place place() const override { return Place::joint; }
-  std::vector<std::string> contains() const override { return {"viscous_friction"}; }
+  std::vector<std::string> contains() const override { return {"viscous_friction", "coulomb_friction"}; }
   bool dissipative() const override { return true; }
   double damping(const btr::JointState& joint, std::span<const double> values) const override {
     const double beyond = std::pow(std::abs(joint.rate) / values[1], values[3]);

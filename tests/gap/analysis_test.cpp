@@ -198,6 +198,14 @@ TEST(Analysis, ADelayIsNotTakenForFriction) {
   EXPECT_NEAR(report.tried[0].parameters.at(0).value, 0.02, 0.002);
 }
 
+// What made the recordings may have read them elsewhere within a step.
+TEST(Analysis, ADelayOfLessThanHalfAStepIsNoEffect) {
+  const SimulatorSpec truth{{}, {{"command_delay", "rig.hinge", {{"delay_s", 0.0004}}}}};
+  AnalysisOptions options;
+  options.effects = {"command_delay", "sensor_lag"};
+  EXPECT_THAT(namesOf(analyse(recordedFrom(truth), library(), options)), testing::IsEmpty());
+}
+
 TEST(Analysis, ASensorThatIsOffFromTheFirstSampleOnIsExplainedDownToTheNoise) {
   const SimulatorSpec truth{{}, {{"position_offset", "rig.hinge", {{"offset_rad", 0.1}}}}};
   AnalysisOptions options;

@@ -8,6 +8,7 @@
 
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/score_known.h"
 #include "core/gap/search/calibrator.h"
 #include "core/gap/search/confirmer.h"
 #include "core/gap/search/fit_service.h"
@@ -15,6 +16,7 @@
 #include "core/gap/search/screening/candidate_search.h"
 #include "core/gap/search/screening/screener.h"
 #include "core/gap/search/selection.h"
+#include "core/gap/search/short_race.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {
@@ -79,12 +81,34 @@ TEST(Calibrator, FitsTheNumbersAndHoldsThoseToWhichNothingIsSensitive) {
 
 TEST(Screener, PromisesMostOfWhatIsMissing) {
   Parts parts(dryFriction, considering({"command_delay", "coulomb_friction", "joint_spring"}));
-  const Screening screening = Screener(parts.service).screenBeside({parts.calibration.base.fit}, nullptr, "", 0, 1);
+  const Screening screening =
+      Screener(parts.service)
+          .screenBeside({parts.calibration.base.fit}, nullptr, parts.service.thresholds().screening, "", 0, 1);
   ASSERT_FALSE(screening.tried.empty());
   EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
   EXPECT_EQ(screening.tried[0].attempt.rank, 1);
   EXPECT_GT(screening.tried[0].attempt.share, 0.5);
   EXPECT_FALSE(screening.tried[0].attempt.fitted) << "screening fits nothing";
+}
+
+TEST(Screener, InAShortRaceFewAreScreenedInFullAndTheSameOnePromisesMost) {
+  Parts parts(dryFriction, {});
+  const Screening screening = Screener(parts.service)
+                                  .screenBeside({parts.calibration.base.fit}, nullptr,
+                                                shortRace.screening(parts.service.thresholds()), "", 0, 1);
+  ASSERT_GT(screening.tried.size(), 2 * shortRace.screened) << "all effects were looked at";
+  EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
+  const auto wasScreened = [&](const TriedCandidate& each) { return !screening.promiseOf(each).starts.empty(); };
+  EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), shortRace.screened);
+}
+
+TEST(CrossValidation, IsTheSameWhereTheSensitivitiesAreKnown) {
+  const Parts parts(dryFriction, considering({"coulomb_friction"}));
+  const FitProblem& problem = parts.service.problem();
+  const Fit& fit = parts.calibration.calibrated.fit;
+  const Scored alone = crossValidate(problem, fit), known = crossValidate(problem, fit, linearise(problem, fit));
+  EXPECT_EQ(alone.blocks, known.blocks);
+  EXPECT_EQ(alone.heldOut, known.heldOut);
 }
 
 TEST(Confirmer, RejectsWhatDoesNotLowerTheHeldOutErrorClearly) {

@@ -87,7 +87,7 @@ void chooseStep(FitProblem& problem) {
   double error = 0;
   for (const double residual : fine) error += residual * residual / static_cast<double>(fine.size());
   const double harmless = std::max(leastHarmless, ofError * std::sqrt(error));
-  for (const double factor : {8.0, 4.0, 2.0}) {
+  for (const double factor : {32.0, 16.0, 8.0, 4.0, 2.0}) {
     if (factor * asGiven > 1.01 * std::max(sample, asGiven)) continue;
     problem.scene.step_s = factor * asGiven;
     const std::vector<double> coarse = plainResiduals(problem);

@@ -5,6 +5,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
+#include "core/gap/fit/score_known.h"
 #include "core/gap/fit/uncertainty.h"
 
 #include <algorithm>
@@ -71,12 +72,15 @@ std::vector<double> sizesInErrors(const FitModel& model, const Uncertainty& unce
 }  // namespace
 
 Scored crossValidate(const FitProblem& problem, const Fit& fit) {
+  return crossValidate(problem, fit, linearise(problem, fit));
+}
+
+Scored crossValidate(const FitProblem& problem, const Fit& fit, const Linearised& linear) {
   Scored scored{fit,
                 std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
                 Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())),
                 {},
                 problem.scene.step_s};
-  const Linearised linear = linearise(problem, fit);
   scored.sizes = sizesInErrors(fit.model, uncertaintyOf(problem, fit, linear));
   for (const Fold trained : {Fold::first, Fold::second}) {
     const Fold other = trained == Fold::first ? Fold::second : Fold::first;

@@ -5,12 +5,30 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/short_race.h"
 #include "core/gap/search/starts/held_numbers.h"
 #include "core/gap/search/starts/restarts.h"
 #include "core/gap/search/starts/whole_numbers.h"
 #include "core/spec/figures.h"
 
 namespace btr {
+namespace {
+
+/// True of an effect that is a time alone, shorter than half the scene's step: so far within a step what made the
+/// recordings may have integrated or read elsewhere.
+bool isWithinHalfAStep(const FitProblem& problem, const FitModel& model, std::size_t effect) {
+  bool isTime = false;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    const double size = std::abs(model.values[i] - p.given);
+    if (p.effect != static_cast<int>(effect) || !p.hasNeutral || size == 0) continue;
+    if (p.unit != "s" || size >= problem.givenStep_s / 2) return false;
+    isTime = true;
+  }
+  return isTime;
+}
+
+}  // namespace
 
 void controlFalseDiscoveries(std::vector<TriedCandidate>& tried, double mostFalse) {
   // What the screening left behind counts as tested and found to be nothing.
@@ -54,6 +72,8 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
   const double errors = with.sizes.at(newEffect);
   if (errors < limits.leastErrors && !takesMost && !isAtLeast(with.fit))
     return rejected("its size is only " + toText(std::round(10 * errors) / 10) + " standard errors");
+  if (isWithinHalfAStep(service_.problem(), with.fit.model, newEffect))
+    return rejected("lasts less than half a step of the scene, within which recordings may be read elsewhere");
   // Where feet land it stays far above the noise's share.
   const double ofIntegration = limits.timesIntegration * stepErrorOf(service_.stepChange(with.fit));
   if (taken < ofIntegration)
@@ -92,9 +112,12 @@ std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vect
 void Confirmer::restart(Fit& fit, double least, const std::string& what, double at) const {
   const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
-  if (fit.cost > (service_.problem().walks ? limits.worthMoreOfWalks : limits.worthMore) * least) return;
+  double left = service_.leftBy(fit);
+  const double usual = shortRace.isRun(left) ? shortRace.worthMore : limits.worthMore;
+  const double worth = service_.problem().walks ? limits.worthMoreOfWalks : usual;
+  if (fit.cost > worth * least) return;
   climbWholeNumbers(service_, fit, what, at);
-  const double left = service_.leftBy(fit);
+  left = service_.leftBy(fit);
   if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
     restartFarOff(service_, fit, what, at);
   // What leaves no more than the noise may still stop behind a better one.

@@ -209,6 +209,8 @@ struct SearchThresholds {
                                 ///< ball by its speed or by the square of that]
     double allThatShows = 1.1;  ///< by error, of a richer one of whose sizes no more show: the simpler has the name
                                 ///< [case: friction by load with shares of 0 to 0.03]
+    double nothingShows = 5;    ///< the same of one none of whose sizes shows [case: dry friction of filtered torques
+                                ///< as friction that fades at once with any coefficient]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
     int replaced = 3;                 ///< times at most that one takes another's place [time]
     int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]

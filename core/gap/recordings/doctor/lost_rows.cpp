@@ -10,11 +10,12 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/even_grid.h"
 #include "core/gap/recordings/table/row_order.h"
+#include "core/spec/figures.h"
 
 namespace btr {
 namespace {
 
-constexpr double forgets_s = 0.6;  // a servo, how it came where it is
+constexpr double forgets_s = 1.5;  // a servo, how it came where it is
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 struct Loss {
@@ -71,11 +72,11 @@ bool goesOn(const std::vector<double>& values, const Loss& loss) {
 }
 
 /// Empties what the joints of `robot` are seen to do for some time from `row` on.
-void forget(Recording& trial, const std::string& robot, std::size_t row) {
+void forget(Recording& trial, const std::string& robot, std::size_t row, double for_s) {
   for (std::size_t column = 1; column < trial.channels.size(); ++column) {
     const auto name = parseChannel(trial.channels[column]);
     if (!name || name->owner != robot || isInputChannel(trial.channels[column])) continue;
-    for (std::size_t k = row; k < trial.rows() && trial.columns[0][k] < trial.columns[0][row] + forgets_s; ++k)
+    for (std::size_t k = row; k < trial.rows() && trial.columns[0][k] < trial.columns[0][row] + for_s; ++k)
       trial.columns[column][k] = nothing;
   }
 }
@@ -99,7 +100,7 @@ void putBack(Recording& trial, const Loss& loss, const std::vector<std::size_t>&
 }  // namespace
 
 void fillLostRows(Recording& trial) {
-  constexpr double mostForgotten = 0.3;  // of the trial
+  constexpr double mostForgotten = 0.6;  // of the trial
   const std::vector<std::size_t> inputs = inputsOf(trial);
   std::vector<Loss> losses = lossesOf(trial.columns[0]);
   if (inputs.empty() || losses.empty()) return;
@@ -124,14 +125,15 @@ void fillLostRows(Recording& trial) {
   }
   std::string note = std::to_string(lost) +
                      " rows are lost: commands of those times are taken from a straight line between their neighbours";
-  const double length_s = trial.columns[0].back() - trial.columns[0].front();
-  if (!steps.empty() && static_cast<double>(steps.size()) * forgets_s <= mostForgotten * length_s) {
+  if (!steps.empty()) {
+    const double length_s = trial.columns[0].back() - trial.columns[0].front();
+    const double for_s = std::min(forgets_s, mostForgotten * length_s / static_cast<double>(steps.size()));
     for (const Step& step : steps) {
       const auto row = std::ranges::upper_bound(trial.columns[0], step.time_s) - trial.columns[0].begin();
-      forget(trial, step.robot, static_cast<std::size_t>(row));
+      forget(trial, step.robot, static_cast<std::size_t>(row), for_s);
     }
     note += "; where one steps meanwhile (" + std::to_string(steps.size()) +
-            " times) nobody knows when, and the next 0.6 s are not compared";
+            " times) nobody knows when, and the next " + digits(for_s, 2) + " s are not compared";
   }
   trial.notes.push_back(note);
 }

@@ -6,6 +6,7 @@
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/parallel.h"
+#include "core/gap/fit/score_known.h"
 #include "core/gap/search/laws/law_screen.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/selection.h"
@@ -42,7 +43,8 @@ class LawSearch {
   Fit fitted(const Law& law, const Fit& from, int iterations) const;
   /// The same, cross-validated, and carried on as long as much is left and more iterations take some of it: an
   /// unfinished curve looks as if it needed a name beside it.
-  Scored polished(const Law& law, const Fit& from) const;
+  LearnedLaw polished(const Law& law, const Fit& from) const;
+  LearnedLaw scored(const Fit& fit, const Law& law) const;
   /// Which of the options predicts other blocks best after a short fit in replay.
   const LawOption* best(const std::vector<LawOption>& options, const Fit& fit) const;
 
@@ -73,16 +75,25 @@ Fit LawSearch::fitted(const Law& law, const Fit& from, int iterations) const {
   return fitModel(problem_, law.in(problem_, withNumbersOf(named_, from.model)), from.shifts, {iterations});
 }
 
-Scored LawSearch::polished(const Law& law, const Fit& from) const {
-  Scored scored = crossValidate(problem_, fitted(law, from, limits_.iterations));
-  for (int more = 0; more < limits_.polishings && excessOf(scored) > limits_.leastExcess; ++more) {
-    Scored next =
-        crossValidate(problem_, fitModel(problem_, scored.fit.model, scored.fit.shifts, {limits_.iterations}));
-    const bool settled = next.mean() > limits_.settled * scored.mean();
-    if (next.mean() < scored.mean()) scored = std::move(next);
+LearnedLaw LawSearch::scored(const Fit& fit, const Law& law) const {
+  LearnedLaw learned{law.of(fit.model), {}, linearise(problem_, fit), {}, 0, 1};
+  learned.scored = crossValidate(problem_, fit, learned.linear);
+  return learned;
+}
+
+LearnedLaw LawSearch::polished(const Law& law, const Fit& from) const {
+  LearnedLaw learned = scored(fitted(law, from, limits_.iterations), law);
+  for (int more = 0; more < limits_.polishings && excessOf(learned.scored) > limits_.leastExcess; ++more) {
+    // A curve has many knots: its sensitivities, which scoring took, begin the next fit.
+    FitOptions onwards{limits_.iterations};
+    onwards.inherited = &learned.linear;
+    const Fit& fit = learned.scored.fit;
+    LearnedLaw next = scored(fitModel(problem_, fit.model, fit.shifts, onwards), law);
+    const bool settled = next.scored.mean() > limits_.settled * learned.scored.mean();
+    if (next.scored.mean() < learned.scored.mean()) learned = std::move(next);
     if (settled) break;
   }
-  return scored;
+  return learned;
 }
 
 const LawOption* LawSearch::best(const std::vector<LawOption>& options, const Fit& fit) const {
@@ -114,15 +125,15 @@ std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, co
   std::optional<LearnedLaw> learned;
   for (const Law& law : {finer.law, option->law}) {
     if (learned && law.terms.back().knots == learned->law.terms.back().knots) break;
-    const Scored scored = polished(damped(law, fit), fit);
-    if (learned && scored.mean() >= learned->scored.mean()) continue;
-    learned = LearnedLaw{law.of(scored.fit.model), scored, {}, {}, 0, 1};
+    LearnedLaw next = polished(damped(law, fit), fit);
+    if (learned && next.scored.mean() >= learned->scored.mean()) continue;
+    learned = std::move(next);
   }
   return learned;
 }
 
 void measure(const FitProblem& problem, LearnedLaw& law) {
-  law.linear = linearise(problem, law.scored.fit);
+  if (law.linear.residuals.size() == 0) law.linear = linearise(problem, law.scored.fit);
   law.uncertainty = uncertaintyOf(problem, law.scored.fit, law.linear);
 }
 

@@ -9,6 +9,7 @@
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/rivals/shown_sizes.h"
 #include "core/gap/search/screening/search_discoveries.h"
+#include "core/gap/search/short_race.h"
 
 namespace btr {
 namespace {
@@ -54,6 +55,7 @@ void RivalFinder::add(const HandedOver& arrived, std::vector<TriedCandidate>& ot
   known->scored = scored;
   known->fit = scored.fit;
   known->attempt.values = scored.fit.model.simulator(service_.problem()).effects.back().parameters;
+  known->settled_s = scored.step_s;
 }
 
 bool RivalFinder::isHollow(const TriedCandidate& other, const PlacedEffect& simpler) const {
@@ -65,11 +67,15 @@ bool RivalFinder::isHollow(const TriedCandidate& other, const PlacedEffect& simp
 }
 
 bool RivalFinder::isAllThatShows(const TriedCandidate& simpler, const Scored& final, std::size_t i) const {
+  const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const PlacedEffect& own = final.fit.model.effects[i];
-  return isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) &&
-         simpler.scored.mean() <= service_.thresholds().rivals.allThatShows * final.mean() &&
-         showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(),
-                         final.fit, i);
+  if (!isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) ||
+      simpler.scored.mean() > limits.nothingShows * final.mean() ||
+      !showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(), final.fit,
+                       i))
+    return false;
+  return simpler.scored.mean() <= limits.allThatShows * final.mean() ||
+         shownSizes(service_.problem(), final.fit, i) == 0;
 }
 
 bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {
@@ -140,8 +146,10 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
 void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
   const SearchThresholds& limits = service_.thresholds();
   confirmer_.settle(selection, false, "rivals", 0.95);
+  const bool muchLeft = shortRace.isRun(selection.final.mean());
   for (TriedCandidate& other : others) {
     if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
+    if (muchLeft && other.settled_s == service_.step_s()) continue;
     if (excessOf(selection.final) >= limits.calibration.leastToFitOn ||
         isDistinguished(other.scored, selection.final, limits.rivals))
       other.scored =
@@ -149,6 +157,7 @@ void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandid
                             "rivals", 0.95, 0.95)[0];
     service_.bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
+    other.settled_s = service_.step_s();
   }
 }
 
@@ -180,13 +189,16 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  const bool isShort = shortRace.isRun(final.mean());
+  const double inReach = isShort ? shortRace.hopeless : limits.inReach;
   Round round = candidates_.search({.without = without,
                                     .models = {without.fit},
                                     .toFit = limits.fittedAsRivals,
                                     .stage = ", rivals",
                                     .from = 0.88,
                                     .to = 0.95,
-                                    .hopeless = limits.inReach * final.fit.cost});
+                                    .hopeless = inReach * final.fit.cost,
+                                    .shortRace = isShort});
   return {std::move(round.without), std::move(round.tried)};
 }
 

@@ -10,6 +10,7 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/screening/screen.h"
+#include "core/gap/search/short_race.h"
 
 namespace btr {
 namespace {
@@ -31,9 +32,10 @@ struct RivalHandover::Way {
 };
 
 /// Where the ways begin: what does best in the place of the part of effect `i` that is taken away first.
-std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const FitModel& rest,
-                                                        const PlacedEffect& own) const {
+std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own,
+                                                        bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
+  const std::size_t handedTo = muchLeft ? shortRace.handedTo : limits.handedTo;
   const FitProblem& problem = service_.problem();
   std::vector<EffectCandidate> candidates = service_.candidatesBeside(base.model);
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(problem.library, c, own); });
@@ -48,7 +50,8 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
       for (Values& variant : candidate.variants) variant = scaledVariant(candidate, variant, limits.small);
   std::vector<Screened> promising =
       screen(problem, base, linearise(problem, base), candidates, service_.options().jobs,
-             service_.reporter("screening, rivals", candidates.size(), 0.95, 0.95), service_.thresholds().screening);
+             service_.reporter("screening, rivals", candidates.size(), 0.95, 0.95),
+             muchLeft ? shortRace.screening(service_.thresholds()) : service_.thresholds().screening);
   std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
   const auto promised = [](const Screened& each) { return each.starts[0].share; };
   std::ranges::stable_sort(promising, std::greater(), promised);
@@ -60,7 +63,7 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
     const EffectCandidate& candidate = candidates[each.candidate];
     if (!isSimpler(candidate)) {
       if (others == 0) leastPromise = limits.leastPromise * promised(each);
-      if (others == limits.handedTo || promised(each) < leastPromise) continue;
+      if (others == handedTo || promised(each) < leastPromise) continue;
       ++others;
     }
     const Screened::Start& start = each.starts[0];
@@ -75,12 +78,14 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
 
 /// A simpler form of what was taken away, beside the other numbers as they are now, in the size that does best there.
 /// Dry friction that stops a joint again and again is found by no fit from another size: its costs are full of steps.
-FitModel RivalHandover::simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate) const {
+FitModel RivalHandover::simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate,
+                                      bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
+  const double ratio = muchLeft ? shortRace.formRatio : limits.formRatio;
   const FitProblem& problem = service_.problem();
   std::vector<Values> sizes;
   for (const Values& variant : candidate.variants)
-    for (double size = limits.smallestForm; size < limits.largestForm; size *= limits.formRatio)
+    for (double size = limits.smallestForm; size < limits.largestForm; size *= ratio)
       sizes.push_back(scaledVariant(candidate, variant, size));
   const auto best = [&](const std::vector<Values>& of) {
     const auto costs = parallel(service_.options().jobs, of.size(), [&](std::size_t k) {
@@ -99,6 +104,20 @@ FitModel RivalHandover::simplerFormOf(const Fit& full, const FitModel& rest, con
   return rest.with(problem, candidate.placed(best(around)));
 }
 
+/// Fits a little, and leaves only what is near enough then.
+void RivalHandover::keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCandidate>& offered, double most) const {
+  const auto fits = service_.tryFits(jobs, shortRace.iterations, "handing over", 0.95, 0.95);
+  std::vector<FitJob> left;
+  std::vector<EffectCandidate> ofLeft;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (!fits[i] || fits[i]->cost > most) continue;
+    left.push_back({fits[i]->model, fits[i]->shifts});
+    ofLeft.push_back(std::move(offered[i]));
+  }
+  jobs = std::move(left);
+  offered = std::move(ofLeft);
+}
+
 std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& final) {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const auto& kept = limits.kept;
@@ -114,8 +133,12 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
   };
   const StepGuard coarse = service_.guardStep(service_.stepToSearchWith(whole));
   const double finalCost = residualsOf(problem, whole.model, whole.shifts).squaredNorm() / 2;
+  const bool muchLeft = shortRace.isRun(final.mean());
+  const int iterations = muchLeft ? shortRace.wayIterations : limits.wayIterations;
+  const double onTheWay = finalCost * (muchLeft ? shortRace.valley : limits.valley);
+  const double atItsEnd = finalCost * (muchLeft ? shortRace.valleyEnd : limits.valleyEnd);
 
-  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own);
+  std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, muchLeft);
   for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {
     // Straight on from the last two steps.
     const double on = k == 0 ? 0 : (kept[k - 1] - kept[k]) / ((k == 1 ? 1 : kept[k - 2]) - kept[k - 1]);
@@ -129,8 +152,8 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
       if (k > 0) way.before = here;
       jobs.push_back({next, way.fit.shifts, nullptr, limits.wayTolerance});
     }
-    const auto fits = service_.tryFits(jobs, limits.wayIterations, "handing over", 0.95, 0.95);
-    const double most = (kept[k] > 0 ? limits.valley : limits.valleyEnd) * finalCost;
+    const auto fits = service_.tryFits(jobs, iterations, "handing over", 0.95, 0.95);
+    const double most = kept[k] > 0 ? onTheWay : atItsEnd;
     std::vector<Way> goOn;
     for (std::size_t w = 0; w < ways.size(); ++w) {
       if (!fits[w] || fits[w]->cost > most) continue;
@@ -149,8 +172,9 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
     if (!isRicher(problem.library, {own.effect, own.at, {}, {}}, candidate.placed({})) || candidate.variants.empty())
       continue;
     offered.push_back(candidate);
-    jobs.push_back({simplerFormOf(whole, rest, candidate), whole.shifts});
+    jobs.push_back({simplerFormOf(whole, rest, candidate, muchLeft), whole.shifts});
   }
+  if (muchLeft) keepInRace(jobs, offered, atItsEnd);
   std::vector<Fit> arrived;
   std::vector<const EffectCandidate*> ofArrived;
   const auto fits = service_.tryFits(jobs, service_.thresholds().calibration.toTheEnd, "handing over", 0.95, 0.95);

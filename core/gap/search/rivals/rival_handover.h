@@ -30,8 +30,10 @@ class RivalHandover {
 
  private:
   struct Way;
-  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own) const;
-  FitModel simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate) const;
+  std::vector<Way> waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own, bool muchLeft) const;
+  FitModel simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate, bool muchLeft) const;
+
+  void keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCandidate>& offered, double most) const;
 
   FitService& service_;
 };

@@ -32,7 +32,8 @@ std::size_t shownSizes(const FitProblem& problem, const Fit& fit, std::size_t ef
 }
 
 bool showsNoMoreThan(std::size_t simplerSizes, const FitProblem& problem, const Fit& fit, std::size_t effect) {
-  return sizesOf(fit.model, effect) > simplerSizes && shownSizes(problem, fit, effect) <= simplerSizes;
+  const std::size_t sizes = sizesOf(fit.model, effect), shown = shownSizes(problem, fit, effect);
+  return shown == 0 || (sizes > simplerSizes && shown <= simplerSizes);
 }
 
 }  // namespace btr

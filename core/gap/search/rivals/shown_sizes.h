@@ -12,8 +12,9 @@ std::size_t sizesOf(const FitModel& model, std::size_t effect);
 /// How many of them the recordings show: those whose 95 % interval leaves the neutral value out.
 std::size_t shownSizes(const FitProblem& problem, const Fit& fit, std::size_t effect);
 
-/// True if an effect that contains a simpler one of `simplerSizes` sizes shows no more of them than that one has: what
-/// would tell it from the simpler one may well be nothing. One that has no more of them is told by its other numbers.
+/// True if an effect that contains a simpler one of `simplerSizes` sizes shows no more of them than that one has, or
+/// none at all: what would tell it from the simpler one may well be nothing. One that has no more of them but shows
+/// them is told by its other numbers.
 bool showsNoMoreThan(std::size_t simplerSizes, const FitProblem& problem, const Fit& fit, std::size_t effect);
 
 }  // namespace btr

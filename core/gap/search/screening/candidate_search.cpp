@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/gap/fit/fit_model.h"
+#include "core/gap/search/short_race.h"
 
 namespace btr {
 
@@ -13,17 +14,19 @@ Round CandidateSearch::search(const Request& request) {
   StepGuard step = service_.guardStep(service_.stepToSearchWith(request.models[0]));
   const double judged_s = step.before_s();
   const Linearised* known = service_.step_s() == judged_s ? request.known : nullptr;
-  Screening screening = screener_.screenBeside(request.models, known, request.stage, from, from + part);
-  screener_.fitPromising(screening, request.toFit, request.stage, from + part, from + 2 * part);
+  const SearchThresholds::Screening ofThese = request.shortRace ? shortRace.screening(service_.thresholds()) : limits;
+  Screening screening = screener_.screenBeside(request.models, known, ofThese, request.stage, from, from + part);
+  screener_.fitPromising(screening, request.toFit, !request.shortRace, request.stage, from + part, from + 2 * part);
   std::vector<TriedCandidate>& tried = screening.tried;
+  const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && shortRace.isRun(service_.leftBy(tried[0].fit));
+  const double hopeless = muchLeft ? shortRace.hopeless : limits.hopeless;
 
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
   // contain; if none of them will do, the next ones.
   std::vector<std::size_t> best, next;
   for (std::size_t k = 0; k < tried.size() && tried[k].attempt.fitted && tried[k].fit.cost <= request.hopeless; ++k)
     // What fits far worse than the best after the first iterations is no rival.
-    (best.size() < request.toFit / 2 && tried[k].fit.cost <= limits.hopeless * tried[0].fit.cost ? best : next)
-        .push_back(k);
+    (best.size() < request.toFit / 2 && tried[k].fit.cost <= hopeless * tried[0].fit.cost ? best : next).push_back(k);
   std::erase_if(next, [&](std::size_t k) {
     const bool contained = screener_.isContained(screening, k, best);
     if (contained) best.push_back(k);

@@ -86,8 +86,9 @@ std::string reasonOf(const Promise& promise) {
 
 }  // namespace
 
-Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearised* known, const std::string& stage,
-                                 double from, double to) const {
+Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearised* known,
+                                 const SearchThresholds::Screening& limits, const std::string& stage, double from,
+                                 double to) const {
   Screening screening;
   for (const Fit& fit : models)
     screening.bases.push_back({fit, known && screening.bases.empty() ? *known : linearise(service_.problem(), fit)});
@@ -100,7 +101,7 @@ Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearise
     const double begin = from + part * static_cast<double>(screened.size()) / count;
     screened.push_back(screen(service_.problem(), base.fit, base.linear, candidates, service_.options().jobs,
                               service_.reporter("screening" + stage, candidates.size(), begin, begin + part / count),
-                              service_.thresholds().screening));
+                              limits));
     totals.push_back(base.linear.profiled.squaredNorm());
   }
   for (std::size_t c = 0; c < candidates.size(); ++c)
@@ -183,8 +184,8 @@ bool Screener::isContained(const Screening& screening, std::size_t k, const std:
   });
 }
 
-void Screener::fitPromising(Screening& screening, std::size_t toFit, const std::string& stage, double from,
-                            double to) const {
+void Screener::fitPromising(Screening& screening, std::size_t toFit, bool inWindows, const std::string& stage,
+                            double from, double to) const {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   std::vector<TriedCandidate>& tried = screening.tried;
   const std::string what = "fitting candidates" + stage;
@@ -212,9 +213,10 @@ void Screener::fitPromising(Screening& screening, std::size_t toFit, const std::
   };
   const double least = promising.empty() ? 0 : tried[bestOfThem()].fit.cost;
   for (const std::size_t k : promising)
-    if (tried[k].fit.cost <= limits.inReach * least)
+    if (inWindows && tried[k].fit.cost <= limits.inReach * least)
       restartWholeNumberInWindows(service_, tried[k].fit, screening.bases[0].fit.model, what, to);
-  if (!promising.empty() && service_.leftBy(tried[bestOfThem()].fit) > service_.thresholds().drawnEffects.leastLeft) {
+  if (inWindows && !promising.empty() &&
+      service_.leftBy(tried[bestOfThem()].fit) > service_.thresholds().drawnEffects.leastLeft) {
     std::vector<Fit> models;
     for (const FitBase& base : screening.bases) models.push_back(base.fit);
     restartFromDrawsInWindows(service_, tried, promising, models, what, to);

@@ -50,11 +50,13 @@ class Screener {
   explicit Screener(const FitService& service) : service_(service) {}
 
   /// Linear screening beside any of the models. `known`: sensitivities of the first at the present step, or nothing.
-  Screening screenBeside(const std::vector<Fit>& models, const Linearised* known, const std::string& stage, double from,
+  Screening screenBeside(const std::vector<Fit>& models, const Linearised* known,
+                         const SearchThresholds::Screening& limits, const std::string& stage, double from,
                          double to) const;
   /// First fits of up to `toFit` that promise most, each from its best start, the better half and what those contain
-  /// from a second one, and restarts in windows where much is left.
-  void fitPromising(Screening& screening, std::size_t toFit, const std::string& stage, double from, double to) const;
+  /// from a second one, and with `inWindows` restarts in windows where much is left.
+  void fitPromising(Screening& screening, std::size_t toFit, bool inWindows, const std::string& stage, double from,
+                    double to) const;
   /// Screening is linear: far from the truth it may rank low what is missing. Fits others that promise anything; which
   /// of `tried` are best.
   std::vector<std::size_t> fitRest(Screening& screening, const std::string& stage, double at) const;

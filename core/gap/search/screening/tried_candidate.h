@@ -14,6 +14,7 @@ struct TriedCandidate {
   Scored scored;            ///< the same, once attempt.scored
   bool passes = false;      ///< better than without it, by the rules
   std::size_t promise = 0;  ///< its place among the screened candidates
+  double settled_s = 0;     ///< step with which it was fitted to the end and scored [s]; 0: it was not
 };
 
 }  // namespace btr

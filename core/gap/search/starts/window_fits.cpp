@@ -36,6 +36,9 @@ std::vector<Fit> fitInLongerWindows(const FitService& service, std::vector<Fit> 
     std::vector<FitJob> jobs;
     for (const Fit& each : fits) jobs.push_back({each.model, from});
     fits = completed(over.tryFits(jobs, limits.wholeIterations, stage, at, at));
+    if (fits.empty()) return;
+    const double least = std::ranges::min_element(fits, costsLess)->cost;
+    std::erase_if(fits, [&](const Fit& each) { return each.cost > service.thresholds().wholeNumbers.inReach * least; });
   };
   while ((length_s *= limits.longer) < limits.longestWindow_s) goOn(service.inWindows(length_s), {});
   goOn(service, shifts);

@@ -139,6 +139,24 @@ TEST(IndependentBall, WindIsNamedBesideTheDragThatItComesWith) {
   EXPECT_THAT(namesIn(report), testing::UnorderedElementsAre("air_drag", "constant_wind")) << report.sentence;
 }
 
+// A camera's zero is not the table's.
+TEST(IndependentBall, AFloorThatIsNotWhereTheCameraHasItIsNoPhysicsOfTheBounce) {
+  const test::BallPlant plant;
+  GapProblem problem = thrown(plant, {}, 0.5);
+  constexpr double higher_m = 0.015, level_rad = 0.005;
+  for (auto* list : {&problem.recordings, &problem.heldOut})
+    for (Recording& recording : *list) {
+      const auto height = static_cast<std::size_t>(recording.column("ball.z_m"));
+      for (double& each : recording.columns.at(height)) each += higher_m;
+    }
+  const GapReport report = analyse(problem, library(), quickly());
+  EXPECT_THAT(namesIn(report), testing::ElementsAre("floor_place")) << report.sentence;
+  EXPECT_NEAR(report.tried.at(0).parameters.at(0).value, higher_m, 0.001) << report.sentence;
+  EXPECT_NEAR(report.tried.at(0).parameters.at(1).value, 0, level_rad) << report.sentence;
+  EXPECT_NEAR(report.tried.at(0).parameters.at(2).value, 0, level_rad) << report.sentence;
+  expectAtTheNoise(report);
+}
+
 // A replay begins as a report's does: of a ball in the air, drag left out, where all of its samples say, not where the
 // first 50 ms do.
 TEST(IndependentBall, AStartIsFittedToTheWholeTrial) {

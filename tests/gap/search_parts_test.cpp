@@ -91,13 +91,17 @@ TEST(Screener, PromisesMostOfWhatIsMissing) {
   EXPECT_FALSE(screening.tried[0].attempt.fitted) << "screening fits nothing";
 }
 
-TEST(Screener, InAShortRaceFewAreScreenedInFullAndTheSameOnePromisesMost) {
+TEST(Screener, InAShortRaceFewAreScreenedInFullAndWhatIsMissingIsAmongThoseToFit) {
   Parts parts(dryFriction, {});
   const Screening screening = Screener(parts.service)
                                   .screenBeside({parts.calibration.base.fit}, nullptr,
                                                 shortRace.screening(parts.service.thresholds()), "", 0, 1);
   ASSERT_GT(screening.tried.size(), 2 * shortRace.screened) << "all effects were looked at";
-  EXPECT_EQ(screening.tried[0].attempt.candidate.text(), "coulomb_friction at rig.hinge");
+  // Friction by direction, which contains it, may promise a little more.
+  const auto missing = std::ranges::find(screening.tried, std::string("coulomb_friction at rig.hinge"),
+                                         [](const TriedCandidate& each) { return each.attempt.candidate.text(); });
+  ASSERT_NE(missing, screening.tried.end());
+  EXPECT_LE(static_cast<std::size_t>(missing->attempt.rank), parts.service.thresholds().screening.fittedAsRivals);
   const auto wasScreened = [&](const TriedCandidate& each) { return !screening.promiseOf(each).starts.empty(); };
   EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), shortRace.screened);
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/sim/tracked_frame.h"
 #include "core/spec/error.h"
 #include "tests/plugin/built_plugins.h"
 
@@ -200,6 +201,20 @@ TEST(GroundSlope, LetsGravityLeanDownTheSlope) {
   scene = sceneWithLink();
   effect("ground_slope")->changeScene(scene, "floor", Numbers{0.1, 0});  // about +x: rises towards +y
   EXPECT_NEAR(-9.81 * std::sin(0.1), scene.gravity_m_s2.y(), 1e-12);
+}
+
+TEST(FloorPlace, KeepsDownDownInTheFrameOfWhatTracksTheBalls) {
+  Scene scene = sceneWithLink();
+  const Eigen::Vector3d down = scene.gravity_m_s2;
+  const auto made = effect("floor_place");
+  scene.effects.push_back({made, "floor_place", "ball", {0.02, 0.1, -0.05}});
+  made->changeScene(scene, "ball", scene.effects.back().values);
+  const Eigen::Isometry3d frame = trackedFrame(scene);
+  EXPECT_NEAR(0, (frame.linear() * scene.gravity_m_s2 - down).norm(), 1e-12);
+  EXPECT_NEAR(0.02, (frame * Eigen::Vector3d::Zero()).z(), 1e-15);
+  // About +x: what lies at +y is higher; about +y: what lies at +x is lower.
+  EXPECT_NEAR(0.02 + std::sin(0.1) * std::cos(0.05), (frame * Eigen::Vector3d(0, 1, 0)).z(), 1e-12);
+  EXPECT_NEAR(0.02 + std::sin(0.05), (frame * Eigen::Vector3d(1, 0, 0)).z(), 1e-12);
 }
 
 TEST(GravityTilt, TurnsGravityByTheRightHandRule) {

@@ -94,7 +94,9 @@ TEST(KickTrial, RobotsAreSimulatedToTheEndForAFitnessThatLooksAtThem) {
   const std::size_t whole = experiment.trial(scene, sweep, 1, false).basePath.size();
   EXPECT_LT(experiment.trialForFitness(scene, sweep, 1).basePath.size(), whole);
   experiment.spec.fitness.settings["fall_factor"] = 0.5;
-  EXPECT_EQ(experiment.trialForFitness(scene, sweep, 1).basePath.size(), whole);
+  const TrialResult result = experiment.trialForFitness(scene, sweep, 1);
+  EXPECT_EQ(result.basePath.size(), whole);
+  EXPECT_EQ(result.trace.sha256(), experiment.trial(scene, sweep, 1, true).trace.sha256());
 }
 
 TEST(KickTrial, AMirroredKickAtAMirroredBallGoesTheMirroredWay) {

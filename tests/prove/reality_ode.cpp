@@ -1,9 +1,12 @@
 #include "tests/prove/reality.h"
 
+#include "core/sim/tracked_frame.h"
+
 namespace btr::prove {
 namespace {
 
-double read(const World& world, const RobotReadings& robot, const MeasuredColumn& column) {
+double read(const World& world, const Eigen::Isometry3d& frame, const RobotReadings& robot,
+            const MeasuredColumn& column) {
   const Eigen::Quaterniond q(robot.base.linear());
   switch (column.what) {
     case MeasuredColumn::What::position:
@@ -17,7 +20,14 @@ double read(const World& world, const RobotReadings& robot, const MeasuredColumn
     case MeasuredColumn::What::ballPosition:
       break;
   }
-  return world.ball(0).position_m[static_cast<int>(column.part)];
+  return (frame * world.ball(0).position_m)[static_cast<int>(column.part)];
+}
+
+BallState asTracked(BallState ball, const Eigen::Isometry3d& frame) {
+  ball.position_m = frame * ball.position_m;
+  ball.velocity_m_s = frame.linear() * ball.velocity_m_s;
+  ball.spin_rad_s = frame.linear() * ball.spin_rad_s;
+  return ball;
 }
 
 }  // namespace
@@ -47,6 +57,7 @@ Truth simulateOde(const Scene& scene, const TrialPlan& plan, const std::vector<M
   if (robot) inputs.push_back(inputsOf(plan, 0));
   if (plan.settle_s > 0) world.advance(inputs, plan.settle_s);
 
+  const Eigen::Isometry3d frame = trackedFrame(scene);
   RobotReadings readings;
   for (std::size_t row = 0; row < plan.rows; ++row) {
     if (robot) readings = world.robot(0);
@@ -55,9 +66,9 @@ Truth simulateOde(const Scene& scene, const TrialPlan& plan, const std::vector<M
         truth.start.robots.push_back({readings.base, readings.baseVelocity_m_s, readings.baseSpin_rad_s,
                                       readings.position, readings.rate,
                                       plan.settle_s > 0 && !scene.robots[0].freeBase});
-      if (ball) truth.start.balls.push_back(world.ball(0));
+      if (ball) truth.start.balls.push_back(asTracked(world.ball(0), frame));
     }
-    for (std::size_t i = 0; i < columns.size(); ++i) truth.values[i][row] = read(world, readings, columns[i]);
+    for (std::size_t i = 0; i < columns.size(); ++i) truth.values[i][row] = read(world, frame, readings, columns[i]);
     if (row + 1 == plan.rows) break;
     if (robot) inputs[0] = inputsOf(plan, row);
     world.advance(inputs, plan.sample_s);

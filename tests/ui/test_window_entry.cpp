@@ -308,9 +308,12 @@ class TestWindowEntry : public QObject {
   // The window may have been made light before the user's dark look is known.
   void thePicturesOfTheStartPageAreSeenOnItsWindowWhateverItsLook() {
     Desk desk;
+    desk.theme.apply(Look::light);
     StartPage page;
-    for (const Look look : {Look::light, Look::dark, Look::light}) {
+    for (const Look look : {Look::dark, Look::light, Look::dark}) {
       desk.theme.apply(look);
+      page.show();
+      QCoreApplication::processEvents();
       const auto pictures = page.findChildren<QLabel*>("picture");
       QCOMPARE(pictures.size(), 3);
       for (const QLabel* picture : pictures) {

@@ -57,7 +57,9 @@ Fit withStartsAnew(const FitProblem& problem, const Fit& fit) {
     errors.push_back(costs[s][0] / std::max<double>(1, static_cast<double>(problem.segments[s].row.size())));
   std::vector<double> sorted = errors;
   std::ranges::sort(sorted);
-  const double limit = std::max(farFromNoise, asOthers * sorted[(sorted.size() - 1) / 2]);
+  // One that bounces and has no other beside it cannot be told from one that got stuck.
+  const bool isAlone = sorted.size() == 1 && problem.segments[0].bounces;
+  const double limit = isAlone ? farFromNoise : std::max(farFromNoise, asOthers * sorted[(sorted.size() - 1) / 2]);
 
   /// The beginnings from which a fit has least to go.
   const auto promising = [&](std::size_t s) {

@@ -10,6 +10,7 @@
 #include "core/gap/replay/followed_torques.h"
 #include "core/gap/replay/hanging.h"
 #include "core/gap/replay/start_state.h"
+#include "core/sim/tracked_frame.h"
 #include "core/sim/world.h"
 #include "core/spec/cancelled.h"
 #include "core/spec/parameter.h"
@@ -51,9 +52,10 @@ void setInputs(const Recording& recording, const Binding& binding, std::size_t r
 }
 
 /// Simulated counterparts of the measured columns. Quaternions take the sign that is nearer to the recorded one.
-/// `robots` is scratch.
+/// `frame` is trackedFrame(scene), `robots` is scratch.
 void readMeasured(const World& world, const Scene& scene, const Recording& recording, const Binding& binding,
-                  std::size_t row, std::vector<RobotReadings>& robots, std::vector<std::vector<double>>& values) {
+                  const Eigen::Isometry3d& frame, std::size_t row, std::vector<RobotReadings>& robots,
+                  std::vector<std::vector<double>>& values) {
   robots.resize(scene.robots.size());
   for (std::size_t i = 0; i < robots.size(); ++i) world.read(i, robots[i]);
   const auto orientation = [&](const Measured& measured) {
@@ -89,7 +91,7 @@ void readMeasured(const World& world, const Scene& scene, const Recording& recor
         value = agreement(measured.object) < 0 ? -orientation(measured) : orientation(measured);
         break;
       case Measured::What::ballPosition:
-        value = world.ball(measured.object).position_m[static_cast<int>(measured.part)];
+        value = (frame * world.ball(measured.object).position_m)[static_cast<int>(measured.part)];
         break;
     }
     values[i][row] = value;
@@ -210,6 +212,23 @@ void stand(World& world, const Binding& binding, const StartState& start, bool p
   }
 }
 
+/// A start is where the recording has the balls; in the scene's own frame they are elsewhere. One that lies on the
+/// floor lies there in both.
+void putBalls(World& world, const Scene& scene, const std::vector<BallState>& recorded) {
+  const Eigen::Isometry3d frame = trackedFrame(scene), back = frame.inverse();
+  const bool isSame = frame.matrix() == Eigen::Matrix4d::Identity();
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    BallState ball = recorded[i];
+    if (!isSame) {
+      ball.position_m = back * ball.position_m;
+      ball.velocity_m_s = back.linear() * ball.velocity_m_s;
+      ball.spin_rad_s = back.linear() * ball.spin_rad_s;
+      if (ball.onFloor) ball.position_m.z() = ball.radius_m, ball.velocity_m_s.z() = 0;
+    }
+    world.setBall(i, ball);
+  }
+}
+
 /// Whether anything remembers: its next steps follow from more than where everything is and how it moves.
 bool remembers(const Scene& scene) {
   const auto isWound = [](const Drive& drive) { return drive.i != 0 || drive.hasGear(); };
@@ -258,6 +277,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
   const std::optional<Earlier> earlier =
       prescribed.any() ? std::nullopt : beforeWindow(scene, recording, binding, first);
   World world(scene, seed);
+  const Eigen::Isometry3d frame = trackedFrame(scene);
   auto inputs = restingInputs(scene, binding, start);
   for (const Input& input : binding.inputs)
     if (input.what == Input::What::command)
@@ -270,7 +290,7 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
     stand(world, binding, state, prescribed.any());
     for (std::size_t i = 0; i < scene.robots.size(); ++i)
       if (state.robots[i].rests) world.rest(i);
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, state.balls[i]);
+    putBalls(world, scene, state.balls);
   };
   begin(earlier ? earlier->state : start);
   // Inputs of a window that begins in the middle: the last ones that were given.
@@ -284,13 +304,13 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
       const StartState::Robot& robot = start.robots[i];
       world.moveRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
     }
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) world.setBall(i, start.balls[i]);
+    putBalls(world, scene, start.balls);
   }
 
   std::vector<RobotReadings> robots;
   for (std::size_t row = first; row < last; ++row) {
     if (goesOn && (row - first) % rowsBetweenQuestions == 0 && !goesOn()) throw Cancelled{};
-    readMeasured(world, scene, recording, binding, row, robots, replayed.values);
+    readMeasured(world, scene, recording, binding, frame, row, robots, replayed.values);
     setInputs(recording, binding, row, inputs);
     if (row + 1 == last) break;
     prescribed.aim(row + 1, inputs);

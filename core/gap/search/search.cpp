@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "core/gap/fit/fit_model.h"
@@ -42,8 +44,11 @@ class StructureSearch {
   }
   /// The simulator without effects: where the search begins.
   void beginFrom(const Calibration& calibration);
-  /// One effect at a time, or two that need each other, for as long as they help.
-  void addEffects();
+  /// One effect at a time, or two that need each other, for as long as they help. `stage`: as many are there.
+  void addEffects(int stage);
+  /// Rivals of what was found. Where one has taken an effect's place and much is left, others may help beside it that
+  /// did not help before.
+  std::vector<Found> findRivals();
   /// Of the first effect, the numbers as given are a base as well where calibration went far and left much: there it
   /// may have bent them to take up what is missing.
   std::vector<Fit> basesOf(bool first) const;
@@ -109,11 +114,11 @@ std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>
   return winner;
 }
 
-void StructureSearch::addEffects() {
+void StructureSearch::addEffects(int stage) {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   bool recalibrated = false;
   std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
-  for (int stage = 0; stage < most(); ++stage) {
+  for (; stage < most(); ++stage) {
     // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
     const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
     if (selection_.final.mean() <
@@ -169,6 +174,29 @@ void StructureSearch::addEffects() {
   }
 }
 
+std::vector<Found> StructureSearch::findRivals() {
+  const auto namesNow = [&] {
+    std::set<std::string> names;
+    for (const PlacedEffect& effect : selection_.final.fit.model.effects) names.insert(effect.text());
+    return names;
+  };
+  constexpr int most = 2;
+  for (int round = 1;; ++round) {
+    if (!selection_.final.fit.model.effects.empty()) confirmer_.settle(selection_, true, "fitting once more", 0.86);
+    const std::set<std::string> before = namesNow();
+    RivalSearch rivals = RivalFinder(service_, confirmer_, candidates_, calibration_.calibrated, firstRound_)
+                             .find(std::move(selection_));
+    selection_ = std::move(rivals.selection);
+    const std::set<std::string> after = namesNow();
+    if (round == most || after == before || !hasRoomFor(1) ||
+        excessOf(selection_.final) < service_.thresholds().screening.doubtfulExcess)
+      return std::move(rivals.effects);
+    addEffects(static_cast<int>(after.size()));
+    dropRedundant(service_, selection_);
+    if (namesNow() == after) return std::move(rivals.effects);
+  }
+}
+
 void StructureSearch::measureRivals(std::vector<Found>& effects) const {
   for (Found& found : effects)
     for (const Fit& rival : found.rivalFits) {
@@ -189,14 +217,11 @@ SearchResult StructureSearch::run() {
     return result;
   }
   beginFrom(calibration);
-  addEffects();
+  addEffects(0);
   dropRedundant(service_, selection_);
   takeApart(service_, selection_, calibration_.calibrated);
   dropRedundant(service_, selection_);
-  if (!selection_.final.fit.model.effects.empty()) confirmer_.settle(selection_, true, "fitting once more", 0.86);
-  RivalSearch rivals =
-      RivalFinder(service_, confirmer_, candidates_, calibration_.calibrated, firstRound_).find(std::move(selection_));
-  selection_ = std::move(rivals.selection);
+  std::vector<Found> effects = findRivals();
 
   raiseUnreached(service_, selection_.final.fit);
   Measurement measured = measure(service_, selection_.final.fit);
@@ -206,7 +231,7 @@ SearchResult StructureSearch::run() {
     selection_.takeInstead(back->of(selection_.final.fit.model));
     measured = measure(service_, selection_.final.fit);
   }
-  measureRivals(rivals.effects);
+  measureRivals(effects);
 
   SearchResult result;
   result.given = std::move(calibration_.given);
@@ -216,7 +241,7 @@ SearchResult StructureSearch::run() {
   result.final = std::move(selection_.final);
   result.attempts = std::move(selection_.attempts);
   result.ladder = std::move(selection_.ladder);
-  result.effects = std::move(rivals.effects);
+  result.effects = std::move(effects);
   result.stepChange = std::move(measured.stepChange);
   result.finalLinear = std::move(measured.linear);
   result.finalUncertainty = std::move(measured.uncertainty);

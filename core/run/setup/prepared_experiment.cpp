@@ -247,6 +247,7 @@ TrialResult PreparedExperiment::trialForFitness(const Scene& arranged, std::span
   TrialOptions options;
   const auto* ofBalls = dynamic_cast<const BallFitness*>(fitness.get());
   options.ballsOnly = ofBalls && ofBalls->seesBallsOnly(spec.fitness.settings);
+  options.recordTrace = !options.ballsOnly;  // any other fitness may look at everything, traces too
   return trial(arranged, parameters, seed, options);
 }
 

@@ -37,10 +37,12 @@ TEST(ShownSizes, FrictionThatGrowsWithLoadShowsIt) {
 }
 
 // Friction that fades with speed has one size, as viscous friction has: its other numbers tell it.
-TEST(ShownSizes, OneSizeIsNoMoreThanOne) {
-  const GapProblem given = recordedInItsSteps();
-  const FitProblem problem = makeFitProblem(given, given.recordings, library());
-  const Fit fit{givenModel(problem).with(problem, {"thinning_friction", "rig.hinge", {}}), {}, 0};
+TEST(ShownSizes, OneThatShowsIsEnoughWhereTheSimplerHasOneToo) {
+  const PlacedEffect thinning{"thinning_friction", "rig.hinge", {{"coefficient_nm_s_rad", 0.3}, {"fading_rad_s", 1.5}}};
+  const GapProblem given = recordedInItsSteps({{}, {thinning}});
+  FitProblem problem = makeFitProblem(given, given.recordings, library());
+  problem.scene.step_s = problem.givenStep_s;
+  const Fit fit = fitModel(problem, givenModel(problem).with(problem, thinning), {}, {30});
   EXPECT_EQ(sizesOf(fit.model, 0), 1u);
   EXPECT_FALSE(showsNoMoreThan(1, problem, fit, 0));
 }

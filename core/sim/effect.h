@@ -101,8 +101,8 @@ class Effect {
   /// Names of simpler effects that at the same place together are the same law for some of its values: no recording of
   /// these tells one from the other. Empty if there are none.
   virtual std::vector<std::string> togetherWith() const { return {}; }
-  /// Names of effects of which one comes first: a wind that pushes also brakes. Where recordings are sensitive to one of
-  /// those, this one is only looked for beside it. Empty if it stands for itself.
+  /// Names of effects of which one comes first: a wind that pushes also brakes. Where recordings are sensitive to one
+  /// of those, this one is only looked for beside it. Empty if it stands for itself.
   virtual std::vector<std::string> needs() const { return {}; }
   /// Name of a whole number of periods in a turn (2π) of the joint's position; empty if it has none. Recordings show
   /// such an effect where they pass several periods: over less any curve of the position looks the same.

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "core/plugin/plugin.h"
-#include "core/sim/tracked_frame.h"
 
 namespace {
 
@@ -24,8 +23,11 @@ class FloorPlace final : public btr::Effect {
   Place place() const override { return Place::ball; }
 
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double> values) const override {
-    if (values[1] != 0 || values[2] != 0)
-      scene.gravity_m_s2 = btr::tiltOfFloor(values).transpose() * scene.gravity_m_s2;
+    if (values[1] == 0 && values[2] == 0) return;
+    const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(values[2], Eigen::Vector3d::UnitY()) *
+                                  Eigen::AngleAxisd(values[1], Eigen::Vector3d::UnitX()))
+                                     .toRotationMatrix();
+    scene.gravity_m_s2 = tilt.transpose() * scene.gravity_m_s2;
   }
 };
 

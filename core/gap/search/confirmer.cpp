@@ -12,10 +12,6 @@
 #include "core/spec/figures.h"
 
 namespace btr {
-namespace {
-
-/// True of an effect that is a time alone, shorter than half the scene's step: so far within a step what made the
-/// recordings may have integrated or read elsewhere.
 bool isWithinHalfAStep(const FitProblem& problem, const FitModel& model, std::size_t effect) {
   bool isTime = false;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
@@ -27,8 +23,6 @@ bool isWithinHalfAStep(const FitProblem& problem, const FitModel& model, std::si
   }
   return isTime;
 }
-
-}  // namespace
 
 void controlFalseDiscoveries(std::vector<TriedCandidate>& tried, double mostFalse) {
   // What the screening left behind counts as tested and found to be nothing.

@@ -14,6 +14,10 @@
 
 namespace btr {
 
+/// True of an effect that is a time alone, shorter than half the scene's step: so far within a step what made the
+/// recordings may have integrated or read elsewhere.
+bool isWithinHalfAStep(const FitProblem& problem, const FitModel& model, std::size_t effect);
+
 /// What the rules say of a model with one effect more.
 struct Acceptance {
   bool passes = false;

@@ -89,6 +89,7 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
   const TriedCandidate* chosen = nullptr;
   for (const TriedCandidate& other : others) {
     if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
+    if (isWithinHalfAStep(service_.problem(), other.fit.model, other.fit.model.effects.size() - 1)) continue;
     if (chosen) {
       // A simpler one that does as well as the better one.
       if (numbersOf(other) < numbersOf(*chosen) && !isRefuted(other.scored, chosen->scored, limits.rivals))

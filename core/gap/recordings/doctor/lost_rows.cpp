@@ -55,6 +55,13 @@ std::vector<std::size_t> inputsOf(const Recording& trial) {
   return inputs;
 }
 
+/// Whether a row of the table is a row of this column: topics at rates of their own make steps of any length.
+bool isInEveryRow(const std::vector<double>& values) {
+  constexpr double nearlyAll = 0.9;
+  const auto given = std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+  return static_cast<double>(given) >= nearlyAll * static_cast<double>(values.size());
+}
+
 bool isCommandedPosition(const std::string& channel) {
   return channel.ends_with(".command_rad") || channel.ends_with(".command_m");
 }
@@ -104,6 +111,7 @@ void fillLostRows(Recording& trial) {
   const std::vector<std::size_t> inputs = inputsOf(trial);
   std::vector<Loss> losses = lossesOf(trial.columns[0]);
   if (inputs.empty() || losses.empty()) return;
+  if (!std::ranges::all_of(inputs, [&](std::size_t column) { return isInEveryRow(trial.columns[column]); })) return;
 
   // From the end: rows keep their numbers that way.
   struct Step {

@@ -7,8 +7,8 @@ namespace btr {
 /// though nobody wrote them down. Commands and other inputs are taken from a straight line between their neighbours
 /// where these go on as before and behind, measurements stay empty. Where a commanded position steps meanwhile, nobody
 /// knows when: what the same robot's joints do for some time afterwards is left out of the comparison. Rows are lost
-/// where stamps miss whole periods, at several places, and keep their rhythm; any other pause is left as it is, with
-/// inputs that hold. Notes say so.
+/// where stamps miss whole periods, at several places, and keep their rhythm, in tables whose rows all have the inputs;
+/// any other pause is left as it is, with inputs that hold. Notes say so.
 void fillLostRows(Recording& trial);
 
 }  // namespace btr

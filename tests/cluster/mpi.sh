@@ -124,7 +124,7 @@ import json, sys
 places = json.load(open(sys.argv[1]))
 assert places["share"] == 1 and places["trials_per_second"] > 0 and sum(h["workers"] for h in places["hosts"]) == 2, places
 assert sum(h["trials"] for h in places["hosts"]) > 0, places' "$folder/places.json" || fail "what --places says of an analysis"
-expect 1 "places that cannot be written" analysis --places "$folder/none/places.json" --out "$folder/analysis-none"
+expect 1 "places that cannot be written" analysis --places "$folder/nowhere/places.json" --out "$folder/analysis-none"
 for ((kill = 0; kill < 3; kill++)); do
   : > "$folder/err" # what was said before is no sign of it
   on_ranks 2 --jobs 1 --progress --out "$folder/analysis-killed-$kill" > "$folder/out" 2> "$folder/err" &

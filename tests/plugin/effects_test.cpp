@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/sim/tracked_frame.h"
 #include "tests/plugin/built_plugins.h"
 
 namespace btr {
@@ -144,6 +145,8 @@ std::vector<double> numbersOf(const Scene& scene) {
       {drive.p, drive.i, drive.d, drive.maxTorque, drive.firmwareGain_v_rad, drive.supply_v, drive.torqueConstant_nm_a,
        drive.resistance_ohm, drive.maxDuty, drive.rotorInertia_kg_m2, drive.coulombFriction, drive.viscousFriction,
        drive.offBraking, drive.gearCompliance, drive.gearDamping, drive.gearPlay, drive.gearDrag});
+  const Eigen::Matrix4d frame = trackedFrame(scene).matrix();
+  numbers.insert(numbers.end(), frame.data(), frame.data() + frame.size());
   return numbers;
 }
 
@@ -192,6 +195,7 @@ TEST_P(Effects, DoSomethingAtEachEndOfTheirRange) {
       auto values = neutral();
       values[i] = end;
       Scene scene = smallScene();
+      scene.effects.push_back({effect, GetParam(), placeOf(*effect), values});
       effect->changeScene(scene, placeOf(*effect), values);
       EXPECT_TRUE(answers(*effect, values, freshState()) != answers(*effect, neutral(), freshState()) ||
                   numbersOf(scene) != numbersOf(smallScene()))

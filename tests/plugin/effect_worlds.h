@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sim/tracked_frame.h"
 #include "core/sim/world.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/sim/small_worlds.h"
@@ -109,7 +110,7 @@ inline Recorded run(const Scene& scene, const Trial& trial) {
       recorded.values.insert(recorded.values.end(), at.begin(), at.end());
     }
     for (std::size_t i = 0; i < scene.balls.size(); ++i) {
-      const Eigen::Vector3d at = world.ball(i).position_m;
+      const Eigen::Vector3d at = trackedFrame(scene) * world.ball(i).position_m;
       recorded.values.insert(recorded.values.end(), at.begin(), at.end());
     }
     recorded.energy.push_back(world.energy());

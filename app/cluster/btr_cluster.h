@@ -28,7 +28,7 @@ void tellHosts(const std::vector<PlaceReport>& places, const char* what);
 /// A JSON file ("uchilsim-places-1") of who does how much. Without a name nothing is written.
 class PlacesFile {
  public:
-  /// Writes it for the first time. Throws InputError if it cannot be written.
+  /// Writes it for the first time, if it has a name. Throws InputError if it cannot be written.
   void begin(const std::string& file);
   /// At most once a second, and at the end: which part of all (0 to 1) is done, by whom. `isRare`: every time.
   void tell(const std::string& stage, double share, double jobsPerSecond, const std::vector<PlaceReport>& places,

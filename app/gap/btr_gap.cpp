@@ -91,7 +91,7 @@ void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFil
   RankRole role = takeRole(shell, std::move(options));
   if (role.isDone) return;
   PlacesFile places;
-  if (!placesFile.empty()) places.begin(placesFile);
+  places.begin(placesFile);
   SharedAnalysis analysis(std::move(role.link), shell.plugins(), role.options);
   const auto begun = std::chrono::steady_clock::now();
   const auto tell = [&](const std::string& stage, double share) {
@@ -117,7 +117,7 @@ void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFil
 void analyseHere(AnalysisRequest request, const std::string& placesFile, const ProgressLine& progress, Shell& shell) {
   if (request.options.jobs == 0) request.options.jobs = processorCount();
   PlacesFile places;
-  if (!placesFile.empty()) places.begin(placesFile);
+  places.begin(placesFile);
   const EffectLibrary library{shell.plugins().effectFactory(), shell.plugins().effects()};
   const GapReport report = runAnalysis(request, library, [&](const std::string& stage, double share) {
     places.tell(stage, std::min(share, nearlyAll), 0, {});

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
 #include <string>
@@ -147,6 +148,10 @@ class Effect {
   virtual double measured(double position, const JointState&, std::span<const double> /*values*/,
                           std::span<double> /*state*/, double /*dt*/) const {
     return position;
+  }
+  /// The scene's frame in that of what tracks the balls: a ball at p is said to be at frame·p.
+  virtual Eigen::Isometry3d trackedFrame(std::span<const double> /*values*/) const {
+    return Eigen::Isometry3d::Identity();
   }
   /// Force on a ball [N], world frame.
   virtual Eigen::Vector3d ballForce(const BallState&, std::span<const double> /*values*/) const {

@@ -23,11 +23,20 @@ class FloorPlace final : public btr::Effect {
   Place place() const override { return Place::ball; }
 
   void changeScene(btr::Scene& scene, const std::string&, std::span<const double> values) const override {
-    if (values[1] == 0 && values[2] == 0) return;
-    const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(values[2], Eigen::Vector3d::UnitY()) *
-                                  Eigen::AngleAxisd(values[1], Eigen::Vector3d::UnitX()))
-                                     .toRotationMatrix();
-    scene.gravity_m_s2 = tilt.transpose() * scene.gravity_m_s2;
+    if (values[1] != 0 || values[2] != 0) scene.gravity_m_s2 = tilt(values).transpose() * scene.gravity_m_s2;
+  }
+  Eigen::Isometry3d trackedFrame(std::span<const double> values) const override {
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.translation().z() = values[0];
+    frame.linear() = tilt(values);
+    return frame;
+  }
+
+ private:
+  static Eigen::Matrix3d tilt(std::span<const double> values) {
+    return (Eigen::AngleAxisd(values[2], Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(values[1], Eigen::Vector3d::UnitX()))
+        .toRotationMatrix();
   }
 };
 

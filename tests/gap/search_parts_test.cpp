@@ -8,7 +8,6 @@
 
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
-#include "core/gap/fit/score_known.h"
 #include "core/gap/search/calibrator.h"
 #include "core/gap/search/confirmer.h"
 #include "core/gap/search/fit_service.h"
@@ -16,7 +15,6 @@
 #include "core/gap/search/screening/candidate_search.h"
 #include "core/gap/search/screening/screener.h"
 #include "core/gap/search/selection.h"
-#include "core/gap/search/short_race.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {
@@ -93,17 +91,18 @@ TEST(Screener, PromisesMostOfWhatIsMissing) {
 
 TEST(Screener, InAShortRaceFewAreScreenedInFullAndWhatIsMissingIsAmongThoseToFit) {
   Parts parts(dryFriction, {});
-  const Screening screening = Screener(parts.service)
-                                  .screenBeside({parts.calibration.base.fit}, nullptr,
-                                                shortRace.screening(parts.service.thresholds()), "", 0, 1);
-  ASSERT_GT(screening.tried.size(), 2 * shortRace.screened) << "all effects were looked at";
+  const SearchThresholds& limits = parts.service.thresholds();
+  const Screening screening =
+      Screener(parts.service)
+          .screenBeside({parts.calibration.base.fit}, nullptr, limits.shortRace.of(limits.screening), "", 0, 1);
+  ASSERT_GT(screening.tried.size(), 2 * limits.shortRace.screened) << "all effects were looked at";
   // Friction by direction, which contains it, may promise a little more.
   const auto missing = std::ranges::find(screening.tried, std::string("coulomb_friction at rig.hinge"),
                                          [](const TriedCandidate& each) { return each.attempt.candidate.text(); });
   ASSERT_NE(missing, screening.tried.end());
-  EXPECT_LE(static_cast<std::size_t>(missing->attempt.rank), parts.service.thresholds().screening.fittedAsRivals);
+  EXPECT_LE(static_cast<std::size_t>(missing->attempt.rank), limits.screening.fittedAsRivals);
   const auto wasScreened = [&](const TriedCandidate& each) { return !screening.promiseOf(each).starts.empty(); };
-  EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), shortRace.screened);
+  EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(screening.tried, wasScreened)), limits.shortRace.screened);
 }
 
 TEST(CrossValidation, IsTheSameWhereTheSensitivitiesAreKnown) {

@@ -68,8 +68,9 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
   return all;
 }
 
-/// A spin is known from elsewhere, not from the samples that are compared: what holds it counts like a measurement.
-bool isSpinTold(const Segment& segment) {
+/// A spin is held by what was said of it, or by how fast a ball can spin at all, and not by the samples that are
+/// compared: what holds it counts like a measurement.
+bool hasSpin(const Segment& segment) {
   return std::ranges::any_of(segment.nuisances, [](const Nuisance& n) { return n.what == Nuisance::What::ballSpin; });
 }
 
@@ -81,10 +82,10 @@ Eigen::MatrixXd explainedByStart(const Segment& segment, Eigen::MatrixXd starts)
   for (Eigen::Index i = 0; i < starts.cols(); ++i) starts.col(i) /= segment.nuisances[static_cast<std::size_t>(i)].hold;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(starts, Eigen::ComputeThinU);
   Eigen::MatrixXd basis = svd.matrixU();
-  const bool told = isSpinTold(segment);
+  const bool spins = hasSpin(segment);
   for (Eigen::Index i = 0; i < basis.cols(); ++i) {
     const double lambda = svd.singularValues()[i], left = 1 / std::sqrt(1 + lambda * lambda);
-    basis.col(i) *= told ? std::sqrt(1 - left) : lambda * left;
+    basis.col(i) *= spins ? std::sqrt(1 - left) : lambda * left;
   }
   return basis;
 }
@@ -117,7 +118,7 @@ Linearised linearise(const FitProblem& problem, const Fit& fit) {
     result.rawStarts.push_back(starts);
     result.starts.push_back(explainedByStart(problem.segments[s], starts));
     // What was measured of a spin is an error of its own: residuals are those at what was said.
-    if (isSpinTold(problem.segments[s]))
+    if (hasSpin(problem.segments[s]))
       atSaid.segment(at, count) -= starts * Eigen::Map<const Eigen::VectorXd>(fit.shifts[s].data(), starts.cols());
     at += count;
   }

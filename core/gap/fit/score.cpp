@@ -5,7 +5,6 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/linearise.h"
-#include "core/gap/fit/score_known.h"
 #include "core/gap/fit/uncertainty.h"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/linearise.h"
 
 namespace btr {
 
@@ -23,6 +24,8 @@ struct Scored {
 /// The parameters as either half of the blocks alone would have them (a linear step from the fit to everything); each
 /// scores the other half. Initial states stay: they are part of what is scored.
 Scored crossValidate(const FitProblem& problem, const Fit& fit);
+/// The same, where its sensitivities are known: they are most of the work.
+Scored crossValidate(const FitProblem& problem, const Fit& fit, const Linearised& linear);
 /// The same for a model that nothing is fitted of but initial states.
 Scored scoreAsIs(const FitProblem& problem, const Fit& fit);
 

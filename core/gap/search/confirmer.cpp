@@ -5,7 +5,6 @@
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/search/screening/search_discoveries.h"
-#include "core/gap/search/short_race.h"
 #include "core/gap/search/starts/held_numbers.h"
 #include "core/gap/search/starts/restarts.h"
 #include "core/gap/search/starts/whole_numbers.h"
@@ -107,7 +106,8 @@ void Confirmer::restart(Fit& fit, double least, const std::string& what, double 
   const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
   double left = service_.leftBy(fit);
-  const double usual = shortRace.isRun(left) ? shortRace.worthMore : limits.worthMore;
+  const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
+  const double usual = race.isRun(left) ? race.worthMore : limits.worthMore;
   const double worth = service_.problem().walks ? limits.worthMoreOfWalks : usual;
   if (fit.cost > worth * least) return;
   climbWholeNumbers(service_, fit, what, at);

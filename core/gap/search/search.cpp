@@ -180,7 +180,6 @@ std::vector<Found> StructureSearch::findRivals() {
     for (const PlacedEffect& effect : selection_.final.fit.model.effects) names.insert(effect.text());
     return names;
   };
-  constexpr int most = 2;
   for (int round = 1;; ++round) {
     if (!selection_.final.fit.model.effects.empty()) confirmer_.settle(selection_, true, "fitting once more", 0.86);
     const std::set<std::string> before = namesNow();
@@ -188,7 +187,7 @@ std::vector<Found> StructureSearch::findRivals() {
                              .find(std::move(selection_));
     selection_ = std::move(rivals.selection);
     const std::set<std::string> after = namesNow();
-    if (round == most || after == before || !hasRoomFor(1) ||
+    if (round == service_.thresholds().rivals.rounds || after == before || !hasRoomFor(1) ||
         excessOf(selection_.final) < service_.thresholds().screening.doubtfulExcess)
       return std::move(rivals.effects);
     addEffects(static_cast<int>(after.size()));

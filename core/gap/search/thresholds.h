@@ -212,6 +212,7 @@ struct SearchThresholds {
     double nothingShows = 5;    ///< the same of one none of whose sizes shows [case: dry friction of filtered torques
                                 ///< as friction that fades at once with any coefficient]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
+    int rounds = 2;                   ///< of rivals, and of effects beside what took a place [time]
     int replaced = 3;                 ///< times at most that one takes another's place [time]
     int apartIterations = 25;         ///< of simpler forms in the place of a richer one [time]
     int togetherIterations = 15;      ///< of two that say the same together [time]
@@ -367,6 +368,28 @@ struct SearchThresholds {
     double inside = 0.95;      ///< of half a step: farther it may stand for something else [hand]
   };
 
+  /// Where a model leaves so much that nothing explains, costs are mostly of that: what costs twice as much is no other
+  /// end of its valley, and the race of candidates ends sooner. Chosen by hand on a real servo (50 noise floors left).
+  struct ShortRace {
+    double muchLeft = 25;    ///< error from which it is run, as verdict.muchLeft [time]
+    double hopeless = 2;     ///< instead of screening.hopeless, and of screening.inReach beside the final model [time]
+    double worthMore = 1.1;  ///< instead of confirmation.worthMore [time]
+    std::size_t screened = 16;  ///< candidates for an effect's place, after a first look at all [time]
+    std::size_t handedTo = 4;   ///< instead of rivals.handedTo [time]
+    int wayIterations = 8;      ///< instead of rivals.wayIterations [time]
+    double valley = 1.7;        ///< instead of rivals.valley [time]
+    double valleyEnd = 1.4;     ///< instead of rivals.valleyEnd [time]
+    int iterations = 10;        ///< of what arrives there; what is not within valleyEnd then is fitted no more [time]
+    double formRatio = 1.3;     ///< instead of rivals.formRatio [time]
+
+    bool isRun(double error) const { return error > muchLeft; }
+    /// Screening that takes a first look at all, and few in full.
+    Screening of(Screening screening) const {
+      screening.many = screening.promising = screened;
+      return screening;
+    }
+  };
+
   Step step;
   Shift shift;
   Calibration calibration;
@@ -377,6 +400,7 @@ struct SearchThresholds {
   Screening screening;
   Confirmation confirmation;
   Rivals rivals;
+  ShortRace shortRace;
   Location location;
   SelfExcitation selfExcitation;
   Remainder remainder;

@@ -6,7 +6,6 @@
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/parallel.h"
-#include "core/gap/fit/score_known.h"
 #include "core/gap/search/laws/law_screen.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/selection.h"

@@ -9,7 +9,6 @@
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/rivals/shown_sizes.h"
 #include "core/gap/search/screening/search_discoveries.h"
-#include "core/gap/search/short_race.h"
 
 namespace btr {
 namespace {
@@ -70,12 +69,12 @@ bool RivalFinder::isAllThatShows(const TriedCandidate& simpler, const Scored& fi
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const PlacedEffect& own = final.fit.model.effects[i];
   if (!isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) ||
-      simpler.scored.mean() > limits.nothingShows * final.mean() ||
-      !showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(), final.fit,
-                       i))
+      simpler.scored.mean() > limits.nothingShows * final.mean())
     return false;
-  return simpler.scored.mean() <= limits.allThatShows * final.mean() ||
-         shownSizes(service_.problem(), final.fit, i) == 0;
+  if (simpler.scored.mean() > limits.allThatShows * final.mean())
+    return shownSizes(service_.problem(), final.fit, i) == 0;
+  return showsNoMoreThan(sizesOf(simpler.fit.model, simpler.fit.model.effects.size() - 1), service_.problem(),
+                         final.fit, i);
 }
 
 bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& others, Selection& selection) const {
@@ -147,7 +146,7 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
 void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
   const SearchThresholds& limits = service_.thresholds();
   confirmer_.settle(selection, false, "rivals", 0.95);
-  const bool muchLeft = shortRace.isRun(selection.final.mean());
+  const bool muchLeft = limits.shortRace.isRun(selection.final.mean());
   for (TriedCandidate& other : others) {
     if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
     if (muchLeft && other.settled_s == service_.step_s()) continue;
@@ -189,12 +188,12 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
   const Scored without =
       service_.fitAndScore({{model.without(i), final.fit.shifts}}, final.fit, "rivals", 0.86, 0.88)[0];
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
-  const SearchThresholds::Screening& limits = service_.thresholds().screening;
-  const bool isShort = shortRace.isRun(final.mean());
-  const double inReach = isShort ? shortRace.hopeless : limits.inReach;
+  const SearchThresholds& limits = service_.thresholds();
+  const bool isShort = limits.shortRace.isRun(final.mean());
+  const double inReach = isShort ? limits.shortRace.hopeless : limits.screening.inReach;
   Round round = candidates_.search({.without = without,
                                     .models = {without.fit},
-                                    .toFit = limits.fittedAsRivals,
+                                    .toFit = limits.screening.fittedAsRivals,
                                     .stage = ", rivals",
                                     .from = 0.88,
                                     .to = 0.95,

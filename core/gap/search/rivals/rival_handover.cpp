@@ -10,7 +10,6 @@
 #include "core/gap/fit/linearise.h"
 #include "core/gap/fit/parallel.h"
 #include "core/gap/search/screening/screen.h"
-#include "core/gap/search/short_race.h"
 
 namespace btr {
 namespace {
@@ -35,7 +34,8 @@ struct RivalHandover::Way {
 std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const FitModel& rest, const PlacedEffect& own,
                                                         bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
-  const std::size_t handedTo = muchLeft ? shortRace.handedTo : limits.handedTo;
+  const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
+  const std::size_t handedTo = muchLeft ? race.handedTo : limits.handedTo;
   const FitProblem& problem = service_.problem();
   std::vector<EffectCandidate> candidates = service_.candidatesBeside(base.model);
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(problem.library, c, own); });
@@ -51,7 +51,7 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
   std::vector<Screened> promising =
       screen(problem, base, linearise(problem, base), candidates, service_.options().jobs,
              service_.reporter("screening, rivals", candidates.size(), 0.95, 0.95),
-             muchLeft ? shortRace.screening(service_.thresholds()) : service_.thresholds().screening);
+             muchLeft ? race.of(service_.thresholds().screening) : service_.thresholds().screening);
   std::erase_if(promising, [](const Screened& each) { return each.starts.empty(); });
   const auto promised = [](const Screened& each) { return each.starts[0].share; };
   std::ranges::stable_sort(promising, std::greater(), promised);
@@ -81,7 +81,8 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
 FitModel RivalHandover::simplerFormOf(const Fit& full, const FitModel& rest, const EffectCandidate& candidate,
                                       bool muchLeft) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
-  const double ratio = muchLeft ? shortRace.formRatio : limits.formRatio;
+  const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
+  const double ratio = muchLeft ? race.formRatio : limits.formRatio;
   const FitProblem& problem = service_.problem();
   std::vector<Values> sizes;
   for (const Values& variant : candidate.variants)
@@ -106,7 +107,7 @@ FitModel RivalHandover::simplerFormOf(const Fit& full, const FitModel& rest, con
 
 /// Fits a little, and leaves only what is near enough then.
 void RivalHandover::keepInRace(std::vector<FitJob>& jobs, std::vector<EffectCandidate>& offered, double most) const {
-  const auto fits = service_.tryFits(jobs, shortRace.iterations, "handing over", 0.95, 0.95);
+  const auto fits = service_.tryFits(jobs, service_.thresholds().shortRace.iterations, "handing over", 0.95, 0.95);
   std::vector<FitJob> left;
   std::vector<EffectCandidate> ofLeft;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -133,10 +134,11 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
   };
   const StepGuard coarse = service_.guardStep(service_.stepToSearchWith(whole));
   const double finalCost = residualsOf(problem, whole.model, whole.shifts).squaredNorm() / 2;
-  const bool muchLeft = shortRace.isRun(final.mean());
-  const int iterations = muchLeft ? shortRace.wayIterations : limits.wayIterations;
-  const double onTheWay = finalCost * (muchLeft ? shortRace.valley : limits.valley);
-  const double atItsEnd = finalCost * (muchLeft ? shortRace.valleyEnd : limits.valleyEnd);
+  const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
+  const bool muchLeft = race.isRun(final.mean());
+  const int iterations = muchLeft ? race.wayIterations : limits.wayIterations;
+  const double onTheWay = finalCost * (muchLeft ? race.valley : limits.valley);
+  const double atItsEnd = finalCost * (muchLeft ? race.valleyEnd : limits.valleyEnd);
 
   std::vector<Way> ways = waysFrom({keeping(kept[0]), whole.shifts, 0}, rest, own, muchLeft);
   for (std::size_t k = 0; k < kept.size() && !ways.empty(); ++k) {

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/gap/fit/fit_model.h"
-#include "core/gap/search/short_race.h"
 
 namespace btr {
 
@@ -14,12 +13,13 @@ Round CandidateSearch::search(const Request& request) {
   StepGuard step = service_.guardStep(service_.stepToSearchWith(request.models[0]));
   const double judged_s = step.before_s();
   const Linearised* known = service_.step_s() == judged_s ? request.known : nullptr;
-  const SearchThresholds::Screening ofThese = request.shortRace ? shortRace.screening(service_.thresholds()) : limits;
+  const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
+  const SearchThresholds::Screening ofThese = request.shortRace ? race.of(limits) : limits;
   Screening screening = screener_.screenBeside(request.models, known, ofThese, request.stage, from, from + part);
   screener_.fitPromising(screening, request.toFit, !request.shortRace, request.stage, from + part, from + 2 * part);
   std::vector<TriedCandidate>& tried = screening.tried;
-  const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && shortRace.isRun(service_.leftBy(tried[0].fit));
-  const double hopeless = muchLeft ? shortRace.hopeless : limits.hopeless;
+  const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && race.isRun(service_.leftBy(tried[0].fit));
+  const double hopeless = muchLeft ? race.hopeless : limits.hopeless;
 
   // The best are fitted to the end and judged on what they were not fitted to, with the simpler effects that they
   // contain; if none of them will do, the next ones.

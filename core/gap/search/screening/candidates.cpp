@@ -191,10 +191,8 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
 std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitModel& model,
                                            const std::vector<std::string>& names,
                                            const SearchThresholds::Candidates& thresholds) {
-  std::vector<PlacedEffect> there = problem.given.effects;
-  there.insert(there.end(), model.effects.begin(), model.effects.end());
-  std::vector<EffectCandidate> candidates =
-      candidatesFor(problem.sceneOf(problem.given, 0), problem.library, there, names, thresholds);
+  std::vector<EffectCandidate> candidates = candidatesFor(problem.sceneOf(problem.given, 0), problem.library,
+                                                          model.simulator(problem).effects, names, thresholds);
   std::erase_if(candidates, [&](EffectCandidate& candidate) {
     const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;

@@ -107,9 +107,7 @@ Screening Screener::screenBeside(const std::vector<Fit>& models, const Linearise
   for (std::size_t c = 0; c < candidates.size(); ++c)
     screening.promises.push_back(
         promiseOf(candidates[c], c, screened, totals, service_.thresholds().candidates.mostKinds));
-  std::vector<PlacedEffect> there = service_.problem().given.effects;
-  const std::vector<PlacedEffect>& found = screening.bases[0].fit.model.effects;
-  there.insert(there.end(), found.begin(), found.end());
+  const std::vector<PlacedEffect> there = screening.bases[0].fit.model.simulator(service_.problem()).effects;
   std::vector<bool> waits(candidates.size());
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     waits[c] = waitsFor(service_.problem().library, candidates[c].effect, there, candidates, screening.promises);

@@ -23,8 +23,7 @@ BTR_OPENR_NOTHING(cache);
 BTR_OPENR_NOTHING(ssnop);
 #undef BTR_OPENR_NOTHING
 
-/* How its bytes lie, which sources ask that run on several computers. Not that it is a MIPS: that asks for assembler.
- */
+/* How its bytes lie, as sources for several computers ask; not that it is a MIPS, which asks for assembler. */
 #ifndef __MIPSEL__
 #define __MIPSEL__ 1
 #define __MIPSEL 1

@@ -5,7 +5,7 @@
 
 #include "app/btr_commands.h"
 #include "core/spec/error.h"
-#include "core/spec/output_path.h"
+#include "core/spec/system/output_path.h"
 
 namespace btr::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/btr_commands.h"
 #include "core/spec/error.h"
-#include "core/spec/process.h"
+#include "core/spec/system/process.h"
 #include "core/store/database.h"
 
 namespace btr::cli {

@@ -17,7 +17,7 @@
 #include "core/sim/worker_pool.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/scratch_folder.h"
 
 namespace btr::cli {
 namespace {

@@ -27,7 +27,7 @@
 #include "core/gap/search/analysis.h"
 #include "core/gap/search/gap_report.h"
 #include "core/sim/worker_pool.h"
-#include "core/spec/cancelled.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr::cli {
 namespace {

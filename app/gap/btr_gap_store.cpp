@@ -8,9 +8,9 @@
 #include "core/run/reality/fitness_clues.h"
 #include "core/run/reality/rig.h"
 #include "core/run/reality/stored_recordings.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/system/cancelled.h"
 #include "core/store/database.h"
 
 namespace btr::cli {

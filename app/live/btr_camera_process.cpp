@@ -13,8 +13,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/spec/child_process.h"
 #include "core/spec/error.h"
+#include "core/spec/system/child_process.h"
 
 extern char** environ;  // NOLINT: POSIX
 

@@ -10,8 +10,8 @@
 
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
-#include "core/spec/output_path.h"
 #include "core/spec/require.h"
+#include "core/spec/system/output_path.h"
 
 namespace btr {
 namespace {

@@ -13,10 +13,10 @@
 #include "core/gap/report/report_files.h"
 #include "core/gap/report/report_json.h"
 #include "core/gap/report/report_plain.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 #include "core/spec/sha256.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

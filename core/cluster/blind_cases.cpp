@@ -10,7 +10,7 @@
 #include "core/gap/report/run_analysis.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/scratch_folder.h"
 
 namespace btr {
 namespace {

@@ -25,7 +25,7 @@
 #include "core/run/loop/back_to_reality.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/scratch_folder.h"
 #include "core/store/database.h"
 
 namespace btr {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstdint>
 
-#include "core/spec/child_process.h"
+#include "core/spec/system/child_process.h"
 
 namespace btr {
 

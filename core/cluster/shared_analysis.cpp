@@ -13,8 +13,8 @@
 #include "core/cluster/build_identity.h"
 #include "core/cluster/schedule.h"
 #include "core/gap/fit/parallel.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

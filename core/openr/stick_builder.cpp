@@ -15,7 +15,7 @@
 #include "core/openr/stick_config.h"
 #include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/scratch_folder.h"
 
 namespace btr::openr {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cfenv>
 
-#include "core/spec/crash_report.h"
+#include "core/spec/system/crash_report.h"
 
 namespace btr {
 namespace {

@@ -16,8 +16,8 @@
 #include <optional>
 
 #include "core/remote/frame.h"
-#include "core/spec/crash_report.h"
 #include "core/spec/error.h"
+#include "core/spec/system/crash_report.h"
 
 namespace btr::remote {
 namespace {

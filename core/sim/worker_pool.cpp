@@ -20,9 +20,9 @@
 #include <exception>
 #include <optional>
 
-#include "core/spec/child_process.h"
-#include "core/spec/crash_report.h"
 #include "core/spec/error.h"
+#include "core/spec/system/child_process.h"
+#include "core/spec/system/crash_report.h"
 
 namespace btr {
 namespace {

@@ -25,7 +25,7 @@
 #include "core/run/setup/evaluator.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/process.h"
+#include "core/spec/system/process.h"
 #include "tests/temporary_folder.h"
 
 namespace {

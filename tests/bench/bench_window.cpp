@@ -25,7 +25,7 @@
 #include "core/spec/experiment_spec.h"
 #include "tests/bench/heartbeat.h"
 #include "ui/charts/compare_page.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 #include "ui/controllers/run_controller.h"
 #include "ui/database/individuals_model.h"
 #include "ui/database/individuals_table.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/cluster/foreman.h"
-#include "core/spec/process.h"
+#include "core/spec/system/process.h"
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "pieces") {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/scratch_folder.h"
 #include "tests/temporary_folder.h"
 
 namespace {

@@ -11,9 +11,9 @@
 
 #include "core/cluster/build_identity.h"
 #include "core/gap/report/report_plain.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/random.h"
+#include "core/spec/system/cancelled.h"
 #include "tests/cluster/descendants.h"
 #include "tests/cluster/foremen.h"
 #include "tests/cluster/played_rank.h"

@@ -16,7 +16,8 @@ inline const PluginHost& host() {
 
 inline std::shared_ptr<const Effect> effect(const std::string& name) { return host().effect(name); }
 
-/// All but measured_law, a table of 60 numbers that does nothing in its defaults: tests/gap/measured_law_test.cpp.
+/// All but measured_law, a table of 60 numbers that does nothing in its defaults:
+/// tests/gap/search/measured_law_test.cpp.
 inline std::vector<std::string> effectsWithASize() {
   std::vector<std::string> names = host().effects();
   std::erase(names, "measured_law");

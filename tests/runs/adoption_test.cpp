@@ -12,7 +12,7 @@
 #include "core/run/setup/run_lock.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/sample_report.h"
+#include "tests/gap/report/sample_report.h"
 #include "tests/runs/small_kick_run.h"
 
 namespace btr {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/run/setup/evaluator.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/system/cancelled.h"
 #include "tests/runs/small_kick_run.h"
 
 namespace btr {

@@ -8,7 +8,7 @@
 
 #include "core/run/reality/adoption.h"
 #include "core/spec/json_reader.h"
-#include "tests/gap/rig_report.h"
+#include "tests/gap/report/rig_report.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "core/spec/output_path.h"
+#include "core/spec/system/output_path.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "core/spec/error.h"
 #include "tests/ui/locked_database.h"
 #include "tests/ui/stored_run.h"
-#include "ui/common/database_reader.h"
+#include "ui/common/database/database_reader.h"
 
 using namespace btr;
 using namespace btr::ui;

@@ -5,7 +5,7 @@
 
 #include "core/spec/error.h"
 #include "tests/ui/stored_run.h"
-#include "ui/common/database_watcher.h"
+#include "ui/common/database/database_watcher.h"
 
 using namespace btr;
 using namespace btr::ui;

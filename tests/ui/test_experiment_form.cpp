@@ -11,7 +11,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
-#include "ui/common/number_edit.h"
+#include "ui/common/numbers/number_edit.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/experiment/search_start.h"

@@ -30,7 +30,7 @@
 #include "core/spec/figures.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
-#include "tests/gap/sample_report.h"
+#include "tests/gap/report/sample_report.h"
 #include "ui/charts/plot_widget.h"
 #include "ui/common/progress.h"
 #include "ui/gap/analysis_setup.h"

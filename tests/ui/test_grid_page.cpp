@@ -13,7 +13,7 @@
 #include "core/run/grid/grid_losses.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/controllers/grid_controller.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_form.h"

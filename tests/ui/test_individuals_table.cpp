@@ -13,7 +13,7 @@
 
 #include "core/gap/report/report_plain.h"
 #include "core/spec/error.h"
-#include "ui/common/short_label.h"
+#include "ui/common/look/short_label.h"
 #include "ui/database/individual_details.h"
 #include "ui/database/individuals_table.h"
 

@@ -16,7 +16,7 @@
 
 #include "core/live/session_log.h"
 #include "tests/ui/open_live_page.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/live/live_tools.h"
 #include "ui/live/panels/signals_panel.h"
 

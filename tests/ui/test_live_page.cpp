@@ -18,7 +18,7 @@
 
 #include "core/spec/json_reader.h"
 #include "tests/ui/open_live_page.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 
 using namespace btr;
 using namespace btr::ui;

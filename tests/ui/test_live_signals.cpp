@@ -13,7 +13,7 @@
 #include "core/gap/recordings/recording.h"
 #include "tests/ui/open_live_page.h"
 #include "ui/charts/plot_widget.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/live/panels/signal_picker.h"
 #include "ui/live/panels/signals_panel.h"
 

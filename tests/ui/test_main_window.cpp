@@ -21,7 +21,7 @@
 
 #include "core/run/reality/adoption.h"
 #include "core/run/setup/prepared_experiment.h"
-#include "tests/gap/rig_report.h"
+#include "tests/gap/report/rig_report.h"
 #include "tests/plugin/built_plugins.h"
 #include "tests/ui/locked_database.h"
 #include "tests/ui/stored_run.h"
@@ -29,7 +29,7 @@
 #include "ui/charts/fitness_chart.h"
 #include "ui/charts/gap_chart.h"
 #include "ui/charts/plot_widget.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/controllers/draft_controller.h"
 #include "ui/controllers/grid_controller.h"
 #include "ui/controllers/run_controller.h"

@@ -13,9 +13,9 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/store/database.h"
+#include "ui/common/look/message_banner.h"
+#include "ui/common/look/theme.h"
 #include "ui/common/manual.h"
-#include "ui/common/message_banner.h"
-#include "ui/common/theme.h"
 #include "ui/main_window.h"
 
 using namespace btr;

@@ -16,8 +16,8 @@
 #include <QToolButton>
 #include <cmath>
 
-#include "ui/common/message_banner.h"
-#include "ui/common/number_entry.h"
+#include "ui/common/look/message_banner.h"
+#include "ui/common/numbers/number_entry.h"
 #include "ui/measure/measurement_sheet.h"
 #include "ui/measure/measurement_view.h"
 #include "ui/measure/question_bar.h"

@@ -15,9 +15,9 @@
 #include <QVBoxLayout>
 #include <QWheelEvent>
 
-#include "ui/common/decimal_spin_box.h"
-#include "ui/common/number_edit.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/decimal_spin_box.h"
+#include "ui/common/numbers/number_edit.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/experiment/parameter_text.h"

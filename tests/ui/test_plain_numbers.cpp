@@ -1,5 +1,5 @@
 // Numbers in the window have a decimal point, whatever the user's locale says.
-#include "ui/common/plain_numbers.h"
+#include "ui/common/numbers/plain_numbers.h"
 
 #include <QDoubleSpinBox>
 #include <QLineEdit>

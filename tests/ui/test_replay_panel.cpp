@@ -11,7 +11,7 @@
 #include "core/model/kinematics.h"
 #include "core/spec/error.h"
 #include "tests/ui/small_robot.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/scene3d/replay_job.h"
 #include "ui/scene3d/replay_panel.h"
 

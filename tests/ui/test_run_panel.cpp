@@ -6,7 +6,7 @@
 #include <QSpinBox>
 #include <QTest>
 
-#include "ui/common/short_label.h"
+#include "ui/common/look/short_label.h"
 #include "ui/experiment/run_panel.h"
 
 using namespace btr;

@@ -3,10 +3,10 @@
 #include <QTemporaryDir>
 #include <QTest>
 
-#include "ui/common/format.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/settings.h"
-#include "ui/common/theme.h"
 
 using namespace btr::ui;
 

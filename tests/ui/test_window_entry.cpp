@@ -20,7 +20,7 @@
 
 #include "tests/ui/stored_run.h"
 #include "ui/common/file_choice.h"
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/controllers/draft_controller.h"
 #include "ui/controllers/run_controller.h"
 #include "ui/experiment/experiment_form.h"

@@ -12,9 +12,9 @@
 
 #include "ui/charts/plot_widget.h"
 #include "ui/charts/stage_plot.h"
-#include "ui/common/format.h"
-#include "ui/common/reading_table.h"
-#include "ui/common/theme.h"
+#include "ui/common/database/reading_table.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {

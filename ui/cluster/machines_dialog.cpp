@@ -17,12 +17,12 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "ui/common/fit_screen.h"
-#include "ui/common/format.h"
-#include "ui/common/reading_table.h"
+#include "ui/common/database/reading_table.h"
+#include "ui/common/look/fit_screen.h"
+#include "ui/common/look/tab_order.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/resources.h"
-#include "ui/common/tab_order.h"
-#include "ui/common/theme.h"
 
 namespace btr::ui {
 namespace {

@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 
 #include "core/plugin/plugin_host.h"
-#include "ui/common/fit_screen.h"
+#include "ui/common/look/fit_screen.h"
 
 namespace btr::ui {
 namespace {

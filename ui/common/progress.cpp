@@ -2,7 +2,7 @@
 
 #include <QProgressBar>
 
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 

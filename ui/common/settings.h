@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 
 namespace btr::ui {
 

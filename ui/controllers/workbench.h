@@ -6,7 +6,7 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/store/database.h"
-#include "ui/common/database_watcher.h"
+#include "ui/common/database/database_watcher.h"
 #include "ui/common/settings.h"
 #include "ui/experiment/run_launcher.h"
 

@@ -9,8 +9,8 @@
 #include <QVBoxLayout>
 
 #include "ui/charts/plot_data.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 

@@ -5,8 +5,8 @@
 #include "core/sim/trial.h"
 #include "core/spec/figures.h"
 #include "ui/charts/plot_data.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 

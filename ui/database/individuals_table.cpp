@@ -18,8 +18,8 @@
 #include <QToolButton>
 #include <algorithm>
 
-#include "ui/common/short_label.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/short_label.h"
+#include "ui/common/look/theme.h"
 #include "ui/database/individual_details.h"
 
 namespace btr::ui {

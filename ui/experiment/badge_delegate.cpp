@@ -3,7 +3,7 @@
 #include <QApplication>
 #include <QPainter>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 
 namespace btr::ui {
 namespace {

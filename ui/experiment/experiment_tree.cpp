@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "core/run/reality/adoption.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 #include "ui/experiment/badge_delegate.h"
 #include "ui/experiment/run_text.h"
 

@@ -8,11 +8,11 @@
 #include <QLineEdit>
 #include <QToolButton>
 
-#include "ui/common/combo_width.h"
 #include "ui/common/form_undo.h"
-#include "ui/common/number_edit.h"
-#include "ui/common/style_sheet.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/combo_width.h"
+#include "ui/common/look/style_sheet.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/number_edit.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_text.h"
 

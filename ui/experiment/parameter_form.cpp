@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "ui/common/edit_command.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 #include "ui/experiment/parameter_field.h"
 #include "ui/experiment/parameter_text.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/common/number_entry.h"
+#include "ui/common/numbers/number_entry.h"
 
 namespace btr::ui {
 namespace {

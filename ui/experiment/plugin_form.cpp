@@ -7,8 +7,8 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 
-#include "ui/common/combo_width.h"
 #include "ui/common/edit_command.h"
+#include "ui/common/look/combo_width.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_form.h"
 

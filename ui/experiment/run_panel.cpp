@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "ui/common/format.h"
-#include "ui/common/short_label.h"
-#include "ui/common/style_sheet.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/short_label.h"
+#include "ui/common/look/style_sheet.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "core/run/reality/adoption.h"
-#include "ui/common/format.h"
-#include "ui/common/reading_table.h"
-#include "ui/common/theme.h"
+#include "ui/common/database/reading_table.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/experiment/parameter_text.h"
 
 namespace btr::ui {

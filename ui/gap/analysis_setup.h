@@ -5,7 +5,7 @@
 #include <QWidget>
 
 #include "core/sim/scene.h"
-#include "ui/common/file_state.h"
+#include "ui/common/database/file_state.h"
 #include "ui/gap/analysis_process.h"
 #include "ui/gap/recording_doctor.h"
 

@@ -10,9 +10,9 @@
 
 #include "core/gap/report/report_figures.h"
 #include "core/spec/figures.h"
-#include "ui/common/format.h"
+#include "ui/common/database/reading_table.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/progress.h"
-#include "ui/common/reading_table.h"
 
 namespace btr::ui {
 namespace {

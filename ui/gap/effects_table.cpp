@@ -8,9 +8,9 @@
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/report_words.h"
 #include "core/spec/figures.h"
-#include "ui/common/format.h"
-#include "ui/common/reading_table.h"
-#include "ui/common/theme.h"
+#include "ui/common/database/reading_table.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {

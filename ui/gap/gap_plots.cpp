@@ -9,7 +9,7 @@
 #include "core/gap/report/report_figures.h"
 #include "core/gap/search/gap_report.h"
 #include "core/spec/figures.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/gap/search/gap_report.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/gap/gap_plots.h"
 
 namespace btr::ui {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "core/gap/search/gap_report.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/gap/gap_plots.h"
 
 namespace btr::ui {

@@ -12,7 +12,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/table/table_preview.h"
 #include "core/spec/error.h"
-#include "ui/common/number_entry.h"
+#include "ui/common/numbers/number_entry.h"
 
 namespace btr::ui {
 namespace {

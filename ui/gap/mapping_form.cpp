@@ -19,9 +19,9 @@
 #include "core/gap/replay/residual.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "ui/common/format.h"
-#include "ui/common/number_entry.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
+#include "ui/common/numbers/number_entry.h"
 
 namespace btr::ui {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/gap/recordings/doctor/recording_health.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/trial_scenes.h"
-#include "ui/common/file_state.h"
+#include "ui/common/database/file_state.h"
 
 namespace btr::ui {
 namespace {

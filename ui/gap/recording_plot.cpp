@@ -12,7 +12,7 @@
 #include "core/gap/replay/residual.h"
 #include "core/spec/error.h"
 #include "ui/charts/plot_widget.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {

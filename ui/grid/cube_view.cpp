@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "core/run/grid/grid_cells.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/grid/ramp.h"
 
 namespace btr::ui {

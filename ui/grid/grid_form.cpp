@@ -18,10 +18,10 @@
 #include "core/spec/error.h"
 #include "core/spec/experiment_spec.h"
 #include "core/spec/json_reader.h"
-#include "ui/common/fit_screen.h"
-#include "ui/common/format.h"
+#include "ui/common/look/fit_screen.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/resources.h"
-#include "ui/common/theme.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_form.h"
 

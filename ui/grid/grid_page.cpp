@@ -11,9 +11,9 @@
 #include <cmath>
 
 #include "core/run/grid/grid_cells.h"
-#include "ui/common/decimal_spin_box.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/decimal_spin_box.h"
+#include "ui/common/numbers/format.h"
 #include "ui/grid/cube_view.h"
 #include "ui/grid/kick_map.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/run/grid/grid_cells.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/grid/ramp.h"
 
 namespace btr::ui {

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/common/look/theme.h"
 #include "ui/common/resources.h"
-#include "ui/common/theme.h"
 #include "ui/live/drawn/live_scene.h"
 
 namespace btr::ui {

@@ -8,8 +8,8 @@
 #include <QPushButton>
 #include <QToolButton>
 
+#include "ui/common/look/theme.h"
 #include "ui/common/settings.h"
-#include "ui/common/theme.h"
 #include "ui/measure/alarm_sound.h"
 
 namespace btr::ui {

@@ -5,7 +5,7 @@
 #include <QLineEdit>
 #include <QPainter>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 
 namespace btr::ui {
 

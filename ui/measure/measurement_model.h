@@ -2,7 +2,7 @@
 #include <QAbstractTableModel>
 #include <QUndoStack>
 
-#include "ui/common/number_entry.h"
+#include "ui/common/numbers/number_entry.h"
 #include "ui/measure/measurement_row.h"
 
 namespace btr::ui {

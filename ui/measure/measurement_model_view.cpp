@@ -8,8 +8,8 @@
 #include "core/run/reality/spread.h"
 #include "core/spec/figures.h"
 #include "ui/charts/plot_data.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/measure/measurement_model.h"
 
 namespace btr::ui {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/run/reality/reality_gap.h"
-#include "ui/common/number_entry.h"
+#include "ui/common/numbers/number_entry.h"
 
 namespace btr::ui {
 

@@ -16,8 +16,8 @@
 
 #include "core/gap/proof/proof_marks.h"
 #include "ui/charts/plot_data.h"
-#include "ui/common/message_banner.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/message_banner.h"
+#include "ui/common/look/theme.h"
 #include "ui/measure/measurement_view.h"
 #include "ui/measure/question_bar.h"
 

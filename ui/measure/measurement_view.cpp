@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <set>
 
-#include "ui/common/number_entry.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/number_entry.h"
 #include "ui/measure/measurement_delegate.h"
 
 namespace btr::ui {

@@ -13,7 +13,7 @@
 #include <algorithm>
 
 #include "core/spec/error.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/scene3d/replay_job.h"
 
 namespace btr::ui {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "ui/common/look/theme.h"
 #include "ui/common/settings.h"
-#include "ui/common/theme.h"
 #include "ui/window/scroll_page.h"
 
 namespace btr::ui {

@@ -7,7 +7,7 @@
 #include <QMenuBar>
 #include <QUndoStack>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/live/live_page.h"
 #include "ui/measure/measurement_sheet.h"

@@ -11,7 +11,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 
-#include "ui/common/fit_screen.h"
+#include "ui/common/look/fit_screen.h"
 
 namespace btr::ui {
 namespace {

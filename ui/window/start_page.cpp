@@ -13,9 +13,9 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "ui/common/format.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/resources.h"
-#include "ui/common/theme.h"
 #include "ui/experiment/run_text.h"
 
 namespace btr::ui {

@@ -7,7 +7,7 @@
 #include <QToolBar>
 #include <QVBoxLayout>
 
-#include "ui/common/message_banner.h"
+#include "ui/common/look/message_banner.h"
 #include "ui/controllers/workbench.h"
 
 namespace btr::ui {

@@ -11,7 +11,7 @@
 #include "core/gap/fit/parallel.h"
 #include "core/gap/fit/segment_cost.h"
 #include "core/gap/fit/segments.h"
-#include "core/spec/cancelled.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

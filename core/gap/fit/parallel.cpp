@@ -9,8 +9,8 @@
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/job_share.h"
 #include "core/sim/worker_pool.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

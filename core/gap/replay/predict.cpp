@@ -13,7 +13,7 @@
 #include "core/sim/model_losses.h"
 #include "core/sim/world/scene_build.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/output_path.h"
+#include "core/spec/system/output_path.h"
 
 namespace btr {
 namespace {

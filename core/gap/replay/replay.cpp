@@ -12,9 +12,9 @@
 #include "core/gap/replay/start_state.h"
 #include "core/sim/tracked_frame.h"
 #include "core/sim/world.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/parameter.h"
 #include "core/spec/require.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

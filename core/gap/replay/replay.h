@@ -8,7 +8,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/start_state.h"
 #include "core/sim/scene.h"
-#include "core/spec/cancelled.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 

@@ -8,7 +8,7 @@
 #include "core/gap/replay/residual.h"
 #include "core/sim/engine/ode_session.h"
 #include "core/sim/model_losses.h"
-#include "core/spec/cancelled.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 

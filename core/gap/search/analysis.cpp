@@ -29,11 +29,11 @@
 #include "core/gap/search/trials/agreement.h"
 #include "core/gap/search/trials/consultation.h"
 #include "core/gap/search/verdict.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/sha256.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "core/spec/cancelled.h"
 #include "core/spec/parameter.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

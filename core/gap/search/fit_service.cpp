@@ -10,8 +10,8 @@
 #include "core/gap/fit/score.h"
 #include "core/gap/search/starts/window_fits.h"
 #include "core/sim/worker_pool.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

@@ -14,10 +14,10 @@
 #include "core/run/reality/reality_gap.h"
 #include "core/run/reality/recorded_robot.h"
 #include "core/run/reality/stored_recordings.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "core/spec/scratch_folder.h"
+#include "core/spec/system/cancelled.h"
+#include "core/spec/system/scratch_folder.h"
 
 namespace btr {
 namespace {

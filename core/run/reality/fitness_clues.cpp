@@ -11,10 +11,10 @@
 #include "core/gap/report/report_figures.h"
 #include "core/run/reality/reality_gap.h"
 #include "core/run/setup/evaluator.h"
-#include "core/spec/cancelled.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
 #include "core/spec/random.h"
+#include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 #include "ui/live/drawn/lamp_places.h"
 
 namespace btr::ui {

@@ -4,7 +4,7 @@
 #include <QRegularExpression>
 #include <algorithm>
 
-#include "ui/common/format.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/free_place.h"
 #include "ui/live/hand_acts.h"
 #include "ui/live/live_world.h"

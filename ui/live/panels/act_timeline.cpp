@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
 
 namespace btr::ui {
 namespace {

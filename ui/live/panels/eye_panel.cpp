@@ -15,8 +15,8 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "ui/common/look/section.h"
 #include "ui/common/resources.h"
-#include "ui/common/section.h"
 #include "ui/experiment/parameter_form.h"
 #include "ui/live/eyes/eye_picture.h"
 #include "ui/live/live_world.h"

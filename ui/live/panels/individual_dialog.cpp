@@ -12,9 +12,9 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
-#include "ui/common/database_reader.h"
-#include "ui/common/fit_screen.h"
-#include "ui/common/format.h"
+#include "ui/common/database/database_reader.h"
+#include "ui/common/look/fit_screen.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/stored_controller.h"
 
 namespace btr::ui {

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/common/decimal_spin_box.h"
 #include "ui/common/form_undo.h"
-#include "ui/common/format.h"
+#include "ui/common/numbers/decimal_spin_box.h"
+#include "ui/common/numbers/format.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/live/live_world.h"
 

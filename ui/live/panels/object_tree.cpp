@@ -5,8 +5,8 @@
 #include <QTreeWidgetItemIterator>
 #include <algorithm>
 
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/live_world.h"
 
 namespace btr::ui {

@@ -10,8 +10,8 @@
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/hand_acts.h"
 #include "ui/live/live_world.h"
 

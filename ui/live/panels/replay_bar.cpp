@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/common/decimal_spin_box.h"
-#include "ui/common/short_label.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/short_label.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/decimal_spin_box.h"
 #include "ui/live/panels/act_timeline.h"
 
 namespace btr::ui {

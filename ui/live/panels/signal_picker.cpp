@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {

@@ -18,9 +18,9 @@
 #include "core/spec/json_reader.h"
 #include "ui/charts/decimate.h"
 #include "ui/charts/plot_widget.h"
-#include "ui/common/decimal_spin_box.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/decimal_spin_box.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/live_world.h"
 #include "ui/live/panels/signal_picker.h"
 

@@ -14,8 +14,8 @@
 
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
-#include "ui/common/format.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
 #include "ui/live/live_world.h"
 #include "ui/live/panels/slider_form.h"
 

@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "ui/common/form_undo.h"
-#include "ui/common/format.h"
-#include "ui/common/number_edit.h"
-#include "ui/common/theme.h"
+#include "ui/common/look/theme.h"
+#include "ui/common/numbers/format.h"
+#include "ui/common/numbers/number_edit.h"
 #include "ui/common/wheel_guard.h"
 #include "ui/experiment/parameter_text.h"
 

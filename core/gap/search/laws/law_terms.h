@@ -7,7 +7,8 @@
 
 namespace btr {
 
-/// The effect that holds what was learned without a name (plugins/effects/measured_law.cpp). No search offers it.
+/// The effect that holds what was learned without a name (plugins/effects/mechanism/measured_law.cpp). No search offers
+/// it.
 inline constexpr const char* measuredLaw = "measured_law";
 inline constexpr std::size_t mostLawTerms = 2;
 inline constexpr int mostLawKnots = 25;

@@ -1,0 +1,123 @@
+// What an analysis makes of an arm of three joints that was integrated elsewhere (strange_arm.h).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/gap/fit/alignment.h"
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/segments.h"
+#include "core/gap/report/report_plain.h"
+#include "core/gap/search/analysis.h"
+#include "core/gap/search/gap_report.h"
+#include "tests/gap/strangers/strange_arm.h"
+#include "tests/plugin/built_plugins.h"
+#include "tests/temporary_folder.h"
+
+namespace btr {
+namespace arm_of_strangers {
+
+GapProblem problemOf(const strange::Arm& arm, int trials, double noise = 3e-4) {
+  const TemporaryFolder folder;
+  folder.write("arm.urdf", strange::armUrdf());
+  GapProblem problem;
+  problem.scene =
+      sceneFromJson(R"({"format": "uchilsim-scene-1", "step_s": 0.001, "control_period_s": 0.008, "robots": [
+    {"name": "arm", "model": "arm.urdf", "base": "fixed", "position_m": [0, 0, 1], "collision": "none", "servos": {
+      "joint1": {"p": 40, "d": 2, "max_torque_nm": 30}, "joint2": {"p": 30, "d": 1.2, "max_torque_nm": 20},
+      "joint3": {"p": 10, "d": 0.3, "max_torque_nm": 8}}}]})",
+                    "scene", folder.file("."));
+  problem.models = loadModels(problem.scene);
+  std::mt19937_64 random(7);
+  for (int trial = 0; trial < trials; ++trial) {
+    const strange::ArmTrial made = strange::SwungArm(arm).run(4, 0.008, noise, random);
+    Recording recording;
+    recording.source = "trial_" + std::to_string(trial) + ".csv";
+    recording.channels = {"time_s"};
+    recording.columns = {made.time};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string joint = "arm.joint" + std::to_string(i + 1);
+      recording.channels.insert(recording.channels.end(), {joint + ".command_rad", joint + ".position_rad"});
+      recording.columns.insert(recording.columns.end(), {made.command[i], made.position[i]});
+    }
+    problem.recordings.push_back(recording);
+  }
+  return problem;
+}
+
+EffectLibrary library() { return {test::host().effectFactory(), test::host().effects()}; }
+
+std::vector<std::string> namedIn(const GapReport& report) {
+  std::vector<std::string> named;
+  for (const GapReport::Effect& each : report.tried)
+    if (each.accepted) named.push_back(each.effect + " at " + each.at);
+  return named;
+}
+
+TEST(StrangeArm, ThatLacksNothingHasNoMismatch) {
+  const GapReport report = analyse(problemOf({}, 2), library(), {});
+  EXPECT_EQ(report.verdict, GapReport::Verdict::noMismatch) << toPlainText(report);
+  EXPECT_THAT(namedIn(report), testing::IsEmpty());
+}
+
+/// Half a step of semi-implicit Euler is not physics that our simulator lacks.
+TEST(StrangeArm, ThatAnotherEngineIntegratesCoarselyHasNoMismatch) {
+  strange::Arm arm;
+  arm.euler_s = 5e-4;
+  const GapReport report = analyse(problemOf(arm, 2), library(), {});
+  EXPECT_EQ(report.verdict, GapReport::Verdict::noMismatch) << toPlainText(report);
+  EXPECT_THAT(namedIn(report), testing::IsEmpty());
+  EXPECT_THAT(report.notes, testing::Contains(testing::HasSubstr("within half a step of the scene")));
+}
+
+/// Friction is named at its joint, though another engine's coarse steps are beside it.
+TEST(StrangeArm, FrictionIsNamedAtItsJointBesideAnothersIntegration) {
+  strange::Arm arm;
+  arm.euler_s = 5e-4;
+  arm.friction[1] = 0.6;
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "command_delay", "rotor_inertia"};
+  const GapReport report = analyse(problemOf(arm, 2), library(), options);
+  EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction at arm.joint2")) << toPlainText(report);
+}
+
+/// A delay that is longer than half a step stays a delay.
+TEST(StrangeArm, AShiftInTimeIsBoundedByHalfAStep) {
+  GapProblem problem = problemOf({}, 1, 1e-4);
+  Recording& recording = problem.recordings[0];
+  // All commands were recorded two samples before they acted.
+  for (std::size_t i : {1u, 3u, 5u}) {
+    std::vector<double>& command = recording.columns[i];
+    command.erase(command.begin(), command.begin() + 2);
+    command.insert(command.end(), 2, command.back());
+  }
+  const FitProblem fit = makeFitProblem(problem, problem.recordings, library());
+  Eigen::VectorXd residuals = residualsOf(fit, givenModel(fit), {});
+  const double before = residuals.squaredNorm();
+  const Alignment alignment = align(fit, residuals);
+  EXPECT_NEAR(std::abs(alignment.shift_s), 0.0005, 1e-12);
+  EXPECT_GT(residuals.squaredNorm(), 0.8 * before);
+}
+
+/// What a servo forgets need not be simulated to its end: the column is that of the whole replay.
+TEST(StrangeArm, AStartThatIsForgottenIsAsIfSimulatedToTheEnd) {
+  const GapProblem problem = problemOf({}, 1);
+  const FitProblem fit = makeFitProblem(problem, problem.recordings, library());
+  const Segment& segment = fit.segments.at(0);
+  const Scene scene = fit.sceneOf(fit.given, 0);
+  const std::vector<double> none(segment.nuisances.size(), 0);
+  const std::vector<double> here = residualsOf(fit, segment, scene, none);
+  for (std::size_t i = 0; i < none.size(); ++i) {
+    std::vector<double> shift = none;
+    shift[i] = 0.1;
+    const std::vector<double> whole = residualsOf(fit, segment, scene, shift);
+    const std::vector<double> beside = residualsBeside(fit, segment, scene, shift, here);
+    ASSERT_EQ(beside.size(), whole.size());
+    double most = 0;
+    for (std::size_t k = 0; k < whole.size(); ++k) most = std::max(most, std::abs(beside[k] - whole[k]));
+    EXPECT_LT(most, 2e-4) << "noise floors, start " << i;
+  }
+}
+
+}  // namespace arm_of_strangers
+}  // namespace btr

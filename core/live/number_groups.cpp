@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
+#include "core/sim/effect_places.h"
 #include "core/sim/scene_parameters.h"
 #include "core/sim/world/scene_build.h"
 
@@ -107,21 +109,13 @@ std::vector<NumberGroup> numberGroups(const Game& game, const ModelSet& models, 
 
 std::vector<std::string> placesFor(const Effect& effect, const Game& game, const ModelSet& models,
                                    const std::string& robot) {
-  std::vector<std::string> places;
-  if (effect.place() == Effect::Place::floor && robot.empty()) places.emplace_back("floor");
-  if (effect.place() == Effect::Place::world && robot.empty()) places.emplace_back("world");
-  if (effect.place() == Effect::Place::ball && robot.empty())
-    for (const BallSpec& ball : game.scene.balls) places.push_back(ball.name);
-  for (const RobotSpec& each : game.scene.robots) {
-    if (!robot.empty() && each.name != robot) continue;
-    const RobotModel& model = *models.at(each.model);
-    if (effect.place() == Effect::Place::joint)
-      for (const Joint& joint : model.joints)
-        if (joint.type != Joint::Type::fixed) places.push_back(each.name + "." + joint.name);
-    if (effect.place() == Effect::Place::link)
-      for (const Link& link : model.links) places.push_back(each.name + "." + link.name);
-  }
-  return places;
+  const bool isOfRobots = effect.place() == Effect::Place::joint || effect.place() == Effect::Place::link;
+  if (!robot.empty() && !isOfRobots) return {};
+  const Scene scene = sceneFromModels(game.scene, models);
+  const std::span<const SceneRobot> all = scene.robots;
+  if (robot.empty()) return effectPlaces(effect.place(), scene, all);
+  const auto found = std::ranges::find(all, robot, &SceneRobot::name);
+  return found == all.end() ? std::vector<std::string>{} : effectPlaces(effect.place(), scene, {found, 1});
 }
 
 const SimulatorSpec& simulatorIn(const Game& game, const std::string& robot) {

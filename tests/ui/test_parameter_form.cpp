@@ -234,6 +234,22 @@ class TestParameterForm : public QObject {
     QVERIFY(!form.isValid());
   }
 
+  void aFieldThatIsLeftShowsAPointForTheCommaAndItIsOneStepOfUndo() {
+    QUndoStack undo;
+    ParameterForm form(someParameters(), undo);
+    form.show();
+    auto* mass = form.findChild<NumberEdit*>("leg_mass_kg");
+    type(mass, "0,25");
+    QTest::keyClick(mass, Qt::Key_Return);
+    QCOMPARE(mass->numberText(), QString("0.25"));
+    QCOMPARE(form.values(), (Values{{"leg_mass_kg", 0.25}}));
+    QCOMPARE(undo.count(), 1);
+    type(mass, "0,2,5");
+    QTest::keyClick(mass, Qt::Key_Return);
+    QCOMPARE(mass->numberText(), QString("0,2,5"));
+    QVERIFY(!form.isValid());
+  }
+
   void theNumbersOfThePageReadACommaAndPrintAPoint() {
     const QLocale german(QLocale::German);
     const QLocale before;

@@ -101,7 +101,7 @@ class ExperimentForm : public QWidget {
   ExperimentSpec shown_;  ///< keeps what the form has no field for: added effects, the folder, how "all" was written
   bool readOnly_ = false;
   bool filling_ = false;  ///< a specification is being put in: it is judged once, at the end
-  int visit_ = 0, chosenReality_ = 0;
+  int chosenReality_ = 0;
   QLineEdit *name_ = nullptr, *scene_ = nullptr;
   QPushButton* browse_ = nullptr;
   QComboBox* reality_ = nullptr;

@@ -21,6 +21,7 @@
 #include "ui/common/look/tab_order.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/resources.h"
+#include "ui/common/undoable_line.h"
 #include "ui/experiment/experiment_form.h"
 #include "ui/experiment/learner_form.h"
 #include "ui/experiment/parameter_form.h"
@@ -44,22 +45,7 @@ QLineEdit* ExperimentForm::addText(QVBoxLayout& column, const QString& name, con
   if (beside) row->addWidget(beside);
   column.addLayout(row);
 
-  // The text before an edit is remembered, since the line edit tells only what it became.
-  edit->setProperty("before", QString());
-  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
-    if (!edit->isModified()) edit->setProperty("before", text);
-  });
-  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
-  connect(edit, &QLineEdit::textEdited, this, [this, edit, name, label](const QString& text) {
-    const QString before = edit->property("before").toString();
-    edit->setProperty("before", text);
-    undo_.push(
-        new EditCommand(tr("change %1").arg(label), name, visit_, before, text, [this, edit](const QVariant& value) {
-          if (edit->text() != value.toString()) edit->setText(value.toString());
-          edit->setProperty("before", value);
-          update();
-        }));
-  });
+  makeUndoable(*edit, undo_, tr("change %1").arg(label), [this] { update(); });
   return edit;
 }
 

@@ -1,4 +1,5 @@
 #include "ui/experiment/plugin_form.h"
+#include "ui/common/undoable_line.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -81,20 +82,7 @@ QLineEdit* PluginForm::addPath(QWidget* page, const Offer& offer, const std::str
   edit->setToolTip(tr("A file or folder, relative to the experiment's file"));
   row->addWidget(caption);
   row->addWidget(edit, 1);
-  // As for the experiment's name: the line edit tells only what it became.
-  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
-    if (!edit->isModified()) edit->setProperty("before", text);
-  });
-  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
-  connect(edit, &QLineEdit::textEdited, this, [this, edit, label](const QString& text) {
-    const QString before = edit->property("before").toString();
-    edit->setProperty("before", text);
-    undo_.push(new EditCommand(tr("change %1").arg(label), edit->objectName(), visit_, before, text,
-                               [this, edit](const QVariant& value) {
-                                 if (edit->text() != value.toString()) edit->setText(value.toString());
-                                 emit changed();
-                               }));
-  });
+  makeUndoable(*edit, undo_, tr("change %1").arg(label), [this] { emit changed(); });
   return edit;
 }
 

@@ -56,7 +56,6 @@ class PluginForm : public QWidget {
   PluginChoice missing_;  ///< the choice that is not installed, if that is selected
   int chosen_ = 0;
   QUndoStack& undo_;
-  int visit_ = 0;  ///< to a path's line
   QComboBox* names_;
   std::vector<QWidget*> pages_;
 };

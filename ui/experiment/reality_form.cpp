@@ -1,4 +1,5 @@
 #include "ui/experiment/reality_form.h"
+#include "ui/common/undoable_line.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -6,7 +7,6 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 
-#include "ui/common/edit_command.h"
 #include "ui/experiment/parameter_form.h"
 
 namespace btr::ui {
@@ -49,20 +49,7 @@ QLineEdit* RealityForm::addText(Page& page, const TextSetting& setting) {
   row->addWidget(edit, 1);
   static_cast<QVBoxLayout*>(page.widget->layout())->addLayout(row);
 
-  // As for the experiment's name: the line edit tells only what it became.
-  connect(edit, &QLineEdit::textChanged, this, [edit](const QString& text) {
-    if (!edit->isModified()) edit->setProperty("before", text);
-  });
-  connect(edit, &QLineEdit::editingFinished, this, [this] { ++visit_; });
-  connect(edit, &QLineEdit::textEdited, this, [this, edit, label](const QString& text) {
-    const QString before = edit->property("before").toString();
-    edit->setProperty("before", text);
-    undo_.push(new EditCommand(tr("change %1").arg(label), edit->objectName(), visit_, before, text,
-                               [this, edit](const QVariant& value) {
-                                 if (edit->text() != value.toString()) edit->setText(value.toString());
-                                 emit changed();
-                               }));
-  });
+  makeUndoable(*edit, undo_, tr("change %1").arg(label), [this] { emit changed(); });
   return edit;
 }
 

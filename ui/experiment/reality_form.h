@@ -46,7 +46,6 @@ class RealityForm : public QWidget {
   QLineEdit* addText(Page& page, const TextSetting& setting);
 
   QUndoStack& undo_;
-  int visit_ = 0;
   std::vector<Page> pages_;
 };
 

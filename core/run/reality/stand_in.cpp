@@ -7,8 +7,10 @@
 #include <istream>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <span>
 
 #include "core/run/reality/recorded_robot.h"
+#include "core/sim/effect_places.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/random.h"
@@ -18,31 +20,6 @@ namespace btr {
 namespace {
 
 using nlohmann::json;
-
-/// Places where an effect of this kind can sit.
-std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
-  std::vector<std::string> places;
-  const SceneRobot& robot = scene.robots.front();
-  switch (place) {
-    case Effect::Place::joint:
-      for (std::size_t j = 0; j < robot.model.joints.size(); ++j)
-        if (robot.drives[j].kind != Drive::Kind::none) places.push_back(robot.name + "." + robot.model.joints[j].name);
-      break;
-    case Effect::Place::link:
-      for (const Link& link : robot.model.links) places.push_back(robot.name + "." + link.name);
-      break;
-    case Effect::Place::ball:
-      for (const BallSpec& ball : scene.balls) places.push_back(ball.name);
-      break;
-    case Effect::Place::floor:
-      if (scene.floor) places.push_back("floor");
-      break;
-    case Effect::Place::world:
-      places.push_back("world");
-      break;
-  }
-  return places;
-}
 
 /// How far the default of a parameter lies from where the effect does nothing: its size on a real robot.
 double typicalSize(const Parameter& p) { return p.byDefault - p.neutral.value_or(p.byDefault); }
@@ -110,7 +87,7 @@ std::vector<std::string> drawnFrom(const ConcealedSpec& from, const PluginHost& 
 /// Those of the places where an effect can sit that the experiment allows.
 std::vector<std::string> allowedPlaces(Effect::Place place, const Scene& scene,
                                        const std::vector<std::string>& allowed) {
-  std::vector<std::string> places = placesFor(place, scene);
+  std::vector<std::string> places = effectPlaces(place, scene, std::span(scene.robots).first(1), EffectJoints::driven);
   if (!allowed.empty())
     std::erase_if(places, [&](const std::string& at) { return std::ranges::count(allowed, at) == 0; });
   return places;

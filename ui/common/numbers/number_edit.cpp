@@ -15,6 +15,14 @@ NumberEdit::NumberEdit(QWidget* parent) : QAbstractSpinBox(parent) {
   setFocusPolicy(Qt::StrongFocus);
   lineEdit()->setAlignment(Qt::AlignRight);
   connect(lineEdit(), &QLineEdit::textEdited, this, &NumberEdit::edited);
+  connect(this, &QAbstractSpinBox::editingFinished, this, &NumberEdit::showPoint);
+}
+
+void NumberEdit::showPoint() {
+  const NumberEntry typed = readNumber(numberText());
+  if (!typed.converted) return;
+  setNumberText(typed.text);
+  emit edited(typed.text);
 }
 
 void NumberEdit::setRange(double minimum, double maximum, bool integer) {

@@ -27,6 +27,8 @@ class NumberEdit : public QAbstractSpinBox {
   void wheelEvent(QWheelEvent* event) override;
 
  private:
+  void showPoint();  ///< once it is left: of a decimal comma, like all that is shown
+
   double minimum_ = 0, maximum_ = 1;
   bool integer_ = false;
 };

@@ -13,39 +13,10 @@
 #include "core/gap/recordings/extent.h"
 #include "core/gap/search/laws/law_terms.h"
 #include "core/gap/search/thresholds.h"
+#include "core/sim/effect_places.h"
 
 namespace btr {
 namespace {
-
-std::vector<std::string> placesFor(Effect::Place place, const Scene& scene) {
-  std::vector<std::string> places;
-  switch (place) {
-    case Effect::Place::joint:
-      for (const SceneRobot& robot : scene.robots)
-        for (const Joint& joint : robot.model.joints)
-          if (joint.type != Joint::Type::fixed) places.push_back(robot.name + "." + joint.name);
-      break;
-    case Effect::Place::link:
-      for (const SceneRobot& robot : scene.robots)
-        for (std::size_t i = 0; i < robot.model.links.size(); ++i) {
-          // A load changes nothing of what never moves.
-          const bool carried = robot.freeBase || i > 0;
-          if (carried && robot.model.links[i].inertial.mass_kg > 0)
-            places.push_back(robot.name + "." + robot.model.links[i].name);
-        }
-      break;
-    case Effect::Place::ball:
-      for (const BallSpec& ball : scene.balls) places.push_back(ball.name);
-      break;
-    case Effect::Place::floor:
-      if (scene.floor) places.push_back("floor");
-      break;
-    case Effect::Place::world:
-      places.push_back("world");
-      break;
-  }
-  return places;
-}
 
 /// Whole numbers are tried one after another, numbers without a neutral value at a few places of their range.
 std::vector<double> triesOf(const Parameter& p, const SearchThresholds::Candidates& limits) {
@@ -165,7 +136,7 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
     if (name == measuredLaw) continue;
     const auto effect = library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
-    for (const std::string& at : placesFor(effect->place(), scene))
+    for (const std::string& at : effectPlaces(effect->place(), scene, scene.robots))
       if (std::none_of(there.begin(), there.end(),
                        [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
         candidates.push_back({name, at, declared, variantsOf(declared, thresholds)});

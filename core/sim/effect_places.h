@@ -1,0 +1,22 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/sim/effect.h"
+#include "core/sim/scene.h"
+
+namespace btr {
+
+enum class EffectJoints {
+  moving,  ///< every joint that is not fixed
+  driven   ///< only those with a drive
+};
+
+/// Where an effect of this kind can sit in a scene, as simulator files write it (`dog.leg1`, `ball`, `floor`,
+/// `world`), in the scene's order: at joints and links of `robots`, at all balls. Links are those that can move and
+/// have a mass, as a load changes nothing of the others.
+std::vector<std::string> effectPlaces(Effect::Place place, const Scene& scene, std::span<const SceneRobot> robots,
+                                      EffectJoints joints = EffectJoints::moving);
+
+}  // namespace btr

@@ -7,6 +7,7 @@
 
 #include "app/btr_commands.h"
 #include "app/openr/btr_openr_robots.h"
+#include "core/openr/build_hint.h"
 #include "core/openr/ended_text.h"
 #include "core/openr/robot_process.h"
 #include "core/openr/stick_builder.h"
@@ -20,9 +21,8 @@ void printBuild(const openr::StickBuild& build, const std::string& out) {
   for (const auto& object : build.objects) {
     if (!object.said.empty()) std::fprintf(stderr, "%s", object.said.c_str());
     if (object.modules.empty())
-      std::fprintf(stderr,
-                   "%s: not built; mend what the compiler says above (it compiles C++ of 1998) and build again\n",
-                   printable(object.folder).c_str());
+      std::fprintf(stderr, "%s: not built; %s\n", printable(object.folder).c_str(),
+                   printable(openr::buildHint(object.said)).c_str());
     for (const std::string& module : object.modules)
       std::cout << printable(module) << "  from " << printable(object.folder) << "\n";
   }

@@ -1,6 +1,8 @@
 // Primitives, ranges and places in the sensor vector after Sony's Model Information for each robot.
 #include "core/openr/robot_design.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/spec/error.h"
@@ -103,14 +105,14 @@ RobotDesign ers7() {
     robot.lamps.push_back(lamp("/" + id + "-LED3:" + id, ofBack[i], led3));
   }
 
-  // Head, then the legs as in the ERS-210's; the manuals do not tell the order.
-  addToVector(robot,
-              {"/r1/c1-Joint2:11", "/r1/c1/c2-Joint2:12", head + "-Joint2:13", head + "/t1-Sensor:t1",
-               head + "/p1-Sensor:p1", head + "/p2-Sensor:p2", head + "/c4-Joint2:14", head + "/c4/s5-Sensor:s5"});
+  // From the mouth to the neck, then up each leg from its paw. The manuals do not tell the order; two teams whose
+  // programs index the vector do, and agree: Tekkotsu's ERS7Info ("CPC IDs") and rUNSWift 2005 (sensors.h).
+  addToVector(robot, {head + "/c4-Joint2:14", head + "/c4/s5-Sensor:s5", head + "-Joint2:13", head + "/t1-Sensor:t1",
+                      head + "/p1-Sensor:p1", head + "/p2-Sensor:p2", "/r1/c1/c2-Joint2:12", "/r1/c1-Joint2:11"});
   for (const Leg& leg : legs) {
     const std::string at = std::string("/r") + leg.root, id = leg.root;
-    addToVector(robot, {at + "/c1-Joint2:" + id + "1", at + "/c1/c2-Joint2:" + id + "2",
-                        at + "/c1/c2/c3-Joint2:" + id + "3", at + "/c1/c2/c3/c4-Sensor:" + id + "4"});
+    addToVector(robot, {at + "/c1/c2/c3/c4-Sensor:" + id + "4", at + "/c1/c2/c3-Joint2:" + id + "3",
+                        at + "/c1/c2-Joint2:" + id + "2", at + "/c1-Joint2:" + id + "1"});
   }
   addToVector(robot, {"/r6/c1-Joint2:61", "/r6/c2-Joint2:62", "/a1-Sensor:a1", "/a2-Sensor:a2", "/a3-Sensor:a3",
                       "/p1-Sensor:p1", "/b1-Sensor:b1", "/t2-Sensor:t2", "/t3-Sensor:t3", "/t4-Sensor:t4"});
@@ -211,13 +213,26 @@ RobotDesign ers220() {
   return robot;
 }
 
+const std::array<RobotDesign, 3>& designs() {
+  static const std::array<RobotDesign, 3> all = {ers7(), ers210(), ers220()};
+  return all;
+}
+
 }  // namespace
 
 const RobotDesign& robotDesign(const std::string& name) {
-  static const RobotDesign designs[] = {ers7(), ers210(), ers220()};
-  for (const RobotDesign& design : designs)
+  for (const RobotDesign& design : designs())
     if (design.name == name) return design;
   throw InputError("robot design", "\"" + name + "\"", "ERS-7, ERS-210 or ERS-220");
+}
+
+std::vector<std::string> robotsWith(const std::string& locator) {
+  std::vector<std::string> names;
+  for (const RobotDesign& design : designs())
+    for (const auto* list : {&design.joints, &design.sensors, &design.lamps, &design.others})
+      if (std::any_of(list->begin(), list->end(), [&](const Primitive& each) { return each.locator == locator; }))
+        names.push_back(design.name);
+  return names;
 }
 
 }  // namespace btr::openr

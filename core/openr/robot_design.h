@@ -28,5 +28,7 @@ struct RobotDesign {
 
 /// Throws InputError for another name.
 const RobotDesign& robotDesign(const std::string& name);
+/// The names of the robots that have a primitive at `locator`.
+std::vector<std::string> robotsWith(const std::string& locator);
 
 }  // namespace btr::openr

@@ -150,7 +150,7 @@ const std::map<std::string, std::string>& systemHeaders() {
         {"sys/time.h", "gettimeofday"},
         {"strings.h", "bzero index rindex strcasecmp strncasecmp"},
         {"arpa/inet.h", "htonl htons ntohl ntohs"},
-        {"btr_newlib.h", "strlwr strupr M_TWOPI M_3PI_4 M_SQRTPI M_SQRT3"},
+        {"btr_newlib.h", "strlwr strupr stricmp strcmpi strnicmp strncmpi M_TWOPI M_3PI_4 M_SQRTPI M_SQRT3"},
         {"math.h",
          "M_E M_LN10 M_LN2 M_LOG10E M_LOG2E M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_SQRT1_2 M_SQRT2 HUGE_VAL acos asin atan "
          "atan2 ceil cos cosh exp fabs floor fmod frexp ldexp log log10 modf pow sin sinh sqrt tan tanh cbrt copysign "
@@ -166,7 +166,30 @@ const std::map<std::string, std::string>& systemHeaders() {
         {"memory", "auto_ptr"},
         {"strstream", "istrstream ostrstream strstream"},
         {"stdint.h", "uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t"},
-        {"values.h", "MAXINT MAXLONG MAXSHORT MAXFLOAT MAXDOUBLE MINDOUBLE MINFLOAT MININT"}};
+        {"values.h", "MAXINT MAXLONG MAXSHORT MAXFLOAT MAXDOUBLE MINDOUBLE MINFLOAT MININT"},
+        // Headers of OPEN-R that came with others of it.
+        {"OPENR/OUnits.h", "degrees radians micro oradians"},
+        {"OPENR/OSyslog.h", "OSYSLOG1 OSYSPRINT OSYSDEBUG osyslogERROR osyslogWARNING osyslogINFO"},
+        {"OPENR/OPENRAPI.h", "OPENR"},
+        {"OPENR/OFbkImage.h",
+         "OFbkImage OFbkImageBand ofbkimageBAND_Y ofbkimageBAND_Cr ofbkimageBAND_Cb ofbkimageBAND_CDT"},
+        {"OPENR/ODataFormats.h",
+         "OCommandVectorData OCommandInfo OCommandData OSensorFrameVectorData OSensorFrameInfo OSensorFrameData "
+         "OSensorValue OJointValue OFbkImageVectorData OFbkImageInfo OSoundVectorData OSoundInfo OCdtVectorData "
+         "OCdtInfo"},
+        {"OPENR/OPower.h", "OPowerStatus OBootCondition opowerON opowerOFF"},
+        {"OPENR/OPENRMessages.h", "OPowerStatusMessage OReasonMessage"},
+        {"OPENR/OPrimitiveControl.h", "OPrimitiveControl_CameraParam OPrimitiveControl_SpeakerVolume"},
+        {"OPENR/OTime.h", "OTime"},
+        {"OPENR/OCalendarTime.h", "OCalendarTime"},
+        {"SystemTime.h", "SystemTime GetSystemTime"},
+        {"IPAddress.h", "IPAddress IP_ADDR_ANY IP_ADDR_BROADCAST"},
+        {"ant.h", "antStackRef antModuleRef antSharedBuffer antEnvMsg ANTENVMSG"},
+        {"EndpointTypes.h", "EndpointType_TCP EndpointType_UDP"},
+        {"TCPEndpointMsg.h",
+         "TCPEndpointListenMsg TCPEndpointConnectMsg TCPEndpointSendMsg TCPEndpointReceiveMsg TCPEndpointCloseMsg"},
+        {"UDPEndpointMsg.h",
+         "UDPEndpointBindMsg UDPEndpointConnectMsg UDPEndpointSendMsg UDPEndpointReceiveMsg UDPEndpointCloseMsg"}};
     std::map<std::string, std::string> headers;
     for (const auto& [header, names] : namesOf) {
       std::istringstream words(names);
@@ -192,6 +215,12 @@ bool lacksStandardNamespace(const std::string& line) {
          types.count(line.substr(at + begin.size(), close - at - begin.size())) != 0;
 }
 
+bool namesSomethingUnknown(const std::string& line) {
+  for (const char* how : {"' was not declared in this scope", "' does not name a type", "' has not been declared"})
+    if (line.find(how) != std::string::npos) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> missingHeaders(const std::string& errors) {
@@ -202,8 +231,7 @@ std::vector<std::string> missingHeaders(const std::string& errors) {
     if (std::find(headers.begin(), headers.end(), header) == headers.end()) headers.push_back(header);
   };
   for (std::string line; std::getline(in, line);) {
-    if (const auto at = line.find(unknown);
-        at != std::string::npos && line.find("' was not declared in this scope") != std::string::npos) {
+    if (const auto at = line.find(unknown); at != std::string::npos && namesSomethingUnknown(line)) {
       const auto name = line.substr(at + unknown.size());
       if (const auto found = systemHeaders().find(name.substr(0, name.find('\''))); found != systemHeaders().end())
         add(found->second);

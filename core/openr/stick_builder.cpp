@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/openr/kit_paths.h"
 #include "core/openr/stick_config.h"
 #include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
@@ -112,6 +113,13 @@ std::string withIncludes(const fs::path& makefile) {
   return withIncludes(makefile.parent_path(), makefile, values);
 }
 
+/// What Makefiles include has many names: "defs.mk", "makefile.config".
+bool isPartOfMakefile(const fs::path& path) {
+  const std::string name = upper(path.filename().string()), end = upper(path.extension().string());
+  return name.find("MAKEFILE") != std::string::npos || end == ".MK" || end == ".INC" || end == ".CONFIG" ||
+         end == ".DEFS";
+}
+
 bool hasAny(const std::string& text, std::initializer_list<const char*> parts) {
   return std::any_of(parts.begin(), parts.end(),
                      [&](const char* part) { return text.find(part) != std::string::npos; });
@@ -145,10 +153,20 @@ bool makesLibrary(const fs::path& makefile) {
   return hasAny(content(makefile), {".a"}) && hasAny(withIncludes(makefile), {"mipsel-linux-ar", "$(AR)", "${AR}"});
 }
 
+/// The entry of `folder` that has this name but for large and small letters; the name itself if there is none.
+fs::path entryNamed(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  if (!fs::exists(folder / name, error))
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+      if (upper(at->path().filename().string()) == upper(name)) return at->path();
+  return folder / name;
+}
+
 struct Found {
   std::vector<fs::path> libraries;             ///< folders whose Makefile makes one
   std::vector<fs::path> withMakefile, byHand;  ///< folders of objects
   std::vector<fs::path> sticks;                ///< MS folders; without any, those with OPEN-R/MW in them
+  std::vector<fs::path> lists;                 ///< folders with an OBJECT.CFG outside of sticks
 };
 
 Found findObjects(const fs::path& root) {
@@ -162,12 +180,12 @@ Found findObjects(const fs::path& root) {
     if (at->is_directory(error)) {
       if (name[0] == '.') at.disable_recursion_pending();
       const bool isStick = name == "MS";
-      if (isStick || fs::exists(path / "OPEN-R" / "MW", error)) {
+      if (isStick || fs::exists(entryNamed(entryNamed(path, "OPEN-R"), "MW"), error)) {
         at.disable_recursion_pending();
         // RP/… are set-ups of Sony's remote processing on a PC.
         bool remote = false;
         for (const fs::path& part : path.lexically_relative(root)) remote = remote || part == "RP";
-        if (!remote && fs::exists(path / "OPEN-R")) (isStick ? found.sticks : otherSticks).push_back(path);
+        if (!remote && fs::exists(entryNamed(path, "OPEN-R"))) (isStick ? found.sticks : otherSticks).push_back(path);
       }
       continue;
     }
@@ -175,6 +193,7 @@ Found findObjects(const fs::path& root) {
       found.withMakefile.push_back(path.parent_path());
     else if (isMakefile(path) && makesLibrary(path))
       found.libraries.push_back(path.parent_path());
+    if (upper(name) == "OBJECT.CFG") found.lists.push_back(path.parent_path());
     if (name == "stub.cfg" || path.extension() == ".ocf" || endsWith(name, "Stub.cc"))
       sources.insert(path.parent_path());
   }
@@ -194,19 +213,28 @@ Found findObjects(const fs::path& root) {
   return found;
 }
 
-/// A copy of the folder in which nothing is left of former builds; what stands beside it, one and two folders up, can
-/// be reached as before.
-fs::path copyOf(const fs::path& folder, const fs::path& work) {
+/// A copy of the folder in which nothing is left of former builds, and Makefiles find the kit at `sdk`; what stands
+/// beside it, one and two folders up, can be reached as before.
+fs::path copyOf(const fs::path& folder, const fs::path& work, const fs::path& sdk) {
   const fs::path source = fs::canonical(folder);
   const fs::path parent = source.parent_path(), above = parent.parent_path();
   const fs::path outer = work / "above", inner = outer / (parent.filename().empty() ? "parent" : parent.filename());
   fs::create_directories(inner);
-  const auto linkAll = [](const fs::path& from, const fs::path& to, const fs::path& except) {
+  const auto linkAll = [&sdk](const fs::path& from, const fs::path& to, const fs::path& except) {
     std::error_code error;
     int count = 0;
-    for (fs::directory_iterator at(from, error), end; !error && at != end && count < 500; at.increment(error), ++count)
-      if (at->is_directory(error) && at->path() != except && at->path().filename().string()[0] != '.')
-        fs::create_directory_symlink(at->path(), to / at->path().filename(), error);
+    for (fs::directory_iterator at(from, error), end; !error && at != end && count < 500;
+         at.increment(error), ++count) {
+      const fs::path target = to / at->path().filename();
+      if (at->path() == except || at->path().filename().string()[0] == '.') continue;
+      std::error_code ignored;
+      if (at->is_directory(ignored))
+        fs::create_directory_symlink(at->path(), target, ignored);
+      else if (at->is_regular_file(ignored) && isPartOfMakefile(at->path()))
+        write(target, withKitAt(content(at->path()), sdk.string()));
+      else if (at->is_regular_file(ignored))
+        fs::create_symlink(at->path(), target, ignored);
+    }
   };
   linkAll(parent, inner, source);
   linkAll(above, outer, parent);
@@ -220,6 +248,10 @@ fs::path copyOf(const fs::path& folder, const fs::path& work) {
     }
     const std::string end = entry.path().extension().string(), name = entry.path().filename().string();
     const fs::path at = entry.path().parent_path();
+    if (isPartOfMakefile(entry.path()) && entry.is_regular_file()) {
+      fs::permissions(entry.path(), fs::perms::owner_write, fs::perm_options::add);
+      write(entry.path(), withKitAt(content(entry.path()), sdk.string()));
+    }
     if (end == ".o" || end == ".bin" || end == ".elf" || endsWith(name, ".snap.cc")) stale.push_back(entry.path());
     // Of another maker of stubs.
     if ((name == "def.h" || name == "entry.h" || endsWith(name, "Stub.h") || endsWith(name, "Stub.cc")) &&
@@ -305,7 +337,7 @@ class StickBuilder {
         fs::weakly_canonical(out_) != fs::canonical(folder) / "MS")
       throw InputError(options_.out + " lies in " + folder + "; a folder outside of the sources is needed");
     const ScratchFolder work("btr-openr");
-    const fs::path copy = copyOf(folder, work.path());
+    const fs::path copy = copyOf(folder, work.path(), work.path() / "sdk");
     fs::create_directory_symlink(fs::canonical(sdk_), work.path() / "sdk");
     const fs::path stick = work.path() / "MS";
     for (const fs::path& each : {stick / modulesFolder, stick / configFolder, stick / dataFolder})
@@ -314,6 +346,8 @@ class StickBuilder {
     if (found.sticks.empty() && fs::exists(fs::path(folder) / ".." / "MS" / "OPEN-R"))
       found.sticks.push_back(fs::canonical(fs::path(folder) / ".." / "MS"));
     for (const fs::path& each : found.sticks) copySettings(each, stick);
+    if (found.sticks.empty())
+      for (const fs::path& each : found.lists) copyLists(each, stick / configFolder);
     const auto name = [&](const fs::path& path) {
       return (fs::path(folder) / path.lexically_relative(copy)).lexically_normal().string();
     };
@@ -340,10 +374,12 @@ class StickBuilder {
       if (!entry.is_regular_file()) continue;
       const fs::path relative = entry.path().lexically_relative(from);
       const std::string name = upper(relative.filename().string());
-      const fs::path target = to / relative;
-      if (endsWith(name, ".BIN") && relative.parent_path() == modulesFolder) continue;
+      fs::path target = to;
+      for (const fs::path& part : relative) target = entryNamed(target, part.string());
+      const std::string place = upper(relative.parent_path().generic_string());
+      if (endsWith(name, ".BIN") && place == modulesFolder) continue;
       fs::create_directories(target.parent_path());
-      if (endsWith(name, ".CFG") && relative.parent_path() == configFolder && fs::exists(target) &&
+      if (endsWith(name, ".CFG") && place == configFolder && fs::exists(target) &&
           (name == "OBJECT.CFG" || name == "CONNECT.CFG" || name == "DESIGNDB.CFG"))
         write(target, mergedConfig(content(target), content(entry.path())));
       else
@@ -351,12 +387,32 @@ class StickBuilder {
     }
   }
 
-  void make(const fs::path& folder, const fs::path& stick, const fs::path& sdk, const std::string& target,
-            std::string& said) {
-    run(folder,
-        "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B OPENRSDK_ROOT=" +
-            shellWord(sdk.string()) + " INSTALLDIR=" + shellWord(stick.string()) + " " + target,
+  /// Teams keep the lists of a stick where they like, as in a folder "cfg".
+  static void copyLists(const fs::path& from, const fs::path& to) {
+    for (const char* name : {"OBJECT.CFG", "CONNECT.CFG", "DESIGNDB.CFG"}) {
+      const fs::path list = entryNamed(from, name);
+      if (!fs::is_regular_file(list)) continue;
+      const fs::path target = to / name;
+      write(target, fs::exists(target) ? mergedConfig(content(target), content(list)) : content(list));
+    }
+  }
+
+  static void make(const fs::path& folder, const fs::path& stick, const fs::path& sdk, const std::string& target,
+                   std::string& said) {
+    const std::string kit = shellWord(sdk.string());
+    std::string places = " OPENRSDK_ROOT=" + kit + " INSTALLDIR=" + shellWord(stick.string());
+    std::map<std::string, std::string> values;
+    withIncludes(folder, entryNamed(folder, "Makefile"), values);
+    for (const auto& [name, value] : values)
+      if (isKitFolder(value) && isName(name)) places += " " + name + "=" + kit;
+    run(folder, "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B" + places + " " + target,
         said);
+  }
+
+  static bool isName(const std::string& text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    });
   }
 
   /// What single folders did not give, as the sample's own Makefile makes it all.
@@ -381,24 +437,35 @@ class StickBuilder {
     if (options_.progress) options_.progress(name);
     StickBuild::Object object{name, {}, {}};
     const auto before = modulesOn(stick);
+    const auto older = madeIn(folder);
     make(folder, stick, sdk, "install", object.said);
     for (const std::string& module : modulesOn(stick))
       if (before.count(module) == 0) object.modules.push_back(module);
-    if (object.modules.empty() && hasAny(object.said, {"No rule to make target 'install'"}))
-      withoutInstall(folder, stick, sdk, object);
+    if (object.modules.empty() && hasAny(object.said, {"No rule to make target 'install'"})) {
+      object.said.clear();
+      make(folder, stick, sdk, "", object.said);
+    }
+    // Whoever wrote the Makefile copied modules by hand, or to a memory stick that is not here.
+    if (object.modules.empty()) takeMade(folder, older, stick, object);
     // A Makefile that builds the JPEG library from its sources first: this computer has one.
     if (object.modules.empty() && usesJpeg(folder)) return byHand(folder, name, stick, sdk);
     result_.objects.push_back(std::move(object));
   }
 
-  /// A Makefile makes modules and leaves it to its reader to copy them.
-  void withoutInstall(const fs::path& folder, const fs::path& stick, const fs::path& sdk, StickBuild::Object& object) {
-    object.said.clear();
-    make(folder, stick, sdk, "", object.said);
-    std::vector<fs::path> made;
+  /// Modules in a folder, and when they were made.
+  static std::map<fs::path, fs::file_time_type> madeIn(const fs::path& folder) {
+    std::map<fs::path, fs::file_time_type> made;
     for (const auto& entry : fs::directory_iterator(folder))
-      if (upper(entry.path().extension().string()) == ".BIN") made.push_back(entry.path());
-    std::sort(made.begin(), made.end());
+      if (upper(entry.path().extension().string()) == ".BIN") made[entry.path()] = entry.last_write_time();
+    return made;
+  }
+
+  static void takeMade(const fs::path& folder, const std::map<fs::path, fs::file_time_type>& older,
+                       const fs::path& stick, StickBuild::Object& object) {
+    std::vector<fs::path> made;
+    for (const auto& [path, time] : madeIn(folder))
+      if (const auto at = older.find(path); at == older.end() || at->second != time) made.push_back(path);
+    if (!made.empty()) object.said.clear();
     for (const fs::path& each : made) {
       const std::string module = moduleName(each.stem().string(), listedModules(stick));
       if (run(folder,

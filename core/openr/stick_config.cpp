@@ -90,6 +90,8 @@ StickConfig stickConfig(const std::string& stick, const std::string& design) {
                      "build` writes it");
   StickConfig config;
   for (const auto& line : linesOf(stick, "OBJECT.CFG", design, 1)) config.objects.push_back(line[0]);
+  const std::string connections = onStick(stick, "/MS/OPEN-R/MW/CONF/CONNECT.CFG");
+  config.connected = !connections.empty() && fs::exists(connections, error);
   for (const auto& line : linesOf(stick, "CONNECT.CFG", design, 2)) config.connections.emplace_back(line[0], line[1]);
   for (const auto& line : linesOf(stick, "DESIGNDB.CFG", design, 2)) config.designData[line[0]] = line[1];
   return config;

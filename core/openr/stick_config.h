@@ -10,6 +10,7 @@ namespace btr::openr {
 struct StickConfig {
   std::vector<std::string> objects;                              ///< OBJECT.CFG: "/MS/OPEN-R/MW/OBJS/HELLO.BIN"
   std::vector<std::pair<std::string, std::string>> connections;  ///< CONNECT.CFG: subject, observer
+  bool connected = false;                                        ///< whether there is a CONNECT.CFG
   std::map<std::string, std::string> designData;                 ///< DESIGNDB.CFG: keyword, path
 };
 

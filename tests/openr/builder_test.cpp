@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/openr/build_hint.h"
+#include "core/openr/kit_paths.h"
 #include "core/openr/robot_design.h"
 #include "core/openr/stick_builder.h"
 #include "core/openr/stick_config.h"
@@ -102,6 +104,47 @@ TEST(RobotDesigns, EveryPlaceOfTheSensorVectorIsAJointOrSensor) {
   EXPECT_THROW(robotDesign("ERS-8"), InputError);
 }
 
+// Programs of teams index the vector by numbers. Those of the ERS-7 are Tekkotsu's (ERS7Info.h, "CPC IDs") and
+// rUNSWift's (sensors.h of 2005), those of the others Sony's and Tekkotsu's.
+TEST(RobotDesigns, TheSensorVectorHasTheOrderThatProgramsOfTeamsCountOn) {
+  const std::pair<std::size_t, const char*> ofSeven[] = {{0, "PRM:/r1/c1/c2/c3/c4-Joint2:14"},  // mouth
+                                                         {1, "PRM:/r1/c1/c2/c3/c4/s5-Sensor:s5"},
+                                                         {2, "PRM:/r1/c1/c2/c3-Joint2:13"},  // head tilt
+                                                         {3, "PRM:/r1/c1/c2/c3/t1-Sensor:t1"},
+                                                         {4, "PRM:/r1/c1/c2/c3/p1-Sensor:p1"},
+                                                         {5, "PRM:/r1/c1/c2/c3/p2-Sensor:p2"},
+                                                         {6, "PRM:/r1/c1/c2-Joint2:12"},
+                                                         {7, "PRM:/r1/c1-Joint2:11"},  // neck
+                                                         {8, "PRM:/r2/c1/c2/c3/c4-Sensor:24"},
+                                                         {9, "PRM:/r2/c1/c2/c3-Joint2:23"},
+                                                         {10, "PRM:/r2/c1/c2-Joint2:22"},
+                                                         {11, "PRM:/r2/c1-Joint2:21"},
+                                                         {12, "PRM:/r3/c1/c2/c3/c4-Sensor:34"},
+                                                         {16, "PRM:/r4/c1/c2/c3/c4-Sensor:44"},
+                                                         {19, "PRM:/r4/c1-Joint2:41"},
+                                                         {23, "PRM:/r5/c1-Joint2:51"},
+                                                         {24, "PRM:/r6/c1-Joint2:61"},  // tail tilt
+                                                         {25, "PRM:/r6/c2-Joint2:62"},
+                                                         {26, "PRM:/a1-Sensor:a1"},
+                                                         {28, "PRM:/a3-Sensor:a3"},
+                                                         {29, "PRM:/p1-Sensor:p1"},
+                                                         {30, "PRM:/b1-Sensor:b1"},
+                                                         {31, "PRM:/t2-Sensor:t2"},
+                                                         {33, "PRM:/t4-Sensor:t4"}};
+  for (const auto& [place, locator] : ofSeven) EXPECT_EQ(robotDesign("ERS-7").sensorVector.at(place), locator);
+  const std::pair<std::size_t, const char*> ofTwoTen[] = {
+      {3, "PRM:/r1/c1/c2/c3/f1-Sensor:f1"}, {5, "PRM:/r1/c1/c2/c3/p1-Sensor:p1"},
+      {6, "PRM:/r1/c1/c2/c3/c4-Joint2:j4"}, {7, "PRM:/r1/c1/c2/c3/c4/s5-Sensor:s5"},
+      {8, "PRM:/r2/c1-Joint2:j1"},          {23, "PRM:/r5/c1/c2/c3/c4-Sensor:s4"},
+      {26, "PRM:/r6/t1-Sensor:t1"},         {30, "PRM:/a3-Sensor:a3"}};
+  for (const auto& [place, locator] : ofTwoTen) EXPECT_EQ(robotDesign("ERS-210").sensorVector.at(place), locator);
+  const std::pair<std::size_t, const char*> ofTwoTwenty[] = {
+      {3, "PRM:/r1/c1/c2/c3/p1-Sensor:p1"}, {6, "PRM:/r1/c1/c2/c3/c4/s5-Sensor:s5"},
+      {7, "PRM:/r2/c1-Joint2:j1"},          {23, "PRM:/r6/t1-Sensor:t1"},
+      {25, "PRM:/r6/s2-Sensor:s2"},         {28, "PRM:/a1-Sensor:a1"}};
+  for (const auto& [place, locator] : ofTwoTwenty) EXPECT_EQ(robotDesign("ERS-220").sensorVector.at(place), locator);
+}
+
 TEST(StickConfig, SectionsHoldForOneRobot) {
   const std::string text = "# list\n/MS/A.BIN # first\n[ERS-7]\n/MS/SEVEN.BIN\n[ERS-210]\n/MS/OTHER.BIN\n";
   EXPECT_THAT(configLines(text, "ERS-7"), ElementsAre(ElementsAre("/MS/A.BIN"), ElementsAre("/MS/SEVEN.BIN")));
@@ -165,6 +208,42 @@ TEST(StickBuilder, SaysWhatTheCompilerSays) {
   ASSERT_EQ(build.objects.size(), 1u);
   EXPECT_FALSE(build.complete());
   EXPECT_THAT(build.objects[0].said, HasSubstr("Thing.h:2:"));
+}
+
+TEST(KitPaths, AreThoseThatEndWithItsName) {
+  for (const char* kit : {"/usr/local/OPEN_R_SDK", "/usr/local/OPEN_R_SDK/", "$(HOME)/aibo/OPEN_R_SDK",
+                          "/opt/OPENR_SDK", "/usr/local/OPEN_R_SDK-1.1.5"})
+    EXPECT_TRUE(isKitFolder(kit)) << kit;
+  for (const char* other :
+       {"", "/usr/local", "OPEN_R_SDK", "/usr/local/OPEN_R_SDK/bin", "/usr/OPEN_R_SDKS", "/MY_OPEN_R_SDK"})
+    EXPECT_FALSE(isKitFolder(other)) << other;
+  EXPECT_EQ(withKitAt("P=/usr/local/OPEN_R_SDK\nG=${P}/a -I/usr/local/OPEN_R_SDK/OPEN_R\nH=$(HOME)/OPENR_SDK\n", "/k$"),
+            "P=/k$$\nG=${P}/a -I/k$$/OPEN_R\nH=/k$$\n");
+}
+
+TEST(StickBuilder, AKitThatMakefilesWriteDownAndAStickThatIsNotHere) {
+  // The whole team's folder; its lists lie in a folder of their own.
+  EXPECT_THAT(runStick(stickOf("prefixed"), 3).all(), HasSubstr("Barker: woof\n"));
+  // One object alone, whose Makefile includes what stands beside its folder.
+  const StickBuild alone = buildOnto(emptyFolder("prefixed_alone"), {programFolder("prefixed") + "/barker"});
+  ASSERT_EQ(alone.objects.size(), 1u);
+  EXPECT_THAT(alone.objects[0].modules, ElementsAre("BARKER.BIN"));
+}
+
+TEST(StickBuilder, SaysWhichFileOfAMakefileIsMissing) {
+  const std::string folder = emptyFolder("lacking");
+  std::filesystem::create_directories(folder + "/Thing");
+  writeText(folder + "/Thing/thing.ocf", "object Thing 8192 65536 128 cache tlb user\n");
+  writeText(folder + "/Thing/Makefile",
+            "ThingStub.cc: stub.cfg\n\t$(OPENRSDK_ROOT)/OPEN_R/bin/stubgen2 stub.cfg\ninstall: ThingStub.cc\n"
+            "\t$(OPENRSDK_ROOT)/OPEN_R/bin/mkbin -o thing.bin ThingStub.cc\n");
+  const StickBuild build = buildOnto(emptyFolder("lacking_out"), {folder});
+  ASSERT_EQ(build.objects.size(), 1u);
+  EXPECT_EQ(buildHint(build.objects[0].said),
+            "stub.cfg is missing, which its Makefile needs: it names the object, its subjects and its observers");
+  EXPECT_EQ(buildHint("make: *** No rule to make target '../makefile.config'.  Stop.\n"),
+            "../makefile.config is missing, which its Makefile needs");
+  EXPECT_THAT(buildHint("Thing.h:2:1: error: wrong\n"), HasSubstr("mend what the compiler says above"));
 }
 
 TEST(StickBuilder, RefusesFoldersWithoutObjects) {

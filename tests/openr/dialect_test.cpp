@@ -159,6 +159,13 @@ TEST(Dialect, NamesAreFoundWithoutTheirNamespaceAsBeforeTheStandard) {
   EXPECT_THAT(all, HasSubstr("page 0 4096 1\n"));
 }
 
+TEST(Dialect, HeadersOfTheRobotThatASourceLeavesOutAreFound) {
+  const std::string all = runStick(stickOf("omitted"), 3).all();
+  EXPECT_THAT(all, HasSubstr("90.0 degrees, 3141592 microradians\n"));
+  EXPECT_THAT(all, HasSubstr("same 0 0, other 1\n"));
+  EXPECT_THAT(all, HasSubstr("dif 9 power 0\n"));
+}
+
 TEST(Dialect, SourcesOf2003RunAsTheyAre) {
   const std::string all = runStick(stickOf("dialect"), 3).all();
   EXPECT_THAT(all, HasSubstr("old c: literal 0\n"));        // K&R C that includes Types.h

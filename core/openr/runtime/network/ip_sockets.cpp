@@ -7,14 +7,41 @@
 #include <unistd.h>
 
 namespace btr::openr {
+namespace {
 
-sockaddr_in loopbackAt(Port port) {
+constexpr uint32 loopbackBroadcast = 0x7fffffff;  // 127.255.255.255
+
+sockaddr_in addressOf(uint32 host, Port port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_addr.s_addr = htonl(host);
   address.sin_port = htons(port);
   return address;
 }
+
+}  // namespace
+
+sockaddr_in loopbackAt(Port port) { return addressOf(INADDR_LOOPBACK, port); }
+
+sockaddr_in everybodyAt(Port port) { return addressOf(loopbackBroadcast, port); }
+
+int broadcastEar(Port port) {
+  const int made = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (made < 0) return -1;
+  const int yes = 1;
+  setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  const sockaddr_in address = everybodyAt(port);
+  if (::bind(made, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return made;
+  ::close(made);
+  return -1;
+}
+
+void allowBroadcasts(int socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_BROADCAST, &yes, sizeof(yes));
+}
+
+Port twinOf(Port port) { return port < firstFreePort ? static_cast<Port>(port + portShift) : port; }
 
 Port portOf(int socket, bool peer) {
   sockaddr_in address{};
@@ -25,7 +52,7 @@ Port portOf(int socket, bool peer) {
 }
 
 int boundSocket(int kind, Port port, Port& actual) {
-  const Port wanted = port == 0 ? Port{0} : (port < firstFreePort ? static_cast<Port>(port + portShift) : port);
+  const Port wanted = port == 0 ? Port{0} : twinOf(port);
   for (const Port each : {wanted, Port{0}}) {
     const int made = ::socket(AF_INET, kind | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (made < 0) return -1;

@@ -25,14 +25,16 @@ void IpStack::closeAll() {
 
 void IpStack::closeEndpoint(Endpoint& endpoint) {
   if (endpoint.socket >= 0) ::close(endpoint.socket);
-  endpoint.socket = -1;
+  if (endpoint.ear >= 0) ::close(endpoint.ear);
+  endpoint.socket = endpoint.ear = -1;
   endpoint.connected = false;
   if (endpoint.type == EndpointType_UDP) datagramPorts_.erase(endpoint.bound);
 }
 
 void IpStack::tell(const char* kind, Port port, Port actual) {
   system_.say("IPStack", std::string(kind) + " port " + std::to_string(port) +
-                             " of the robot is 127.0.0.1:" + std::to_string(actual));
+                             " of the robot is 127.0.0.1:" + std::to_string(actual) +
+                             (actual == twinOf(port) ? "" : ", as " + std::to_string(twinOf(port)) + " is in use"));
 }
 
 bool IpStack::isShared(const void* address, int size) const {
@@ -57,9 +59,12 @@ int IpStack::bindDatagram(Endpoint& endpoint, Port port) {
   Port actual = 0;
   endpoint.socket = boundSocket(SOCK_DGRAM, port, actual);
   if (endpoint.socket < 0) return -1;
+  allowBroadcasts(endpoint.socket);
   endpoint.bound = port == 0 ? actual : port;
   datagramPorts_[endpoint.bound] = actual;
-  if (port != 0) tell("UDP", port, actual);
+  if (port == 0) return endpoint.socket;
+  endpoint.ear = broadcastEar(twinOf(port));
+  if (told_.insert({port, actual}).second) tell("UDP", port, actual);  // some programs bind it anew for each datagram
   return endpoint.socket;
 }
 
@@ -72,7 +77,7 @@ Port IpStack::actualOf(Port port, bool tcp) const {
     const auto at = datagramPorts_.find(port);
     if (at != datagramPorts_.end()) return at->second;
   }
-  return port < firstFreePort ? static_cast<Port>(port + portShift) : port;
+  return twinOf(port);
 }
 
 bool IpStack::stackOperation(antEnvMsg* message) {

@@ -3,6 +3,7 @@
 #include <IPAddress.h>
 #include <antEnvMsg.h>
 
+#include <deque>
 #include <list>
 #include <map>
 #include <memory>
@@ -12,6 +13,9 @@
 
 #include "core/openr/runtime/network/network_settings.h"
 #include "core/openr/runtime/objects/system.h"
+
+struct UDPEndpointSendMsg;
+struct UDPEndpointReceiveMsg;
 
 namespace btr::openr {
 
@@ -34,6 +38,7 @@ class IpStack {
   struct Endpoint {
     int type = 0;
     int socket = -1;
+    int ear = -1;  ///< hears what is sent to everybody
     bool connected = false, closed = false;
     Port bound = 0;                ///< of the robot
     int closes = 0;                ///< how often it was closed
@@ -56,6 +61,10 @@ class IpStack {
   /// Whether it has ended.
   bool tcp(Operation& operation, Endpoint& endpoint);
   bool udp(Operation& operation, Endpoint& endpoint);
+  bool sendDatagram(UDPEndpointSendMsg& send, Endpoint& endpoint);
+  bool receiveDatagram(UDPEndpointReceiveMsg& receive, Endpoint& endpoint);
+  void rememberOwnWord(const UDPEndpointSendMsg& send);
+  bool isOwnWord(Port port, const byte* begin, std::size_t size);
   bool isOwnName(std::string name) const;
   void dns(antEnvMsg* message, Endpoint& endpoint);
   bool isShared(const void* address, int size) const;
@@ -72,6 +81,8 @@ class IpStack {
   uint32 nextEndpoint_ = 1;
   std::map<Port, Listener> listeners_;
   std::map<Port, Port> datagramPorts_;
+  std::deque<std::pair<Port, std::string>> ownWords_;  ///< to everybody at a port at which this robot hears itself
+  std::set<std::pair<Port, Port>> told_;               ///< ports of datagrams that were said, and their twins
   std::map<const byte*, int> buffers_;
   std::list<Operation> operations_;
   NetworkSettings settings_;

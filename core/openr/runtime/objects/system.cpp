@@ -264,6 +264,14 @@ void System::say(const std::string& object, const std::string& text) {
   orders_.lines.push_back({object, text});
 }
 
+void System::sayOnce(const std::string& about, const std::string& text) {
+  constexpr std::ptrdiff_t most = 8;
+  const std::string object = current_ == nullptr ? "" : current_->name;
+  const auto ofObject =
+      std::count_if(saidOnce_.begin(), saidOnce_.end(), [&object](const auto& said) { return said.first == object; });
+  if (ofObject < most && saidOnce_.insert({object, about}).second) say(object, text);
+}
+
 void System::flushLine(RunningObject& object) {
   say(object.name, object.line);
   object.line.clear();

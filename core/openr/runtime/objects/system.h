@@ -94,6 +94,8 @@ class System {
   [[noreturn]] void endMethod();
   void write(RunningObject* object, const char* text, std::size_t size);
   void say(const std::string& object, const std::string& text);
+  /// What the object that runs may wonder about, said once for each thing, and of a few things alone.
+  void sayOnce(const std::string& about, const std::string& text);
   /// Takes a typed line (or what there is of it, if `limit` is less); waits for it.
   std::size_t readTyped(char* to, std::size_t limit);
   /// All objects stop; the robot is off.
@@ -140,6 +142,7 @@ class System {
   };
   std::vector<Connection> connections_;  ///< of which subjects were told
   std::set<std::pair<SubjectID, ObserverID>> refused_;
+  std::set<std::pair<std::string, std::string>> saidOnce_;  ///< by object
   std::vector<std::unique_ptr<RunningObject>> objects_;
   std::unique_ptr<Services> services_;
   RunningObject* current_ = nullptr;

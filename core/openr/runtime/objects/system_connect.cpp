@@ -1,4 +1,5 @@
 // Subjects and observers of CONNECT.CFG are brought together.
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 
@@ -38,6 +39,14 @@ void System::connect() {
   const auto endsWith = [](const std::string& name, const char* end) {
     return name.size() > 2 && name.compare(name.size() - 2, 2, end) == 0;
   };
+  const auto wantsToConnect = [&](const auto& object) {
+    const auto wants = [&](const auto& service) { return part(service.name, 2) != "DoNotConnect"; };
+    return !object->native && (std::any_of(object->subjects.begin(), object->subjects.end(), wants) ||
+                               std::any_of(object->observers.begin(), object->observers.end(), wants));
+  };
+  if (!config.connected && std::any_of(objects_.begin(), objects_.end(), wantsToConnect))
+    say("",
+        "OPEN-R/MW/CONF/CONNECT.CFG is missing: no subject has an observer; a line of it is a subject and an observer");
   for (const auto& [subject, observer] : config.connections) {
     if (endsWith(subject, ".O") && endsWith(observer, ".S")) {
       say("",

@@ -68,7 +68,12 @@ int vsprintf(char* to, const char* format, va_list arguments) noexcept {
   return inMethod() ? real(to, robotFormat(format).c_str(), arguments) : real(to, format, arguments);
 }
 
-int vprintf(const char* format, va_list arguments) { return vfprintf(stdout, format, arguments); }
+// The C library's headers define these two inline; theirs are left alone, and programs find ours.
+int robotVprintf(const char* format, va_list arguments) __asm__("vprintf");
+int robotVprintf(const char* format, va_list arguments) { return vfprintf(stdout, format, arguments); }
+
+long robotAtol(const char* text) noexcept __asm__("atol");
+long robotAtol(const char* text) noexcept { return strtol(text, nullptr, 10); }
 
 #define BTR_OPENR_FORMATTED(call) \
   va_list arguments;              \
@@ -101,7 +106,5 @@ unsigned long strtoul(const char* text, char** end, int base) noexcept {
   errno = ERANGE;
   return UINT32_MAX;
 }
-
-long atol(const char* text) noexcept { return strtol(text, nullptr, 10); }
 
 }  // extern "C"

@@ -39,7 +39,11 @@ class StickPath {
   explicit StickPath(const char* path) {
     const OwnAccess own;
     if (path != nullptr) text_ = btr::openr::onStick(System::instance().stick, path);
-    if (text_.empty()) errno = ENOENT;
+    if (!text_.empty()) return;
+    if (path != nullptr && path[0] != '\0')
+      System::instance().sayOnce(
+          path, '"' + std::string(path) + "\" is not on the robot: its files are those below /MS, without \"..\"");
+    errno = ENOENT;
   }
   const char* get() const { return text_.empty() ? nullptr : text_.c_str(); }
 

@@ -91,6 +91,7 @@ class Services {
   struct PowerWatch {
     OPowerStatus wanted;
     OServiceEntry entry;
+    OPowerStatus seen;  ///< when it began to watch, then in each frame
   };
 
   void handleRobot(Selector selector, void* message);
@@ -124,7 +125,6 @@ class Services {
   bool motorPower_ = false, motorPowerChanged_ = true;
   CameraOrder camera_{};
   std::vector<PowerWatch> watches_;
-  OPowerStatus lastPower_;
   int volume_ = -1;
   std::int64_t clockOffset_s_ = 0;
   sbyte timeDifference_ = 0;

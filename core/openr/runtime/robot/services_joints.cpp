@@ -41,7 +41,14 @@ std::vector<std::size_t> Services::jointsOf(OPrimitiveID id) const {
 OStatus Services::openPrimitive(const std::string& locator, OPrimitiveID* id) {
   const OPrimitiveID found = primitives.at(locator);
   if (id != nullptr) *id = found;
-  if (found == oprimitiveID_UNDEF) return oNOT_FOUND;
+  if (found == oprimitiveID_UNDEF) {
+    std::string others;
+    for (const std::string& robot : robotsWith(locator))
+      others += (others.empty() ? "" : " and ") + ("the " + robot) + "'s";
+    system_.sayOnce("primitives", "the " + system_.design.name + " has no \"" + locator + "\"" +
+                                      (others.empty() ? ", nor has another robot" : "; it is " + others));
+    return oNOT_FOUND;
+  }
   opened_.insert(found);
   return oSUCCESS;
 }

@@ -2,6 +2,7 @@
 #include <OPENR/OPENRMessages.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/openr/runtime/objects/system.h"
 #include "core/openr/runtime/robot/gunzip.h"
@@ -50,7 +51,7 @@ OPowerStatus Services::powerStatus() const {
 OStatus Services::observePower(const OPowerStatus& wanted, const OServiceEntry& entry) {
   for (const PowerWatch& watch : watches_)
     if (watch.entry == entry) return oALREADY_REGISTERED;
-  watches_.push_back({wanted, entry});
+  watches_.push_back({wanted, entry, powerStatus()});
   return oSUCCESS;
 }
 
@@ -61,18 +62,17 @@ OStatus Services::unobservePower(const OServiceEntry& entry) {
   return oSUCCESS;
 }
 
-/// Both edges are told.
+/// Both edges are told, also those between two methods of one frame: who watches before the motors are switched on
+/// hears of it, and some programs wait for that.
 void Services::watchPower() {
   const OPowerStatus now = powerStatus();
-  const OPowerStatus before = lastPower_;
-  lastPower_ = now;
-  if (system_.sensed().number == 1) return;
   const auto number = [](int was, int is, int wanted, int everyChange, int never) {
     if (wanted == never || was == is) return false;
     return wanted == everyChange || (was < wanted) != (is < wanted);
   };
-  for (const PowerWatch& watch : watches_) {
+  for (PowerWatch& watch : watches_) {
     const OPowerStatus& w = watch.wanted;
+    const OPowerStatus before = std::exchange(watch.seen, now);
     const bool tell =
         ((now.robotStatus ^ before.robotStatus) & w.robotStatus) != 0 ||
         ((now.batteryStatus ^ before.batteryStatus) & w.batteryStatus) != 0 ||

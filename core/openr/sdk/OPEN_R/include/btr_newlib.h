@@ -4,6 +4,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <strings.h>
 
 #define M_TWOPI (M_PI * 2.0)
 #define M_3PI_4 (M_PI * 0.75)
@@ -21,5 +22,11 @@ static inline char* strupr(char* text) {
   for (char* at = text; *at != '\0'; ++at) *at = static_cast<char>(toupper(static_cast<unsigned char>(*at)));
   return text;
 }
+
+/// Comparisons without regard to large and small letters, by their names on other systems.
+static inline int stricmp(const char* a, const char* b) { return strcasecmp(a, b); }
+static inline int strcmpi(const char* a, const char* b) { return strcasecmp(a, b); }
+static inline int strnicmp(const char* a, const char* b, size_t length) { return strncasecmp(a, b, length); }
+static inline int strncmpi(const char* a, const char* b, size_t length) { return strncasecmp(a, b, length); }
 
 #endif

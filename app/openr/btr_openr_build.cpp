@@ -3,7 +3,10 @@
 
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "app/btr_commands.h"
 #include "app/openr/btr_openr_robots.h"
@@ -62,12 +65,41 @@ void printLines(const openr::OrderFrame& orders, double time_s) {
   }
 }
 
+/// How often each lamp that shone changed, by its place in the design.
+class LampChanges {
+ public:
+  void add(const openr::OrderFrame& orders) {
+    for (const auto& lamp : orders.lamps) {
+      ++changes_[lamp.lamp];
+      if (lamp.intensity > 0) shone_.insert(lamp.lamp);
+    }
+  }
+  nlohmann::json named(const openr::RobotDesign& design) const {
+    nlohmann::json lamps = nlohmann::json::object();
+    for (const std::size_t lamp : shone_) lamps[design.lamps.at(lamp).name] = changes_.at(lamp);
+    return lamps;
+  }
+
+ private:
+  std::map<std::size_t, int> changes_;
+  std::set<std::size_t> shone_;
+};
+
+/// "lamps that shone: face_3 (2 changes), mode_red (8 changes)"
+void printLamps(const nlohmann::json& lamps) {
+  std::string all;
+  for (const auto& [name, changes] : lamps.items())
+    all += (all.empty() ? "" : ", ") + name + " (" + changes.dump() + (changes == 1 ? " change)" : " changes)");
+  if (!all.empty()) std::printf("lamps that shone: %s\n", all.c_str());
+}
+
 void tryOut(const TryArguments& arguments, Shell& shell) {
   const openr::RobotDesign& design = openr::robotDesign(arguments.process.design);
   openr::TrivialRobot robot(design);
   robot.typed = arguments.typed;
   openr::RobotProcess program(arguments.process);
   std::vector<std::int32_t> low = robot.joints(), high = low;
+  LampChanges lamps;
   const auto last = static_cast<long>(arguments.seconds / frame_s);
   for (long frame = 0; frame <= last; ++frame) {
     robot.shutdown = frame == last || (shell.stop != nullptr && shell.stop->load());
@@ -82,6 +114,7 @@ void tryOut(const TryArguments& arguments, Shell& shell) {
     openr::OrderFrame obeyed = orders;
     if (arguments.motorPower) obeyed.motorPower.reset();
     robot.obey(obeyed);
+    lamps.add(orders);
     if (!shell.json) printLines(orders, static_cast<double>(frame) * frame_s);
     for (std::size_t i = 0; i < low.size(); ++i) {
       low[i] = std::min(low[i], robot.joints()[i]);
@@ -98,7 +131,9 @@ void tryOut(const TryArguments& arguments, Shell& shell) {
     if (!shell.json)
       std::printf("%s moved between %.6f and %.6f rad\n", design.joints[i].name.c_str(), low[i] * 1e-6, high[i] * 1e-6);
   }
-  if (shell.json) return printJson({{"ended", sentenceOf(ended)}, {"moved_rad", joints}});
+  const nlohmann::json shone = lamps.named(design);
+  if (shell.json) return printJson({{"ended", sentenceOf(ended)}, {"moved_rad", joints}, {"lamp_changes", shone}});
+  printLamps(shone);
   std::fprintf(shell.exitCode == done ? stdout : stderr, "%s\n", printable(sentenceOf(ended)).c_str());
 }
 

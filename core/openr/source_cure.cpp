@@ -163,6 +163,13 @@ const std::map<std::string, std::string>& systemHeaders() {
         {"signal.h", "signal raise SIGFPE SIGINT SIGSEGV"},
         {"limits.h", "PATH_MAX"},
         {"limits", "numeric_limits"},
+        {"iomanip", "setw setfill setprecision setbase setiosflags resetiosflags"},
+        {"algorithm",
+         "sort stable_sort partial_sort nth_element find find_if count count_if reverse unique random_shuffle "
+         "lower_bound upper_bound binary_search min_element max_element for_each replace remove_if transform "
+         "next_permutation"},
+        {"numeric", "accumulate inner_product partial_sum"},
+        {"bitset", "bitset"},
         {"memory", "auto_ptr"},
         {"strstream", "istrstream ostrstream strstream"},
         {"stdint.h", "uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t"},
@@ -184,6 +191,7 @@ const std::map<std::string, std::string>& systemHeaders() {
         {"OPENR/OCalendarTime.h", "OCalendarTime"},
         {"SystemTime.h", "SystemTime GetSystemTime"},
         {"IPAddress.h", "IPAddress IP_ADDR_ANY IP_ADDR_BROADCAST"},
+        {"antTypes.h", "TRUE FALSE"},
         {"ant.h", "antStackRef antModuleRef antSharedBuffer antEnvMsg ANTENVMSG"},
         {"EndpointTypes.h", "EndpointType_TCP EndpointType_UDP"},
         {"TCPEndpointMsg.h",
@@ -215,8 +223,19 @@ bool lacksStandardNamespace(const std::string& line) {
          types.count(line.substr(at + begin.size(), close - at - begin.size())) != 0;
 }
 
+/// The header of a stream that a source has but by name.
+std::string headerOfIncomplete(const std::string& line) {
+  if (line.find("incomplete type") == std::string::npos) return "";
+  for (const char* stream : {"stringstream", "istringstream", "ostringstream"})
+    if (line.find(std::string("std::") + stream) != std::string::npos) return "sstream";
+  for (const char* stream : {"std::fstream", "std::ifstream", "std::ofstream"})
+    if (line.find(stream) != std::string::npos) return "fstream";
+  return "";
+}
+
 bool namesSomethingUnknown(const std::string& line) {
-  for (const char* how : {"' was not declared in this scope", "' does not name a type", "' has not been declared"})
+  for (const char* how : {"' was not declared in this scope", "' does not name a type", "' has not been declared",
+                          "' is not a member of 'std'"})
     if (line.find(how) != std::string::npos) return true;
   return false;
 }
@@ -236,6 +255,7 @@ std::vector<std::string> missingHeaders(const std::string& errors) {
       if (const auto found = systemHeaders().find(name.substr(0, name.find('\''))); found != systemHeaders().end())
         add(found->second);
     }
+    if (const std::string header = headerOfIncomplete(line); !header.empty()) add(header);
     if (lacksStandardNamespace(line)) add("btr_standard_names.h");
     if (line.find("must '#include <typeinfo>' before using 'typeid'") != std::string::npos) add("typeinfo");
     const auto at = line.find(mark);

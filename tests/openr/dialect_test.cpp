@@ -103,6 +103,13 @@ TEST(SourceCure, NamesMissingHeadersOnce) {
                              "a.cc:1:9: error: 'M_PI' was not declared in this scope\n"
                              "a.cc:2:1: error: 'isdigit' was not declared in this scope\n"),
               ElementsAre("math.h", "ctype.h"));
+  EXPECT_THAT(missingHeaders("a.cc:1:1: error: 'setw' was not declared in this scope; did you mean 'getw'?\n"
+                             "a.cc:2:1: error: 'sort' is not a member of 'std'; did you mean 'qsort'?\n"
+                             "a.cc:3:1: error: aggregate 'std::stringstream s' has incomplete type and cannot be\n"
+                             "a.cc:4:1: error: variable 'std::ifstream in' has initializer but incomplete type\n"
+                             "a.cc:5:1: error: 'degrees' was not declared in this scope\n"
+                             "a.cc:6:1: error: 'OFbkImage' has not been declared\n"),
+              ElementsAre("iomanip", "algorithm", "sstream", "fstream", "OPENR/OUnits.h", "OPENR/OFbkImage.h"));
   EXPECT_THAT(missingHeaders("a.cc:1:1: error: must '#include <typeinfo>' before using 'typeid'\n"),
               ElementsAre("typeinfo"));
 }
@@ -164,6 +171,7 @@ TEST(Dialect, HeadersOfTheRobotThatASourceLeavesOutAreFound) {
   EXPECT_THAT(all, HasSubstr("90.0 degrees, 3141592 microradians\n"));
   EXPECT_THAT(all, HasSubstr("same 0 0, other 1\n"));
   EXPECT_THAT(all, HasSubstr("dif 9 power 0\n"));
+  EXPECT_THAT(all, HasSubstr("00036 2 1\n"));
 }
 
 TEST(Dialect, SourcesOf2003RunAsTheyAre) {

@@ -35,6 +35,12 @@ void Omitted::use() {
   GetSystemTime(&now);
   OPowerStatus power;
   OSYSPRINT(("dif %d power %d\n", time.GetTimeDif(), OPENR::GetPowerStatus(&power)));
+  int numbers[3] = {3, 1, 2};
+  std::sort(numbers, numbers + 3);
+  std::ostringstream text;
+  text << setw(4) << setfill('0') << numbers[2] << accumulate(numbers, numbers + 3, 0);
+  std::bitset<8> bits(5);
+  OSYSPRINT(("%s %d %d\n", text.str().c_str(), (int)bits.count(), TRUE));
   // Of other robots, and of none.
   OSYSPRINT(("%d ", OPENR::OpenPrimitive("PRM:/r1/c1-Joint2:j1", &unknown)));
   OSYSPRINT(("%d ", OPENR::OpenPrimitive("PRM:/r1/c1/c2-Joint2:j2", &unknown)));

@@ -22,7 +22,6 @@ class Omitted : public OObject {
   virtual OStatus DoDestroy(const OSystemEvent& event);
 
   void use();
-
 };
 
 #endif

@@ -118,7 +118,7 @@ TEST(Looker, LayersBandsAndColours) {
   EXPECT_THAT(run.all(), HasSubstr("layer 0: 208 x 160 skip 1040 valid 1 0, y 28 cr 128 cb 128 lh 132\n"));
   EXPECT_THAT(run.all(), HasSubstr("layer 1: 104 x 80 skip 520 valid 1 0, y 33"));
   EXPECT_THAT(run.all(), HasSubstr("layer 2: 52 x 40 "));
-  EXPECT_THAT(run.all(), HasSubstr("cdt 1 0, frequency 80 0, field 1\n"));  // 40 · 32 / 16
+  EXPECT_THAT(run.all(), HasSubstr("cdt 104 x 80, 1 0, frequency 20 0, field 1\n"));  // 20 · 16 pixels of M / 16
   EXPECT_THAT(run.all(), HasSubstr("shutter 0 4\n"));
   EXPECT_EQ(run.orders[0].camera.shutter, 3u);
 }

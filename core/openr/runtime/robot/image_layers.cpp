@@ -92,14 +92,17 @@ void fillLayers(OFbkImageVectorData* vector, const CameraImage& image, const Col
   }
 
   std::array<std::size_t, 8> counts{};
-  const Plane y0 = bandOf(vector, 0, Y), cr0 = bandOf(vector, 0, Cr), cb0 = bandOf(vector, 0, Cb);
-  const Plane found{vector->GetData(ofbkimageLAYER_C), width};
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t segment = y0.pixel(x, y) >> 3;
+  const Plane y1 = bandOf(vector, ofbkimageLAYER_M, Y), cr1 = bandOf(vector, ofbkimageLAYER_M, Cr),
+              cb1 = bandOf(vector, ofbkimageLAYER_M, Cb);
+  const std::size_t foundWidth = vector->GetInfo(ofbkimageLAYER_C)->width,
+                    foundHeight = vector->GetInfo(ofbkimageLAYER_C)->height;
+  const Plane found{vector->GetData(ofbkimageLAYER_C), foundWidth};
+  for (std::size_t y = 0; y < foundHeight; ++y)
+    for (std::size_t x = 0; x < foundWidth; ++x) {
+      const std::size_t segment = y1.pixel(x, y) >> 3;
       byte channels = 0;
       for (std::size_t channel = 0; channel < 8; ++channel)
-        if (within(colours[channel][segment], cr0.pixel(x, y), cb0.pixel(x, y))) {
+        if (within(colours[channel][segment], cr1.pixel(x, y), cb1.pixel(x, y))) {
           channels = static_cast<byte>(channels | (1u << channel));
           ++counts[channel];
         }
@@ -108,7 +111,7 @@ void fillLayers(OFbkImageVectorData* vector, const CameraImage& image, const Col
   for (int layer = 0; layer <= 2; ++layer)
     tag(&bandOf(vector, layer, Y).pixel(0, vector->GetInfo(layer)->height - 1), vector->GetInfo(layer)->width,
         fieldCounter, counts);
-  tag(&found.pixel(0, height - 1), width, fieldCounter, counts);
+  tag(&found.pixel(0, foundHeight - 1), foundWidth, fieldCounter, counts);
 }
 
 }  // namespace btr::openr

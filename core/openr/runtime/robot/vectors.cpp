@@ -79,7 +79,7 @@ void initSoundVector(OSoundVectorData* vector, MemoryRegionID id, std::size_t so
 
 std::size_t imageVectorBytes(std::size_t width, std::size_t height) {
   const std::size_t pixels = width * height;
-  return sizeof(ODataVectorInfo) + 4 * sizeof(OFbkImageInfo) + 6 * (pixels + pixels / 4 + pixels / 16) + pixels;
+  return sizeof(ODataVectorInfo) + 4 * sizeof(OFbkImageInfo) + 6 * (pixels + pixels / 4 + pixels / 16) + pixels / 4;
 }
 
 void initImageVector(OFbkImageVectorData* vector, MemoryRegionID id, std::size_t width, std::size_t height) {
@@ -87,7 +87,8 @@ void initImageVector(OFbkImageVectorData* vector, MemoryRegionID id, std::size_t
   vector->vectorInfo.numData = 4;
   std::size_t at = sizeof(ODataVectorInfo) + 4 * sizeof(OFbkImageInfo);
   for (int layer = ofbkimageLAYER_H; layer <= ofbkimageLAYER_C; ++layer) {
-    const std::size_t by = layer == ofbkimageLAYER_C ? 1 : std::size_t{1} << layer;
+    // The colours that were found have the size of layer M.
+    const std::size_t by = std::size_t{1} << (layer == ofbkimageLAYER_C ? ofbkimageLAYER_M : layer);
     OFbkImageInfo* info = vector->GetInfo(layer);
     info->type = layer == ofbkimageLAYER_C ? odataFBK_CDT : odataFBK_YCrCb_HPF;
     info->width = number(width / by);

@@ -23,7 +23,7 @@ static const int colours = 2;
 static const OCdtChannel channel[colours] = {ocdtCHANNEL0, ocdtCHANNEL1};
 static const byte crMax[colours] = {255, 230}, crMin[colours] = {150, 150}, cbMax[colours] = {100, 190},
                   cbMin[colours] = {0, 120};
-static const int darkestSegment = 6, leastPixels = 12;
+static const int darkestSegment = 6, leastPixels = 3;
 
 // The camera sees so much from side to side and from top to bottom [rad]; of what the ball is off the middle, the head
 // makes good this share with each image; it turns at most so far in a frame.

@@ -22,7 +22,7 @@ static const word pShift = 0x0e, iShift = 0x02, dShift = 0x0f;
 
 // What counts as the ball's orange: red and no blue, bright enough. At least so many pixels of layer C.
 static const byte crMax = 255, crMin = 150, cbMax = 100, cbMin = 0;
-static const int darkestSegment = 6, leastPixels = 12;
+static const int darkestSegment = 6, leastPixels = 3;
 
 // The head: what the camera sees from side to side and from top to bottom [rad], the share that is made good with each
 // image, how far it turns at most in a frame, and its range.

@@ -61,8 +61,9 @@ void Looker::Notify(const ONotifyEvent& event) {
                  lh.Pixel(4, 5)));
     }
     OFbkImage found(vector->GetInfo(ofbkimageLAYER_C), vector->GetData(ofbkimageLAYER_C), ofbkimageBAND_CDT);
-    OSYSPRINT(("cdt %d %d, frequency %d %d, field %d\n", found.Pixel(30, 20), found.Pixel(4, 5),
-               found.ColorFrequency(ocdtCHANNEL0), found.ColorFrequency(ocdtCHANNEL6), found.FieldCounter()));
+    OSYSPRINT(("cdt %d x %d, %d %d, frequency %d %d, field %d\n", found.Width(), found.Height(), found.Pixel(20, 12),
+               found.Pixel(4, 5), found.ColorFrequency(ocdtCHANNEL0), found.ColorFrequency(ocdtCHANNEL6),
+               found.FieldCounter()));
   }
   observer[event.ObsIndex()]->AssertReady();
 }

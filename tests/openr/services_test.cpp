@@ -173,7 +173,8 @@ TEST(Net, TcpAndUdpBetweenTwoObjects) {
   const std::string all = runStick(stickOf("net"), 50).all();
   EXPECT_THAT(all, HasSubstr("TCP port 54321 of the robot is 127.0.0.1:"));
   EXPECT_THAT(all, HasSubstr("connected 1 to 10.0.1.100\n"));
-  EXPECT_THAT(all, HasSubstr("own memory 1\n"));
+  EXPECT_THAT(all, HasSubstr("beyond 1, nowhere 1, unmapped 1\n"));
+  EXPECT_THAT(all, HasSubstr("a program sends or receives in memory of its own;"));
   EXPECT_THAT(all, HasSubstr("server: 9 bytes\n"));
   EXPECT_THAT(all, HasSubstr("client: over TCP, 9 bytes\n"));
   EXPECT_THAT(all, HasSubstr("nobody 1\n"));

@@ -37,12 +37,17 @@ void IpStack::tell(const char* kind, Port port, Port actual) {
                              (actual == twinOf(port) ? "" : ", as " + std::to_string(twinOf(port)) + " is in use"));
 }
 
-bool IpStack::isShared(const void* address, int size) const {
-  if (size < 0) return false;
+bool IpStack::mayUse(const void* address, int size) {
+  if (size < 0 || address == nullptr) return false;
   const byte* begin = static_cast<const byte*>(address);
-  return std::any_of(buffers_.begin(), buffers_.end(), [&](const auto& buffer) {
-    return begin >= buffer.first && begin + size <= buffer.first + buffer.second;
-  });
+  for (const auto& [first, length] : buffers_)
+    if (begin >= first && begin < first + length) return begin + size <= first + length;
+  if (!toldOwnMemory_)
+    system_.say("IPStack",
+                "a program sends or receives in memory of its own; antEnvCreateSharedBufferMsg makes the "
+                "buffers that are meant for that");
+  toldOwnMemory_ = true;
+  return true;
 }
 
 IpStack::Listener* IpStack::listener(Port port) {

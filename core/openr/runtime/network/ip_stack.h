@@ -67,7 +67,8 @@ class IpStack {
   bool isOwnWord(Port port, const byte* begin, std::size_t size);
   bool isOwnName(std::string name) const;
   void dns(antEnvMsg* message, Endpoint& endpoint);
-  bool isShared(const void* address, int size) const;
+  /// Shared buffers, not beyond their end; other memory passes, too, which is said.
+  bool mayUse(const void* address, int size);
   Listener* listener(Port port);
   static void beginConnect(Endpoint& endpoint, Port actual);
   int bindDatagram(Endpoint& endpoint, Port port);
@@ -84,6 +85,7 @@ class IpStack {
   std::deque<std::pair<Port, std::string>> ownWords_;  ///< to everybody at a port at which this robot hears itself
   std::set<std::pair<Port, Port>> told_;               ///< ports of datagrams that were said, and their twins
   std::map<const byte*, int> buffers_;
+  bool toldOwnMemory_ = false;
   std::list<Operation> operations_;
   NetworkSettings settings_;
 };

@@ -83,20 +83,20 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
     }
     case TCPEndpoint_Operation_Send: {
       auto* send = static_cast<TCPEndpointSendMsg*>(base);
-      if (!isShared(send->buffer, send->size)) return answer(TCP_BUFFER_INVALID);
+      if (!mayUse(send->buffer, send->size)) return answer(TCP_BUFFER_INVALID);
       if (!endpoint.connected) return answer(TCP_CONNECTION_CLOSED);
       while (operation.sent < send->size) {
         const ssize_t count = ::send(endpoint.socket, send->buffer + operation.sent,
                                      static_cast<std::size_t>(send->size - operation.sent), MSG_NOSIGNAL);
         if (count < 0 && wouldWait(errno)) return false;
-        if (count <= 0) return answer(TCP_CONNECTION_CLOSED);
+        if (count <= 0) return answer(count < 0 && errno == EFAULT ? TCP_BUFFER_INVALID : TCP_CONNECTION_CLOSED);
         operation.sent += static_cast<int>(count);
       }
       return answer(TCP_SUCCESS);
     }
     case TCPEndpoint_Operation_Receive: {
       auto* receive = static_cast<TCPEndpointReceiveMsg*>(base);
-      if (!operation.begun && !isShared(receive->buffer, receive->sizeMax)) return answer(TCP_BUFFER_INVALID);
+      if (!operation.begun && !mayUse(receive->buffer, receive->sizeMax)) return answer(TCP_BUFFER_INVALID);
       operation.begun = true;
       if (!endpoint.connected) return answer(TCP_CONNECTION_CLOSED);
       TCPEndpointError error = TCP_SUCCESS;
@@ -107,6 +107,7 @@ bool IpStack::tcp(Operation& operation, Endpoint& endpoint) {
           operation.received += static_cast<int>(count);
           continue;
         }
+        if (count < 0 && errno == EFAULT) return answer(TCP_BUFFER_INVALID);
         if (count == 0 || !wouldWait(errno)) error = count == 0 ? TCP_CONNECTION_CLOSED : TCP_CONNECTION_RESET;
         break;
       }

@@ -26,7 +26,7 @@ bool IpStack::sendDatagram(UDPEndpointSendMsg& send, Endpoint& endpoint) {
     send.error = error;
     return true;
   };
-  if (!isShared(send.buffer, send.size)) return answer(UDP_BUFFER_INVALID);
+  if (!mayUse(send.buffer, send.size)) return answer(UDP_BUFFER_INVALID);
   if (endpoint.socket < 0 && bindDatagram(endpoint, 0) < 0) return answer(UDP_FAIL);
   const bool toPeer = endpoint.connected && send.port == 0;
   if (!toPeer && send.port == 0) return answer(UDP_ADDRESSERROR);
@@ -36,6 +36,7 @@ bool IpStack::sendDatagram(UDPEndpointSendMsg& send, Endpoint& endpoint) {
       ::sendto(endpoint.socket, send.buffer, static_cast<std::size_t>(send.size), MSG_NOSIGNAL,
                toPeer ? nullptr : reinterpret_cast<const sockaddr*>(&address), toPeer ? 0 : sizeof(address));
   if (count < 0 && wouldWait(errno)) return false;
+  if (count < 0 && errno == EFAULT) return answer(UDP_BUFFER_INVALID);
   if (count < 0) return answer(errno == EMSGSIZE ? UDP_MESSAGE_TOO_LONG : UDP_HOST_UNREACHABLE);
   if (everybody) rememberOwnWord(send);
   return answer(UDP_SUCCESS);
@@ -65,7 +66,7 @@ bool IpStack::receiveDatagram(UDPEndpointReceiveMsg& receive, Endpoint& endpoint
     receive.error = error;
     return true;
   };
-  if (!isShared(receive.buffer, receive.size)) return answer(UDP_BUFFER_INVALID);
+  if (!mayUse(receive.buffer, receive.size)) return answer(UDP_BUFFER_INVALID);
   if (endpoint.socket < 0) return answer(UDP_CONNECTION_CLOSED);
   const auto sentHere = [this](Port actual) {
     return std::find_if(datagramPorts_.begin(), datagramPorts_.end(),
@@ -84,7 +85,7 @@ bool IpStack::receiveDatagram(UDPEndpointReceiveMsg& receive, Endpoint& endpoint
     } while (count >= 0 && socket == endpoint.ear && own != datagramPorts_.end() &&
              isOwnWord(endpoint.bound, receive.buffer, static_cast<std::size_t>(count)));
     if (count < 0 && (wouldWait(errno) || errno == ECONNREFUSED)) continue;
-    if (count < 0) return answer(UDP_FAIL);
+    if (count < 0) return answer(errno == EFAULT ? UDP_BUFFER_INVALID : UDP_FAIL);
     receive.address = IPAddress(ntohl(from.sin_addr.s_addr));
     receive.port = own == datagramPorts_.end() ? ntohs(from.sin_port) : own->first;
     receive.size = static_cast<int>(count);

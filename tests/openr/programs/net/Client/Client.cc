@@ -45,8 +45,9 @@ void Client::Connected(ANTENVMSG msg) {
   memory.Call(stack, sizeof(memory));
   memory.buffer.Map();
   byte* data = (byte*)memory.buffer.GetAddress();
-  strcpy((char*)data, "over TCP");
-  TCPEndpointSendMsg send(endpoint, data, 9);
+  char own[9];  // no shared buffer: that passes
+  strcpy(own, "over TCP");
+  TCPEndpointSendMsg send(endpoint, (byte*)own, 9);
   send.Call(stack, sizeof(send));
   memset(data, 0, 64);
   TCPEndpointReceiveMsg receive(endpoint, data, 9, 64);

@@ -65,10 +65,14 @@ void Server::ListenDone(ANTENVMSG msg) {
   const int which = (int)message->continuation;
   if (message->error != TCP_SUCCESS) return;
   OSYSPRINT(("accepted\n"));
-  char outside[16];
-  TCPEndpointReceiveMsg wrong(endpoints[which], (byte*)outside, 1, sizeof(outside));
-  wrong.Call(stack, sizeof(wrong));
-  OSYSPRINT(("own memory %d\n", wrong.error == TCP_BUFFER_INVALID));
+  TCPEndpointReceiveMsg beyond(endpoints[which], (byte*)buffers[which].GetAddress(), 1, buffers[which].GetSize() + 1);
+  beyond.Call(stack, sizeof(beyond));
+  TCPEndpointReceiveMsg nowhere(endpoints[which], 0, 1, 16);
+  nowhere.Call(stack, sizeof(nowhere));
+  TCPEndpointSendMsg unmapped(endpoints[which], (byte*)4096, 16);
+  unmapped.Call(stack, sizeof(unmapped));
+  OSYSPRINT(("beyond %d, nowhere %d, unmapped %d\n", beyond.error == TCP_BUFFER_INVALID,
+             nowhere.error == TCP_BUFFER_INVALID, unmapped.error == TCP_BUFFER_INVALID));
   TCPEndpointReceiveMsg receive(endpoints[which], (byte*)buffers[which].GetAddress(), 1, buffers[which].GetSize());
   receive.continuation = (void*)which;
   receive.Send(stack, myOID_, Extra_Entry[entryReceiveDone], sizeof(receive));

@@ -169,6 +169,16 @@ TEST(Filer, FilesConsoleAndTime) {
   EXPECT_THAT(all, Not(HasSubstr("never")));
 }
 
+// Time passes between frames alone, so what waits for it in a loop would wait without end.
+TEST(Idler, WhoLooksAtTheClockUntilItIsLateEnoughWaits) {
+  const std::string all = runStick(stickOf("idler"), 300).all();
+  EXPECT_THAT(all, HasSubstr("measured 0 ms\n"));
+  EXPECT_THAT(all, HasSubstr("second 2 of its clock: 0 ms\n"));
+  EXPECT_THAT(all, HasSubstr("50 ms by the system's time: 56\n"));  // seven frames of 8 ms
+  EXPECT_THAT(all, HasSubstr("20 ms of day: 80\n"));                // and three
+  EXPECT_THAT(all, HasSubstr("10 ms of work: 96\n"));               // and two
+}
+
 TEST(Net, TcpAndUdpBetweenTwoObjects) {
   const std::string all = runStick(stickOf("net"), 50).all();
   EXPECT_THAT(all, HasSubstr("TCP port 54321 of the robot is 127.0.0.1:"));

@@ -103,6 +103,8 @@ class System {
   void end(Ended::Why why, const std::string& object, const std::string& method, const std::string& what);
   const SensorFrame& sensed() const { return sensed_; }
   std::int64_t time_us() const { return sensed_.time_us; }
+  /// For programs. Time passes between frames alone, so a method that reads the clock again and again waits for it.
+  std::int64_t readClock_us();
   Services& services() { return *services_; }
   OrderFrame& orders() { return orders_; }
 
@@ -146,6 +148,11 @@ class System {
   std::vector<std::unique_ptr<RunningObject>> objects_;
   std::unique_ptr<Services> services_;
   RunningObject* current_ = nullptr;
+  struct ClockReads {
+    const RunningObject* by = nullptr;
+    std::int64_t at_us = 0;
+    int count = 0;
+  } clockReads_;
   ucontext_t main_{};
   std::uint64_t order_ = 0;
   SensorFrame sensed_;

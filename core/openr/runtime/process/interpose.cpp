@@ -51,7 +51,7 @@ class StickPath {
   std::string text_;
 };
 
-std::int64_t now_us() { return Services::epoch_s * 1000000 + System::instance().time_us(); }
+std::int64_t now_us() { return Services::epoch_s * 1000000 + System::instance().readClock_us(); }
 
 /// Waits in simulated time.
 void rest(std::int64_t us) {
@@ -256,15 +256,16 @@ time_t time(time_t* to) noexcept {
 int gettimeofday(struct timeval* to, void* zone) noexcept {
   static const auto real = own<int (*)(struct timeval*, void*)>("gettimeofday");
   if (!inMethod()) return real(to, zone);
-  to->tv_sec = now_us() / 1000000;
-  to->tv_usec = now_us() % 1000000;
+  const std::int64_t us = now_us();
+  to->tv_sec = us / 1000000;
+  to->tv_usec = us % 1000000;
   return 0;
 }
 
 int clock_gettime(clockid_t clock, struct timespec* to) noexcept {
   static const auto real = own<int (*)(clockid_t, struct timespec*)>("clock_gettime");
   if (!inMethod()) return real(clock, to);
-  const std::int64_t us = clock == CLOCK_REALTIME ? now_us() : System::instance().time_us();
+  const std::int64_t us = clock == CLOCK_REALTIME ? now_us() : System::instance().readClock_us();
   to->tv_sec = us / 1000000;
   to->tv_nsec = us % 1000000 * 1000;
   return 0;
@@ -272,7 +273,7 @@ int clock_gettime(clockid_t clock, struct timespec* to) noexcept {
 
 clock_t clock() noexcept {
   static const auto real = own<clock_t (*)()>("clock");
-  return inMethod() ? System::instance().time_us() : real();
+  return inMethod() ? System::instance().readClock_us() : real();
 }
 
 unsigned sleep(unsigned seconds) {

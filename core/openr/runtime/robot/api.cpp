@@ -297,7 +297,7 @@ longword OFbkImage::GetTagInfo() {
 // ---- time -------------------------------------------------------------------------------------------------------
 
 sError GetSystemTime(structSystemTime* time) {
-  const auto now = System::instance().time_us();
+  const auto now = System::instance().readClock_us();
   time->seconds = static_cast<longword>(now / 1000000);
   time->useconds = static_cast<longword>(now % 1000000);
   return sSUCCESS;

@@ -91,7 +91,7 @@ void Services::watchPower() {
 }
 
 OTime Services::time() const {
-  return OTime(epoch_s - startYear_s + clockOffset_s_ + system_.time_us() / 1000000, timeDifference_);
+  return OTime(epoch_s - startYear_s + clockOffset_s_ + system_.readClock_us() / 1000000, timeDifference_);
 }
 
 void Services::setTime(const OTime& time) {

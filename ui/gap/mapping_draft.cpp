@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/table/table_layout.h"
 #include "core/gap/recordings/table/table_preview.h"
 #include "core/spec/error.h"
 #include "ui/common/numbers/number_entry.h"
@@ -24,7 +26,20 @@ struct MappingTexts {
 };
 
 bool isSpecial(const std::string& key) {
-  return key == "settings" || key == "segments" || key == "resample" || key == "retime";
+  constexpr std::array special{"settings",  "segments", "resample", "retime",
+                               "lost_rows", "tables",   "from_s",   "until_s"};
+  return std::ranges::find(special, key) != special.end();
+}
+
+/// Time that no column has.
+bool isCountedTime(const std::string& channel, const json& entry) {
+  return channel == "time_s" && entry.is_object() && !entry.contains("column");
+}
+
+/// By its name, or by what a column of that number is called.
+std::string columnOf(const json& entry) {
+  const json& column = entry.at("column");
+  return column.is_number() ? numberedColumn(column.get<std::size_t>()) : column.get<std::string>();
 }
 
 bool isTime(const QString& column) {
@@ -58,8 +73,12 @@ MappingDraft MappingDraft::fromJson(const std::string& text, const std::string& 
   const auto document = json::parse(text);
   for (const auto& [channel, entry] : document.items()) {
     if (isSpecial(channel)) continue;
+    if (isCountedTime(channel, entry)) {
+      draft.countsTime = true;
+      continue;
+    }
     const double scale = entry.value("scale", 1.0);
-    draft.rows.push_back({QString::fromStdString(channel), QString::fromStdString(entry.value("column", std::string())),
+    draft.rows.push_back({QString::fromStdString(channel), QString::fromStdString(columnOf(entry)),
                           QString::fromStdString(toText(std::abs(scale))),
                           QString::fromStdString(toText(entry.value("offset", 0.0))), scale < 0});
   }
@@ -78,14 +97,14 @@ std::string MappingDraft::toJson() const {
     document[channel] = entry;
   }
   for (const auto& [key, value] : old.items())
-    if (isSpecial(key)) document[key] = value;
+    if (isSpecial(key) || isCountedTime(key, value)) document[key] = value;
   return document.dump(2) + "\n";
 }
 
 MappingProblems problemsOf(const MappingDraft& draft, const QStringList& columns) {
   MappingProblems problems;
   std::set<QString> taken;
-  bool hasTime = false;
+  bool hasTime = draft.countsTime;
   for (int i = 0; i < int(draft.rows.size()); ++i) {
     const MappingRow& row = draft.rows[std::size_t(i)];
     const QString channel = row.channel.trimmed();

@@ -19,6 +19,7 @@ struct MappingRow {
 /// "optional", "compare", "segments", "resample") stays as the file had it.
 struct MappingDraft {
   std::vector<MappingRow> rows;
+  bool countsTime = false;  ///< no column has the time ("period_s"); that stays as the file had it
   std::string base = "{}";  ///< the JSON that it was read from
   bool operator==(const MappingDraft&) const = default;
 

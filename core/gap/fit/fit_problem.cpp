@@ -19,7 +19,9 @@
 namespace btr {
 namespace {
 
-/// True if something of a fixed rig is not held by a servo and no trial could forget how it began.
+/// True if something of a fixed rig is not held by a servo and no trial could forget how it began. A motor that gets a
+/// voltage brakes itself: it forgets its speed, and its place says nothing of what follows unless a weight hangs on it,
+/// which nonlinearity() sees. What moves within (an elastic beam, play) would be unknown where windows begin.
 bool swingsFreely(const Scene& scene, const FitTrial& trial) {
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
     const SceneRobot& robot = scene.robots[r];
@@ -27,7 +29,9 @@ bool swingsFreely(const Scene& scene, const FitTrial& trial) {
       if (robot.model.joints[j].type == Joint::Type::fixed) continue;
       const Drive::Kind kind = robot.drives[j].kind;
       if (kind == Drive::Kind::servo || kind == Drive::Kind::motion) continue;
-      if (kind != Drive::Kind::dcMotor || !trial.binding.input(Binding::Input::What::command, r, j)) return true;
+      const auto gets = [&](Binding::Input::What what) { return trial.binding.input(what, r, j) != nullptr; };
+      using What = Binding::Input::What;
+      if (kind != Drive::Kind::dcMotor || !(gets(What::command) || gets(What::duty) || gets(What::volts))) return true;
     }
   }
   return false;

@@ -33,7 +33,7 @@ bool isCompared(const Binding& binding, const Measured& measured) {
 std::string sensorOf(const std::string& channel) {
   const auto name = parseChannel(channel);
   if (!name) return channel;
-  if (!name->part.empty() && name->part != "base") return name->quantity;
+  if (!name->part.empty() && !name->ofRoot()) return name->quantity;
   return name->quantity[0] == 'q' ? "orientation" : "place";
 }
 

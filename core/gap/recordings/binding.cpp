@@ -26,7 +26,7 @@ class Binder {
       if (!name) continue;
       if (name->part.empty()) {
         bindBall(*name, column);
-      } else if (name->part == "base") {
+      } else if (name->ofRoot()) {
         bindBase(*name, column);
       } else {
         const std::size_t robot = findRobot(name->owner, column);

@@ -21,6 +21,8 @@ bool among(const std::array<const char*, N>& words, const std::string& word) {
 
 }  // namespace
 
+bool ChannelName::ofRoot() const { return part == "base" && among(baseQuantities, quantity); }
+
 std::optional<ChannelName> parseChannel(const std::string& name) {
   const std::size_t first = name.find('.'), last = name.rfind('.');
   if (first == std::string::npos || first == 0 || last + 1 == name.size()) return std::nullopt;
@@ -28,9 +30,7 @@ std::optional<ChannelName> parseChannel(const std::string& name) {
   if (first == last) return among(ballQuantities, parts.quantity) ? std::optional(parts) : std::nullopt;
   parts.part = name.substr(first + 1, last - first - 1);
   if (parts.part.empty()) return std::nullopt;
-  const bool known =
-      parts.part == "base" ? among(baseQuantities, parts.quantity) : among(jointQuantities, parts.quantity);
-  return known ? std::optional(parts) : std::nullopt;
+  return parts.ofRoot() || among(jointQuantities, parts.quantity) ? std::optional(parts) : std::nullopt;
 }
 
 std::string unitOfChannel(const std::string& channel) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include "core/gap/recordings/mapping.h"
 
 #include "core/gap/recordings/channel_name.h"
+#include "core/gap/recordings/table/table_layout.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
@@ -34,7 +36,92 @@ std::optional<double> retimeFrom(JsonReader& reader) {
   return period_s;
 }
 
+/// A column by its name or, counted from 1, by its number.
+std::string columnFrom(JsonReader& entry) {
+  constexpr std::size_t most = 10'000;  // that a table may have
+  const nlohmann::json* value = entry.any("column");
+  if (value && value->is_number()) return numberedColumn(static_cast<std::size_t>(entry.integer("column", 1, most)));
+  return entry.text("column");
+}
+
+MappedColumn mappedColumn(JsonReader& entry, const std::string& channel) {
+  MappedColumn column;
+  column.channel = channel;
+  column.column = columnFrom(entry);
+  column.scale = entry.number("scale", -1e12, 1e12, 1);
+  column.offset = entry.number("offset", -1e12, 1e12, 0);
+  column.optional = entry.flag("optional", false);
+  column.compare = entry.flag("compare", true);
+  column.wrap = numberOrFalse(entry, "wrap", 1e-6, 1e12, 0);
+  if (const auto bit = numberOrFalse(entry, "sign_bit", 1, 52, -1)) {
+    if (*bit != std::floor(*bit)) entry.refuse("sign_bit", "a whole number");
+    column.signBit = static_cast<int>(*bit);
+  }
+  entry.array("add", [&](JsonReader term) {
+    MappedColumn::Added added{columnFrom(term), term.number("scale", -1e12, 1e12, 1), term.flag("optional", false)};
+    term.finish();
+    column.added.push_back(std::move(added));
+  });
+  if (column.scale == 0) entry.refuse("scale", "a number other than 0");
+  if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
+  if (channel == "time_s" && (column.wrap || column.signBit))
+    entry.refuse(column.wrap ? "wrap" : "sign_bit", "neither wrap nor sign_bit for time");
+  return column;
+}
+
+/// What is said of channels; true if time is among them.
+bool readColumns(JsonReader& reader, Mapping& mapping) {
+  constexpr std::array others{"settings", "segments", "resample", "retime", "lost_rows",
+                              "tables",   "file",     "from_s",   "until_s"};
+  bool hasTime = false;
+  for (const auto& [channel, value] : reader.node().items()) {
+    if (std::ranges::find(others, channel) != others.end()) continue;
+    if (channel != "time_s" && !parseChannel(channel))
+      throw InputError(reader.place(), "channel \"" + channel + "\"",
+                       "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "
+                       "leg.knee.position_rad");
+    JsonReader entry = reader.object(channel);
+    hasTime = hasTime || channel == "time_s";
+    if (channel == "time_s" && entry.has("period_s") && !entry.has("column"))
+      mapping.rowPeriod_s = entry.number("period_s", 1e-9, 1e3);
+    else
+      mapping.columns.push_back(mappedColumn(entry, channel));
+    entry.finish();
+  }
+  return hasTime;
+}
+
+/// {"file": "input.csv", …} or {"file": {"replace": "state", "with": "command"}, …}
+OtherTable tableFrom(JsonReader& entry) {
+  OtherTable table;
+  if (auto change = entry.objectIfAny("file")) {
+    table.replace = change->text("replace");
+    table.with = change->text("with");
+    if (table.replace.empty()) change->refuse("replace", "a part of the recording's name");
+    change->finish();
+  } else {
+    table.file = entry.text("file");
+    const std::filesystem::path path(table.file);
+    if (table.file.empty() || path.has_parent_path()) entry.refuse("file", "the name of a file beside the recording");
+  }
+  table.mapping.source = entry.place();
+  if (!readColumns(entry, table.mapping) || table.mapping.columns.empty())
+    throw InputError(entry.place() + ": \"time_s\" and at least one channel are needed");
+  entry.finish();
+  return table;
+}
+
 }  // namespace
+
+std::string OtherTable::pathBeside(const std::string& path) const {
+  const std::filesystem::path recording(path);
+  if (replace.empty()) return (recording.parent_path() / file).string();
+  std::string name = recording.filename().string();
+  const std::size_t place = name.find(replace);
+  if (place == std::string::npos)
+    throw InputError(mapping.source, "\"replace\" \"" + replace + "\"", "a part of the recording's name, " + name);
+  return (recording.parent_path() / name.replace(place, replace.size(), with)).string();
+}
 
 Mapping mappingFromJson(const std::string& text, const std::string& place) {
   JsonReader reader = JsonReader::parse(text, place);
@@ -52,7 +139,7 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
   });
 
   if (auto segments = reader.objectIfAny("segments")) {
-    mapping.segmentColumn = segments->text("column");
+    mapping.segmentColumn = columnFrom(*segments);
     segments->finish();
   }
 
@@ -67,46 +154,18 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
     resample->finish();
   }
 
-  bool hasTime = false;
-  for (const auto& [channel, value] : reader.node().items()) {
-    if (channel == "settings" || channel == "segments" || channel == "resample" || channel == "retime" ||
-        channel == "lost_rows")
-      continue;
-    if (channel != "time_s" && !parseChannel(channel))
-      throw InputError(place, "channel \"" + channel + "\"",
-                       "time_s, ROBOT.JOINT.QUANTITY, ROBOT.base.QUANTITY or BALL.QUANTITY, for example "
-                       "leg.knee.position_rad");
-    JsonReader entry = reader.object(channel);
-    MappedColumn column;
-    column.channel = channel;
-    column.column = entry.text("column");
-    column.scale = entry.number("scale", -1e12, 1e12, 1);
-    column.offset = entry.number("offset", -1e12, 1e12, 0);
-    column.optional = entry.flag("optional", false);
-    column.compare = entry.flag("compare", true);
-    column.wrap = numberOrFalse(entry, "wrap", 1e-6, 1e12, 0);
-    if (const auto bit = numberOrFalse(entry, "sign_bit", 1, 52, -1)) {
-      if (*bit != std::floor(*bit)) entry.refuse("sign_bit", "a whole number");
-      column.signBit = static_cast<int>(*bit);
-    }
-    entry.array("add", [&](JsonReader term) {
-      MappedColumn::Added added{term.text("column"), term.number("scale", -1e12, 1e12, 1),
-                                term.flag("optional", false)};
-      term.finish();
-      column.added.push_back(std::move(added));
-    });
-    if (column.scale == 0) entry.refuse("scale", "a number other than 0");
-    if (channel == "time_s" && column.scale < 0) entry.refuse("scale", "a positive number for time");
-    if (channel == "time_s" && (column.wrap || column.signBit))
-      entry.refuse(column.wrap ? "wrap" : "sign_bit", "neither wrap nor sign_bit for time");
-    entry.finish();
-    hasTime = hasTime || channel == "time_s";
-    mapping.columns.push_back(std::move(column));
-  }
+  constexpr double longest_s = 1e6;
+  if (reader.has("from_s")) mapping.from_s = reader.number("from_s", 0, longest_s);
+  if (reader.has("until_s")) mapping.until_s = reader.number("until_s", mapping.from_s.value_or(0), longest_s);
+  const bool hasTime = readColumns(reader, mapping);
+  reader.array("tables", [&](JsonReader entry) { mapping.tables.push_back(tableFrom(entry)); });
   reader.finish();
   // A mapping of no column at all leaves the file's own names and says only what is done with the rows.
   const bool ofRowsAlone = mapping.columns.empty() && !reader.node().empty();
-  if (!hasTime && !ofRowsAlone) throw InputError(place + ": \"time_s\" is missing; it names the column of time");
+  if (!hasTime && !ofRowsAlone)
+    throw InputError(
+        place +
+        ": \"time_s\" is missing; it names the column of time, or says \"period_s\", the seconds from row to row");
   return mapping;
 }
 

@@ -16,7 +16,7 @@ struct MappedColumn {
     bool optional = false;
   };
   std::string channel;
-  std::string column;
+  std::string column;  ///< its name, or numberedColumn()
   double scale = 1;
   double offset = 0;
   bool optional = false;       ///< a file without this column is accepted
@@ -31,14 +31,27 @@ struct TrialSetting {
   std::string fileContains;
   Values values;  ///< by path into the scene, e.g. "robots.leg.servos.knee.p"
 };
+struct OtherTable;
 struct Mapping {
   std::string source;
   std::vector<MappedColumn> columns;
+  double rowPeriod_s = 0;          ///< seconds from row to row where no column has the time; 0: a column has it
+  std::vector<OtherTable> tables;  ///< of the same trial, joined with this one
   std::vector<TrialSetting> settings;
-  std::optional<double> retime_s;       ///< rows are even samples of this period, 0: of the one that the stamps show
-  double period_s = 0, lowpass_hz = 0;  ///< see Resampling; both 0: the samples as they are
-  std::string segmentColumn;            ///< whenever its number changes a new trial begins; "": the file is one trial
-  bool lostRowsHold = false;            ///< inputs hold where rows are missing (see fillLostRows())
+  std::optional<double> retime_s;         ///< rows are even samples of this period, 0: of the one that the stamps show
+  double period_s = 0, lowpass_hz = 0;    ///< see Resampling; both 0: the samples as they are
+  std::string segmentColumn;              ///< whenever its number changes a new trial begins; "": the file is one trial
+  std::optional<double> from_s, until_s;  ///< rows of each trial that count, seconds after its first one
+  bool lostRowsHold = false;              ///< inputs hold where rows are missing (see fillLostRows())
+};
+
+/// Another file of the trial, beside it: fixed by name, or by what its name has in another's place.
+struct OtherTable {
+  std::string file;  ///< "" where `replace` and `with` make it from the recording's name
+  std::string replace, with;
+  Mapping mapping;  ///< columns and rowPeriod_s alone
+  /// Of the recording at `path`. Throws InputError where the recording's name has no `replace`.
+  std::string pathBeside(const std::string& path) const;
 };
 
 /// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],

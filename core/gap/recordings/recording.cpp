@@ -9,12 +9,16 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/table/cell_reader.h"
+#include "core/gap/recordings/table/table_layout.h"
 #include "core/gap/recordings/table/table_reader.h"
 #include "core/gap/recordings/trials.h"
 #include "core/spec/error.h"
+#include "core/spec/figures.h"
 
 namespace btr {
 namespace {
+
+constexpr std::size_t noColumn = static_cast<std::size_t>(-1);  // place of a time that is counted
 
 std::string list(const std::vector<std::string>& names) {
   std::string text;
@@ -55,27 +59,26 @@ std::vector<ColumnUse> usesOf(const std::vector<std::string>& header, const Mapp
   std::set<std::string> taken;
   if (mapping) {
     for (const MappedColumn& column : mapping->columns) {
-      const auto found = std::find(header.begin(), header.end(), column.column);
-      if (found == header.end()) {
+      const auto found = placeOf(header, column.column);
+      if (!found) {
         if (!column.optional)
           throw InputError(recording.source + ": column \"" + column.column + "\" is missing, which " +
                            mapping->source + " maps to " + column.channel + "; the file has " + list(header));
         recording.notes.push_back("column \"" + column.column + "\" (" + column.channel + ") is not in this file");
         continue;
       }
-      const auto source = static_cast<std::size_t>(found - header.begin());
+      const std::size_t source = *found;
       mapped[source] = 1;
       taken.insert(column.channel);
       uses.push_back({column.channel, source, column.scale, column.offset, true, 0, {}});
       for (const MappedColumn::Added& term : column.added) {
-        const auto other = std::find(header.begin(), header.end(), term.column);
-        if (other == header.end() && !term.optional)
+        const auto other = placeOf(header, term.column);
+        if (!other && !term.optional)
           throw InputError(recording.source + ": column \"" + term.column + "\" is missing, which " + mapping->source +
                            " adds to " + column.channel + "; the file has " + list(header));
-        if (other == header.end()) continue;
-        const auto place = static_cast<std::size_t>(other - header.begin());
-        mapped[place] = 1;
-        uses.back().added.emplace_back(place, term.scale);
+        if (!other) continue;
+        mapped[*other] = 1;
+        uses.back().added.emplace_back(*other, term.scale);
       }
       if (!column.compare) recording.notCompared.push_back(column.channel);
     }
@@ -90,13 +93,24 @@ std::vector<ColumnUse> usesOf(const std::vector<std::string>& header, const Mapp
     if (!known) recording.notes.push_back("column \"" + header[i] + "\" is not mapped to a channel; kept, not used");
     uses.push_back({header[i], i, 1, 0, known, 0, {}});
   }
+  if (mapping && mapping->rowPeriod_s > 0) {
+    ColumnUse counted{"time_s", noColumn, 1, 0, true, 0, {}};
+    counted.rowPeriod_s = mapping->rowPeriod_s;
+    uses.push_back(counted);
+    recording.notes.push_back("no column has the time: a row every " + digits(mapping->rowPeriod_s) +
+                              " s, as its mapping says");
+  }
   std::stable_sort(uses.begin(), uses.end(),
                    [](const ColumnUse& a, const ColumnUse& b) { return a.source < b.source; });
   const auto time =
       std::find_if(uses.begin(), uses.end(), [](const ColumnUse& use) { return use.channel == "time_s"; });
   if (time == uses.end())
     throw InputError(recording.source + ": there is no column time_s; the file has " + list(header) +
-                     "; a mapping (NAME.mapping.json beside it) says which column is what");
+                     "; a mapping (NAME.mapping.json beside it) says which column is what" +
+                     (header[0] != numberedColumn(1) ? ""
+                                                     : ", here by numbers: {\"time_s\": {\"column\": 1}, ...}, or "
+                                                       "{\"time_s\": {\"period_s\": 0.01}, ...} where no column has "
+                                                       "the time"));
   std::rotate(uses.begin(), time, time + 1);
   return uses;
 }
@@ -106,7 +120,10 @@ void readRows(TableReader& table, std::vector<ColumnUse>& uses, Recording& recor
   CellReader reader(table);
   std::vector<std::string> cells;
   while (table.next(cells)) {
-    for (std::size_t i = 0; i < uses.size(); ++i) recording.columns[i].push_back(reader.value(cells, uses[i]));
+    const auto row = static_cast<double>(recording.rows());
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      recording.columns[i].push_back(uses[i].source == noColumn ? row * uses[i].rowPeriod_s
+                                                                : reader.value(cells, uses[i]));
     recording.places.line.push_back(static_cast<std::uint32_t>(table.line()));
 
     const std::vector<double>& time = recording.columns[0];
@@ -139,19 +156,22 @@ int Recording::column(const std::string& name) const {
 
 std::string Recording::at(std::size_t column, std::size_t row) const {
   const std::string place = places.file.empty() ? source : places.file;
-  const std::string line = row < places.line.size() ? " line " + std::to_string(places.line[row]) : "";
-  const std::string number = column < places.column.size() ? ", column " + std::to_string(places.column[column]) : "";
+  const std::string line =
+      row < places.line.size() && places.line[row] > 0 ? " line " + std::to_string(places.line[row]) : "";
+  const std::string number = column < places.column.size() && places.column[column] > 0
+                                 ? ", column " + std::to_string(places.column[column])
+                                 : "";
   return place + line + number + " (" + channels[column] + ")";
 }
 
 std::string Recording::atHeader(std::size_t column) const {
-  if (column >= places.column.size()) return source;
+  if (column >= places.column.size() || places.column[column] == 0) return source;
   return places.file + " line " + std::to_string(places.headerLine) + ", column " +
          std::to_string(places.column[column]);
 }
 
 Recording readRecording(const std::string& path, const Mapping* mapping, std::size_t limit) {
-  std::string timeColumn = "time_s";
+  std::string timeColumn = mapping && mapping->rowPeriod_s > 0 ? "" : "time_s";
   std::vector<std::string> others;
   if (mapping)
     for (const MappedColumn& column : mapping->columns)

@@ -15,7 +15,7 @@ namespace btr {
 struct FilePlaces {
   std::string file;
   std::size_t headerLine = 0;
-  std::vector<std::size_t> column;  ///< by channel, from 1
+  std::vector<std::size_t> column;  ///< by channel, from 1; 0: a time that is counted
   std::vector<std::uint32_t> line;  ///< by row; empty once rows were resampled
   std::vector<double> lastDigit;  ///< by channel: what the last decimal written is worth [the channel's unit]; 0: none
   bool stamps = false;            ///< time was written as date or time of day
@@ -33,6 +33,7 @@ struct Recording {
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
   std::vector<double> filteredNoise;  ///< by channel: what a filter left of its noise, where it hides it; 0: none
   std::vector<std::string> notes;     ///< what was skipped or looks odd
+  bool bounded = false;               ///< its mapping says where it begins or ends
   bool beginsAtRest = false;          ///< known beforehand: nothing moves at its first row
   FilePlaces places;
   double filterPeriod_s = 0, filterCutoff_hz = 0;  ///< the rhythm that a low-pass filter worked at, and its cutoff; 0:

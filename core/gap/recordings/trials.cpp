@@ -14,6 +14,7 @@
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/resample.h"
+#include "core/gap/recordings/table/other_table.h"
 #include "core/gap/recordings/table/row_order.h"
 #include "core/spec/error.h"
 #include "core/spec/figures.h"
@@ -68,6 +69,20 @@ void refuseJumps(const Recording& trial) {
                            " s: the clock jumped; mend it, or divide the file there (\"segments\" in its mapping)");
 }
 
+/// The rows that the mapping lets count.
+void bound(Recording& trial, const Mapping& mapping) {
+  if (!mapping.from_s && !mapping.until_s) return;
+  trial.bounded = true;
+  const std::vector<double>& time = trial.columns[0];
+  if (time.empty()) return;
+  const auto first = std::ranges::lower_bound(time, time.front() + mapping.from_s.value_or(0));
+  const auto last = std::ranges::upper_bound(time, time.front() + mapping.until_s.value_or(INFINITY));
+  if (last - first < 2)
+    throw InputError(trial.source + ": from_s and until_s in " + mapping.source + " leave less than two rows of its " +
+                     digits(time.back() - time.front()) + " s");
+  trial = rowsOf(trial, static_cast<std::size_t>(first - time.begin()), static_cast<std::size_t>(last - time.begin()));
+}
+
 void noteEmptyCells(Recording& trial) {
   for (std::size_t column = 1; column < trial.channels.size(); ++column) {
     const std::vector<double>& values = trial.columns[column];
@@ -97,12 +112,19 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
       mapping = &beside;
     }
   }
-  std::vector<Recording> trials = divide(readRecording(path, mapping, limit), mapping);
+  Recording whole = readRecording(path, mapping, limit);
+  if (mapping)
+    for (const OtherTable& table : mapping->tables) {
+      const std::string other = table.pathBeside(path);
+      appendTable(whole, readRecording(other, &table.mapping, limit));
+    }
+  std::vector<Recording> trials = divide(std::move(whole), mapping);
   for (Recording& trial : trials) {
     orderRows(trial, mapping && mapping->retime_s);
     noteEmptyCells(trial);
     mendCounts(trial, mapping);
     if (mapping && mapping->retime_s) retime(trial, *mapping->retime_s);
+    if (mapping) bound(trial, *mapping);
     refuseJumps(trial);
     emptyRepeated(trial);
     if (!mapping || !mapping->lostRowsHold) fillLostRows(trial);

@@ -72,7 +72,8 @@ Recording predict(const Scene& scene, const Recording& recording, const std::fun
 std::vector<Recording> runPredict(const PredictRequest& request, const EffectFactory& effects,
                                   const std::function<bool()>& goesOn) {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
-  const std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
+  std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
+  for (Recording& trial : trials) scenes.withoutHands(trial);
   const std::vector<std::string> inputs =
       withNamedFiles({request.scene, request.simulator, request.recording, request.mapping});
   const std::vector<std::string> losses = modelLosses(scenes.spec, scenes.models);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/gap/recordings/binding.h"
+#include "core/gap/recordings/doctor/hands.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual.h"
@@ -19,6 +21,11 @@ SimulatorSpec withSettings(SimulatorSpec simulator, const Recording& trial) {
 
 Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) const {
   return makeScene(spec, models, withSettings(simulator, trial), effects);
+}
+
+void TrialScenes::withoutHands(Recording& trial) const {
+  const Scene scene = makeScene(spec, models, SimulatorSpec{}, EffectFactory{});
+  leaveOutHands(trial, scene, bind(scene, trial));
 }
 
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator) {
@@ -39,8 +46,10 @@ bool forEachTrial(
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
     const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
     if (!goesOn()) return false;
-    for (const Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene))
+    for (Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene)) {
+      scenes.withoutHands(trial);
       use(scenes, trial, goesOn);
+    }
   }
   return true;
 } catch (const Cancelled&) {

@@ -4,6 +4,7 @@
 
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/replay/trial_scenes.h"
 #include "core/gap/report/report_files.h"
 #include "core/gap/search/gap_report.h"
 #include "core/sim/engine/ode_session.h"
@@ -39,6 +40,9 @@ GapProblem loadProblem(const AnalysisRequest& request) {
   };
   load(request.recordings, problem.recordings);
   load(request.heldOut, problem.heldOut);
+  const TrialScenes scenes{problem.scene, problem.models, problem.simulator};
+  for (auto* list : {&problem.recordings, &problem.heldOut})
+    for (Recording& trial : *list) scenes.withoutHands(trial);
   refuseSeenHeldOut(problem);
   return problem;
 }

@@ -20,6 +20,8 @@ CheckedRecording checkRecording(const std::string& path, const std::string& mapp
   const std::optional<Mapping> map =
       mappingPath.empty() ? std::nullopt : std::optional(mappingFromJson(record.mappingJson, mappingPath));
 
+  if (map && !map->tables.empty())
+    throw InputError(mappingPath + ": \"tables\" joins several files, of which a run keeps one; join them in one file");
   StoredRecording& stored = checked.stored;
   std::string hash;
   for (const Recording& trial : loadTrials(path, map ? &*map : nullptr)) {

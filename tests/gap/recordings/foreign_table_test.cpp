@@ -136,9 +136,10 @@ TEST(ForeignTable, ShowsItsColumnsBeforeAnyMappingIsWritten) {
   EXPECT_EQ(preview.columns[1].high, 2.25);
 }
 
-TEST(ForeignTable, AsksForAHeading) {
+TEST(ForeignTable, AsksWhatItsColumnsAre) {
   EXPECT_THAT(refusalOfText("0.0,1.5\n0.1,1.6\n"),
-              HasSubstr("log.csv line 1: a row of numbers is not allowed; a heading with the columns' names"));
+              HasSubstr("log.csv: there is no column time_s; the file has column 1, column 2; a mapping "
+                        "(NAME.mapping.json beside it) says which column is what, here by numbers"));
   EXPECT_THAT(refusalOfText("Rig 3\n\nt;q\n0,5;1\n1,5;2\n"), HasSubstr("no column time_s; the file has t, q"));
 }
 

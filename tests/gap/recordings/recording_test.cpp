@@ -282,11 +282,15 @@ TEST(ChannelName, FollowsTheContract) {
   EXPECT_EQ(joint->owner, "leg");
   EXPECT_EQ(joint->part, "left.knee");
   EXPECT_EQ(joint->quantity, "position_rad");
-  for (const std::string name : {"ball.x_m", "leg.base.qw", "leg.knee.enabled", "cart.slide.velocity_m_s"})
+  for (const std::string name :
+       {"ball.x_m", "leg.base.qw", "leg.base.duty", "leg.knee.enabled", "cart.slide.velocity_m_s"})
     EXPECT_TRUE(parseChannel(name)) << name;
-  for (const std::string name : {"", "time_s", "x_m", ".x_m", "ball.", "ball.qw", "leg.base.command_rad", "leg..duty",
+  for (const std::string name : {"", "time_s", "x_m", ".x_m", "ball.", "ball.qw", "leg.base.angle", "leg..duty",
                                  "leg.knee.angle", "leg.knee.x_m"})
     EXPECT_FALSE(parseChannel(name)) << name;
+  // Many arms have a joint of that name.
+  EXPECT_TRUE(parseChannel("leg.base.qw")->ofRoot());
+  EXPECT_FALSE(parseChannel("leg.base.duty")->ofRoot());
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::map<std::string, Columns> sensorsOf(const Recording& trial) {
     const auto name = parseChannel(channel);
     if (!name || isInputChannel(channel) || std::ranges::find(trial.notCompared, channel) != trial.notCompared.end())
       continue;
-    const bool body = name->part.empty() || name->part == "base";
+    const bool body = name->part.empty() || name->ofRoot();
     sensors[body ? name->owner + "." + name->part : channel].push_back(column);
   }
   return sensors;

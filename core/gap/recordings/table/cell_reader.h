@@ -21,6 +21,7 @@ struct ColumnUse {
   std::vector<std::pair<std::size_t, double>> added;  ///< further columns of the file, and their scales
   double lastDigit = 0;                               ///< of the finest number read from `source`, 0: whole numbers
   std::size_t missing = 0;                            ///< cells that say so in a word
+  double rowPeriod_s = 0;                             ///< of time that no column has: seconds from row to row
 };
 
 /// Reads the cells of one table: numbers as NumberReader has them, NaN for an empty cell and for a word

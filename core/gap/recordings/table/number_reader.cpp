@@ -55,9 +55,11 @@ std::string NumberReader::allowed(std::string_view cell) const {
   if (cell.find_first_of(",.") == std::string_view::npos) return text;
   if (mark_ != 0) {
     const bool other = cell.find(mark_ == '.' ? ',' : '.') != std::string_view::npos;
-    if (other)
-      text += std::string(" (decimals after a ") + (mark_ == '.' ? "point" : "comma") + ", as in line " +
-              std::to_string(decidedBy_) + ", and nothing between thousands)";
+    if (other) {
+      text += mark_ == '.' ? " (decimals after a point, as in line " : " (decimals after a comma, as in line ";
+      text += std::to_string(decidedBy_);
+      text += ", and nothing between thousands)";
+    }
   } else if (cell.find(',') != std::string_view::npos) {
     text += " (decimals after a point or a comma, and nothing between thousands)";
   }

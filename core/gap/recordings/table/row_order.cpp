@@ -46,8 +46,8 @@ std::string summerTime(const Recording& trial, double back_s) {
 }
 
 std::string lineOf(const Recording& trial, std::size_t row) {
-  return row < trial.places.line.size() ? "line " + std::to_string(trial.places.line[row])
-                                        : "row " + std::to_string(row + 1);
+  return row < trial.places.line.size() && trial.places.line[row] > 0 ? "line " + std::to_string(trial.places.line[row])
+                                                                      : "row " + std::to_string(row + 1);
 }
 
 /// Every channel must tell one story: later rows, later times, and no second value at one time.

@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "core/gap/recordings/table/time_stamp.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -60,6 +61,44 @@ bool numbersFollow(const std::vector<std::string_view>& lines, std::size_t headi
   return false;
 }
 
+/// Cells of a line of numbers, times and what says that there is none; 0: it is no such line.
+std::size_t numbersIn(std::string_view line, char separator) {
+  auto cells = splitCells(line, separator);
+  while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
+  const auto isNumber = [](const std::string& cell) { return hasDigitsOnly(cell) || readTimeStamp(cell).has_value(); };
+  const auto fits = [&](const std::string& cell) { return cell.empty() || saysMissing(cell) || isNumber(cell); };
+  return std::ranges::all_of(cells, fits) && std::ranges::any_of(cells, isNumber) ? cells.size() : 0;
+}
+
+/// The first line of numbers that is followed by more of the same width, with the separator that makes most columns of
+/// it. A line above it that names as many columns is its heading.
+std::optional<TableLayout> numbersWithoutHeading(const std::vector<std::string_view>& lines) {
+  constexpr std::size_t alike = 3;  // lines that are a table and no preamble
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!trimmed(lines[i]).empty() && commentBytesOf(lines[i]) == 0) rows.push_back(i);
+  std::optional<TableLayout> best;
+  for (const char separator : {',', ';', '\t', '|', blanks})
+    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+      const std::size_t width = numbersIn(lines[rows[k]], separator);
+      const auto next = [&](std::size_t row) { return numbersIn(lines[row], separator) == width; };
+      const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k);
+      // What was cut off at the end of the beginning is no line.
+      const auto last =
+          first + static_cast<std::ptrdiff_t>(std::min(alike, std::max(rows.size() - 1 - k, std::size_t{2})));
+      if (width == 0 || !std::all_of(first, last, next)) continue;
+      if (!best || width > best->unnamed) best = {static_cast<long>(rows[k]) + 1, 0, separator, width};
+      break;
+    }
+  if (!best || best->headingLine == 1) return best;
+  const auto above = static_cast<std::size_t>(best->headingLine) - 2;
+  for (const std::size_t comment : {std::size_t{0}, commentBytesOf(lines[above])})
+    if (const auto names = splitCells(lines[above].substr(comment), best->separator);
+        names.size() == best->unnamed && hasNames(names))
+      return TableLayout{static_cast<long>(above) + 1, comment, best->separator, 0};
+  return best;
+}
+
 /// For a file without any of the wanted names: the first line of names above a line of as many numbers, so that a
 /// message can say what the file has.
 TableLayout likeliest(const std::vector<std::string_view>& lines) {
@@ -69,6 +108,7 @@ TableLayout likeliest(const std::vector<std::string_view>& lines) {
       if (names.size() < 2 || commentBytesOf(lines[i]) > 0 || !hasNames(names)) continue;
       if (numbersFollow(lines, i, names.size(), separator)) return {static_cast<long>(i) + 1, 0, separator};
     }
+  if (const auto numbers = numbersWithoutHeading(lines)) return *numbers;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!trimmed(lines[i]).empty() && commentBytesOf(lines[i]) == 0) {
       TableLayout first{static_cast<long>(i) + 1, 0, ','};
@@ -84,6 +124,16 @@ TableLayout likeliest(const std::vector<std::string_view>& lines) {
 }
 
 }  // namespace
+
+std::string numberedColumn(std::size_t number) { return "column " + std::to_string(number); }
+
+std::optional<std::size_t> placeOf(const std::vector<std::string>& heading, const std::string& column) {
+  const auto named = std::ranges::find(heading, column);
+  if (named != heading.end()) return static_cast<std::size_t>(named - heading.begin());
+  for (std::size_t i = 0; i < heading.size(); ++i)
+    if (column == numberedColumn(i + 1)) return i;
+  return std::nullopt;
+}
 
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -141,8 +191,10 @@ TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
       for (const char separator : separators) {
         const auto cells = splitCells(lines[i].substr(comment), separator);
         const auto has = [&](const std::string& name) { return std::ranges::find(cells, name) != cells.end(); };
-        if (!has(timeColumn)) continue;
-        const std::size_t found = 1 + static_cast<std::size_t>(std::ranges::count_if(otherColumns, has));
+        const bool counted = timeColumn.empty();
+        if (!counted && !has(timeColumn)) continue;
+        const std::size_t found =
+            (counted ? 0 : 1) + static_cast<std::size_t>(std::ranges::count_if(otherColumns, has));
         if (found <= most) continue;
         most = found;
         best = {static_cast<long>(i) + 1, comment, separator};
@@ -153,7 +205,9 @@ TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const std::size_t comment : {std::size_t{0}, commentBytesOf(lines[i])}) {
       const auto cells = splitCells(lines[i].substr(comment), blanks);
-      if (std::ranges::find(cells, timeColumn) != cells.end() && numbersFollow(lines, i, cells.size(), blanks))
+      const auto has = [&](const std::string& name) { return std::ranges::find(cells, name) != cells.end(); };
+      if ((timeColumn.empty() ? std::ranges::any_of(otherColumns, has) : has(timeColumn)) &&
+          numbersFollow(lines, i, cells.size(), blanks))
         return {static_cast<long>(i) + 1, comment, blanks};
     }
   return likeliest(lines);

@@ -32,6 +32,10 @@ TableLayout layoutOfFile(const std::string& path, const std::string& timeColumn,
   std::string beginning(1 << 16, '\0');
   source.stream().read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(source.stream().gcount()));
+  if (const std::size_t first = beginning.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+      first != std::string::npos &&
+      (beginning[first] == '{' || beginning.compare(first, 2, "[{") == 0 || beginning.compare(first, 2, "[[") == 0))
+    throw InputError(path + ": this is JSON; a recording is a table with a row for each sample (CSV)");
   return layoutOf(beginning, timeColumn, otherColumns);
 }
 
@@ -73,6 +77,12 @@ std::string TableReader::atHeading(std::size_t column) const {
 
 void TableReader::readHeader() {
   for (long line = 1; line < layout_.headingLine; ++line) reader_.skipLine();
+  if (layout_.unnamed > 0) {
+    reader_.passOver("#%");
+    line_ = headingLine_ = layout_.headingLine;
+    for (std::size_t number = 1; number <= layout_.unnamed; ++number) header_.push_back(numberedColumn(number));
+    return;
+  }
   reader_.skipBytes(layout_.commentBytes);
   if (!reader_.next(header_))
     throw InputError(path_ + ": the file is empty; a header line and rows of numbers are expected");
@@ -163,7 +173,13 @@ bool TableReader::fitsHeader(std::vector<std::string>& cells) {
 
 std::vector<std::string> TableReader::notes() const {
   std::vector<std::string> notes = notes_;
-  if (headingLine_ > 1 && layout_.headingLine > 1)
+  if (layout_.unnamed > 0)
+    notes.insert(notes.begin(),
+                 "the table has no heading: its " + counted(layout_.unnamed, "column") + ", from line " +
+                     std::to_string(layout_.headingLine) + " on, " +
+                     (layout_.unnamed == 1 ? "is called \"column 1\""
+                                           : "are called \"column 1\" to \"" + numberedColumn(layout_.unnamed) + "\""));
+  else if (headingLine_ > 1 && layout_.headingLine > 1)
     notes.insert(notes.begin(), "the heading stands in line " + std::to_string(headingLine_) + "; " +
                                     (headingLine_ == 2 ? "the line above it was" : "the lines above it were") +
                                     " passed over");

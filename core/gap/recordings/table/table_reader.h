@@ -12,16 +12,17 @@ namespace btr {
 
 /// Reads a table of measurements as programs write them: UTF-8 or UTF-16, commas, semicolons, tabulators or bars
 /// between columns, a preamble above the heading, rows of units below it, comments, separators at the ends of lines,
-/// rows that hold nothing, the heading again. What was passed over stands in notes(). Throws InputError with line and
-/// column for what cannot be a table.
+/// rows that hold nothing, the heading again; or no heading at all. What was passed over stands in notes(). Throws
+/// InputError with line and column for what cannot be a table.
 class TableReader {
  public:
-  /// `timeColumn` and `otherColumns` are the names by which the heading is known. Files larger than `limit` bytes are
-  /// refused before they are read.
+  /// `timeColumn` ("": no column has the time) and `otherColumns` are the names by which the heading is known. Files
+  /// larger than `limit` bytes are refused before they are read.
   TableReader(const std::string& path, const std::string& timeColumn, const std::vector<std::string>& otherColumns,
               std::size_t limit = std::size_t{1} << 30);
 
-  /// Names without blanks around them; "" for a first column without a name (some programs number their rows there).
+  /// Names without blanks around them, of a table without a heading "column 1", "column 2" …; "" for a first column
+  /// without a name (some programs number their rows there).
   const std::vector<std::string>& header() const { return header_; }
   long headingLine() const { return headingLine_; }
   std::string atHeading(std::size_t column) const;

@@ -33,8 +33,8 @@ struct Recording {
   std::vector<std::string> notCompared;      ///< channels that give the start but are not compared (see MappedColumn)
   std::vector<double> filteredNoise;  ///< by channel: what a filter left of its noise, where it hides it; 0: none
   std::vector<std::string> notes;     ///< what was skipped or looks odd
-  bool bounded = false;               ///< its mapping says where it begins or ends
   bool beginsAtRest = false;          ///< known beforehand: nothing moves at its first row
+  bool bounded = false;               ///< its mapping says where it begins or ends
   FilePlaces places;
   double filterPeriod_s = 0, filterCutoff_hz = 0;  ///< the rhythm that a low-pass filter worked at, and its cutoff; 0:
                                                    ///< none (see resampled())

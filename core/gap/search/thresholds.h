@@ -279,6 +279,9 @@ struct SearchThresholds {
 
   /// A law that no effect of the library is, learned and adopted as curves (measured_law.h).
   struct Law {
+    /// Trials of which each is predicted by others: a force over time that one recording needs says nothing of another,
+    /// and parts of a trial share the knots between them. [case: a beam that swings, in one recording]
+    static constexpr std::size_t timeNeedsTrials = 3;
     double leastExcess = 0.3;    ///< left beyond the integration's error, from which one is learned [hand]
     double ofStrength = 0.02;    ///< a typical force, of the drive's strength [hand]
     std::size_t joints = 2;      ///< that are looked at, those with the largest errors [time]

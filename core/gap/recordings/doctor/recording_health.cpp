@@ -8,6 +8,7 @@
 #include "core/gap/recordings/channel_floor.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/doctor/even_grid.h"
+#include "core/gap/recordings/extent.h"
 #include "core/gap/recordings/noise_floor.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/recordings/resample.h"
@@ -146,7 +147,13 @@ RecordingHealth examine(const Recording& recording) {
     else if (channel.empty > 0 && !thinned)
       health.findings.push_back(name + ": " + std::to_string(channel.empty) + " of " + std::to_string(values.size()) +
                                 " cells are empty");
-    if (channel.quantisation > 0) health.findings.push_back(name + ": counts of " + digits(channel.quantisation, 4));
+    // A command that steps between two values has no counts.
+    constexpr double leastSteps = 8;
+    Extent extent;
+    extent.add(values);
+    if (channel.quantisation > 0 &&
+        !(isInputChannel(name) && extent.high - extent.low < leastSteps * channel.quantisation))
+      health.findings.push_back(name + ": counts of " + digits(channel.quantisation, 4));
     health.channels.push_back(std::move(channel));
   }
   return health;

@@ -210,6 +210,11 @@ TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
           numbersFollow(lines, i, cells.size(), blanks))
         return {static_cast<long>(i) + 1, comment, blanks};
     }
+  // Who counts columns knows of no names: a preamble of names above numbers is not taken for the table.
+  const auto isCounted = [](const std::string& name) { return name.starts_with("column "); };
+  if ((timeColumn.empty() || isCounted(timeColumn)) && !otherColumns.empty() &&
+      std::ranges::all_of(otherColumns, isCounted))
+    if (const auto numbers = numbersWithoutHeading(lines)) return *numbers;
   return likeliest(lines);
 }
 

@@ -68,7 +68,7 @@ std::vector<JointSeen> jointsSeen(const FitProblem& problem, const Scene& scene,
   return joints;
 }
 
-std::vector<LawTerm> termsOf(const JointSeen& joint, const SearchThresholds::Law& limits) {
+std::vector<LawTerm> termsOf(const JointSeen& joint, bool overTime, const SearchThresholds::Law& limits) {
   using On = LawTerm::On;
   using Kind = LawTerm::Kind;
   std::vector<LawTerm> terms;
@@ -77,10 +77,10 @@ std::vector<LawTerm> termsOf(const JointSeen& joint, const SearchThresholds::Law
   };
   add(On::position, Kind::force, joint.position, limits.firstKnots);
   add(On::velocity, Kind::force, joint.speed, limits.firstKnots);
-  add(On::time, Kind::force, joint.time, limits.firstKnots);
+  if (overTime) add(On::time, Kind::force, joint.time, limits.firstKnots);
   if (joint.isDriven) add(On::load, Kind::force, Extent{-joint.strength, joint.strength}, limits.firstKnots);
   add(On::position, Kind::friction, joint.position, limits.firstKnots);
-  add(On::time, Kind::friction, joint.time, limits.firstKnots);
+  if (overTime) add(On::time, Kind::friction, joint.time, limits.firstKnots);
   if (joint.turns && joint.position.high - joint.position.low > limits.turnsForAngle * 2 * M_PI)
     add(On::angle, Kind::force, Extent{0, 2 * M_PI}, limits.firstKnots);
   return terms;
@@ -260,7 +260,7 @@ std::vector<LawOption> screenLaws(const FitProblem& problem, const FitModel& nam
   if (joints.size() > thresholds.joints) joints.resize(thresholds.joints);
   std::vector<Law> laws;
   for (const JointSeen& joint : joints)
-    for (const LawTerm& term : termsOf(joint, thresholds)) {
+    for (const LawTerm& term : termsOf(joint, problem.trials.size() >= thresholds.timeNeedsTrials, thresholds)) {
       const bool known = std::ranges::any_of(
           there.terms, [&](const LawTerm& other) { return other.on == term.on && other.kind == term.kind; });
       if (!known) laws.push_back(withTerm(there, joint, term));

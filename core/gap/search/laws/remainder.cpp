@@ -60,7 +60,7 @@ std::vector<Option> optionsOf(const FitProblem& problem, const Scene& scene,
       };
       add(Over::position, position, slides ? "m" : "rad");
       add(Over::velocity, speed, slides ? "m/s" : "rad/s");
-      add(Over::time, time, "s");
+      if (problem.trials.size() >= SearchThresholds::Law::timeNeedsTrials) add(Over::time, time, "s");
       if (drive.kind != Drive::Kind::none) {
         Extent load{-strength, strength};
         add(Over::load, load, slides ? "N" : "N·m");

@@ -119,6 +119,9 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
         Values others = base;
         others[other.name] = value;
         sized(p, 1, up ? 1 : -1, others);
+        // What a mechanism is built like (where its sensors sit) says nothing of how soft or worn it is.
+        if (other.integer && other.maximum - other.minimum <= limits.mostKinds)
+          for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, others);
       }
     }
   }

@@ -94,11 +94,12 @@ bool readColumns(JsonReader& reader, Mapping& mapping) {
 /// {"file": "input.csv", …} or {"file": {"replace": "state", "with": "command"}, …}
 OtherTable tableFrom(JsonReader& entry) {
   OtherTable table;
-  if (auto change = entry.objectIfAny("file")) {
-    table.replace = change->text("replace");
-    table.with = change->text("with");
-    if (table.replace.empty()) change->refuse("replace", "a part of the recording's name");
-    change->finish();
+  if (const nlohmann::json* file = entry.any("file"); file && file->is_object()) {
+    JsonReader change = entry.object("file");
+    table.replace = change.text("replace");
+    table.with = change.text("with");
+    if (table.replace.empty()) change.refuse("replace", "a part of the recording's name");
+    change.finish();
   } else {
     table.file = entry.text("file");
     const std::filesystem::path path(table.file);

@@ -92,7 +92,7 @@ Row rowOf(const Motion& m, bool slides, double slow) {
 /// Until when the first samples do not move as the others do; nothing where they do, or where that cannot be told.
 std::optional<double> heldUntil(const std::vector<Sample>& samples, bool slides) {
   constexpr double later = 0.4;  // part of the time after which what moves freely is learned
-  constexpr double samplesPerPeriod = 25, widthPerPeriod = 1.0 / 40, blocksPerPeriod = 10;
+  constexpr double samplesPerPeriod = 25, widthPerPeriod = 1.0 / 20, blocksPerPeriod = 10;
   constexpr double learned = 0.35;   // of the accelerations, at most left where it is learned
   constexpr double clear = 0.3;      // of them: what no free joint does
   constexpr double scatters = 4;     // of the blocks that are free
@@ -107,11 +107,12 @@ std::optional<double> heldUntil(const std::vector<Sample>& samples, bool slides)
   if (!period || *period < samplesPerPeriod * sample_s) return std::nullopt;
 
   const std::vector<Motion> motion = motionOf(samples, std::max(widthPerPeriod * *period, 2.5 * sample_s));
-  double rates = 0, accelerations = 0;
+  double rates = 0, accelerations = 0, fastest = 0;
   std::size_t free = 0;
   for (const Motion& m : motion)
     if (m.time_s >= first->time_s) {
       rates += m.rate * m.rate;
+      fastest = std::max(fastest, std::abs(m.rate));
       accelerations += m.acceleration * m.acceleration;
       ++free;
     }
@@ -139,6 +140,8 @@ std::optional<double> heldUntil(const std::vector<Sample>& samples, bool slides)
   for (const Motion& m : motion) {
     const double rest = m.acceleration - law.dot(rowOf(m, slides, slow));
     if (m.time_s >= first->time_s) left += rest * rest;
+    // Nothing was learned of how it brakes when it is faster.
+    if (std::abs(m.rate) > fastest) continue;
     const auto block = static_cast<std::size_t>((m.time_s - begin) / block_s);
     blocks.resize(std::max(blocks.size(), block + 1));
     blocks[block].sum += rest;
@@ -215,8 +218,8 @@ void leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
 /// A ball that rests in the air and then falls.
 void leaveOutHeldBall(Recording& trial, const Scene& scene, const Binding& binding) {
   constexpr double least_s = 0.04, looked_s = 0.08;  // how long it rests, and is looked at then
-  constexpr double fallLeast = 0.5, fallMost = 1.6;  // of a free fall
-  constexpr double inTheAir_m = 0.1, floors = 4;     // above the floor; noise floors
+  constexpr double fallLeast = 0.5, fallMost = 2.5;  // of a free fall
+  constexpr double inTheAir_m = 0.1, floors = 6;     // above the floor; noise floors
   if (scene.balls.size() != 1 || !scene.robots.empty()) return;
   const double gravity = -scene.gravity_m_s2.z();
   if (gravity < 1) return;
@@ -230,18 +233,23 @@ void leaveOutHeldBall(Recording& trial, const Scene& scene, const Binding& bindi
   if (!height) return;
   const std::vector<Sample> z = samplesOf(trial, *height);
   if (z.size() < 10 || z.front().value < scene.balls[0].radius_m + inTheAir_m) return;
-  double until = trial.columns[0].back();
+  double until = trial.columns[0].back(), hidden_s = 0;  // how long noise hides a fall
   for (const std::size_t column : places) {
     const std::vector<Sample> samples = samplesOf(trial, column);
     const double noise = std::max(floors * channelFloor(trial, column).level, 1e-4);
+    if (samples.size() < 5) return;
+    hidden_s = std::max(hidden_s, std::sqrt(2 * noise / gravity));
+    std::vector<double> first;
+    for (std::size_t i = 0; i < 5; ++i) first.push_back(samples[i].value);
+    std::ranges::nth_element(first, first.begin() + 2);
     for (const Sample& sample : samples)
-      if (std::abs(sample.value - samples.front().value) > noise) {
+      if (std::abs(sample.value - first[2]) > noise) {
         until = std::min(until, sample.time_s);
         break;
       }
   }
   const auto leaves = std::ranges::find_if(z, [&](const Sample& s) { return s.time_s >= until; });
-  if (leaves == z.end() || leaves - z.begin() < 5 || until - z.front().time_s < least_s) return;
+  if (leaves == z.end() || leaves - z.begin() < 5 || until - z.front().time_s < std::max(least_s, 2 * hidden_s)) return;
   const Sample& last = *(leaves - 1);
   const auto later = std::ranges::find_if(z, [&](const Sample& s) { return s.time_s >= last.time_s + looked_s; });
   if (later == z.end()) return;

@@ -70,10 +70,9 @@ std::size_t numbersIn(std::string_view line, char separator) {
   return std::ranges::all_of(cells, fits) && std::ranges::any_of(cells, isNumber) ? cells.size() : 0;
 }
 
-/// The first line of numbers that is followed by more of the same width, with the separator that makes most columns of
+/// The first line of numbers that is followed by one of the same width, with the separator that makes most columns of
 /// it. A line above it that names as many columns is its heading.
 std::optional<TableLayout> numbersWithoutHeading(const std::vector<std::string_view>& lines) {
-  constexpr std::size_t alike = 3;  // lines that are a table and no preamble
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!trimmed(lines[i]).empty() && commentBytesOf(lines[i]) == 0) rows.push_back(i);
@@ -81,12 +80,7 @@ std::optional<TableLayout> numbersWithoutHeading(const std::vector<std::string_v
   for (const char separator : {',', ';', '\t', '|', blanks})
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
       const std::size_t width = numbersIn(lines[rows[k]], separator);
-      const auto next = [&](std::size_t row) { return numbersIn(lines[row], separator) == width; };
-      const auto first = rows.begin() + static_cast<std::ptrdiff_t>(k);
-      // What was cut off at the end of the beginning is no line.
-      const auto last =
-          first + static_cast<std::ptrdiff_t>(std::min(alike, std::max(rows.size() - 1 - k, std::size_t{2})));
-      if (width == 0 || !std::all_of(first, last, next)) continue;
+      if (width == 0 || numbersIn(lines[rows[k + 1]], separator) != width) continue;
       if (!best || width > best->unnamed) best = {static_cast<long>(rows[k]) + 1, 0, separator, width};
       break;
     }

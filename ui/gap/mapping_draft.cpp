@@ -11,7 +11,6 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/recording.h"
-#include "core/gap/recordings/table/table_layout.h"
 #include "core/gap/recordings/table/table_preview.h"
 #include "core/spec/error.h"
 #include "ui/common/numbers/number_entry.h"

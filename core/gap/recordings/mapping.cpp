@@ -7,7 +7,7 @@
 #include "core/gap/recordings/mapping.h"
 
 #include "core/gap/recordings/channel_name.h"
-#include "core/gap/recordings/table/table_layout.h"
+#include "core/gap/recordings/table/table_preview.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 

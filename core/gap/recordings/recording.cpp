@@ -10,6 +10,7 @@
 #include "core/gap/recordings/mapping.h"
 #include "core/gap/recordings/table/cell_reader.h"
 #include "core/gap/recordings/table/table_layout.h"
+#include "core/gap/recordings/table/table_preview.h"
 #include "core/gap/recordings/table/table_reader.h"
 #include "core/gap/recordings/trials.h"
 #include "core/spec/error.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "core/gap/recordings/table/table_preview.h"
 #include "core/gap/recordings/table/time_stamp.h"
 #include "core/spec/error.h"
 
@@ -118,8 +119,6 @@ TableLayout likeliest(const std::vector<std::string_view>& lines) {
 }
 
 }  // namespace
-
-std::string numberedColumn(std::size_t number) { return "column " + std::to_string(number); }
 
 std::optional<std::size_t> placeOf(const std::vector<std::string>& heading, const std::string& column) {
   const auto named = std::ranges::find(heading, column);

@@ -25,9 +25,6 @@ struct TableLayout {
 TableLayout layoutOf(std::string_view beginning, const std::string& timeColumn,
                      const std::vector<std::string>& otherColumns);
 
-/// "column 3": what the third column is called where nothing names it, and where a mapping gives its number.
-std::string numberedColumn(std::size_t number);
-
 /// Where a column stands in a heading: by its name, else by its number; nothing if it is not there.
 std::optional<std::size_t> placeOf(const std::vector<std::string>& heading, const std::string& column);
 

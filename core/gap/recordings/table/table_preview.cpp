@@ -7,6 +7,8 @@
 
 namespace btr {
 
+std::string numberedColumn(std::size_t number) { return "column " + std::to_string(number); }
+
 TablePreview previewTable(const std::string& path, std::size_t rows) {
   TableReader table(path, "time_s", {});
   TablePreview preview;

@@ -5,6 +5,9 @@
 
 namespace btr {
 
+/// "column 3": what the third column is called where nothing names it, and where a mapping gives its number.
+std::string numberedColumn(std::size_t number);
+
 /// What a table's columns are called, and between which numbers they lie in its first rows.
 struct TablePreview {
   struct Column {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/gap/recordings/table/number_reader.h"
+#include "core/gap/recordings/table/table_preview.h"
 #include "core/gap/recordings/table/time_stamp.h"
 #include "core/spec/error.h"
 #include "core/spec/utf8.h"

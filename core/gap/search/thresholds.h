@@ -131,9 +131,7 @@ struct SearchThresholds {
     double smallSize = 0.2;       ///< of a typical size, tried too [hand]
     std::array<double, 2> largeSizes{4, 16};  ///< the same [case: play and limits are not linear]
     double mostKinds = 5;                     ///< whole numbers that are kinds and not counts, each fitted [hand]
-    /// What default sizes are made for, and below which others are tried, too. [case: a rod of 16 g on an encoder]
-    static constexpr double usualTorque_nm = 0.5, smallTorque_nm = 0.05;
-    double leastPeriods = 2;  ///< that a motion must pass for them to be counted [case]
+    double leastPeriods = 2;                  ///< that a motion must pass for them to be counted [case]
   };
 
   /// Linear screening: what each candidate promises (screen.h), and which are fitted.

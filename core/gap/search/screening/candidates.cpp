@@ -14,7 +14,6 @@
 #include "core/gap/search/laws/law_terms.h"
 #include "core/gap/search/thresholds.h"
 #include "core/sim/effect_places.h"
-#include "core/model/kinematics.h"
 
 namespace btr {
 namespace {
@@ -95,48 +94,7 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
-/// What a turning joint's torques are usually like, in parts of those that default sizes are made for: of its drive, or
-/// of the weight behind it times its distance from the axis. 1 for what is no small mechanism.
-double scaleOf(const Scene& scene, const std::string& at, const SearchThresholds::Candidates& limits) {
-  constexpr double gravity_m_s2 = 9.81, unlimited = 1e8;
-  for (const SceneRobot& robot : scene.robots)
-    for (std::size_t j = 0; j < robot.model.joints.size(); ++j) {
-      const Joint& joint = robot.model.joints[j];
-      if (robot.name + "." + joint.name != at) continue;
-      if (joint.type == Joint::Type::slide) return 1;
-      const Drive& drive = robot.drives[j];
-      double torque = 0;
-      if (drive.kind == Drive::Kind::servo || drive.kind == Drive::Kind::torque)
-        torque = drive.maxTorque < unlimited ? drive.maxTorque : 0;
-      const std::vector<double> zero(robot.model.joints.size(), 0.0);
-      const auto poses = forwardKinematics(robot.model, Eigen::Isometry3d::Identity(), zero);
-      const Eigen::Vector3d axis = poses[j + 1].linear() * joint.axis;
-      std::vector<char> carried(robot.model.links.size(), 0);
-      carried[j + 1] = 1;
-      for (std::size_t k = j + 1; k < robot.model.joints.size(); ++k)
-        carried[k + 1] = carried[static_cast<std::size_t>(robot.model.joints[k].parentLink)];
-      double weight = 0;
-      for (std::size_t l = 0; l < robot.model.links.size(); ++l) {
-        const Inertial& body = robot.model.links[l].inertial;
-        if (carried[l])
-          weight += body.mass_kg * gravity_m_s2 *
-                    axis.cross(poses[l] * body.centreOfMass_m - poses[j + 1].translation()).norm();
-      }
-      torque = std::max(torque, weight);
-      return torque > 0 && torque < limits.smallTorque_nm ? torque / limits.usualTorque_nm : 1;
-    }
-  return 1;
-}
-
-/// By how much a size is smaller (or larger: what gives way) in a mechanism of that scale; 1: it has nothing to do with
-/// torques.
-double sizeInScale(const Parameter& p, double scale) {
-  if (p.unit.find("/(N·m)") != std::string::npos || p.unit == "1/N·m") return 1 / scale;
-  return p.unit.starts_with("N·m") || p.unit == "kg·m²" ? scale : 1;
-}
-
-std::vector<Values> variantsOf(const std::vector<Parameter>& declared, double scale,
-                               const SearchThresholds::Candidates& limits) {
+std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
   const auto sized = [&](const Parameter& p, double share, double sign, const Values& others) {
@@ -154,9 +112,6 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, double sc
     if (down) sized(p, 1, -1, base);
     sized(p, limits.smallSize, up ? 1 : -1, base);
     for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, base);
-    // In a small mechanism all of these only jam.
-    if (const double size = sizeInScale(p, scale); size != 1)
-      for (const double much : {1.0, limits.largeSizes[0], limits.smallSize}) sized(p, size * much, up ? 1 : -1, base);
     for (const Parameter& other : declared) {
       if (other.neutral) continue;
       for (const double value : triesOf(other, limits)) {
@@ -187,7 +142,7 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
     for (const std::string& at : effectPlaces(effect->place(), scene, scene.robots))
       if (std::none_of(there.begin(), there.end(),
                        [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
-        candidates.push_back({name, at, declared, variantsOf(declared, scaleOf(scene, at, thresholds), thresholds)});
+        candidates.push_back({name, at, declared, variantsOf(declared, thresholds)});
   }
   return candidates;
 }
@@ -217,8 +172,7 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
     if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum)) {
       candidate.declared = shown;
-      const double scale = scaleOf(problem.sceneOf(problem.given, 0), candidate.at, thresholds);
-      candidate.variants = variantsOf(shown, scale, thresholds);
+      candidate.variants = variantsOf(shown, thresholds);
     }
     return false;
   });

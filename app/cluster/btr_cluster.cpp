@@ -110,7 +110,7 @@ void PlacesFile::begin(const std::string& file) {
 }
 
 void PlacesFile::tell(const std::string& stage, double share, double jobsPerSecond,
-                      const std::vector<PlaceReport>& places, bool isRare) {
+                      const std::vector<PlaceReport>& places, bool isRare, const std::vector<PlaceReport>& analyses) {
   const Clock::time_point now = Clock::now();
   if (file_.empty() || (now - told_ < betweenPlaces && share < 1 && !isRare)) return;
   told_ = now;
@@ -124,6 +124,11 @@ void PlacesFile::tell(const std::string& stage, double share, double jobsPerSeco
                      {"trials", sum.jobs},
                      {"lost", sum.losses},
                      {"worked_s", sum.worked_s}});
+  for (const auto& [name, sum] : hostsOf(analyses))
+    for (nlohmann::json& host : hosts)
+      if (host["host"] == name)
+        host["analyses"] = {
+            {"parts", sum.jobs}, {"pieces", sum.pieces}, {"lost", sum.losses}, {"worked_s", sum.worked_s}};
   const nlohmann::json all{{"format", "uchilsim-places-1"},
                            {"stage", stage},
                            {"share", share},
@@ -157,7 +162,10 @@ Workforce* ClusterJob::workforce() const { return impl_->coordinator.get(); }
 CaseForce* ClusterJob::caseForce() const { return impl_->coordinator.get(); }
 
 void ClusterJob::tell(const char* what) const {
-  if (impl_->coordinator) tellHosts(impl_->coordinator->report(), what);
+  if (!impl_->coordinator) return;
+  tellHosts(impl_->coordinator->report(), what);
+  tellHosts(impl_->coordinator->analysisReport(), "parts of gap analyses");
+  for (const std::string& note : impl_->coordinator->notes()) std::fprintf(stderr, "btr: %s\n", note.c_str());
 }
 
 void ClusterJob::tellTo(const std::string& file) {
@@ -166,8 +174,10 @@ void ClusterJob::tellTo(const std::string& file) {
 
 void ClusterJob::tellProgress(const std::string& stage, double share, double trialsPerSecond, bool isRare) const {
   if (!impl_->places.isKept()) return;
-  const auto places = impl_->coordinator ? impl_->coordinator->report() : std::vector<PlaceReport>{};
-  impl_->places.tell(stage, share, trialsPerSecond, places, isRare);
+  using Reports = std::vector<PlaceReport>;
+  const Coordinator* all = impl_->coordinator.get();
+  impl_->places.tell(stage, share, trialsPerSecond, all ? all->report() : Reports{}, isRare,
+                     all ? all->analysisReport() : Reports{});
 }
 
 void addPlacesOption(CLI::App* command, std::string& file) {

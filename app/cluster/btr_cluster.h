@@ -30,9 +30,10 @@ class PlacesFile {
  public:
   /// Writes it for the first time, if it has a name. Throws InputError if it cannot be written.
   void begin(const std::string& file);
-  /// At most once a second, and at the end: which part of all (0 to 1) is done, by whom. `isRare`: every time.
+  /// At most once a second, and at the end: which part of all (0 to 1) is done, by whom; `analyses`: who made parts of
+  /// gap analyses beside that. `isRare`: every time.
   void tell(const std::string& stage, double share, double jobsPerSecond, const std::vector<PlaceReport>& places,
-            bool isRare = false);
+            bool isRare = false, const std::vector<PlaceReport>& analyses = {});
   bool isKept() const { return !file_.empty(); }
 
  private:

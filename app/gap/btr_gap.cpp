@@ -11,7 +11,7 @@
 #include "app/btr_commands.h"
 #include "app/cluster/btr_cluster.h"
 #include "app/progress_line.h"
-#include "core/cluster/shared_analysis.h"
+#include "core/cluster/analysis/shared_analysis.h"
 #include "core/gap/fit/fitted_start.h"
 #include "core/gap/fit/gap_problem.h"
 #include "core/gap/fit/job_share.h"
@@ -86,7 +86,6 @@ void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFil
                     Shell& shell) {
   const int workers = request.options.jobs > 0 ? request.options.jobs : shareOfProcessors();
   CoordinatorOptions options;
-  options.secondsPerJob = longestAnalysisJob_s;
   options.command.insert(options.command.end(), {"--workers", std::to_string(workers)});
   RankRole role = takeRole(shell, std::move(options));
   if (role.isDone) return;

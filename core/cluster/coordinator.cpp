@@ -6,8 +6,11 @@
 #include <thread>
 #include <utility>
 
+#include "core/cluster/analysis/analysis_messages.h"
+#include "core/cluster/analysis/lockstep.h"
 #include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
+#include "core/cluster/experiment_message.h"
 #include "core/cluster/schedule.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
@@ -39,10 +42,21 @@ struct Place {
   Clock::time_point since = {};  ///< when it began with the first of them
 };
 
-Parts experimentMessage(long number, const RunRecord& record) {
-  Parts parts{"experiment", std::to_string(number), record.specJson, record.sceneJson};
-  for (const StoredFile& file : record.files) parts.insert(parts.end(), {file.name, file.sha256, file.content});
-  return parts;
+/// To what is known of the same places.
+void addUp(const std::vector<PlaceReport>& reports, std::vector<PlaceReport>& all) {
+  for (const PlaceReport& report : reports) {
+    const auto same = std::ranges::find_if(
+        all, [&](const PlaceReport& a) { return a.rank == report.rank && a.foreman == report.foreman; });
+    if (same == all.end()) {
+      all.push_back(report);
+      continue;
+    }
+    same->workers = report.workers;
+    same->pieces += report.pieces;
+    same->jobs += report.jobs;
+    same->losses += report.losses;
+    same->worked_s += report.worked_s;
+  }
 }
 
 }  // namespace
@@ -55,6 +69,10 @@ struct Coordinator::Impl {
   Parts taskText;         ///< as it was sent, without its number
   std::string generator;  ///< that conceals the task's cases, if it has such
   Pace paceOfTrials, paceOfBlindCases = paceOfCases;
+  std::vector<PlaceReport> analysed;   ///< of analyses that are over
+  const Lockstep* lockstep = nullptr;  ///< while there is one
+  std::vector<std::string> notes;
+  long analyses = 0;
 
   // Of the work that is done now.
   std::function<void(std::size_t, WorkerPool::Reply)> settle;  ///< a job came to its end
@@ -130,7 +148,7 @@ struct Coordinator::Impl {
   void lose(Place& place, const Parts& parts) {
     place.why = parts.size() > 1 ? parts[1] : "";
     place.task = 0;
-    ++place.report.losses;
+    if (!lockstep) ++place.report.losses;
     bool first = true;
     for (const Piece& piece : std::exchange(place.pieces, {})) {
       if (!piece.abandoned) {
@@ -152,7 +170,8 @@ struct Coordinator::Impl {
   }
 
   bool begin(const std::atomic<bool>& stop) {
-    const bool isThere = ranks.begin(stop, [this](std::size_t member, const Parts& parts) { hear(member, parts); });
+    const bool isThere =
+        ranks.begin([&stop] { return !stop; }, [this](std::size_t member, const Parts& parts) { hear(member, parts); });
     addPlaces(ranks.members(), places);
     return isThere;
   }
@@ -222,6 +241,23 @@ struct Coordinator::Impl {
   }
 };
 
+/// The ranks belong to an analysis while this lives; then the foremen know no task any more.
+class Coordinator::LentRanks {
+ public:
+  LentRanks(Impl& impl, const Lockstep& lockstep) : impl_(impl) { impl_.lockstep = &lockstep; }
+  ~LentRanks() {
+    for (Place& place : impl_.places) place.task = 0;
+    addUp(impl_.lockstep->report(), impl_.analysed);
+    impl_.notes.insert(impl_.notes.end(), impl_.lockstep->notes().begin(), impl_.lockstep->notes().end());
+    impl_.lockstep = nullptr;
+  }
+  LentRanks(const LentRanks&) = delete;
+  LentRanks& operator=(const LentRanks&) = delete;
+
+ private:
+  Impl& impl_;
+};
+
 Coordinator::Coordinator(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
     : impl_(new Impl(std::move(link), host, std::move(options))) {}
 
@@ -235,19 +271,44 @@ std::vector<PlaceReport> Coordinator::report() const {
   return all;
 }
 
+std::vector<PlaceReport> Coordinator::analysisReport() const {
+  std::vector<PlaceReport> all = impl_->analysed;
+  if (impl_->lockstep) addUp(impl_->lockstep->report(), all);
+  return all;
+}
+
+std::vector<std::string> Coordinator::notes() const { return impl_->notes; }
+
 std::vector<WorkerPool::Reply> Coordinator::run(const PreparedExperiment& experiment,
                                                 const std::vector<std::string>& jobs, const std::atomic<bool>& stop,
                                                 const std::function<void(std::size_t)>& done) {
   Impl& impl = *impl_;
   if (!impl.begin(stop)) return {};
   impl.generator.clear();
-  impl.setTask(experimentMessage(0, makeRunRecord(experiment, 0, 0)));
+  Parts task = experimentParts(makeRunRecord(experiment, 0, 0));
+  task.insert(task.begin(), {"experiment", "0"});
+  impl.setTask(std::move(task));
   impl.pace = &impl.paceOfTrials;
   impl.secondsPerJob = impl.ranks.options().secondsPerJob;
   std::vector<WorkerPool::Reply> replies(jobs.size());
   impl.settle = [&](std::size_t job, WorkerPool::Reply reply) { replies[job] = std::move(reply); };
   if (!impl.work(jobs, stop, done)) return {};
   return replies;
+}
+
+RecordedFinding Coordinator::analyse(const PreparedExperiment& experiment, const RecordedAnalysis& analysis,
+                                     const AnalysisProgress& progress, const std::function<bool()>& goesOn) {
+  Impl& impl = *impl_;
+  Lockstep::Task task;
+  task.message = experimentParts(makeRunRecord(experiment, 0, 0));
+  task.message.insert(task.message.begin(), {"repair", pack(analysis)});
+  task.number = ++impl.analyses;
+  task.who = Lockstep::Who::oneOfEachRank;
+  task.readsFiles = false;
+  Lockstep lockstep(impl.ranks, impl.host, std::move(task));
+  const LentRanks lent(impl, lockstep);
+  return findingFrom(
+      lockstep.run(progress, goesOn, [&impl](std::size_t k, const Parts& parts) { impl.hear(k, parts); }));
 }
 
 void Coordinator::prove(const ProofRequest& request, const std::vector<std::size_t>& numbers,

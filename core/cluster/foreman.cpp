@@ -5,9 +5,11 @@
 
 #include <chrono>
 
-#include "core/cluster/analysis_foreman.h"
+#include "core/cluster/analysis/analysis_foreman.h"
+#include "core/cluster/analysis/analysis_messages.h"
 #include "core/cluster/blind_cases.h"
 #include "core/cluster/build_identity.h"
+#include "core/cluster/experiment_message.h"
 #include "core/cluster/foreman_pipe.h"
 #include "core/cluster/own_scratch.h"
 #include "core/cluster/parts.h"
@@ -29,20 +31,8 @@ struct Task {
 };
 
 std::unique_ptr<Task> prepareExperiment(const Parts& message, const PluginHost& host, double secondsPerJob) {
-  constexpr std::size_t head = 4, perFile = 3;
-  if (message.size() < head) throw InputError("an experiment that is cut short");
-  RunRecord record;
-  record.specJson = message[2];
-  record.sceneJson = message[3];
-  for (std::size_t i = head; i + perFile <= message.size(); i += perFile) {
-    StoredFile file;
-    file.name = message[i];
-    file.sha256 = message[i + 1];
-    file.content = message[i + 2];
-    record.files.push_back(std::move(file));
-  }
   auto task = std::make_unique<Task>();
-  task->prepared = prepareFromRun(record, host);
+  task->prepared = prepareFromRun(experimentFrom(message.begin() + 2, message.end()), host);
   task->identity = buildIdentity(host);
   task->pool = std::make_unique<WorkerPool>(1, trialWork(task->prepared), secondsPerJob);
   return task;
@@ -92,7 +82,7 @@ void servePieces(const PluginHost& host, double secondsPerJob, int workers) {
     const std::string& kind = message->front();
     if (kind == "piece" && task) {
       pipe.write(workOn(*message, *task->pool));
-    } else if (kind == "analysis") {
+    } else if (isAnalysis(*message)) {
       task.reset();
       serveAnalysis(*message, pipe, host, workers);
     } else if (kind == "experiment" || kind == "cases") {

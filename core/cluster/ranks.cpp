@@ -115,12 +115,12 @@ bool Ranks::haveAllBegun() const {
          std::ranges::all_of(members_, [](const Member& m) { return m.begun || m.gone; });
 }
 
-bool Ranks::begin(const std::atomic<bool>& stop, const Hear& hear) {
+bool Ranks::begin(const std::function<bool()>& goesOn, const Hear& hear) {
   if (allBegun_) return true;
   if (!crew_ && options_.foremen > 0) crew_ = std::make_unique<Crew>(options_.foremen, options_.command);
   const auto begun = Clock::now();
   while (!haveAllBegun()) {
-    if (stop) return false;
+    if (!goesOn()) return false;
     listen(hear);
     if (std::chrono::duration<double>(Clock::now() - begun).count() < options_.patience_s) continue;
     for (std::size_t rank = 0; rank < arrived_.size(); ++rank)

@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -9,15 +8,17 @@
 
 #include "core/cluster/crew.h"
 #include "core/cluster/rank_link.h"
+#include "core/gap/fit/job_share.h"
 #include "core/plugin/plugin_host.h"
 
 namespace btr {
 
 struct CoordinatorOptions {
-  int foremen = 1;             ///< of this rank; 0: it only coordinates
-  double secondsPerJob = 120;  ///< as WorkerPool
-  double grace_s = 30;         ///< a foreman that tries each job of its piece twice may take this long beyond that
-  double patience_s = 120;     ///< how long ranks may take to begin
+  int foremen = 1;                               ///< of this rank; 0: it only coordinates
+  double secondsPerJob = 120;                    ///< as WorkerPool
+  double secondsPerPart = longestAnalysisJob_s;  ///< as secondsPerJob, of a part of an analysis
+  double grace_s = 30;      ///< a foreman that tries each job of its piece twice may take this long beyond that
+  double patience_s = 120;  ///< how long ranks may take to begin
   ForemanCommand command = ownForeman();
   std::string words = {};  ///< what this process was asked for; every rank must have been asked for the same
 };
@@ -51,9 +52,9 @@ class Ranks {
   const std::vector<Member>& members() const { return members_; }
   bool areAllGone() const;
 
-  /// Every rank is there and has the same build; once is enough. False if stopped. Throws InputError, which names rank
-  /// and host, if one has another build or other words or never began.
-  bool begin(const std::atomic<bool>& stop, const Hear& hear);
+  /// Every rank is there and has the same build; once is enough. False if `goesOn` said no. Throws InputError, which
+  /// names rank and host, if one has another build or other words or never began.
+  bool begin(const std::function<bool()>& goesOn, const Hear& hear);
   /// Takes what has come, waiting a moment for it.
   void listen(const Hear& hear);
   void send(std::size_t member, const Parts& parts);

@@ -1,4 +1,4 @@
-#include "core/cluster/shared_analysis.h"
+#include "core/cluster/analysis/shared_analysis.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -126,7 +126,7 @@ TEST(SharedAnalysis, DoesWithoutAForemanThatHangs) {
   const Hinge hinge;
   const auto alone = hinge.filesOfOneProcess();
   CoordinatorOptions options = withAnalysts(2, 1);
-  options.secondsPerJob = 0;
+  options.secondsPerPart = 0;
   options.grace_s = 2;
   options.patience_s = 10;
   SharedAnalysis analysis(nullptr, hinge.host(), options);
@@ -194,7 +194,7 @@ TEST(SharedAnalysis, NamesARankThatReadsOtherFiles) {
 
 TEST(SharedAnalysis, NamesARankThatCannotRead) {
   EXPECT_EQ("rank 1 (host lab7): trial.csv: there is no such file",
-            refusalOf(Hinge(), {"0", "failed", "input", "trial.csv: there is no such file"}));
+            refusalOf(Hinge(), {"0", "failed", "1", "input", "trial.csv: there is no such file"}));
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ JobStatus placesStatus(const QByteArray& json, const QString& file) {
     part.workers = each["workers"].toInt();
     part.pieces = each["pieces"].toInteger();
     part.trials = each["trials"].toInteger();
-    part.lost = each["lost"].toInteger();
+    part.lost = each["lost"].toInteger() + each["analyses"]["lost"].toInteger();
     if (const double worked_s = each["worked_s"].toDouble(); worked_s > 0)
       part.trialsPerSecond = double(part.trials) / worked_s * part.workers;
     status.parts.push_back(part);

@@ -1,19 +1,13 @@
 // Between measuring and L3, where the experiment wants it: the measured individuals are recorded as well, gap analysis
 // says what the simulator lacks, and the repaired simulator becomes the run's next version.
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/gap/fit/gap_problem.h"
-#include "core/gap/recordings/recording.h"
-#include "core/gap/search/gap_report.h"
-#include "core/gap/search/report_words.h"
 #include "core/run/loop/robot.h"
 #include "core/run/loop/run_context.h"
-#include "core/run/reality/identified_numbers.h"
 #include "core/run/reality/reality_gap.h"
+#include "core/run/reality/recorded_analysis.h"
 #include "core/run/reality/recorded_robot.h"
-#include "core/run/reality/stored_recordings.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/system/cancelled.h"
@@ -21,8 +15,6 @@
 
 namespace btr {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Whom this stage records: the first in the order of measuring, without those whose trials all failed and without
 /// those held out: what is made of the recordings must not know them.
@@ -39,33 +31,26 @@ std::vector<Id> whomToRecord(const RunContext& context, int stage, RobotPose pos
   return who;
 }
 
-/// A stored recording and its trials.
-struct Recorded {
-  RecordingRecord record;  ///< without csv
-  std::vector<Recording> trials;
-};
+RecordedAnalysis::Table tableOf(const RecordingRecord& record) { return {record.name, record.csv, record.mappingJson}; }
 
 /// The individuals' recordings in that pose, in their order; several of one in the order in which they came.
-std::vector<Recorded> recordingsOf(const RunContext& context, const std::vector<Id>& who, RobotPose pose) {
-  const ScratchFolder scratch("uchilsim-recordings");
+std::vector<RecordingRecord> recordingsOf(const RunContext& context, const std::vector<Id>& who, RobotPose pose) {
   const std::vector<RecordingRecord> all = context.database.recordings(context.record.experiment);
   const bool both = context.prepared.spec.recordings.poses().size() > 1;
-  std::vector<Recorded> found;
+  std::vector<RecordingRecord> found;
   for (const Id individual : who)
-    for (const RecordingRecord& record : all) {
-      if (record.individual != individual) continue;
-      // Two recordings may have the same name: each gets a folder of its own.
-      const std::string folder = scratch.file(std::to_string(record.id));
-      Recorded recorded{record, loadTrials(exportRecording(context.database, record.id, folder))};
-      if (!both || poseOf(recorded.trials.front()) == pose) found.push_back(std::move(recorded));
+    for (const RecordingRecord& listed : all) {
+      if (listed.individual != individual) continue;
+      RecordingRecord record = context.database.recording(listed.id);
+      if (!both || poseOf(trialsOf(tableOf(record)).front()) == pose) found.push_back(std::move(record));
     }
   return found;
 }
 
 /// Who of them has no recording among these.
-std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<Recorded>& recordings) {
+std::vector<Id> withoutRecording(std::vector<Id> who, const std::vector<RecordingRecord>& recordings) {
   std::erase_if(who, [&](Id individual) {
-    return std::ranges::any_of(recordings, [&](const Recorded& r) { return r.record.individual == individual; });
+    return std::ranges::any_of(recordings, [&](const RecordingRecord& r) { return r.individual == individual; });
   });
   return who;
 }
@@ -95,56 +80,39 @@ bool recordRobot(RunContext& context, const std::vector<Id>& who, RobotPose pose
   return true;
 }
 
-std::string evidenceOf(const GapReport& report, int stage, RobotPose pose, const std::vector<Recorded>& recordings) {
-  nlohmann::json evidence{{"stage", stage},
-                          {"robot", toText(pose)},
-                          {"verdict", toText(report.verdict)},
-                          {"sentence", report.sentence},
-                          {"calibrated", toEvidence(report.calibrated)},
-                          {"effects", nlohmann::json::array()},
-                          {"ladder", nlohmann::json::array()},
-                          {"recordings", nlohmann::json::array()},
-                          {"recordings_sha256", nlohmann::json::array()},
-                          {"seed", report.seed},
-                          {"version", report.version}};
-  for (const GapReport::Effect& effect : report.tried)
-    if (effect.accepted)
-      evidence["effects"].push_back(
-          {{"effect", effect.effect}, {"at", effect.at}, {"parameters", toEvidence(effect.parameters)}});
-  for (const GapReport::Step& step : report.ladder)
-    evidence["ladder"].push_back({{"what", step.what}, {"error_in_noise_floors", step.error}});
-  for (const Recorded& recorded : recordings) {
-    evidence["recordings"].push_back(recorded.record.id);
-    evidence["recordings_sha256"].push_back(recorded.record.sha256);
+/// What the analysis says, and of what.
+std::string evidenceOf(const RecordedFinding& finding, int stage, RobotPose pose,
+                       const std::vector<RecordingRecord>& recordings) {
+  nlohmann::json evidence = nlohmann::json::parse(finding.evidence);
+  evidence["stage"] = stage;
+  evidence["robot"] = toText(pose);
+  evidence["recordings"] = evidence["recordings_sha256"] = nlohmann::json::array();
+  for (const RecordingRecord& recording : recordings) {
+    evidence["recordings"].push_back(recording.id);
+    evidence["recordings_sha256"].push_back(recording.sha256);
   }
   return evidence.dump();
 }
 
-/// The analysis of the recordings; nothing if stopped.
-std::optional<GapReport> analyseRecordings(RunContext& context, const SimulatorSpec& simulator,
-                                           const std::vector<Recorded>& recordings, RobotPose pose) {
-  std::vector<Recording> trials;
-  for (const Recorded& recorded : recordings)
-    trials.insert(trials.end(), recorded.trials.begin(), recorded.trials.end());
-  AnalysisOptions options;
-  options.jobs = context.jobs();
-  options.seed = context.record.seed;
-  options.maximumEffects = static_cast<int>(context.recordingSetting("maximum_effects"));
-  options.effects = consideredEffects(context.prepared, context.host, pose);
-  options.designNext = false;
-  options.learnRest = pose == RobotPose::hungUp;  // on the floor its curve takes minutes, and nobody sees it
-  const EffectLibrary library{context.host.effectFactory(), context.host.effects()};
+/// The analysis of the recordings, by whoever works for the run; nothing if stopped.
+std::optional<RecordedFinding> analyseRecordings(RunContext& context, const SimulatorSpec& simulator,
+                                                 const std::vector<RecordingRecord>& recordings, RobotPose pose) {
+  RecordedAnalysis analysis{{}, simulator, pose, context.record.seed};
+  for (const RecordingRecord& recording : recordings) analysis.recordings.push_back(tableOf(recording));
   context.progress.stage = "gap analysis";
   context.progress.stageTotal = 100;
   context.progress.secondsLeft = -1;
+  const AnalysisProgress progress = [&](const std::string& what, double share) {
+    context.progress.stageDone = static_cast<int>(100 * share);
+    context.progress.message = what;
+    context.publish(false);
+    return !context.stopped();
+  };
+  const PreparedExperiment& prepared = context.prepared;
   try {
-    return analyse(recordedProblem(context.prepared, simulator, std::move(trials), pose), library, options,
-                   [&](const std::string& what, double share) {
-                     context.progress.stageDone = static_cast<int>(100 * share);
-                     context.progress.message = what;
-                     context.publish(false);
-                     return !context.stopped();
-                   });
+    if (Workforce* all = context.workforce())
+      return all->analyse(prepared, analysis, progress, [&] { return !context.stopped(); });
+    return analyseRecorded(prepared, context.host, analysis, problemOf(prepared, analysis), context.jobs(), progress);
   } catch (const Cancelled&) {
     return std::nullopt;
   }
@@ -180,7 +148,7 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
   db.setRunState(run, RunState::adapting, "");
   const std::vector<Id> who = whomToRecord(context, stage, pose);
   if (who.empty()) return StageEnd::done;
-  std::vector<Recorded> recordings = recordingsOf(context, who, pose);
+  std::vector<RecordingRecord> recordings = recordingsOf(context, who, pose);
   std::vector<Id> missing = withoutRecording(who, recordings);
   const PreparedExperiment& prepared = context.prepared;
   if (prepared.reality->records(prepared.spec.realityOptions.settings) && !missing.empty()) {
@@ -199,15 +167,15 @@ StageEnd repairFrom(RunContext& context, int stage, RobotPose pose) {
     return StageEnd::waiting;
   }
 
-  const auto report = analyseRecordings(context, parent.simulator, recordings, pose);
-  if (!report) return StageEnd::stopped;
+  const auto finding = analyseRecordings(context, parent.simulator, recordings, pose);
+  if (!finding) return StageEnd::stopped;
   // A version even if nothing was found: that the analysis was made, and what it said, is part of the lineage.
   SimulatorRecord version;
   version.run = run;
   version.parent = parent.id;
-  version.simulator = report->after;
+  version.simulator = finding->simulator;
   version.madeBy = "gap analysis";
-  version.evidence = evidenceOf(*report, stage, pose, recordings);
+  version.evidence = evidenceOf(*finding, stage, pose, recordings);
   version.madeAfterGeneration = context.measuredAfter(stage);
   version.createdAt = utcNow();
   db.addSimulator(version);

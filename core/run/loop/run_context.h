@@ -35,6 +35,7 @@ class RunContext {
   void publish(bool now);
 
   int jobs() const;  ///< worker processes
+  Workforce* workforce() const { return options_.workforce; }
   bool withoutRecordings() const { return options_.withoutRecordings; }
   int stageSetting(const std::string& name) const;          ///< of stageParameters()
   double adaptationSetting(const std::string& name) const;  ///< of adaptationParameters()

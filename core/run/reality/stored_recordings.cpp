@@ -59,7 +59,10 @@ StoredRecording importRecording(Database& database, Id experiment, const std::st
 }
 
 std::string exportRecording(const Database& database, Id recording, const std::string& folder) {
-  const RecordingRecord record = database.recording(recording);
+  return writeRecordingFiles(database.recording(recording), folder);
+}
+
+std::string writeRecordingFiles(const RecordingRecord& record, const std::string& folder) {
   const fs::path out(folder);
   std::error_code failure;
   fs::create_directories(out, failure);
@@ -67,7 +70,7 @@ std::string exportRecording(const Database& database, Id recording, const std::s
   // The stored name is text from a file: it stays within the folder.
   const std::string name = fs::path(record.name).filename().string();
   if (name.empty() || name == "." || name == "..")
-    throw InputError("recording " + std::to_string(recording), "the name \"" + record.name + "\"", "a file's name");
+    throw InputError("recording " + std::to_string(record.id), "the name \"" + record.name + "\"", "a file's name");
   const auto write = [&](const fs::path& path, const std::string& content) {
     if (fs::exists(path, failure) && readFile(path.string(), std::size_t{1} << 30) != content)
       throw InputError(path.string() + ": is there already with other content; choose another folder");

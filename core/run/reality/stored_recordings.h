@@ -34,5 +34,7 @@ StoredRecording importRecording(Database& database, Id experiment, const std::st
 /// Writes a stored recording and its mapping into a folder as NAME.csv and NAME.mapping.json, as an analysis reads
 /// them. Returns the path of the CSV. Throws InputError; an existing file of other content is not replaced.
 std::string exportRecording(const Database& database, Id recording, const std::string& folder);
+/// The same of one that was read before.
+std::string writeRecordingFiles(const RecordingRecord& record, const std::string& folder);
 
 }  // namespace btr

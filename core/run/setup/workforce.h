@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "core/gap/fit/gap_problem.h"
 #include "core/run/setup/prepared_experiment.h"
 #include "core/sim/worker_pool.h"
 
 namespace btr {
 
-/// Who evaluates trials, where that is not this process's own worker processes alone: those of other machines, too.
+struct RecordedAnalysis;
+struct RecordedFinding;
+
+/// Who evaluates trials and analyses recordings, where that is not this process's own worker processes alone: those of
+/// other machines, too.
 class Workforce {
  public:
   virtual ~Workforce() = default;
@@ -20,6 +25,10 @@ class Workforce {
   virtual std::vector<WorkerPool::Reply> run(const PreparedExperiment& experiment, const std::vector<std::string>& jobs,
                                              const std::atomic<bool>& stop,
                                              const std::function<void(std::size_t)>& done) = 0;
+  /// As problemOf() and analyseRecorded(), made by all of them together: the same finding. Throws Cancelled where
+  /// `progress` or `goesOn`, which is asked now and then, says no; InputError as run() does.
+  virtual RecordedFinding analyse(const PreparedExperiment& experiment, const RecordedAnalysis& analysis,
+                                  const AnalysisProgress& progress, const std::function<bool()>& goesOn) = 0;
 };
 
 }  // namespace btr

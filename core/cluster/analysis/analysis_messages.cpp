@@ -1,4 +1,4 @@
-#include "core/cluster/analysis_messages.h"
+#include "core/cluster/analysis/analysis_messages.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -37,6 +37,36 @@ void addRecordings(Parts& inputs, const std::vector<Recording>& recordings) {
 }
 
 }  // namespace
+
+bool isAnalysis(const Parts& message) { return message.front() == "analysis" || message.front() == "repair"; }
+
+std::string pack(const RecordedAnalysis& analysis) {
+  Parts parts{toJsonText(analysis.simulator), toText(analysis.pose), std::to_string(analysis.seed)};
+  for (const RecordedAnalysis::Table& table : analysis.recordings)
+    parts.insert(parts.end(), {table.name, table.csv, table.mappingJson});
+  return pack(parts);
+}
+
+RecordedAnalysis recordedAnalysisFrom(const std::string& bytes) {
+  const Parts parts = unpack(bytes);
+  constexpr std::size_t head = 3, perTable = 3;
+  if (parts.size() < head || (parts.size() - head) % perTable != 0)
+    throw InputError("the recordings of an analysis are cut short");
+  RecordedAnalysis analysis;
+  analysis.simulator = simulatorFromJson(parts[0], "simulator of an analysis");
+  analysis.pose = robotPose(parts[1], "an analysis");
+  analysis.seed = std::stoull(parts[2]);
+  for (std::size_t i = head; i < parts.size(); i += perTable)
+    analysis.recordings.push_back({parts[i], parts[i + 1], parts[i + 2]});
+  return analysis;
+}
+
+Parts partsOf(const RecordedFinding& finding) { return {toJsonText(finding.simulator), finding.evidence}; }
+
+RecordedFinding findingFrom(const Parts& parts) {
+  if (parts.size() != 2) throw InputError("what an analysis found is cut short");
+  return {simulatorFromJson(parts[0], "simulator of an analysis"), parts[1]};
+}
 
 std::string toJsonText(const AnalysisRequest& request) {
   return json{{"scene", request.scene},
@@ -81,6 +111,12 @@ Parts inputsOf(const AnalysisRequest& request, const GapProblem& problem) {
     inputs.push_back(nameAndHash(fs::path(problem.scene.directory) / robot.model));
   addRecordings(inputs, problem.recordings);
   addRecordings(inputs, problem.heldOut);
+  return inputs;
+}
+
+Parts inputsOf(const GapProblem& problem) {
+  Parts inputs;
+  addRecordings(inputs, problem.recordings);
   return inputs;
 }
 

@@ -1,42 +1,70 @@
-#include "core/cluster/analysis_foreman.h"
+#include "core/cluster/analysis/analysis_foreman.h"
 
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <deque>
 #include <map>
 #include <memory>
 
-#include "core/cluster/analysis_messages.h"
+#include "core/cluster/analysis/analysis_messages.h"
+#include "core/cluster/analysis/analysis_task.h"
 #include "core/cluster/build_identity.h"
 #include "core/gap/fit/job_share.h"
 #include "core/gap/fit/parallel.h"
-#include "core/gap/report/report_files.h"
-#include "core/gap/report/report_json.h"
-#include "core/gap/report/report_plain.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
-#include "core/spec/sha256.h"
 #include "core/spec/system/cancelled.h"
 
 namespace btr {
 namespace {
-
-/// The next message; without anybody there, the process has nothing to live for.
-Parts nextMessage(const ForemanPipe& pipe) {
-  while (auto message = pipe.read())
-    if (!message->empty()) return std::move(*message);
-  _exit(0);
-}
 
 bool canBeRead(const ForemanPipe& pipe) {
   pollfd file{pipe.in, POLLIN, 0};
   return poll(&file, 1, 0) > 0;
 }
 
+/// What rank 0 says while the analysis goes on.
+class Inbox {
+ public:
+  Inbox(const ForemanPipe& pipe, std::string number) : pipe_(pipe), number_(std::move(number)) {}
+
+  /// The next message; without anybody there, the process has nothing to live for. Throws Cancelled where nobody waits
+  /// for this analysis any more.
+  Parts next() {
+    if (waiting_.empty()) read();
+    Parts message = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (isEnd(message)) throw Cancelled{};
+    return message;
+  }
+  /// There is a message.
+  bool hasNext() const { return !waiting_.empty() || canBeRead(pipe_); }
+  /// Nobody waits for this analysis any more.
+  bool isOver() {
+    // What follows its end is not for this analysis.
+    while ((waiting_.empty() || !isEnd(waiting_.back())) && canBeRead(pipe_)) read();
+    return !waiting_.empty() && isEnd(waiting_.back());
+  }
+
+ private:
+  void read() {
+    auto message = pipe_.read();
+    if (!message) _exit(0);
+    if (!message->empty()) waiting_.push_back(std::move(*message));
+  }
+  bool isEnd(const Parts& message) const { return message.front() == "end" && message.at(1) == number_; }
+
+  const ForemanPipe& pipe_;
+  const std::string number_;
+  std::deque<Parts> waiting_;
+};
+
 /// The calls of parallel() as rank 0 divides them.
 class DividedCalls : public JobShare {
  public:
-  DividedCalls(const ForemanPipe& pipe, int workers) : pipe_(pipe), workers_(workers) {}
+  DividedCalls(const ForemanPipe& pipe, Inbox& inbox, int workers) : pipe_(pipe), inbox_(inbox), workers_(workers) {}
 
   std::vector<WorkerPool::Reply> run(std::size_t count, const std::function<std::string(std::size_t)>& work,
                                      const std::function<bool(std::size_t)>& goOn) override {
@@ -50,13 +78,13 @@ class DividedCalls : public JobShare {
     while (true) {
       if (pool) {
         constexpr int now_and_then_ms = 1000;
-        for (WorkerPool::Ended& ended : pool->wait(now_and_then_ms, pipe_.in)) {
+        for (WorkerPool::Ended& ended : pool->wait(inbox_.hasNext() ? 0 : now_and_then_ms, pipe_.in)) {
           take(std::move(ended));
           if (goOn && !goOn(known_)) throw Cancelled{};
         }
-        if (!canBeRead(pipe_)) continue;
+        if (!inbox_.hasNext()) continue;
       }
-      const Parts message = nextMessage(pipe_);
+      const Parts message = inbox_.next();
       if (message[0] == "all" && message.at(1) == std::to_string(call_)) {
         for (std::size_t i = 2; i + 2 < message.size(); i += 3)
           replies_.at(std::stoul(message[i])) = replyFrom(message[i + 1], message[i + 2]);
@@ -100,6 +128,7 @@ class DividedCalls : public JobShare {
   }
 
   const ForemanPipe& pipe_;
+  Inbox& inbox_;
   int workers_;
   long call_ = 0;
   std::map<std::string, Piece> pieces_;  ///< by number; of the present call
@@ -108,48 +137,42 @@ class DividedCalls : public JobShare {
   std::size_t known_ = 0;
 };
 
-/// Of all that must be the same whoever made it.
-std::string hashOf(GapReport report) {
-  report.seconds = 0;
-  return sha256(toJsonText(report));
-}
-
-void takePart(const Parts& message, const ForemanPipe& pipe, const PluginHost& host, int workers) {
-  AnalysisRequest request = analysisRequestFromJson(message.at(2));
-  const EffectLibrary library{host.effectFactory(), host.effects()};
-  refuseUnknownEffects(request.options, library);
-  const GapProblem problem = loadProblem(request);
-  pipe.write(
-      joined({"ready", message[1], std::to_string(workers), pack(inputsOf(request, problem))}, buildIdentity(host)));
-  for (Parts begin = nextMessage(pipe);; begin = nextMessage(pipe))
-    if (begin[0] == "begin") {
-      request.options.jobs = std::stoi(begin.at(1));
-      break;
-    }
-  DividedCalls calls(pipe, workers);
+void takePart(const Parts& message, const ForemanPipe& pipe, const PluginHost& host, int ownWorkers) {
+  const int told = std::stoi(message.at(2)), workers = told > 0 ? told : ownWorkers;
+  const AnalysisTask task = analysisTaskFrom(message, host);
+  pipe.write(joined({"ready", message[1], std::to_string(workers), pack(task.inputs)}, buildIdentity(host)));
+  Inbox inbox(pipe, message[1]);
+  Parts begin;
+  do begin = inbox.next();
+  while (begin[0] != "begin");
+  DividedCalls calls(pipe, inbox, workers);
   const SharedJobs shared(calls);
-  const GapReport report = analyseLoaded(request, problem, library, [&](const std::string& stage, double share) {
+  const AnalysisOutcome outcome = task.analyse(std::stoi(begin.at(1)), [&](const std::string& stage, double share) {
     pipe.write({"progress", stage, toText(share)});
-    return true;
+    return !inbox.isOver();
   });
-  pipe.write({"found", hashOf(report)});
-  while (nextMessage(pipe)[0] != "write") {
+  pipe.write({"found", outcome.hash});
+  while (inbox.next()[0] != "write") {
   }
-  if (!request.out.empty()) writeReport(report, request.out);
-  pipe.write({"written", toPlainText(report), toJsonText(report)});
+  pipe.write(joined({"written"}, outcome.tell()));
 }
 
 }  // namespace
 
 void serveAnalysis(const Parts& message, const ForemanPipe& pipe, const PluginHost& host, int workers) {
+  const auto failed = [&](const char* kind, const std::exception& error) {
+    pipe.write({"failed", message[1], kind, error.what()});
+  };
   try {
     takePart(message, pipe, host, workers);
+  } catch (const Cancelled&) {
+    // nobody waits to hear of it
   } catch (const InputError& error) {
-    pipe.write({"failed", "input", error.what()});
+    failed("input", error);
   } catch (const JobFault& fault) {
-    pipe.write({"failed", "fault", fault.what()});
+    failed("fault", fault);
   } catch (const std::exception& error) {
-    pipe.write({"failed", "other", error.what()});
+    failed("other", error);
   }
 }
 

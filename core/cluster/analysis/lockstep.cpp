@@ -1,4 +1,4 @@
-#include "core/cluster/shared_analysis.h"
+#include "core/cluster/analysis/lockstep.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/cluster/analysis_messages.h"
+#include "core/cluster/analysis/analysis_messages.h"
 #include "core/cluster/build_identity.h"
 #include "core/cluster/schedule.h"
 #include "core/gap/fit/parallel.h"
@@ -25,9 +25,6 @@ double sinceThen(Clock::time_point then) { return std::chrono::duration<double>(
 /// A job whose foreman was lost so often is at fault, or the machines are.
 constexpr int mostLossesOfAJob = 3;
 constexpr std::size_t nobody = SIZE_MAX;
-/// There is one analysis.
-constexpr const char* theOnly = "1";
-
 struct OpenPiece {
   std::vector<std::size_t> jobs;
   Clock::time_point sent;
@@ -36,6 +33,7 @@ struct OpenPiece {
 /// A foreman.
 struct Analyst {
   PlaceReport report;
+  bool takesPart = true;
   bool wasTold = false;  ///< what is analysed
   bool isReady = false, hasLeft = false;
   bool isAnew = false;  ///< it was lost before, and nobody waits for it
@@ -59,14 +57,16 @@ void rethrow(const std::string& kind, const std::string& why) {
 
 }  // namespace
 
-struct SharedAnalysis::Impl {
-  Ranks ranks;
+struct Lockstep::Impl {
+  Ranks& ranks;
   const Parts identity;
-  std::vector<Analyst> analysts;  ///< by member; the first leads and writes
+  const Task task;
+  std::vector<Analyst> analysts;  ///< by member
+  std::size_t leader = 0;         ///< the first that takes part: it tells the outcome
   std::vector<std::string> notes;
-  AnalysisRequest request;
   AnalysisProgress progress;
-  const std::atomic<bool>* stop = nullptr;
+  std::function<bool()> goesOn;
+  Others others;
   int jobs = 0;  ///< worker processes of all, 0: it has not begun
 
   std::vector<Call> calls;  ///< that are over, all of them
@@ -79,29 +79,37 @@ struct SharedAnalysis::Impl {
   long lastPiece = 0;
 
   std::map<std::size_t, std::string> failedToLoad;  ///< why
-  Clock::time_point foundAt;                        ///< by the first
+  Clock::time_point foundAt;                        ///< by who leads
+  std::optional<Clock::time_point> otherFoundAt;    ///< by the first other
   bool isWriting = false;
   double toldShare = 0;
-  std::optional<Report> written;
+  std::optional<Parts> written;
 
-  Impl(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
-      : ranks(std::move(link), host, std::move(options)), identity(buildIdentity(host)) {
+  Impl(Ranks& all, const PluginHost& host, Task wanted)
+      : ranks(all), identity(buildIdentity(host)), task(std::move(wanted)) {
     addPlaces(ranks.members(), analysts);
   }
 
-  bool isThere(std::size_t k) const { return !ranks.members()[k].gone && !analysts[k].hasLeft; }
+  bool isThere(std::size_t k) const {
+    return analysts[k].takesPart && !ranks.members()[k].gone && !analysts[k].hasLeft;
+  }
   std::string nameOf(std::size_t k) const { return ranks.members()[k].name(); }
+  std::string leadingRank() const { return "rank " + std::to_string(ranks.members()[leader].rank); }
   long presentCall() const { return static_cast<long>(calls.size()) + 1; }
 
   void listen() {
     for (std::size_t k = 0; k < analysts.size(); ++k) ranks.members()[k].isIdle = analysts[k].pieces.empty();
     ranks.listen([this](std::size_t k, const Parts& parts) { hear(k, parts); });
-    if (*stop && !isWriting) throw Cancelled{};
+    if (!isWriting && !goesOn()) throw Cancelled{};
   }
 
   void hear(std::size_t k, const Parts& parts) {
     addPlaces(ranks.members(), analysts);
     const std::string& kind = parts.front();
+    const bool isOfThis = analysts[k].isReady || isFirstWord(parts), isLost = kind == "lost" || kind == "gone";
+    if (isLost && analysts[k].takesPart) lose(k, parts);
+    if ((isLost || !isOfThis) && others) others(k, parts);
+    if (!isOfThis || isLost) return;
     if (kind == "ready")
       welcome(k, parts);
     else if (kind == "call")
@@ -113,11 +121,29 @@ struct SharedAnalysis::Impl {
     else if (kind == "found")
       find(k, parts.at(1));
     else if (kind == "written")
-      written = Report{parts.at(1), parts.at(2)};
+      written = Parts(parts.begin() + 1, parts.end());
     else if (kind == "failed")
-      fail(k, parts.at(1), parts.at(2));
-    else if (kind == "lost" || kind == "gone")
-      lose(k, parts);
+      fail(k, parts.at(2), parts.at(3));
+  }
+
+  /// What a foreman says first of this analysis; what comes before is of something that it did until then.
+  bool isFirstWord(const Parts& parts) const {
+    return (parts[0] == "ready" || parts[0] == "failed") && parts.at(1) == std::to_string(task.number);
+  }
+
+  /// Who takes part, of those that are there.
+  void choose() {
+    addPlaces(ranks.members(), analysts);
+    if (task.who == Who::oneOfEachRank) {
+      std::map<int, std::size_t> firstOf;  // rank → the one that takes part
+      for (std::size_t k = 0; k < analysts.size(); ++k) {
+        const Member& member = ranks.members()[k];
+        analysts[k].takesPart = !member.gone && firstOf.try_emplace(member.rank, k).second;
+        analysts[k].report.workers = 0;
+        if (!member.gone) ++analysts[firstOf.at(member.rank)].report.workers;
+      }
+    }
+    while (leader + 1 < analysts.size() && !isThere(leader)) ++leader;
   }
 
   /// What is analysed, to all who do not know it: in the beginning, and where a foreman was started anew.
@@ -125,7 +151,10 @@ struct SharedAnalysis::Impl {
     for (std::size_t k = 0; k < analysts.size(); ++k) {
       if (analysts[k].wasTold || !ranks.members()[k].begun || !isThere(k)) continue;
       analysts[k].wasTold = true;
-      ranks.send(k, {"analysis", theOnly, toJsonText(request)});
+      const int workers = task.who == Who::oneOfEachRank ? analysts[k].report.workers : 0;
+      Parts message{task.message.front(), std::to_string(task.number), std::to_string(workers)};
+      message.insert(message.end(), task.message.begin() + 1, task.message.end());
+      ranks.send(k, message);
     }
   }
 
@@ -144,8 +173,10 @@ struct SharedAnalysis::Impl {
   }
 
   void requireSameInputs(std::size_t k) const {
-    if (const auto what = difference(analysts[0].inputs, analysts[k].inputs))
-      throw InputError(nameOf(k) + ": " + *what + "; all machines must read the same files");
+    if (const auto what = difference(analysts[leader].inputs, analysts[k].inputs))
+      throw InputError(nameOf(k) + ": " + *what +
+                       (task.readsFiles ? "; all machines must read the same files"
+                                        : "; it reads the same recordings in another way, take it out"));
   }
 
   void sendResults(std::size_t to, long number, const Call& call, bool ownToo) {
@@ -168,8 +199,8 @@ struct SharedAnalysis::Impl {
       expected = count;
     }
     if (number > presentCall() || expected != count)
-      throw InputError(nameOf(k > 0 ? k : begunBy) +
-                       ": its analysis went another way than that of rank 0; it computes otherwise, take it out");
+      throw InputError(nameOf(k != leader ? k : begunBy) + ": its analysis went another way than that of " +
+                       leadingRank() + "; it computes otherwise, take it out");
     if (number == presentCall() && open == 0) endCall();
   }
 
@@ -231,14 +262,14 @@ struct SharedAnalysis::Impl {
   }
 
   void tell(std::size_t k, const std::string& stage, double share) {
-    if (k != 0) return;
+    if (k != leader) return;
     toldShare = std::max(toldShare, share);
     if (progress && !progress(stage, toldShare)) throw Cancelled{};
   }
 
   /// All come to the same: what the first says is the outcome. Of another one it is its machine's.
   void fail(std::size_t k, const std::string& kind, const std::string& why) {
-    if (k == 0) rethrow(kind, why);
+    if (k == leader) rethrow(kind, why);
     if (jobs == 0) {
       failedToLoad.emplace(k, why);
       return;
@@ -269,19 +300,25 @@ struct SharedAnalysis::Impl {
     analyst.isAnew = true;
     analyst.call = 0;
     analyst.found.clear();
-    if (k == 0) isWriting = false;
+    if (k == leader) isWriting = false;
     if (!ranks.members()[k].gone) return;
-    if (k == 0) throw JobFault(nameOf(k) + ": the process that leads the analysis cannot be kept alive (" + why + ")");
+    if (k == leader)
+      throw JobFault(nameOf(k) + ": the process that leads the analysis cannot be kept alive (" + why + ")");
     notes.push_back(nameOf(k) + ": it fell out: " + why);
   }
 
   void restartTheHanging() {
+    // Others need not wait for anybody to come to the end; who leads and does not follow hangs between two steps.
+    if (analysts[leader].found.empty() && otherFoundAt && sinceThen(*otherFoundAt) > ranks.options().patience_s) {
+      otherFoundAt = Clock::now();
+      ranks.restart(leader);
+    }
     for (std::size_t k = 0; k < analysts.size(); ++k) {
       Analyst& analyst = analysts[k];
       if (analyst.pieces.empty()) continue;
       std::size_t held = 0;
       for (const auto& [number, piece] : analyst.pieces) held += piece.jobs.size();
-      const double most = ranks.options().grace_s + 2 * ranks.options().secondsPerJob * static_cast<double>(held);
+      const double most = ranks.options().grace_s + 2 * ranks.options().secondsPerPart * static_cast<double>(held);
       OpenPiece& oldest = analyst.pieces.begin()->second;
       if (sinceThen(oldest.sent) < most) continue;
       oldest.sent = Clock::now();
@@ -291,8 +328,8 @@ struct SharedAnalysis::Impl {
 
   /// Everybody has read what is analysed, and the same.
   void begin() {
-    if (!ranks.begin(*stop, [this](std::size_t k, const Parts& parts) { hear(k, parts); })) throw Cancelled{};
-    addPlaces(ranks.members(), analysts);
+    if (!ranks.begin(goesOn, [this](std::size_t k, const Parts& parts) { hear(k, parts); })) throw Cancelled{};
+    choose();
     const auto isSettled = [this](std::size_t k) {
       return analysts[k].isReady || failedToLoad.contains(k) || !isThere(k);
     };
@@ -307,7 +344,7 @@ struct SharedAnalysis::Impl {
     }
     if (!failedToLoad.empty())
       throw InputError(nameOf(failedToLoad.begin()->first) + ": " + failedToLoad.begin()->second);
-    for (std::size_t k = 1; k < analysts.size(); ++k)
+    for (std::size_t k = 0; k < analysts.size(); ++k)
       if (isThere(k)) requireSameInputs(k);
     for (std::size_t k = 0; k < analysts.size(); ++k)
       if (isThere(k)) jobs += analysts[k].report.workers;
@@ -317,39 +354,45 @@ struct SharedAnalysis::Impl {
 
   void find(std::size_t k, const std::string& hash) {
     analysts[k].found = hash;
-    if (k == 0) foundAt = Clock::now();
+    if (k == leader)
+      foundAt = Clock::now();
+    else if (!otherFoundAt)
+      otherFoundAt = Clock::now();
   }
 
-  /// The first writes when all who were there from the beginning have come to its report.
+  /// Who leads tells its outcome when all who were there from the beginning have come to the same.
   void letWrite() {
-    if (isWriting || analysts[0].found.empty()) return;
+    if (isWriting || analysts[leader].found.empty()) return;
     const bool isPatient = sinceThen(foundAt) < ranks.options().patience_s;
-    for (std::size_t k = 1; k < analysts.size(); ++k) {
-      if (!isThere(k) || analysts[k].isAnew) continue;
+    for (std::size_t k = 0; k < analysts.size(); ++k) {
+      if (k == leader || !isThere(k) || analysts[k].isAnew) continue;
       if (analysts[k].found.empty() && isPatient) return;
       if (analysts[k].found.empty()) {
-        notes.push_back(nameOf(k) + ": it did not come to its report in time");
+        notes.push_back(nameOf(k) + ": it did not come to the end of the analysis in time");
         continue;
       }
-      if (analysts[k].found != analysts[0].found)
-        throw InputError(nameOf(k) + ": it came to another report than rank 0; it computes otherwise, take it out");
+      if (analysts[k].found != analysts[leader].found)
+        throw InputError(nameOf(k) + ": it came to another report than " + leadingRank() +
+                         "; it computes otherwise, take it out");
     }
     isWriting = true;
-    ranks.send(0, {"write"});
+    ranks.send(leader, {"write"});
   }
 };
 
-SharedAnalysis::SharedAnalysis(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options)
-    : impl_(new Impl(std::move(link), host, std::move(options))) {}
+Lockstep::Lockstep(Ranks& ranks, const PluginHost& host, Task task) : impl_(new Impl(ranks, host, std::move(task))) {}
 
-SharedAnalysis::~SharedAnalysis() = default;
+Lockstep::~Lockstep() {
+  const Impl& impl = *impl_;
+  for (std::size_t k = 0; k < impl.analysts.size(); ++k)
+    if (impl.analysts[k].wasTold && impl.isThere(k)) impl.ranks.send(k, {"end", std::to_string(impl.task.number)});
+}
 
-SharedAnalysis::Report SharedAnalysis::run(const AnalysisRequest& request, const AnalysisProgress& progress,
-                                           const std::atomic<bool>& stop) {
+Parts Lockstep::run(const AnalysisProgress& progress, const std::function<bool()>& goesOn, const Others& others) {
   Impl& impl = *impl_;
-  impl.request = request;
   impl.progress = progress;
-  impl.stop = &stop;
+  impl.goesOn = goesOn;
+  impl.others = others;
   impl.begin();
   while (!impl.written) {
     impl.tellTask();
@@ -361,12 +404,13 @@ SharedAnalysis::Report SharedAnalysis::run(const AnalysisRequest& request, const
   return *impl.written;
 }
 
-std::vector<PlaceReport> SharedAnalysis::report() const {
+std::vector<PlaceReport> Lockstep::report() const {
   std::vector<PlaceReport> all;
-  for (const Analyst& analyst : impl_->analysts) all.push_back(analyst.report);
+  for (const Analyst& analyst : impl_->analysts)
+    if (analyst.takesPart) all.push_back(analyst.report);
   return all;
 }
 
-std::vector<std::string> SharedAnalysis::notes() const { return impl_->notes; }
+const std::vector<std::string>& Lockstep::notes() const { return impl_->notes; }
 
 }  // namespace btr

@@ -4,22 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "core/cluster/coordinator.h"
-#include "core/cluster/ranks.h"
+#include "core/cluster/analysis/lockstep.h"
 #include "core/gap/report/run_analysis.h"
 
 namespace btr {
 
-/// An analysis on several ranks. One foreman of each makes the whole analysis, with worker processes of its own; the
-/// jobs of each step (fits, replays, screened effects) are handed out in pieces among all, as Schedule says, and every
-/// foreman goes on with the same results. The report is that of one process, whoever worked on what: all foremen must
-/// have come to the same one before the first writes it. One that is killed begins anew with what is known.
-/// Belongs to one thread; for one analysis.
+/// The analysis of files on several ranks (`mpirun btr gap analyse`), in lockstep: the report of one process, whoever
+/// worked on what, written by the first foreman. Belongs to one thread; for one analysis.
 class SharedAnalysis {
  public:
   /// As Ranks; of options.foremen there is one.
   SharedAnalysis(std::unique_ptr<RankLink> link, const PluginHost& host, CoordinatorOptions options);
-  ~SharedAnalysis();
 
   /// The report as text.
   struct Report {
@@ -34,8 +29,9 @@ class SharedAnalysis {
   std::vector<std::string> notes() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  const PluginHost& host_;
+  Ranks ranks_;
+  std::unique_ptr<Lockstep> lockstep_;
 };
 
 }  // namespace btr

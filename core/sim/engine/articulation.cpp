@@ -266,7 +266,7 @@ void Articulation::updateRings() {
     const Vector3d axis = body.pose.linear().transpose() * joints[body.ringJoint].axis;
     if ((axis - body.ringAxis).squaredNorm() < 1e-6) continue;
     body.ringAxis = axis;
-    setMass(body.id, body.mass_kg, body.inertia_kg_m2 + body.ringInertia_kg_m2 * axis * axis.transpose());
+    setLargerInertia(body.id, body.mass_kg, body.inertia_kg_m2 + body.ringInertia_kg_m2 * axis * axis.transpose());
   }
 }
 

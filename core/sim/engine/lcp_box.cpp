@@ -8,17 +8,37 @@
 namespace btr {
 namespace {
 
-// to −= factor · from
-BTR_INLINE void subtractTimes(double* to, double factor, const double* from, unsigned first, unsigned count) {
-  for (unsigned chunk = first / wideLanes; chunk * wideLanes < count; ++chunk)
-    *reinterpret_cast<Four*>(to + chunk * wideLanes) -=
-        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
+// to[4·chunk …] ±= Σ x[j]·(line j of a), over the rows j that are named, one after the other; for `Chunks` chunks at a
+// time, whose sums stay in registers.
+template <int Sign, unsigned Chunks>
+BTR_INLINE void addLines(double* to, const unsigned* chunk, const double* a, unsigned stride, const double* x,
+                         const std::vector<unsigned>& rows) {
+  Four sum[Chunks];
+  for (unsigned c = 0; c < Chunks; ++c) sum[c] = *reinterpret_cast<const Four*>(to + chunk[c] * wideLanes);
+  for (const unsigned j : rows) {
+    const double* line = a + static_cast<std::size_t>(j) * stride;
+    for (unsigned c = 0; c < Chunks; ++c) {
+      const Four part = x[j] * *reinterpret_cast<const Four*>(line + chunk[c] * wideLanes);
+      if constexpr (Sign > 0)
+        sum[c] += part;
+      else
+        sum[c] -= part;
+    }
+  }
+  for (unsigned c = 0; c < Chunks; ++c) *reinterpret_cast<Four*>(to + chunk[c] * wideLanes) = sum[c];
 }
 
-BTR_INLINE void addTimes(double* to, double factor, const double* from, unsigned count) {
-  for (unsigned chunk = 0; chunk * wideLanes < count; ++chunk)
-    *reinterpret_cast<Four*>(to + chunk * wideLanes) +=
-        factor * *reinterpret_cast<const Four*>(from + chunk * wideLanes);
+template <int Sign>
+BTR_INLINE void addLines(double* to, const std::vector<unsigned>& chunks, const double* a, unsigned stride,
+                         const double* x, const std::vector<unsigned>& rows) {
+  std::size_t done = 0;
+  for (; done + 4 <= chunks.size(); done += 4) addLines<Sign, 4>(to, chunks.data() + done, a, stride, x, rows);
+  for (; done < chunks.size(); ++done) addLines<Sign, 1>(to, chunks.data() + done, a, stride, x, rows);
+}
+
+// The chunk that holds this row is among them: rows come ascending.
+BTR_INLINE void addChunkOf(unsigned row, std::vector<unsigned>& chunks) {
+  if (chunks.empty() || chunks.back() != row / wideLanes) chunks.push_back(row / wideLanes);
 }
 
 }  // namespace
@@ -84,21 +104,35 @@ BTR_WIDE bool BoxSolver::factorFree() {
 // Free rows by Cholesky, the others at their bounds.
 BTR_WIDE bool BoxSolver::solveFree() {
   free_.clear();
+  chunks_.clear();
+  lines_.clear();
   for (unsigned i = 0; i < n_; ++i) {
-    if (side_[i] == Side::free) free_.push_back(i);
-    if (side_[i] == Side::low) x_[i] = low_[i];
-    if (side_[i] == Side::high) x_[i] = high_[i];
+    if (side_[i] == Side::free) {
+      free_.push_back(i);
+      addChunkOf(i, chunks_);
+      continue;
+    }
+    x_[i] = side_[i] == Side::low ? low_[i] : high_[i];
+    if (x_[i] != 0) lines_.push_back(i);
   }
   if (!factorFree()) return false;
-  product_ = b_;
-  for (unsigned j = 0; j < n_; ++j)
-    if (side_[j] != Side::free && x_[j] != 0) subtractTimes(product_.data(), x_[j], lineOf(a_, j), 0, n_);
   const auto count = static_cast<unsigned>(free_.size());
+  product_ = b_;
+  addLines<-1>(product_.data(), chunks_, a_.data(), stride_, x_.data(), lines_);
   for (unsigned i = 0; i < count; ++i) right_[i] = product_[free_[i]];
-  for (unsigned k = 0; k < count; ++k) {
-    const double solved = right_[k] * inverse_[k];
-    subtractTimes(right_.data(), solved, lineOf(factor_, k), k + 1, count);
-    right_[k] = solved;
+  // Four at a time, which stay in a register.
+  for (unsigned first = 0; first < count; first += wideLanes) {
+    double* four = right_.data() + first;
+    Four left = *reinterpret_cast<const Four*>(four);
+    for (unsigned k = 0; k < first; ++k) left -= right_[k] * *reinterpret_cast<const Four*>(lineOf(factor_, k) + first);
+    BTR_UNROLL
+    for (unsigned lane = 0; lane < wideLanes; ++lane) {
+      const unsigned k = first + lane;
+      if (k >= count) break;
+      const double solved = left[lane] * inverse_[k];
+      left -= solved * *reinterpret_cast<const Four*>(lineOf(factor_, k) + first);
+      four[lane] = solved;
+    }
   }
   for (unsigned i = count; i-- > 0;) {
     const double* column = lineOf(factor_, i);
@@ -111,9 +145,15 @@ BTR_WIDE bool BoxSolver::solveFree() {
 
 // Rows that contradict their side.
 BTR_WIDE void BoxSolver::findWrong(double largest) {
-  for (unsigned i = 0; i < n_; ++i) product_[i] = -b_[i];
-  for (unsigned j = 0; j < n_; ++j)
-    if (x_[j] != 0) addTimes(product_.data(), x_[j], lineOf(a_, j), n_);
+  // Only rows at a bound are asked for what is left.
+  chunks_.clear();
+  lines_.clear();
+  for (unsigned i = 0; i < n_; ++i) {
+    if (side_[i] != Side::free && low_[i] != high_[i]) addChunkOf(i, chunks_);
+    if (x_[i] != 0) lines_.push_back(i);
+    product_[i] = -b_[i];
+  }
+  addLines<1>(product_.data(), chunks_, a_.data(), stride_, x_.data(), lines_);
   wrong_.clear();
   for (unsigned i = 0; i < n_; ++i) {
     if (side_[i] == Side::free) {

@@ -52,6 +52,7 @@ class BoxSolver {
   std::vector<double> factor_;      ///< line i: column i of the Cholesky factor of the free rows, from i on
   std::vector<double> inverse_;     ///< of the factor's diagonal
   std::vector<double> right_, product_;
+  std::vector<unsigned> chunks_, lines_;  ///< scratch: chunks of four rows and lines of A that count
   std::vector<Wrong> wrong_;
 };
 

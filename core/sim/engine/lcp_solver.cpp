@@ -181,8 +181,14 @@ void LcpReducer::findBlocks(const LcpProblem& p) {
 }
 
 // Minimum degree: next is always the block that is coupled to the fewest; those become coupled to each other.
+// Blocks that are coupled as in the problem before are ordered as then.
 void LcpReducer::orderBlocks() {
   const auto count = static_cast<unsigned>(blocks_.size());
+  bool same = count == coupled_.size();
+  for (unsigned i = 0; i < count && same; ++i) same = coupled_[i] == blocks_[i].neighbours;
+  if (same) return;
+  coupled_.resize(count);
+  for (unsigned i = 0; i < count; ++i) coupled_[i] = blocks_[i].neighbours;
   order_.clear();
   below_.assign(count, 0);
   Set left = count == mostBlocks ? ~Set{0} : (Set{1} << count) - 1;
@@ -204,18 +210,18 @@ void LcpReducer::orderBlocks() {
       blocks_[i].neighbours |= below_[best] & ~(Set{1} << i);
     }
   }
+  // Storage for the diagonal blocks and whatever the factor fills, (later, earlier) in the order of elimination.
+  slot_.assign(blocks_.size() * blocks_.size(), -1);
+  slots_ = 0;
+  for (const unsigned k : order_) {
+    slot_[k * blocks_.size() + k] = slots_++;
+    for (Set rest = below_[k]; rest; rest &= rest - 1)
+      slot_[static_cast<unsigned>(std::countr_zero(rest)) * blocks_.size() + k] = slots_++;
+  }
 }
 
 void LcpReducer::gather(const LcpProblem& p) {
-  // Storage for the diagonal blocks and whatever the factor fills, (later, earlier) in the order of elimination.
-  slot_.assign(blocks_.size() * blocks_.size(), -1);
-  std::int16_t slots = 0;
-  for (const unsigned k : order_) {
-    slot_[k * blocks_.size() + k] = slots++;
-    for (Set rest = below_[k]; rest; rest &= rest - 1)
-      slot_[static_cast<unsigned>(std::countr_zero(rest)) * blocks_.size() + k] = slots++;
-  }
-  storage_.assign(static_cast<std::size_t>(slots) * N * W, 0);
+  storage_.assign(static_cast<std::size_t>(slots_) * N * W, 0);
   chunks_ = (static_cast<unsigned>(bounded_.size()) + lanes) / lanes;  // one column more, for b
   right_.assign(blocks_.size() * chunks_ * N * lanes, 0);
 
@@ -225,16 +231,25 @@ void LcpReducer::gather(const LcpProblem& p) {
     double* diagonal = blockAt(k, k);
     for (unsigned r = 0; r < N; ++r) {
       diagonal[r * W + r] = 1;
-      if (r < column.count)
-        for (unsigned c = 0; c <= r; ++c) diagonal[r * W + c] = lower(column.rows[r], column.rows[c]);
+      if (r >= column.count) continue;
+      const double* row = p.a + static_cast<std::size_t>(column.rows[r]) * p.skip;
+      for (unsigned c = 0; c <= r; ++c) diagonal[r * W + c] = row[column.rows[c]];
     }
     for (Set rest = below_[k]; rest; rest &= rest - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(rest));
       const Block& row = blocks_[i];
       double* to = blockAt(i, k);
-      for (unsigned r = 0; r < row.count; ++r)
-        for (unsigned c = 0; c < column.count; ++c)
-          to[c * W + r] = i > k ? lower(row.rows[r], column.rows[c]) : lower(column.rows[c], row.rows[r]);
+      if (i > k) {
+        for (unsigned r = 0; r < row.count; ++r) {
+          const double* from = p.a + static_cast<std::size_t>(row.rows[r]) * p.skip;
+          for (unsigned c = 0; c < column.count; ++c) to[c * W + r] = from[column.rows[c]];
+        }
+      } else {
+        for (unsigned c = 0; c < column.count; ++c) {
+          const double* from = p.a + static_cast<std::size_t>(column.rows[c]) * p.skip;
+          for (unsigned r = 0; r < row.count; ++r) to[c * W + r] = from[row.rows[r]];
+        }
+      }
     }
     const auto last = static_cast<unsigned>(bounded_.size());
     for (unsigned r = 0; r < column.count; ++r)

@@ -61,13 +61,15 @@ class LcpReducer {
   std::vector<unsigned> bounded_;  ///< rows of the problem
   std::vector<int> boundedIndex_;  ///< by row of the problem, −1 unbounded
   std::vector<Block> blocks_;
+  std::vector<Set> coupled_;     ///< by block: its neighbours in the problem that order_, below_, slot_ are of
   std::vector<unsigned> order_;  ///< of elimination
   std::vector<Set> below_;       ///< by block: what its column of the factor fills
   /// Blocks of matrix, then factor, rows of `width`; those beside the diagonal transposed, as their solver and all
   /// products want them.
   std::vector<double> storage_;
   std::vector<std::int16_t> slot_;  ///< of block pair in storage_, −1 empty
-  std::vector<double> right_;       ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
+  std::int16_t slots_ = 0;
+  std::vector<double> right_;  ///< columns of bounded rows, then b: by block, chunk of four columns, row, column
   unsigned chunks_ = 0;
   std::vector<unsigned> touched_;  ///< scratch: chunks of a block that are not zero
   LcpProblem small_;

@@ -28,6 +28,10 @@ inline void setAttitude(dBodyID body, const std::array<double, 16>& attitude) {
   std::copy_n(attitude.begin() + 4, 12, const_cast<dReal*>(dBodyGetRotation(body)));
 }
 
+/// Whether what this thread gives to dBodySetMass() is known to be positive definite: ODE then does not factor it twice
+/// to find out.
+bool& massIsChecked();
+
 /// Mass and inertia about its centre of mass, which is ODE's origin of a body.
 inline void setMass(dBodyID body, double mass_kg, const Eigen::Matrix3d& inertia_kg_m2) {
   const Eigen::Matrix3d& i = inertia_kg_m2;
@@ -38,6 +42,13 @@ inline void setMass(dBodyID body, double mass_kg, const Eigen::Matrix3d& inertia
     for (int column = 0; column < 3; ++column)
       mass.I[4 * row + column] = i(std::min(row, column), std::max(row, column));
   dBodySetMass(body, &mass);
+}
+
+/// The same of a body whose inertia was checked when it was made and is only larger now.
+inline void setLargerInertia(dBodyID body, double mass_kg, const Eigen::Matrix3d& inertia_kg_m2) {
+  massIsChecked() = true;
+  setMass(body, mass_kg, inertia_kg_m2);
+  massIsChecked() = false;
 }
 
 }  // namespace btr

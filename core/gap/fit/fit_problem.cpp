@@ -166,6 +166,17 @@ std::size_t FitProblem::residuals() const {
   return count;
 }
 
+double FitProblem::sensitivityStep_s() const {
+  constexpr double coarser = 4;
+  return std::max(scene.step_s, std::min(coarser * scene.step_s, begunStep_s));
+}
+
+FitProblem FitProblem::roughly() const {
+  FitProblem rough = *this;
+  rough.scene.step_s = rough.begunStep_s = sensitivityStep_s();
+  return rough;
+}
+
 double FitProblem::steps() const {
   double length_s = 0;
   for (const Segment& segment : segments) {
@@ -241,6 +252,8 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   addMotionNoise(ready);
   sayIfTorquesLeadAway(ready);
   if (ready.mayCoarsen) chooseStep(ready);
+  // Where feet and balls touch down, coarser steps show other landings.
+  if (!ready.walks && !ready.impacts && scene.balls.empty()) ready.begunStep_s = ready.scene.step_s;
   return ready;
 }
 

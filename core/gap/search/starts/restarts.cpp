@@ -1,6 +1,7 @@
 #include "core/gap/search/starts/restarts.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -79,15 +80,18 @@ void followValley(const FitService& service, Fit& fit, const std::string& stage,
       jobs.push_back({others, fit.shifts});
     }
     const auto along = service.tryFits(jobs, limits.heldIterations, stage, at, at);
-    std::vector<FitJob> free;
+    // The side that costs less is set free.
+    std::optional<std::size_t> chosen;
     for (std::size_t k = 0; k < along.size(); ++k)
-      if (along[k] && along[k]->cost < limits.alongInReach * fit.cost)
-        free.push_back({following(moved[k], *along[k]), along[k]->shifts});
-    const std::vector<Fit> again = completed(service.tryFits(free, limits.iterations, stage, at, at));
-    if (again.empty()) return;
-    const Fit& best = *std::ranges::min_element(again, costsLess);
-    if (!(best.cost < limits.alongBetter * fit.cost)) return;
-    fit = best;
+      if (along[k] && along[k]->cost < limits.alongInReach * fit.cost &&
+          (!chosen || costsLess(*along[k], *along[*chosen])))
+        chosen = k;
+    if (!chosen) return;
+    const Fit& begins = *along[*chosen];
+    const std::optional<Fit> free =
+        service.tryFits({{following(moved[*chosen], begins), begins.shifts}}, limits.iterations, stage, at, at)[0];
+    if (!free || !(free->cost < limits.alongBetter * fit.cost)) return;
+    fit = *free;
   }
 }
 

@@ -222,6 +222,8 @@ struct SearchThresholds {
     double leastPromise = 0.25;       ///< of the best one's [hand]
     double valley = 4;                ///< times the final cost on the way: farther is out of the valley [case]
     double valleyEnd = 2;             ///< and where nothing of the effect is kept [hand]
+    double arrivesWithin = 1.3;  ///< and after a few iterations more: what leaves a third more than the final model is
+                                 ///< told from it, unless it is a simpler form [time]
     std::array<double, 3> kept{0.7, 0.35, 0};  ///< of the effect's size, step by step [hand]
     double small = 0.1;                        ///< of a typical size, where the way begins: all is linear there [hand]
     int wayIterations = 18;                    ///< a step of the way; what arrives is fitted on [time]

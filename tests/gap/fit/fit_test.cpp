@@ -49,6 +49,50 @@ TEST(Fit, InWorkersGivesTheSameBits) {
   EXPECT_EQ(inherits.model.values, inheritsToo.model.values);
 }
 
+/// The same with a finer step, as where a fit asked for one.
+FitProblem refinedProblem(int jobs) {
+  FitProblem problem = slowProblem(jobs);
+  problem.begunStep_s = problem.givenStep_s;
+  problem.scene.step_s = problem.givenStep_s / 4;
+  return problem;
+}
+
+// An error of the integration is of second order in the step, and the same in two replays beside each other.
+TEST(Fit, SensitivitiesAreThoseOfACoarserStep) {
+  const FitProblem refined = refinedProblem(1);
+  FitProblem fine = refined;
+  fine.begunStep_s = 0;
+  ASSERT_EQ(refined.sensitivityStep_s(), refined.givenStep_s);
+  ASSERT_EQ(fine.sensitivityStep_s(), fine.scene.step_s);
+  const FitModel model = givenModel(fine).with(fine, {"coulomb_friction", "rig.hinge", {{"torque_nm", 0.01}}});
+  const Fit at{model, std::vector<std::vector<double>>(fine.segments.size(), {0, 0}), 0};
+  ASSERT_EQ(fine.segments[0].nuisances.size(), 2u);
+  const Linearised rough = linearise(refined, at), exact = linearise(fine, at);
+  EXPECT_EQ(rough.residuals, exact.residuals);
+  for (Eigen::Index i = 0; i < exact.raw.cols(); ++i)
+    EXPECT_LT((rough.raw.col(i) - exact.raw.col(i)).norm(), 0.03 * exact.raw.col(i).norm()) << i;
+  EXPECT_NE(rough.raw, exact.raw);
+}
+
+TEST(Fit, EndsWhereSensitivitiesOfItsOwnStepLead) {
+  const FitProblem refined = refinedProblem(1);
+  FitProblem fine = refined;
+  fine.begunStep_s = 0;
+  const Fit rough = fitModel(refined, givenModel(refined), {}, {8}), exact = fitModel(fine, givenModel(fine), {}, {8});
+  EXPECT_NEAR(rough.cost, exact.cost, 1e-3 * exact.cost);
+  EXPECT_NEAR(rough.model.values[0], 7, 0.05);
+}
+
+TEST(Fit, WithCoarserSensitivitiesGivesTheSameBitsInWorkers) {
+  const FitProblem alone = refinedProblem(1), together = refinedProblem(3);
+  const Fit one = fitModel(alone, givenModel(alone), {}, {8}),
+            three = fitModel(together, givenModel(together), {}, {8});
+  EXPECT_EQ(one.cost, three.cost);
+  EXPECT_EQ(one.model.values, three.model.values);
+  EXPECT_EQ(one.shifts, three.shifts);
+  EXPECT_EQ(linearise(alone, one).raw, linearise(together, three).raw);
+}
+
 // Whether a candidate that cannot be simulated ends an analysis must not hang on the number of workers.
 TEST(Fit, OneThatFailsGivesNothingWithOneWorkerAsWithTwo) {
   const auto job = [](std::size_t i) -> std::vector<double> {

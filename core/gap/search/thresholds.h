@@ -101,6 +101,7 @@ struct SearchThresholds {
     double most = 24;        ///< different numbers [time]
     int phases = 16;         ///< of numbers without a neutral value, over their range [hand]
     double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
+    std::size_t looked = 4;  ///< one of so many windows first, and one of so many of those tried in all [time]
     std::size_t fitted = 3;  ///< numbers that are fitted [time]
     double inReach = 2;      ///< by cost in windows, of the best: fitted on in longer ones [time]
   };

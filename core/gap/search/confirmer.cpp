@@ -120,7 +120,7 @@ void Confirmer::restart(Fit& fit, double least, double without, const std::strin
   climbWholeNumbers(service_, fit, what, at);
   left = service_.leftBy(fit);
   if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
-    restartFarOff(service_, fit, what, at);
+    restartFarOff(service_, fit, without, what, at);
   // What leaves no more than the noise may still stop behind a better one.
   if ((left > limits.leastForValley || fit.cost > limits.leastForValley * least) && left < limits.mostForValley)
     followValley(service_, fit, what, at);

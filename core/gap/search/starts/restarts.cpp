@@ -98,7 +98,7 @@ void followValley(const FitService& service, Fit& fit, const std::string& stage,
 /// Play of a quarter of its width, crossed slowly, is a side minimum of play: what is left then is no valley, and no
 /// step by step leads out of it. The effect begins again far off, its other numbers where they usually are; calibrated
 /// numbers follow before it is set free.
-void restartFarOff(const FitService& service, Fit& fit, const std::string& stage, double at) {
+void restartFarOff(const FitService& service, Fit& fit, double without, const std::string& stage, double at) {
   const SearchThresholds::Restarts& limits = service.thresholds().restarts;
   const std::size_t last = fit.model.effects.size() - 1;
   std::vector<FitModel> moved;
@@ -115,11 +115,13 @@ void restartFarOff(const FitService& service, Fit& fit, const std::string& stage
   // Where nothing follows, nothing need be held.
   std::vector<std::optional<Fit>> along;
   if (!jobs[0].model.parameters.empty()) along = service.tryFits(jobs, limits.heldIterations, stage, at, at);
+  // A size with which all is worse than without the effect, or far worse than where the fit is, is no other end of it.
+  const double most = std::min(without, service.thresholds().screening.hopeless * fit.cost);
   std::vector<FitJob> free;
   for (std::size_t k = 0; k < moved.size(); ++k) {
     if (along.empty())
       free.push_back({moved[k], fit.shifts});
-    else if (along[k])
+    else if (along[k] && along[k]->cost < most)
       free.push_back({following(moved[k], *along[k]), along[k]->shifts});
   }
   const std::vector<Fit> again = completed(service.tryFits(free, limits.iterations, stage, at, at));

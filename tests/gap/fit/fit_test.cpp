@@ -57,21 +57,37 @@ FitProblem refinedProblem(int jobs) {
   return problem;
 }
 
-// An error of the integration is of second order in the step, and the same in two replays beside each other.
-TEST(Fit, SensitivitiesAreThoseOfACoarserStep) {
+/// Sensitivities of a model with that effect, with a coarser step and with the fits' own.
+struct Both {
+  Linearised rough, exact;
+};
+Both sensitivitiesBeside(const std::string& effect) {
   const FitProblem refined = refinedProblem(1);
   FitProblem fine = refined;
   fine.begunStep_s = 0;
-  ASSERT_EQ(refined.sensitivityStep_s(), refined.givenStep_s);
-  ASSERT_EQ(fine.sensitivityStep_s(), fine.scene.step_s);
-  const FitModel model = givenModel(fine).with(fine, {"coulomb_friction", "rig.hinge", {{"torque_nm", 0.01}}});
-  const Fit at{model, std::vector<std::vector<double>>(fine.segments.size(), {0, 0}), 0};
-  ASSERT_EQ(fine.segments[0].nuisances.size(), 2u);
-  const Linearised rough = linearise(refined, at), exact = linearise(fine, at);
+  EXPECT_EQ(refined.sensitivityStep_s(), refined.givenStep_s);
+  EXPECT_EQ(fine.sensitivityStep_s(), fine.scene.step_s);
+  const FitModel model = givenModel(fine).with(fine, {effect, "rig.hinge", {}});
+  Fit at{model, {}, 0};
+  for (const Segment& segment : fine.segments) at.shifts.emplace_back(segment.nuisances.size(), 0.0);
+  return {linearise(refined, at), linearise(fine, at)};
+}
+
+// An error of the integration is of second order in the step, and the same in two replays beside each other.
+TEST(Fit, SensitivitiesAreThoseOfACoarserStep) {
+  const auto [rough, exact] = sensitivitiesBeside("viscous_friction");
   EXPECT_EQ(rough.residuals, exact.residuals);
   for (Eigen::Index i = 0; i < exact.raw.cols(); ++i)
     EXPECT_LT((rough.raw.col(i) - exact.raw.col(i)).norm(), 0.03 * exact.raw.col(i).norm()) << i;
   EXPECT_NE(rough.raw, exact.raw);
+}
+
+// When dry friction stops a joint is known to a step only. What a fit needs of it is the way down.
+TEST(Fit, SensitivitiesToDryFrictionPointTheSameWay) {
+  const auto [rough, exact] = sensitivitiesBeside("coulomb_friction");
+  EXPECT_EQ(rough.residuals, exact.residuals);
+  for (Eigen::Index i = 0; i < exact.raw.cols(); ++i)
+    EXPECT_GT(rough.raw.col(i).normalized().dot(exact.raw.col(i).normalized()), 0.99) << i;
 }
 
 TEST(Fit, EndsWhereSensitivitiesOfItsOwnStepLead) {

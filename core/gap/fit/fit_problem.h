@@ -84,7 +84,7 @@ struct FitProblem {
   double block_s = 0.5;     ///< their length
   double window_s = 0;      ///< length of a segment; 0: whole trials run freely
   double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
-  double begunStep_s = 0;   ///< with which fits begin, later ones may be finer; 0: none is coarser
+  double begunStep_s = 0;   ///< the coarsest of sensitivities (sensitivityStep_s); 0: they have that of the fits
   bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
   bool walks = false;       ///< a robot with a free base and joints: free runs, compared over their first steps
   bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried

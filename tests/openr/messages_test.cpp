@@ -39,7 +39,7 @@ TEST(Console, FilesThatAreNotOnTheRobotAreSaidOnceEach) {
 
 TEST(Objects, ShareAnObjectInARegionAndTheFirstNoticeOfThePower) {
   const std::string all = runStick(stickOf("mates"), 12).all();
-  EXPECT_THAT(all, HasSubstr("Mover: sum 3\nMover: sum 41\n"));
+  EXPECT_THAT(all, HasSubstr("Doer: sum 3\nDoer: sum 41\n"));
   EXPECT_THAT(all, HasSubstr("Thinker: legs are 40, references 2\n"));
   // Who watches before the motors are switched on is told, though both happen before the first frame is over.
   EXPECT_THAT(all, HasSubstr("Thinker: power: motors 1\n"));

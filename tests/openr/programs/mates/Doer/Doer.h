@@ -1,6 +1,6 @@
 // A program of our own for the tests.
-#ifndef Mover_h
-#define Mover_h
+#ifndef Doer_h
+#define Doer_h
 
 #include <OPENR/OObject.h>
 #include <OPENR/OObserver.h>
@@ -10,10 +10,10 @@
 
 #include "def.h"
 
-class Mover : public OObject {
+class Doer : public OObject {
  public:
-  Mover();
-  virtual ~Mover() {}
+  Doer();
+  virtual ~Doer() {}
 
   OSubject* subject[numOfSubject];
   OObserver* observer[numOfObserver];

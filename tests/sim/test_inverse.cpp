@@ -4,6 +4,8 @@
 #include <ode/ode.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/sim/engine/ode_body.h"

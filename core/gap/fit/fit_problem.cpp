@@ -168,12 +168,12 @@ std::size_t FitProblem::residuals() const {
 
 double FitProblem::sensitivityStep_s() const {
   constexpr double coarser = 4;
-  return std::max(scene.step_s, std::min(coarser * scene.step_s, begunStep_s));
+  return std::max(scene.step_s, std::min(coarser * scene.step_s, coarsestStep_s));
 }
 
 FitProblem FitProblem::roughly() const {
   FitProblem rough = *this;
-  rough.scene.step_s = rough.begunStep_s = sensitivityStep_s();
+  rough.scene.step_s = rough.coarsestStep_s = sensitivityStep_s();
   return rough;
 }
 
@@ -255,7 +255,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   // Where feet and balls touch down, coarser steps show other landings. A lag of 3 ms is not seen in steps of 8 ms,
   // however little these change the simulator as given: no coarser than the scene's own.
   if (!ready.walks && !ready.impacts && scene.balls.empty())
-    ready.begunStep_s = std::min(ready.scene.step_s, ready.givenStep_s);
+    ready.coarsestStep_s = std::min(ready.scene.step_s, ready.givenStep_s);
   return ready;
 }
 

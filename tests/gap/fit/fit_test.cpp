@@ -52,7 +52,7 @@ TEST(Fit, InWorkersGivesTheSameBits) {
 /// The same with a finer step, as where a fit asked for one.
 FitProblem refinedProblem(int jobs) {
   FitProblem problem = slowProblem(jobs);
-  problem.begunStep_s = problem.givenStep_s;
+  problem.coarsestStep_s = problem.givenStep_s;
   problem.scene.step_s = problem.givenStep_s / 4;
   return problem;
 }
@@ -64,7 +64,7 @@ struct Both {
 Both sensitivitiesBeside(const std::string& effect) {
   const FitProblem refined = refinedProblem(1);
   FitProblem fine = refined;
-  fine.begunStep_s = 0;
+  fine.coarsestStep_s = 0;
   EXPECT_EQ(refined.sensitivityStep_s(), refined.givenStep_s);
   EXPECT_EQ(fine.sensitivityStep_s(), fine.scene.step_s);
   const FitModel model = givenModel(fine).with(fine, {effect, "rig.hinge", {}});
@@ -93,7 +93,7 @@ TEST(Fit, SensitivitiesToDryFrictionPointTheSameWay) {
 TEST(Fit, EndsWhereSensitivitiesOfItsOwnStepLead) {
   const FitProblem refined = refinedProblem(1);
   FitProblem fine = refined;
-  fine.begunStep_s = 0;
+  fine.coarsestStep_s = 0;
   const Fit rough = fitModel(refined, givenModel(refined), {}, {8}), exact = fitModel(fine, givenModel(fine), {}, {8});
   EXPECT_NEAR(rough.cost, exact.cost, 1e-3 * exact.cost);
   EXPECT_NEAR(rough.model.values[0], 7, 0.05);

@@ -166,17 +166,6 @@ std::size_t FitProblem::residuals() const {
   return count;
 }
 
-double FitProblem::sensitivityStep_s() const {
-  constexpr double coarser = 4;
-  return std::max(scene.step_s, std::min(coarser * scene.step_s, coarsestStep_s));
-}
-
-FitProblem FitProblem::roughly() const {
-  FitProblem rough = *this;
-  rough.scene.step_s = rough.coarsestStep_s = sensitivityStep_s();
-  return rough;
-}
-
 double FitProblem::steps() const {
   double length_s = 0;
   for (const Segment& segment : segments) {
@@ -252,10 +241,6 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   addMotionNoise(ready);
   sayIfTorquesLeadAway(ready);
   if (ready.mayCoarsen) chooseStep(ready);
-  // Where feet and balls touch down, coarser steps show other landings. A lag of 3 ms is not seen in steps of 8 ms,
-  // however little these change the simulator as given: no coarser than the scene's own.
-  if (!ready.walks && !ready.impacts && scene.balls.empty())
-    ready.coarsestStep_s = std::min(ready.scene.step_s, ready.givenStep_s);
   return ready;
 }
 

@@ -80,14 +80,13 @@ struct FitProblem {
   EffectLibrary library;
   std::vector<FitTrial> trials;
   std::vector<Segment> segments;
-  int blocks = 0;             ///< number of scoring blocks over all trials
-  double block_s = 0.5;       ///< their length
-  double window_s = 0;        ///< length of a segment; 0: whole trials run freely
-  double givenStep_s = 0;     ///< the scene's own; `scene` has that of the fits
-  double coarsestStep_s = 0;  ///< of sensitivities (see sensitivityStep_s()); 0: they have that of the fits
-  bool impacts = false;       ///< of a tossed body: windows begin between them, where its motion tells its state
-  bool walks = false;         ///< a robot with a free base and joints: free runs, compared over their first steps
-  bool mayCoarsen = false;    ///< no contacts of a free body: a coarser step was tried
+  int blocks = 0;           ///< number of scoring blocks over all trials
+  double block_s = 0.5;     ///< their length
+  double window_s = 0;      ///< length of a segment; 0: whole trials run freely
+  double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
+  bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
+  bool walks = false;       ///< a robot with a free base and joints: free runs, compared over their first steps
+  bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show only the landing's roughness.
   double differenceStep = 1e-2;
   /// Of the scene's step, the finest that fits go to: an eighth, as a servo in and out of saturation needs it. (Of
@@ -103,11 +102,6 @@ struct FitProblem {
   /// The scene of a trial in a simulator, its own settings over it.
   Scene sceneOf(const SimulatorSpec& simulator, std::size_t trial) const;
   std::size_t residuals() const;
-  /// Of replays beside another one, for derivatives: coarser than the fits where these had to become finer. An error
-  /// of the integration is in both and leaves with their difference; the residuals themselves are those of the fits.
-  double sensitivityStep_s() const;
-  /// The same with that step: for what is compared with replays of its own kind alone.
-  FitProblem roughly() const;
   /// Simulated steps of a replay of all segments.
   double steps() const;
 };

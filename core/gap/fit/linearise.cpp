@@ -47,21 +47,12 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), count));
   };
   all.col(column++) = simulate(model.values, shift);
-  // What is differenced: the same, and the same with a coarser step.
-  const double step_s = problem.sensitivityStep_s();
-  const bool isCoarser = step_s > problem.scene.step_s;
-  const auto roughly = [&](const std::vector<double>& numbers, const std::vector<double>& shifts) {
-    if (!isCoarser) return simulate(numbers, shifts);
-    const auto values = residualsOf(problem, segment, withStep(scenes.scene(numbers, segment.trial), step_s), shifts);
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), count));
-  };
-  const Eigen::VectorXd here = isCoarser ? roughly(model.values, shift) : Eigen::VectorXd(all.col(0));
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const FitParameter& parameter = model.parameters[i];
     std::vector<double> moved = model.values;
     const double step = parameterStep(problem, parameter, moved[i] / parameter.scale);
     moved[i] += step * parameter.scale;
-    all.col(column++) = (roughly(moved, shift) - here) / step;
+    all.col(column++) = (simulate(moved, shift) - all.col(0)) / step;
   }
   for (std::size_t i = 0; i < shift.size(); ++i) {
     std::vector<double> moved = shift;
@@ -70,10 +61,9 @@ Eigen::MatrixXd differencesOf(const FitProblem& problem, const Fit& fit, std::si
       all.col(column++).setZero();
       continue;
     }
-    const std::vector<double> values =
-        residualsBeside(problem, segment, withStep(scenes.scene(model.values, segment.trial), step_s), moved,
-                        std::span(here.data(), static_cast<std::size_t>(count)));
-    all.col(column++) = (Eigen::Map<const Eigen::VectorXd>(values.data(), count) - here) / startStep;
+    const std::vector<double> values = residualsBeside(problem, segment, scenes.scene(model.values, segment.trial),
+                                                       moved, std::span(all.data(), static_cast<std::size_t>(count)));
+    all.col(column++) = (Eigen::Map<const Eigen::VectorXd>(values.data(), count) - all.col(0)) / startStep;
   }
   return all;
 }

@@ -42,23 +42,18 @@ std::vector<double> SegmentCost::numbersOf(const Eigen::VectorXd& x) const {
   return numbers;
 }
 
-Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x, double step_s) const {
+Eigen::VectorXd SegmentCost::simulate(const Eigen::VectorXd& x) const {
   const std::vector<double> numbers = numbersOf(x);
   const std::vector<double> shift(x.begin() + static_cast<std::ptrdiff_t>(numbers.size()), x.end());
-  const Scene& scene = scenes_.scene(numbers, segment_.trial);
-  const std::vector<double> list = step_s == scene.step_s
-                                       ? residualsOf(problem_, segment_, scene, shift)
-                                       : residualsOf(problem_, segment_, withStep(scene, step_s), shift);
+  const std::vector<double> list = residualsOf(problem_, segment_, scenes_.scene(numbers, segment_.trial), shift);
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
-Eigen::VectorXd SegmentCost::simulateBeside(const Eigen::VectorXd& x, const Eigen::VectorXd& here,
-                                            double step_s) const {
+Eigen::VectorXd SegmentCost::simulateBeside(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const {
   const std::vector<double> numbers = numbersOf(x);
   const std::vector<double> shift(x.begin() + static_cast<std::ptrdiff_t>(numbers.size()), x.end());
-  const std::vector<double> list =
-      residualsBeside(problem_, segment_, withStep(scenes_.scene(numbers, segment_.trial), step_s), shift,
-                      {here.data(), static_cast<std::size_t>(here.size())});
+  const std::vector<double> list = residualsBeside(problem_, segment_, scenes_.scene(numbers, segment_.trial), shift,
+                                                   {here.data(), static_cast<std::size_t>(here.size())});
   return Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
@@ -67,13 +62,6 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
   const auto parameters = static_cast<Eigen::Index>(model_.parameters.size());
   Eigen::MatrixXd jacobian(here.size(), to - from);
   const Linearised* known = jacobian_.size() == 0 ? policy_.inherited : nullptr;
-  const double step_s = problem_.sensitivityStep_s();
-  Eigen::VectorXd roughly;  // the residuals here with that step, once they are asked for
-  const auto hereRoughly = [&]() -> const Eigen::VectorXd& {
-    if (step_s == problem_.scene.step_s) return here;
-    if (roughly.size() == 0) roughly = simulate(x, step_s);
-    return roughly;
-  };
   for (Eigen::Index i = from; i < to; ++i) {
     auto column = jacobian.col(i - from);
     if (policy_.startsOnly && i < parameters) {
@@ -99,8 +87,7 @@ Eigen::MatrixXd SegmentCost::differences(const Eigen::VectorXd& x, const Eigen::
         i < parameters ? parameterStep(problem_, model_.parameters[static_cast<std::size_t>(i)], x[i]) : startStep;
     Eigen::VectorXd moved = x;
     moved[i] += step;
-    const Eigen::VectorXd& base = hereRoughly();
-    column = ((i < parameters ? simulate(moved, step_s) : simulateBeside(moved, base, step_s)) - base) / step;
+    column = ((i < parameters ? simulate(moved) : simulateBeside(moved, here)) - here) / step;
   }
   return jacobian;
 }
@@ -125,7 +112,7 @@ Eigen::Index SegmentCost::columns() const {
 
 std::vector<double> SegmentCost::simulated(double const* const* blocks, Eigen::Index from, Eigen::Index to) const {
   const Eigen::VectorXd x = gathered(blocks);
-  const Eigen::VectorXd here = last_.size() > 0 && x == last_ ? here_ : simulate(x, problem_.scene.step_s);
+  const Eigen::VectorXd here = last_.size() > 0 && x == last_ ? here_ : simulate(x);
   std::vector<double> numbers;
   if (from == 0) numbers.assign(here.begin(), here.end());
   const Eigen::MatrixXd columns = differences(x, here, from, to);
@@ -149,7 +136,7 @@ bool SegmentCost::Evaluate(double const* const* blocks, double* residuals, doubl
   const Eigen::VectorXd x = gathered(blocks);
   // Ceres asks for the residuals first, then for the same with their derivatives.
   if (last_.size() == 0 || x != last_) {
-    here_ = simulate(x, problem_.scene.step_s);
+    here_ = simulate(x);
     last_ = x;
   }
   for (Eigen::Index k = 0; k < here_.size(); ++k) residuals[k] = tamed(here_[k], limit_);

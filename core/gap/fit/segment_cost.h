@@ -44,9 +44,9 @@ class SegmentCost final : public ceres::CostFunction {
  private:
   Eigen::VectorXd gathered(double const* const* blocks) const;    ///< scaled parameters, then shifts
   std::vector<double> numbersOf(const Eigen::VectorXd& x) const;  ///< of the parameters, unscaled
-  Eigen::VectorXd simulate(const Eigen::VectorXd& x, double step_s) const;
+  Eigen::VectorXd simulate(const Eigen::VectorXd& x) const;
   /// Of another start, near the one whose residuals are `here`.
-  Eigen::VectorXd simulateBeside(const Eigen::VectorXd& x, const Eigen::VectorXd& here, double step_s) const;
+  Eigen::VectorXd simulateBeside(const Eigen::VectorXd& x, const Eigen::VectorXd& here) const;
   /// Columns [from, to).
   Eigen::MatrixXd differences(const Eigen::VectorXd& x, const Eigen::VectorXd& here, Eigen::Index from,
                               Eigen::Index to) const;

@@ -467,11 +467,6 @@ std::vector<double> residualsOf(const FitProblem& problem, const Segment& segmen
   return residualsUntil(problem, segment, scene, shift, segment.last);
 }
 
-Scene withStep(Scene scene, double step_s) {
-  scene.step_s = step_s;
-  return scene;
-}
-
 std::vector<double> residualsBeside(const FitProblem& problem, const Segment& segment, const Scene& scene,
                                     const std::vector<double>& shift, std::span<const double> here) {
   constexpr double forgets_s = 1, atOne_s = 0.3, atOne = 1e-4;  // the last: noise floors

@@ -29,9 +29,6 @@ inline constexpr double afterFault = 100;
 std::vector<double> residualsOf(const FitProblem& problem, const Segment& segment, const Scene& scene,
                                 const std::vector<double>& shift);
 
-/// A scene with another step.
-Scene withStep(Scene scene, double step_s);
-
 /// The same for a start near one whose residuals are `here`. A servo forgets how it began: once both motions have been
 /// one for a while, the rest of the segment is `here` and is not simulated.
 std::vector<double> residualsBeside(const FitProblem& problem, const Segment& segment, const Scene& scene,

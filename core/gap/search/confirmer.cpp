@@ -102,25 +102,18 @@ std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vect
   return fits;
 }
 
-double Confirmer::worthRestarts(double least, double without) const {
-  const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
-  const double noise = static_cast<double>(service_.problem().residuals()) / 2;
-  const double asked = std::max(limits.leastGain * without, limits.leastShareOfExcess * std::max(0.0, without - noise));
-  return without - std::max(limits.restartOfAsked * asked, limits.restartOfBest * (without - least));
-}
-
-void Confirmer::restart(Fit& fit, double least, double without, const std::string& what, double at) const {
+void Confirmer::restart(Fit& fit, double least, const std::string& what, double at) const {
   const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
   double left = service_.leftBy(fit);
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const double usual = race.isRun(left) ? race.worthMore : limits.worthMore;
   const double worth = service_.problem().walks ? limits.worthMoreOfWalks : usual;
-  if (fit.cost > std::min(worth * least, worthRestarts(least, without))) return;
+  if (fit.cost > worth * least) return;
   climbWholeNumbers(service_, fit, what, at);
   left = service_.leftBy(fit);
   if (left > limits.leastForFarSizes && left < limits.mostForFarSizes && fit.cost <= least)
-    restartFarOff(service_, fit, without, what, at);
+    restartFarOff(service_, fit, what, at);
   // What leaves no more than the noise may still stop behind a better one.
   if ((left > limits.leastForValley || fit.cost > limits.leastForValley * least) && left < limits.mostForValley)
     followValley(service_, fit, what, at);
@@ -149,8 +142,7 @@ std::optional<Scored> Confirmer::confirm(std::vector<TriedCandidate>& tried, con
     (isClose ? close : all).push_back(which[i]);
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
-  const double withoutAny = service_.costOf(without.fit);
-  for (Fit& fit : closeFits) restart(fit, least, withoutAny, what, half);
+  for (Fit& fit : closeFits) restart(fit, least, what, half);
   auto scored = service_.tryScores(farFits, what, half, half);
   StepGuard step = service_.guardStep();
   if (judged_s < service_.step_s()) {

@@ -52,11 +52,8 @@ class Confirmer {
   /// Fits to the end; those that the scene refuses leave `which`.
   std::vector<Fit> fitted(std::vector<TriedCandidate>& tried, std::vector<std::size_t>& which, const std::string& what,
                           double from, double to) const;
-  /// Of a fit near the best, whose cost is `least`, beside `without`: restarts where they may find more.
-  void restart(Fit& fit, double least, double without, const std::string& what, double at) const;
-  /// Cost from which a candidate is too far from being accepted, or from the best, for restarts; both by what they
-  /// take of `without`, the cost without any.
-  double worthRestarts(double least, double without) const;
+  /// Of a fit near the best, whose cost is `least`: restarts where they may find more.
+  void restart(Fit& fit, double least, const std::string& what, double at) const;
   /// Whether the fit's last effect could as well be much larger, though not absent: friction that holds a joint still
   /// is known from below only, and has no standard error.
   bool isAtLeast(const Fit& fit) const;

@@ -36,6 +36,14 @@ void unpack(const std::vector<double>& numbers, const FitProblem& problem, Fit& 
   }
 }
 
+/// Of a fit as it is, without what tames outliers.
+double costOf(const FitProblem& problem, const Fit& fit) {
+  double cost = residualsOf(problem, fit.model, fit.shifts).squaredNorm() / 2;
+  for (std::size_t s = 0; s < fit.shifts.size(); ++s)
+    cost += priorCost(problem.segments[s].nuisances, fit.shifts[s]) / 2;
+  return cost;
+}
+
 }  // namespace
 
 bool FitService::isConsidered(const std::string& effect) const {
@@ -186,7 +194,7 @@ std::vector<Scored> FitService::fitAndScore(const std::vector<FitJob>& jobs, con
     // Dry friction makes costs rough: a fit with another step may end where the present one leads no further, beside a
     // model that does better with the numbers that it began with.
     const FitJob& begun = jobs[i];
-    if (costOf({begun.model, begun.shifts, 0}) < scored[i].fit.cost)
+    if (costOf(problem_, {begun.model, begun.shifts, 0}) < scored[i].fit.cost)
       scored[i] = scoreAll(refit({{begun.model, begun.shifts, 0}}, thresholds().step.iterations, stage, to, to), stage,
                            to, to)[0];
   }
@@ -194,17 +202,10 @@ std::vector<Scored> FitService::fitAndScore(const std::vector<FitJob>& jobs, con
 }
 
 FitService FitService::inWindows(double length_s) const {
-  FitService windows(cutShort(problem_.roughly(), length_s, thresholds().restarts), options_);
+  FitService windows(cutShort(problem_, length_s, thresholds().restarts), options_);
   windows.reported_ = reported_;
   windows.refused_ = refused_;
   return windows;
-}
-
-double FitService::costOf(const Fit& fit) const {
-  double cost = residualsOf(problem_, fit.model, fit.shifts).squaredNorm() / 2;
-  for (std::size_t s = 0; s < fit.shifts.size(); ++s)
-    cost += priorCost(problem_.segments[s].nuisances, fit.shifts[s]) / 2;
-  return cost;
 }
 
 double FitService::leftBy(const Fit& fit) const {

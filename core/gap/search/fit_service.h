@@ -78,8 +78,6 @@ class FitService {
   /// The coarsest step, from that of the calibrated simulator on, that a model bears: what to add to it is looked for
   /// there, and judged at the present one.
   double stepToSearchWith(const Fit& fit) const;
-  /// Of a fit as it is, without what tames outliers, at the present step.
-  double costOf(const Fit& fit) const;
   /// Mean squared residual of a fit, shifted in time by what is no physics (alignment.h) [noise floors²].
   double leftBy(const Fit& fit) const;
   /// Change of the residuals with half the step.
@@ -88,8 +86,7 @@ class FitService {
   /// step where none does (walks that part at each landing). Of `fits`, the first `judged` are asked.
   void refineStep(std::vector<Fit>& fits, std::size_t judged, const std::string& stage, double at);
 
-  /// The same over the same recordings in windows of that length, in which a motion begins anew and stays near, with a
-  /// step as for sensitivities: what is found there only begins other fits.
+  /// The same over the same recordings in windows of that length, in which a motion begins anew and stays near.
   FitService inWindows(double length_s) const;
   /// What was left out, counted (refused_jobs.h).
   std::vector<std::string> refused() const { return refused_->notes(); }

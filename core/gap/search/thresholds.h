@@ -101,7 +101,6 @@ struct SearchThresholds {
     double most = 24;        ///< different numbers [time]
     int phases = 16;         ///< of numbers without a neutral value, over their range [hand]
     double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
-    std::size_t looked = 4;  ///< one of so many windows first, and one of so many of those tried in all [time]
     std::size_t fitted = 3;  ///< numbers that are fitted [time]
     double inReach = 2;      ///< by cost in windows, of the best: fitted on in longer ones [time]
   };
@@ -188,8 +187,6 @@ struct SearchThresholds {
     int iterations = 15;          ///< of the last fits [time]
     double worthMore = 1.5;       ///< by cost, of the best: restarts are tried; where feet walk, [time]
     double worthMoreOfWalks = 1;  ///< only of the best itself [time]
-    double restartOfAsked = 0.3;  ///< of what is asked of an effect, that it takes before restarts are tried [time]
-    double restartOfBest = 0.3;   ///< and of what the best takes [time]
     double leastForFarSizes = 1.3, mostForFarSizes = 10;  ///< error: between them far sizes are tried; with more, a
                                                           ///< better start does not help [hand]
     double leastForValley = 1.03, mostForValley = 4;  ///< error: between them valleys are followed; with less nothing
@@ -223,8 +220,6 @@ struct SearchThresholds {
     double leastPromise = 0.25;       ///< of the best one's [hand]
     double valley = 4;                ///< times the final cost on the way: farther is out of the valley [case]
     double valleyEnd = 2;             ///< and where nothing of the effect is kept [hand]
-    double arrivesWithin = 1.3;  ///< and after a few iterations more: what leaves a third more than the final model is
-                                 ///< told from it, unless it is a simpler form [time]
     std::array<double, 3> kept{0.7, 0.35, 0};  ///< of the effect's size, step by step [hand]
     double small = 0.1;                        ///< of a typical size, where the way begins: all is linear there [hand]
     int wayIterations = 18;                    ///< a step of the way; what arrives is fitted on [time]

@@ -49,66 +49,6 @@ TEST(Fit, InWorkersGivesTheSameBits) {
   EXPECT_EQ(inherits.model.values, inheritsToo.model.values);
 }
 
-/// The same with a finer step, as where a fit asked for one.
-FitProblem refinedProblem(int jobs) {
-  FitProblem problem = slowProblem(jobs);
-  problem.coarsestStep_s = problem.givenStep_s;
-  problem.scene.step_s = problem.givenStep_s / 4;
-  return problem;
-}
-
-/// Sensitivities of a model with that effect, with a coarser step and with the fits' own.
-struct Both {
-  Linearised rough, exact;
-};
-Both sensitivitiesBeside(const std::string& effect) {
-  const FitProblem refined = refinedProblem(1);
-  FitProblem fine = refined;
-  fine.coarsestStep_s = 0;
-  EXPECT_EQ(refined.sensitivityStep_s(), refined.givenStep_s);
-  EXPECT_EQ(fine.sensitivityStep_s(), fine.scene.step_s);
-  const FitModel model = givenModel(fine).with(fine, {effect, "rig.hinge", {}});
-  Fit at{model, {}, 0};
-  for (const Segment& segment : fine.segments) at.shifts.emplace_back(segment.nuisances.size(), 0.0);
-  return {linearise(refined, at), linearise(fine, at)};
-}
-
-// An error of the integration is of second order in the step, and the same in two replays beside each other.
-TEST(Fit, SensitivitiesAreThoseOfACoarserStep) {
-  const auto [rough, exact] = sensitivitiesBeside("viscous_friction");
-  EXPECT_EQ(rough.residuals, exact.residuals);
-  for (Eigen::Index i = 0; i < exact.raw.cols(); ++i)
-    EXPECT_LT((rough.raw.col(i) - exact.raw.col(i)).norm(), 0.03 * exact.raw.col(i).norm()) << i;
-  EXPECT_NE(rough.raw, exact.raw);
-}
-
-// When dry friction stops a joint is known to a step only. What a fit needs of it is the way down.
-TEST(Fit, SensitivitiesToDryFrictionPointTheSameWay) {
-  const auto [rough, exact] = sensitivitiesBeside("coulomb_friction");
-  EXPECT_EQ(rough.residuals, exact.residuals);
-  for (Eigen::Index i = 0; i < exact.raw.cols(); ++i)
-    EXPECT_GT(rough.raw.col(i).normalized().dot(exact.raw.col(i).normalized()), 0.99) << i;
-}
-
-TEST(Fit, EndsWhereSensitivitiesOfItsOwnStepLead) {
-  const FitProblem refined = refinedProblem(1);
-  FitProblem fine = refined;
-  fine.coarsestStep_s = 0;
-  const Fit rough = fitModel(refined, givenModel(refined), {}, {8}), exact = fitModel(fine, givenModel(fine), {}, {8});
-  EXPECT_NEAR(rough.cost, exact.cost, 1e-3 * exact.cost);
-  EXPECT_NEAR(rough.model.values[0], 7, 0.05);
-}
-
-TEST(Fit, WithCoarserSensitivitiesGivesTheSameBitsInWorkers) {
-  const FitProblem alone = refinedProblem(1), together = refinedProblem(3);
-  const Fit one = fitModel(alone, givenModel(alone), {}, {8}),
-            three = fitModel(together, givenModel(together), {}, {8});
-  EXPECT_EQ(one.cost, three.cost);
-  EXPECT_EQ(one.model.values, three.model.values);
-  EXPECT_EQ(one.shifts, three.shifts);
-  EXPECT_EQ(linearise(alone, one).raw, linearise(together, three).raw);
-}
-
 // Whether a candidate that cannot be simulated ends an analysis must not hang on the number of workers.
 TEST(Fit, OneThatFailsGivesNothingWithOneWorkerAsWithTwo) {
   const auto job = [](std::size_t i) -> std::vector<double> {

@@ -222,12 +222,10 @@ std::vector<Eigen::MatrixXd> columnsOf(const FitProblem& problem, const FitModel
   std::vector<Knot> knots;
   for (std::size_t i = 0; i < laws.size(); ++i)
     for (int k = 0; k < laws[i].terms.back().knots; ++k) knots.push_back({i, k});
-  FitProblem alone = problem.roughly();
+  FitProblem alone = problem;
   alone.jobs = 1;
-  Linearised beside = linear;
-  if (alone.scene.step_s != problem.scene.step_s) beside.residuals = residualsOf(alone, fit.model, fit.shifts);
   const auto results = parallel(jobs, knots.size(), [&](std::size_t i) {
-    const Eigen::VectorXd column = columnOf(alone, named, fit, beside, laws[knots[i].law], knots[i].index);
+    const Eigen::VectorXd column = columnOf(alone, named, fit, linear, laws[knots[i].law], knots[i].index);
     return std::vector<double>(column.data(), column.data() + column.size());
   });
   std::vector<Eigen::MatrixXd> columns(laws.size());

@@ -248,8 +248,6 @@ bool nameBesideLaw(const FitProblem& problem, SearchResult& found, LawBesideName
   const SearchThresholds::Law& limits = options.thresholds.law;
   FitProblem withLaw = problem;
   withLaw.given.effects.push_back(result.law->law.placed());
-  // A search of its own: it begins with the scene's step, and refines it for what it finds.
-  withLaw.scene.step_s = std::max(withLaw.scene.step_s, withLaw.coarsestStep_s);
   SearchOptions again = options;
   if (options.progress)
     again.progress = [&](const std::string& stage, double share) {

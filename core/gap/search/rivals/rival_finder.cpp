@@ -146,18 +146,18 @@ void RivalFinder::addTogether(std::size_t i, const Scored& final, const std::vec
 void RivalFinder::compareAtOneStep(Selection& selection, std::vector<TriedCandidate>& others) {
   const SearchThresholds& limits = service_.thresholds();
   confirmer_.settle(selection, false, "rivals", 0.95);
+  const bool muchLeft = limits.shortRace.isRun(selection.final.mean());
   for (TriedCandidate& other : others) {
     if (!other.attempt.scored || other.scored.mean() > limits.step.farWorse * selection.final.mean()) continue;
-    if (other.settled_s == service_.step_s()) continue;
+    if (muchLeft && other.settled_s == service_.step_s()) continue;
     if (excessOf(selection.final) >= limits.calibration.leastToFitOn ||
-        isDistinguished(other.scored, selection.final, limits.rivals)) {
+        isDistinguished(other.scored, selection.final, limits.rivals))
       other.scored =
           service_.scoreAll(service_.refit({other.scored.fit}, limits.calibration.toTheEnd, "rivals", 0.95, 0.95),
                             "rivals", 0.95, 0.95)[0];
-      other.settled_s = service_.step_s();
-    }
     service_.bringToStep(other.scored, "rivals", 0.95);
     other.fit = other.scored.fit;
+    other.settled_s = service_.step_s();
   }
 }
 
@@ -190,9 +190,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
   // What leaves many times what the effect leaves is not told from it by fitting it to the end.
   const SearchThresholds& limits = service_.thresholds();
   const bool isShort = limits.shortRace.isRun(final.mean());
-  const double inReach = isShort ? limits.shortRace.hopeless : limits.screening.hopeless;
-  // Beside noise nothing need be looked for in windows: what has this place was begun so.
-  const bool inWindows = !isShort && final.mean() > limits.drawnEffects.leastLeft;
+  const double inReach = isShort ? limits.shortRace.hopeless : limits.screening.inReach;
   Round round = candidates_.search({.without = without,
                                     .models = {without.fit},
                                     .toFit = limits.screening.fittedAsRivals,
@@ -200,8 +198,7 @@ RivalFinder::Offered RivalFinder::inPlaceOf(std::size_t i, const Scored& final) 
                                     .from = 0.88,
                                     .to = 0.95,
                                     .hopeless = inReach * final.fit.cost,
-                                    .shortRace = isShort,
-                                    .inWindows = inWindows});
+                                    .shortRace = isShort});
   return {std::move(round.without), std::move(round.tried)};
 }
 

@@ -170,7 +170,6 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
     offered.push_back(way.candidate);
     jobs.push_back({way.fit.model, way.fit.shifts});
   }
-  if (!muchLeft) keepInRace(jobs, offered, finalCost * limits.arrivesWithin);
   for (const EffectCandidate& candidate : service_.candidatesBeside(rest)) {
     if (!isRicher(problem.library, {own.effect, own.at, {}, {}}, candidate.placed({})) || candidate.variants.empty())
       continue;

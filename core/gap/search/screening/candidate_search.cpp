@@ -16,7 +16,7 @@ Round CandidateSearch::search(const Request& request) {
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const SearchThresholds::Screening ofThese = request.shortRace ? race.of(limits) : limits;
   Screening screening = screener_.screenBeside(request.models, known, ofThese, request.stage, from, from + part);
-  screener_.fitPromising(screening, request.toFit, request.inWindows, request.stage, from + part, from + 2 * part);
+  screener_.fitPromising(screening, request.toFit, !request.shortRace, request.stage, from + part, from + 2 * part);
   std::vector<TriedCandidate>& tried = screening.tried;
   const bool muchLeft = !tried.empty() && tried[0].attempt.fitted && race.isRun(service_.leftBy(tried[0].fit));
   const double hopeless = muchLeft ? race.hopeless : limits.hopeless;

@@ -35,8 +35,7 @@ class CandidateSearch {
     double from = 0, to = 1;                                    ///< shares of the search
     double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
-    bool shortRace = false;   ///< few are screened in full
-    bool inWindows = true;    ///< where much is left, some are begun again in windows
+    bool shortRace = false;   ///< few are screened in full, none is begun again in windows
   };
   /// Where something passes that needs a finer step, that step stays.
   Round search(const Request& request);

@@ -257,11 +257,12 @@ std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Lin
   return promising;
 }
 
-/// `linear.residuals` are those of the problem's step.
-std::vector<Screened> screenAll(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                                const std::vector<EffectCandidate>& candidates, int jobs,
-                                const std::function<bool(std::size_t)>& goOn,
-                                const SearchThresholds::Screening& thresholds) {
+}  // namespace
+
+std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
+                             const std::vector<EffectCandidate>& candidates, int jobs,
+                             const std::function<bool(std::size_t)>& goOn,
+                             const SearchThresholds::Screening& thresholds) {
   std::vector<Screened> result(candidates.size());
   for (std::size_t c = 0; c < candidates.size(); ++c) result[c].candidate = c;
   std::vector<char> promising(candidates.size(), 1);
@@ -302,21 +303,6 @@ std::vector<Screened> screenAll(const FitProblem& problem, const Fit& fit, const
     }
   }
   return result;
-}
-
-}  // namespace
-
-std::vector<Screened> screen(const FitProblem& problem, const Fit& fit, const Linearised& linear,
-                             const std::vector<EffectCandidate>& candidates, int jobs,
-                             const std::function<bool(std::size_t)>& goOn,
-                             const SearchThresholds::Screening& thresholds) {
-  const FitProblem rough = problem.roughly();
-  if (rough.scene.step_s == problem.scene.step_s)
-    return screenAll(problem, fit, linear, candidates, jobs, goOn, thresholds);
-  // What an effect changes is differenced like a sensitivity; what is to be explained stays as it is.
-  Linearised beside = linear;
-  beside.residuals = residualsOf(rough, fit.model, fit.shifts);
-  return screenAll(rough, fit, beside, candidates, jobs, goOn, thresholds);
 }
 
 }  // namespace btr

@@ -1,7 +1,6 @@
 #include "core/gap/search/starts/restarts.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -80,25 +79,22 @@ void followValley(const FitService& service, Fit& fit, const std::string& stage,
       jobs.push_back({others, fit.shifts});
     }
     const auto along = service.tryFits(jobs, limits.heldIterations, stage, at, at);
-    // The side that costs less is set free.
-    std::optional<std::size_t> chosen;
+    std::vector<FitJob> free;
     for (std::size_t k = 0; k < along.size(); ++k)
-      if (along[k] && along[k]->cost < limits.alongInReach * fit.cost &&
-          (!chosen || costsLess(*along[k], *along[*chosen])))
-        chosen = k;
-    if (!chosen) return;
-    const Fit& begins = *along[*chosen];
-    const std::optional<Fit> free =
-        service.tryFits({{following(moved[*chosen], begins), begins.shifts}}, limits.iterations, stage, at, at)[0];
-    if (!free || !(free->cost < limits.alongBetter * fit.cost)) return;
-    fit = *free;
+      if (along[k] && along[k]->cost < limits.alongInReach * fit.cost)
+        free.push_back({following(moved[k], *along[k]), along[k]->shifts});
+    const std::vector<Fit> again = completed(service.tryFits(free, limits.iterations, stage, at, at));
+    if (again.empty()) return;
+    const Fit& best = *std::ranges::min_element(again, costsLess);
+    if (!(best.cost < limits.alongBetter * fit.cost)) return;
+    fit = best;
   }
 }
 
 /// Play of a quarter of its width, crossed slowly, is a side minimum of play: what is left then is no valley, and no
 /// step by step leads out of it. The effect begins again far off, its other numbers where they usually are; calibrated
 /// numbers follow before it is set free.
-void restartFarOff(const FitService& service, Fit& fit, double without, const std::string& stage, double at) {
+void restartFarOff(const FitService& service, Fit& fit, const std::string& stage, double at) {
   const SearchThresholds::Restarts& limits = service.thresholds().restarts;
   const std::size_t last = fit.model.effects.size() - 1;
   std::vector<FitModel> moved;
@@ -115,13 +111,11 @@ void restartFarOff(const FitService& service, Fit& fit, double without, const st
   // Where nothing follows, nothing need be held.
   std::vector<std::optional<Fit>> along;
   if (!jobs[0].model.parameters.empty()) along = service.tryFits(jobs, limits.heldIterations, stage, at, at);
-  // A size with which all is worse than without the effect, or far worse than where the fit is, is no other end of it.
-  const double most = std::min(without, service.thresholds().screening.hopeless * fit.cost);
   std::vector<FitJob> free;
   for (std::size_t k = 0; k < moved.size(); ++k) {
     if (along.empty())
       free.push_back({moved[k], fit.shifts});
-    else if (along[k] && along[k]->cost < most)
+    else if (along[k])
       free.push_back({following(moved[k], *along[k]), along[k]->shifts});
   }
   const std::vector<Fit> again = completed(service.tryFits(free, limits.iterations, stage, at, at));

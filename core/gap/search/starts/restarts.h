@@ -18,8 +18,8 @@ FitModel resized(FitModel model, double size);
 void restartAtOtherSizes(const FitService& service, std::vector<Fit>& fits, const std::string& stage, double at);
 /// Along the rough valley in which an effect and another number do nearly the same.
 void followValley(const FitService& service, Fit& fit, const std::string& stage, double at);
-/// The last effect far from its size, its other numbers where they usually are. `without`: cost without it.
-void restartFarOff(const FitService& service, Fit& fit, double without, const std::string& stage, double at);
+/// The last effect far from its size, its other numbers where they usually are.
+void restartFarOff(const FitService& service, Fit& fit, const std::string& stage, double at);
 /// With the initial states begun anew of trials in which they got stuck (starts_anew.h).
 void restartInitialStates(const FitService& service, Fit& fit, const std::string& stage, double at);
 

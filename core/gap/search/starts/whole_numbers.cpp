@@ -56,27 +56,6 @@ std::vector<double> besides(const Parameter& whole, double here, const SearchThr
   return numbers;
 }
 
-/// One of `part` of the waves: what does best in one of so many windows.
-std::vector<FitModel> bestAtFirstLook(std::vector<FitModel> waves, const FitService& windows, std::size_t part) {
-  FitProblem some = windows.problem();
-  some.jobs = 1;
-  some.segments.clear();
-  for (std::size_t i = 0; i < windows.problem().segments.size(); i += part)
-    some.segments.push_back(windows.problem().segments[i]);
-  const auto replays = parallel(windows.options().jobs, waves.size(), [&](std::size_t i) {
-    return std::vector<double>{residualsOf(some, waves[i], {}).squaredNorm()};
-  });
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < waves.size(); ++i)
-    if (replays[i].ok()) order.push_back(i);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return replays[i].numbers[0]; });
-  order.resize(std::min(order.size(), (waves.size() + part - 1) / part));
-  std::ranges::sort(order);
-  std::vector<FitModel> kept;
-  for (const std::size_t i : order) kept.push_back(std::move(waves[i]));
-  return kept;
-}
-
 }  // namespace
 
 /// A wave that pulls a joint hard catches it in another of its troughs than the recorded one, and no fit over whole
@@ -98,7 +77,6 @@ void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitM
   std::ranges::copy(wavesLike(fresh, *whole, limits), std::back_inserter(waves));
 
   const FitService windows = service.inWindows(limits.window_s);
-  waves = bestAtFirstLook(std::move(waves), windows, limits.looked);
   const double best = service.thresholds().restarts.better * residualsOf(windows.problem(), without, {}).squaredNorm();
   const auto replays = parallel(
       service.options().jobs, waves.size(),

@@ -29,6 +29,7 @@ const std::map<std::string, std::string> notIdentifiable{
     {"sensor_scale.closes_loop", "a whole number"},
     {"sensor_eccentricity.closes_loop", "a whole number"},
     {"sampled_loop.period_ms", "a whole number"},
+    {"stribeck_friction.exponent", "beside the fading speed it has side minima: of six begins two ended in one"},
     {"sampled_loop.damping_stays", "a whole number"},
     {"strength_decline.damping_stays", "a whole number"},
     {"voltage_sag.damping_stays", "a whole number"},

@@ -387,9 +387,9 @@ struct SearchThresholds {
 
     bool isRun(double error) const { return error > muchLeft; }
     /// Screening that takes a first look at all, and few in full.
-    Screening of(Screening screening) const {
-      screening.many = screening.promising = screened;
-      return screening;
+    Screening of(Screening usual) const {
+      usual.many = usual.promising = screened;
+      return usual;
     }
   };
 

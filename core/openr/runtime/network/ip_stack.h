@@ -14,8 +14,8 @@
 #include "core/openr/runtime/network/network_settings.h"
 #include "core/openr/runtime/objects/system.h"
 
-struct UDPEndpointSendMsg;
-struct UDPEndpointReceiveMsg;
+class UDPEndpointSendMsg;
+class UDPEndpointReceiveMsg;
 
 namespace btr::openr {
 

@@ -75,12 +75,12 @@ void bound(Recording& trial, const Mapping& mapping) {
   trial.bounded = true;
   const std::vector<double>& time = trial.columns[0];
   if (time.empty()) return;
-  const auto first = std::ranges::lower_bound(time, time.front() + mapping.from_s.value_or(0));
-  const auto last = std::ranges::upper_bound(time, time.front() + mapping.until_s.value_or(INFINITY));
-  if (last - first < 2)
+  Recording bounded =
+      rowsBetween(trial, time.front() + mapping.from_s.value_or(0), time.front() + mapping.until_s.value_or(INFINITY));
+  if (bounded.rows() < 2)
     throw InputError(trial.source + ": from_s and until_s in " + mapping.source + " leave less than two rows of its " +
                      digits(time.back() - time.front()) + " s");
-  trial = rowsOf(trial, static_cast<std::size_t>(first - time.begin()), static_cast<std::size_t>(last - time.begin()));
+  trial = std::move(bounded);
 }
 
 void noteEmptyCells(Recording& trial) {
@@ -102,6 +102,13 @@ Recording rowsOf(const Recording& recording, std::size_t first, std::size_t last
   if (auto& lines = part.places.line; !lines.empty())
     lines = {lines.begin() + static_cast<std::ptrdiff_t>(first), lines.begin() + static_cast<std::ptrdiff_t>(last)};
   return part;
+}
+
+Recording rowsBetween(const Recording& recording, double from_s, double until_s) {
+  const std::vector<double>& time = recording.columns[0];
+  const auto first = std::ranges::lower_bound(time, from_s), last = std::ranges::upper_bound(time, until_s);
+  return rowsOf(recording, static_cast<std::size_t>(first - time.begin()),
+                static_cast<std::size_t>(last - time.begin()));
 }
 
 std::vector<Recording> loadTrials(const std::string& path, const Mapping* mapping, std::size_t limit) {

@@ -9,5 +9,7 @@ Recording readRecording(const std::string& path, const Mapping* mapping, std::si
 
 /// The rows `first` … `last` − 1 as a recording of their own; its time keeps its zero.
 Recording rowsOf(const Recording& recording, std::size_t first, std::size_t last);
+/// The rows from one time to another, both counted, in seconds of its own clock.
+Recording rowsBetween(const Recording& recording, double from_s, double until_s);
 
 }  // namespace btr

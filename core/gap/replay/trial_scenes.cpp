@@ -23,9 +23,9 @@ Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) cons
   return makeScene(spec, models, withSettings(simulator, trial), effects);
 }
 
-void TrialScenes::withoutHands(Recording& trial) const {
+void TrialScenes::withoutHands(std::vector<Recording>& trials) const {
   const Scene scene = makeScene(spec, models, SimulatorSpec{}, EffectFactory{});
-  leaveOutHands(trial, scene, bind(scene, trial));
+  for (Recording& trial : trials) leaveOutHands(trial, scene, bind(scene, trial));
 }
 
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator) {
@@ -46,10 +46,9 @@ bool forEachTrial(
   for (std::size_t i = 0; i < request.recordings.size(); ++i) {
     const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
     if (!goesOn()) return false;
-    for (Recording& trial : loadTrialsFor(request.recordings[i], request.mapping, request.scene)) {
-      scenes.withoutHands(trial);
-      use(scenes, trial, goesOn);
-    }
+    std::vector<Recording> trials = loadTrialsFor(request.recordings[i], request.mapping, request.scene);
+    scenes.withoutHands(trials);
+    for (const Recording& trial : trials) use(scenes, trial, goesOn);
   }
   return true;
 } catch (const Cancelled&) {

@@ -21,7 +21,7 @@ struct TrialScenes {
 
   Scene of(const Recording& trial, const EffectFactory& effects) const;
   /// See leaveOutHands(); of the scene without effects.
-  void withoutHands(Recording& trial) const;
+  void withoutHands(std::vector<Recording>& trials) const;
 };
 /// From a scene file and a simulator.json ("" for the scene as given). Throws InputError.
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator);

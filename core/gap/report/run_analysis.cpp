@@ -41,8 +41,8 @@ GapProblem loadProblem(const AnalysisRequest& request) {
   load(request.recordings, problem.recordings);
   load(request.heldOut, problem.heldOut);
   const TrialScenes scenes{problem.scene, problem.models, problem.simulator};
-  for (auto* list : {&problem.recordings, &problem.heldOut})
-    for (Recording& trial : *list) scenes.withoutHands(trial);
+  scenes.withoutHands(problem.recordings);
+  scenes.withoutHands(problem.heldOut);
   refuseSeenHeldOut(problem);
   return problem;
 }

@@ -187,12 +187,6 @@ std::optional<FreeJoint> freeJointOf(const Scene& scene, const Binding& binding)
   return std::nullopt;
 }
 
-void keepRows(Recording& trial, double from_s, double until_s) {
-  const std::vector<double>& time = trial.columns[0];
-  const auto first = std::ranges::lower_bound(time, from_s), last = std::ranges::upper_bound(time, until_s);
-  trial = rowsOf(trial, static_cast<std::size_t>(first - time.begin()), static_cast<std::size_t>(last - time.begin()));
-}
-
 void leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
   const std::string why = ": until then " + trial.channels[joint.column] +
                           " does not move as it does afterwards, though nothing drives it; a hand, it seems";
@@ -212,7 +206,7 @@ void leaveOutSwinger(Recording& trial, const FreeJoint& joint) {
                           trial.channels[joint.column] +
                           " does not move as it did before, though nothing drives it; a hand, it seems (\"until_s\" in "
                           "its mapping keeps them)");
-  if (held || caught) keepRows(trial, held.value_or(begin), caught ? -*caught : end);
+  if (held || caught) trial = rowsBetween(trial, held.value_or(begin), caught ? -*caught : end);
 }
 
 /// A ball that rests in the air and then falls.
@@ -259,7 +253,7 @@ void leaveOutHeldBall(Recording& trial, const Scene& scene, const Binding& bindi
   trial.notes.push_back("the first " + digits(last.time_s - trial.columns[0].front()) +
                         " s are left out: until then the ball rests in the air; a hand, it seems (\"from_s\": 0 in its "
                         "mapping keeps them)");
-  keepRows(trial, last.time_s, trial.columns[0].back());
+  trial = rowsBetween(trial, last.time_s, trial.columns[0].back());
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 
 #include "app/btr_commands.h"
 #include "app/openr/btr_openr_robots.h"
-#include "core/openr/build_hint.h"
+#include "core/openr/builder/build_hint.h"
+#include "core/openr/builder/stick_builder.h"
 #include "core/openr/ended_text.h"
 #include "core/openr/robot_process.h"
-#include "core/openr/stick_builder.h"
 #include "core/openr/trivial_robot.h"
 #include "core/spec/error.h"
 

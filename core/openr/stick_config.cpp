@@ -1,29 +1,16 @@
 #include "core/openr/stick_config.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "core/openr/file_text.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string content(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 /// The entry of `folder` named `name`: as it is written, else upper-cased, else in any other case; else upper-cased
 /// though it is not there.

@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <string>
 
+#include "core/openr/builder/robot_longs.h"
+#include "core/openr/builder/source_cure.h"
+#include "core/openr/builder/stub_generator.h"
 #include "core/openr/robot_link.h"
-#include "core/openr/robot_longs.h"
-#include "core/openr/source_cure.h"
 #include "core/openr/stick_config.h"
-#include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/openr/build_hint.h"
-#include "core/openr/kit_paths.h"
+#include "core/openr/builder/build_hint.h"
+#include "core/openr/builder/kit_paths.h"
+#include "core/openr/builder/merged_config.h"
+#include "core/openr/builder/stick_builder.h"
+#include "core/openr/builder/stub_generator.h"
 #include "core/openr/robot_design.h"
-#include "core/openr/stick_builder.h"
 #include "core/openr/stick_config.h"
-#include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
 #include "tests/openr/run_program.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/openr/robot_longs.h"
-#include "core/openr/source_cure.h"
+#include "core/openr/builder/robot_longs.h"
+#include "core/openr/builder/source_cure.h"
 #include "tests/openr/run_program.h"
 
 namespace btr::openr {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/openr/builder/stick_builder.h"
 #include "core/openr/robot_process.h"
-#include "core/openr/stick_builder.h"
 #include "core/openr/trivial_robot.h"
 
 namespace btr::openr {

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "core/openr/robot_longs.h"
-#include "core/openr/source_cure.h"
-#include "core/openr/stub_generator.h"
+#include "core/openr/builder/robot_longs.h"
+#include "core/openr/builder/source_cure.h"
+#include "core/openr/builder/stub_generator.h"
 #include "core/spec/error.h"
 
 namespace {

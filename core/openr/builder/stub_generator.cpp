@@ -1,4 +1,4 @@
-#include "core/openr/stub_generator.h"
+#include "core/openr/builder/stub_generator.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "core/openr/compiler_complaints.h"
+#include "core/openr/builder/compiler_complaints.h"
 
 #include <cctype>
 #include <sstream>

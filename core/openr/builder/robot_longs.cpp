@@ -1,4 +1,4 @@
-#include "core/openr/robot_longs.h"
+#include "core/openr/builder/robot_longs.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/openr/compiler_complaints.h"
+#include "core/openr/builder/compiler_complaints.h"
 
 namespace btr::openr {
 namespace {

@@ -30,8 +30,4 @@ struct StickBuildOptions {
 /// what the compiler refuses is in the result.
 StickBuild buildStick(const StickBuildOptions& options);
 
-/// Lists (OBJECT.CFG and the like) as one: lines of the second that the first does not have are added, each below its
-/// own [ERS-x].
-std::string mergedConfig(const std::string& first, const std::string& second);
-
 }  // namespace btr::openr

@@ -1,4 +1,4 @@
-#include "core/openr/source_cure.h"
+#include "core/openr/builder/source_cure.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/openr/compiler_complaints.h"
-#include "core/openr/old_extensions.h"
+#include "core/openr/builder/compiler_complaints.h"
+#include "core/openr/builder/old_extensions.h"
 
 namespace btr::openr {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/openr/old_extensions.h"
+#include "core/openr/builder/old_extensions.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "core/openr/kit_paths.h"
+#include "core/openr/builder/kit_paths.h"
 
 #include <regex>
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "core/openr/compiler_complaints.h"
+#include "core/openr/builder/compiler_complaints.h"
 
 namespace btr::openr {
 

@@ -1,4 +1,4 @@
-#include "core/openr/stick_builder.h"
+#include "core/openr/builder/stick_builder.h"
 
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -7,14 +7,15 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <map>
 #include <set>
-#include <sstream>
 
-#include "core/openr/kit_paths.h"
+#include "core/openr/builder/kit_paths.h"
+#include "core/openr/builder/makefiles.h"
+#include "core/openr/builder/merged_config.h"
+#include "core/openr/builder/stub_generator.h"
+#include "core/openr/file_text.h"
 #include "core/openr/stick_config.h"
-#include "core/openr/stub_generator.h"
 #include "core/spec/error.h"
 #include "core/spec/system/scratch_folder.h"
 
@@ -24,18 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string modulesFolder = "OPEN-R/MW/OBJS", configFolder = "OPEN-R/MW/CONF", dataFolder = "OPEN-R/MW/DATA/P";
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 void write(const fs::path& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
@@ -65,92 +54,9 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool isMakefile(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name == "Makefile" || name == "makefile" || name == "GNUmakefile";
-}
-
-/// `text` with $(NAME) and ${NAME} replaced by what is known of them, else by nothing.
-std::string expanded(std::string text, const std::map<std::string, std::string>& values) {
-  constexpr int mostReplaced = 50;  // variables may name each other in a circle
-  for (int i = 0; i < mostReplaced; ++i) {
-    const auto at = text.find('$');
-    if (at == std::string::npos || at + 1 == text.size()) break;
-    const char open = text[at + 1];
-    const auto end = open == '(' ? text.find(')', at) : open == '{' ? text.find('}', at) : std::string::npos;
-    if (end == std::string::npos) break;
-    const auto found = values.find(text.substr(at + 2, end - at - 2));
-    text.replace(at, end - at + 1, found == values.end() ? "" : found->second);
-  }
-  return text;
-}
-
-/// What a Makefile says together with the files that it includes, which are named from its folder.
-std::string withIncludes(const fs::path& folder, const fs::path& makefile, std::map<std::string, std::string>& values,
-                         int depth = 0) {
-  constexpr int deepest = 5;
-  const std::string own = content(makefile);
-  std::string all = own;
-  std::istringstream in(own);
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    std::string word, second, third;
-    words >> word >> second >> third;
-    if (second == "=" || second == ":=" || second == "?=")
-      values.emplace(word, third);
-    else if (const auto equals = word.find('='); equals != std::string::npos)
-      values.emplace(word.substr(0, word.find_first_of(":?=")), word.substr(equals + 1));
-    if ((word != "include" && word != "-include" && word != "sinclude") || depth == deepest) continue;
-    const fs::path file = folder / expanded(second, values);
-    std::error_code error;
-    if (fs::is_regular_file(file, error)) all += "\n" + withIncludes(folder, file, values, depth + 1);
-  }
-  return all;
-}
-
-std::string withIncludes(const fs::path& makefile) {
-  std::map<std::string, std::string> values;
-  return withIncludes(makefile.parent_path(), makefile, values);
-}
-
-/// What Makefiles include has many names: "defs.mk", "makefile.config".
-bool isPartOfMakefile(const fs::path& path) {
-  const std::string name = upper(path.filename().string()), end = upper(path.extension().string());
-  return name.find("MAKEFILE") != std::string::npos || end == ".MK" || end == ".INC" || end == ".CONFIG" ||
-         end == ".DEFS";
-}
-
-bool hasAny(const std::string& text, std::initializer_list<const char*> parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](const char* part) { return text.find(part) != std::string::npos; });
-}
-
-/// Whether the folder is an object's by its other files.
-bool looksLikeObject(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder / "stub.cfg", error)) return true;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->path().extension() == ".ocf") return true;
-  return false;
-}
-
-/// Whether a Makefile, or what it includes, makes a module for the robot.
-bool makesModule(const fs::path& makefile) {
-  const std::string own = content(makefile);
-  if (hasAny(own, {"/mkbin"})) return true;
-  const std::string all = withIncludes(makefile);
-  return hasAny(all, {"/mkbin"}) && hasAny(all, {"$(MKBIN)", "${MKBIN}"}) &&
-         (hasAny(own, {".bin", ".BIN"}) || looksLikeObject(makefile.parent_path()));
-}
-
 bool isSource(const fs::path& path) {
   const std::string end = path.extension().string();
   return end == ".cc" || end == ".cpp" || end == ".cxx" || end == ".C" || end == ".c";
-}
-
-/// Whether a Makefile makes a library that objects are linked with.
-bool makesLibrary(const fs::path& makefile) {
-  return hasAny(content(makefile), {".a"}) && hasAny(withIncludes(makefile), {"mipsel-linux-ar", "$(AR)", "${AR}"});
 }
 
 /// The entry of `folder` that has this name but for large and small letters; the name itself if there is none.
@@ -592,31 +498,5 @@ bool StickBuild::complete() const {
 }
 
 StickBuild buildStick(const StickBuildOptions& options) { return StickBuilder(options).build(); }
-
-std::string mergedConfig(const std::string& first, const std::string& second) {
-  std::vector<std::string> order = {""};
-  std::map<std::string, std::vector<std::string>> sections;
-  for (const std::string* text : {&first, &second}) {
-    std::string section;
-    std::istringstream in(*text);
-    for (std::string line; std::getline(in, line);) {
-      while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
-      if (line.empty()) continue;
-      if (line[0] == '[') {
-        section = upper(line);
-        if (std::find(order.begin(), order.end(), section) == order.end()) order.push_back(section);
-        continue;
-      }
-      auto& lines = sections[section];
-      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
-    }
-  }
-  std::string merged;
-  for (const std::string& section : order) {
-    if (!section.empty()) merged += section + "\n";
-    for (const std::string& line : sections[section]) merged += line + "\n";
-  }
-  return merged;
-}
 
 }  // namespace btr::openr

@@ -1,4 +1,4 @@
-#include "core/openr/build_hint.h"
+#include "core/openr/builder/build_hint.h"
 
 namespace btr::openr {
 

@@ -203,11 +203,15 @@ double driveTorque(const Drive& drive, const JointState& state, double integral,
 
 void JointEffects::add(const SceneEffect& effect) {
   placed_.push_back({effect.effect.get(), &effect.values,
-                     std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0), effect.name});
-  changeDrive_ = changeDrive_ || effect.effect->changesDrive();
+                     std::vector<double>(static_cast<std::size_t>(effect.effect->stateSize()), 0.0), effect.name,
+                     effect.effect->stage() == Effect::Stage::command, effect.effect->hasServoTerm()});
   const auto placeOf = [&](std::size_t i) { return std::pair(placed_[i].effect->stage(), placed_[i].name); };
   const std::size_t last = placed_.size() - 1;
-  chain_.insert(std::ranges::upper_bound(chain_, placeOf(last), {}, placeOf), last);
+  const auto insertInto = [&](std::vector<std::size_t>& chain) {
+    chain.insert(std::ranges::upper_bound(chain, placeOf(last), {}, placeOf), last);
+  };
+  insertInto(chain_);
+  if (effect.effect->changesDrive()) insertInto(onDrive_);
 }
 
 void JointEffects::reset() {
@@ -239,21 +243,20 @@ CommandAround JointEffects::command(CommandAround command, const JointState& sta
 
 double JointEffects::throughEffects(Torques torques, const JointState& given, double h, bool keepState) {
   JointState state = given;
-  for (const std::size_t i : chain_) {
+  for (const std::size_t i : onDrive_) {
     Placed& placed = placed_[i];
-    if (!placed.effect->changesDrive()) continue;
-    if (!keepState) scratch_ = placed.state;
-    std::vector<double>& memory = keepState ? placed.state : scratch_;
+    const bool isTry = !keepState && !placed.state.empty();
+    if (isTry) scratch_ = placed.state;
+    std::vector<double>& memory = isTry ? scratch_ : placed.state;
     const auto through = [&](double torque, double& beyond, double dt) {
       state.beyond = beyond;
-      if (!placed.effect->hasServoTerm()) return placed.effect->driveTorque(torque, state, *placed.values, memory, dt);
+      if (!placed.hasServoTerm) return placed.effect->driveTorque(torque, state, *placed.values, memory, dt);
       const LimitedTorque sum = withTerm(torque, state, placed.effect->servoTerm(state, *placed.values, memory, dt));
       beyond = sum.beyond;
       return sum.given;
     };
-    const bool isLaw = placed.effect->stage() == Effect::Stage::command;
-    const bool jumps = isLaw ? torques.commandBefore != torques.commandAfter : torques.before != torques.after;
-    if (!jumps || (!memory.empty() && !isLaw)) {
+    const bool jumps = placed.isLaw ? torques.commandBefore != torques.commandAfter : torques.before != torques.after;
+    if (!jumps || (!memory.empty() && !placed.isLaw)) {
       double beyond = (torques.beyondBefore + torques.beyondAfter) / 2;
       torques.before = torques.after = through(torques.mean(), beyond, h);
       torques.beyondBefore = torques.beyondAfter = beyond;

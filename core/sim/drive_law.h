@@ -78,7 +78,7 @@ class JointEffects {
  public:
   void add(const SceneEffect& effect);
   bool empty() const { return placed_.empty(); }
-  bool changeDrive() const { return changeDrive_; }
+  bool changeDrive() const { return !onDrive_.empty(); }
   /// Back to the start of a trial: all states zero.
   void reset();
   /// As a joint that has rested leaves them.
@@ -104,6 +104,8 @@ class JointEffects {
     const std::vector<double>* values;
     std::vector<double> state;
     std::string name;
+    bool isLaw = false;         ///< of the servo's own law: Effect::stage() is command
+    bool hasServoTerm = false;  ///< Effect::hasServoTerm()
   };
   /// Torques before and after a jump of the command. Effects of the servo's own law see each for half a step, others
   /// with a memory their mean.
@@ -115,10 +117,10 @@ class JointEffects {
   };
   double throughEffects(Torques torques, const JointState& state, double h, bool keepState);
 
-  std::vector<Placed> placed_;      ///< in the order of the simulator's list
-  std::vector<std::size_t> chain_;  ///< of these, by stage; in a stage by name, however they are listed
+  std::vector<Placed> placed_;        ///< in the order of the simulator's list
+  std::vector<std::size_t> chain_;    ///< of these, by stage; in a stage by name, however they are listed
+  std::vector<std::size_t> onDrive_;  ///< of the chain, those that change the drive's torque
   std::vector<double> scratch_;
-  bool changeDrive_ = false;
 };
 
 }  // namespace btr

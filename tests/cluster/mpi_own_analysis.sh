@@ -10,7 +10,7 @@ spec["controller"]["settings"].update(accumulate_s=0.1, hold_s=0, return_s=0.1)
 spec["concealed"] = {"effects": ["coulomb_friction"], "at": ["ers7.LF_J3"]}
 spec["stand_in"].update(hidden_effects=1, effect_size=5)
 spec["recordings"] = {"settings": {"after_stage": 1, "individuals": 2, "maximum_effects": 1},
-                      "effects": ["viscous_friction", "backlash", "coulomb_friction"], "joints": ["ers7.LF_J3"]}
+                      "effects": ["viscous_friction", "coulomb_friction"], "joints": ["ers7.LF_J3"]}
 json.dump(spec, open(sys.argv[2], "w"))' "$folder/kick.json" "$folder/repaired.json"
 }
 repaired

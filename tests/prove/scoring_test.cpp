@@ -17,6 +17,7 @@
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/prove/prove_fixture.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace btr::prove {
@@ -410,6 +411,21 @@ TEST(Proof, ACaseThatCannotBeMadeIsNamedAndTheOthersCount) {
   }
   const auto proof = nlohmann::json::parse(readFile(folder.file("proof/proof.json")));
   EXPECT_EQ(1, proof["all"]["false_alarms"]["cases"]);
+}
+
+// A generator that does not start at all said so once for each of a hundred cases.
+TEST(Proof, WhatIsWrongInAllCasesIsSaidOnce) {
+  const TemporaryFolder folder;
+  const std::string generator = folder.file("conceal");
+  writeFile(generator, "#!/bin/sh\necho a library is missing >&2\nexit 1\n");
+  std::filesystem::permissions(generator, std::filesystem::perms::owner_all);
+  ProofRequest request = twoFlights(generator, folder);
+  request.cases = 7;
+  const std::atomic<bool> stop{false};
+  const std::string said = test::refusal([&] { runProof(request, {}, contentAnalyst, stop); });
+  EXPECT_TRUE(said.starts_with("cases 1, 2, 3, 4, 5 and 2 more: ")) << said;
+  EXPECT_EQ(said.find("a library is missing"), said.rfind("a library is missing")) << said;
+  EXPECT_NE(std::string::npos, said.find("; the 0 of 7 that are finished")) << said;
 }
 
 }  // namespace

@@ -40,6 +40,27 @@ void claimFolder(const ProofRequest& request) {
   writeFile(path, text);
 }
 
+/// What failed, each reason once: what is wrong with a machine is wrong in all cases.
+std::string inWords(const std::map<std::size_t, std::string>& failures) {
+  constexpr std::size_t mostNamed = 5;
+  std::vector<std::pair<std::string, std::vector<std::size_t>>> reasons;  // with the numbers of their cases
+  for (const auto& [number, why] : failures) {
+    auto known = std::ranges::find(reasons, why, [](const auto& reason) { return reason.first; });
+    if (known == reasons.end()) known = reasons.insert(known, {why, {}});
+    known->second.push_back(number);
+  }
+  std::string said;
+  for (const auto& [why, numbers] : reasons) {
+    said += said.empty() ? "" : "; ";
+    said += numbers.size() > 1 ? "cases " : "case ";
+    for (std::size_t i = 0; i < std::min(mostNamed, numbers.size()); ++i)
+      said += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+    if (numbers.size() > mostNamed) said += " and " + std::to_string(numbers.size() - mostNamed) + " more";
+    said += ": " + why;
+  }
+  return said;
+}
+
 }  // namespace
 
 std::string findGenerator() {
@@ -105,11 +126,9 @@ std::vector<ProvedCase> runProof(const ProofRequest& request, const EffectLibrar
   writeProof(request.out, score(cases), cases);
   if (failures.empty()) return cases;
   // A world that cannot be simulated, say: the others count all the same.
-  std::string failed;
-  for (const auto& [number, why] : failures)
-    failed += (failed.empty() ? "case " : "; case ") + std::to_string(number) + ": " + why;
-  throw InputError(failed + "; the " + std::to_string(cases.size()) + " of " + std::to_string(request.cases) +
-                   " that are finished are counted in " + (fs::path(request.out) / "proof.txt").string());
+  throw InputError(inWords(failures) + "; the " + std::to_string(cases.size()) + " of " +
+                   std::to_string(request.cases) + " that are finished are counted in " +
+                   (fs::path(request.out) / "proof.txt").string());
 }
 
 }  // namespace btr

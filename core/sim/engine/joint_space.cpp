@@ -35,7 +35,8 @@ void JointSpace::begin(const Articulation& robot) {
     inChild << joint.axisInChild, joint.x, joint.axisInChild.cross(joint.x);
     const auto carrier = std::ranges::find(moving_, joint.parent, &Moving::child);
     moving_.push_back({joint.child, carrier == moving_.end() ? -1 : static_cast<int>(carrier - moving_.begin()),
-                       inParent * inChild.transpose()});
+                       inParent * inChild.transpose(), robot.rotationOf(joint.parent) * joint.axisInParent,
+                       anchorOf(robot, joint)});
     rate_[static_cast<Eigen::Index>(j)] = joint.rate;
   }
   coupled_.clear();
@@ -62,7 +63,8 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
   for (std::size_t j = 0; j < moving_.size(); ++j) {
     const RobotJoint& joint = robot.joints[j];
     turn_[j] = joint.slides ? Vector3d(Vector3d::Zero()) : joint.axis;
-    push_[j] = joint.slides ? joint.axis : anchorOf(robot, joint).cross(joint.axis);
+    push_[j] =
+        joint.slides ? joint.axis : (joint.parent < 0 ? moving_[j].anchor : anchorOf(robot, joint)).cross(joint.axis);
     const RobotBody& body = robot.bodies[static_cast<std::size_t>(joint.child)];
     Moved& moved = moved_[static_cast<std::size_t>(joint.child)];
     const Vector3d& centre = body.pose.translation();
@@ -213,11 +215,13 @@ void JointSpace::place(Articulation& robot) const {
     RobotJoint& joint = robot.joints[j];
     RobotBody& child = robot.bodies[static_cast<std::size_t>(joint.child)];
     const Matrix3d turned = robot.rotationOf(joint.parent);
-    joint.axis = turned * joint.axisInParent;
-    const Vector3d anchor = anchorOf(robot, joint);
+    joint.axis = moving_[j].axis;
+    Vector3d anchor = moving_[j].anchor;
     Matrix3d linear;
     Vector3d spin = Vector3d::Zero(), velocity = Vector3d::Zero();  // of the parent; of its point at the anchor
     if (joint.parent >= 0) {
+      joint.axis = turned * joint.axisInParent;
+      anchor = anchorOf(robot, joint);
       const RobotBody& carrier = robot.bodies[static_cast<std::size_t>(joint.parent)];
       spin = carrier.spin_rad_s;
       velocity = carrier.velocity_m_s + spin.cross(anchor - carrier.pose.translation());

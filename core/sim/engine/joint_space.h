@@ -50,9 +50,10 @@ class JointSpace {
 
  private:
   struct Moving {
-    int child = 0;               ///< body
-    int carrier = -1;            ///< the joint that moves what this one stands on, −1 the base
-    Eigen::Matrix3d turnAtZero;  ///< child's axes in the parent's frame at position 0
+    int child = 0;                 ///< body
+    int carrier = -1;              ///< the joint that moves what this one stands on, −1 the base
+    Eigen::Matrix3d turnAtZero;    ///< child's axes in the parent's frame at position 0
+    Eigen::Vector3d axis, anchor;  ///< in the world, of a joint at the base: they never move
   };
   /// A body, and from the end of the tree on all that it carries.
   struct Moved {

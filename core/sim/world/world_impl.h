@@ -111,8 +111,9 @@ struct World::Impl {
 
   double time() const { return start_s + static_cast<double>(steps) * scene.step_s; }
   JointState stateOf(const WorldRobot& robot, std::size_t joint, double now) const;
-  /// As the drive's law sees the joint: the rotor's position and rate where its sensor sits there.
-  JointState loopStateOf(const WorldRobot& robot, std::size_t joint, double now) const;
+  /// As the drive's law sees the joint that is in this state: the rotor's position and rate where its sensor sits
+  /// there.
+  JointState loopStateOf(const WorldRobot& robot, std::size_t joint, JointState state) const;
 
   void advance(const std::vector<std::vector<JointInput>>& inputs, double duration);
   void step(const std::vector<std::vector<JointInput>>& inputs, double now, double h);

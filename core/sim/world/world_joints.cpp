@@ -62,8 +62,7 @@ JointState World::Impl::stateOf(const WorldRobot& robot, std::size_t joint, doub
           drive.load, robot.allDrives};
 }
 
-JointState World::Impl::loopStateOf(const WorldRobot& robot, std::size_t joint, double now) const {
-  JointState state = stateOf(robot, joint, now);
+JointState World::Impl::loopStateOf(const WorldRobot& robot, std::size_t joint, JointState state) const {
   const Drive& spec = robot.scene->drives[static_cast<std::size_t>(robot.body->joints[joint].modelJoint)];
   if (!spec.loopAtMotor || !spec.hasGear() || spec.kind == Drive::Kind::motion) return state;
   state.position += robot.drives[joint].motorAhead;
@@ -156,7 +155,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   drive.fresh = false;
   const bool geared = spec.hasGear() && !prescribed;
   const JointState atJoint = stateOf(robot, index, now);
-  JointState state = loopStateOf(robot, index, now);
+  JointState state = loopStateOf(robot, index, atJoint);
   StepOf driven = step;
   if (geared && spec.loopAtMotor) driven.inertia = turnedByMotor(spec, drive, joint);
   if (prescribed) {

@@ -77,7 +77,7 @@ void World::Impl::sense(WorldRobot& robot, double dt) {
     const Drive& spec = robot.scene->drives[static_cast<std::size_t>(joint.modelJoint)];
     drive.measured = joint.position + (spec.recordedAtMotor ? drive.motorAhead : 0);
     if (!drive.effects.empty())
-      drive.measured = drive.effects.measured(drive.measured, loopStateOf(robot, j, time()), dt);
+      drive.measured = drive.effects.measured(drive.measured, loopStateOf(robot, j, stateOf(robot, j, time())), dt);
   }
   // Specific force: the mean acceleration since the last sample minus gravity, in the sensor's axes.
   if (robot.accelerometerLink < 0) return;

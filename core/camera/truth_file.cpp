@@ -1,5 +1,7 @@
 #include "core/camera/truth_file.h"
 
+#include <cmath>
+
 #include "core/spec/csv.h"
 #include "core/spec/json_reader.h"
 #include "core/spec/parameter.h"

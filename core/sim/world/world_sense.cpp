@@ -11,13 +11,13 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double fastest_m_s = 50, fastestSpin_rad_s = 500, farthest_m = 100;
+constexpr double fastest_m_s = 50, fastestSpin_rad_s = 500, farthestPlace_m = 100;
 
 std::string faultOf(const std::string& name, const Vector3d& position, const Vector3d& velocity, const Vector3d& spin) {
   if (!position.allFinite() || !velocity.allFinite() || !spin.allFinite()) return name + " is not finite";
   if (velocity.norm() > fastest_m_s) return name + " moves at " + toText(velocity.norm()) + " m/s";
   if (spin.norm() > fastestSpin_rad_s) return name + " spins at " + toText(spin.norm()) + " rad/s";
-  if (position.norm() > farthest_m) return name + " is " + toText(position.norm()) + " m away";
+  if (position.norm() > farthestPlace_m) return name + " is " + toText(position.norm()) + " m away";
   return {};
 }
 
@@ -53,7 +53,7 @@ void World::Impl::checkFault() {
       const std::string& link = robot.scene->model.links[static_cast<std::size_t>(body.firstLink)].name;
       if (body.velocity_m_s.squaredNorm() <= fastest_m_s * fastest_m_s &&
           body.spin_rad_s.squaredNorm() <= fastestSpin_rad_s * fastestSpin_rad_s &&
-          body.pose.translation().squaredNorm() <= farthest_m * farthest_m)
+          body.pose.translation().squaredNorm() <= farthestPlace_m * farthestPlace_m)
         continue;
       fault = faultOf(robot.scene->name + "." + link, body.pose.translation(), body.velocity_m_s, body.spin_rad_s);
       if (!fault.empty()) return;

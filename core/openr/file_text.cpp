@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/spec/error.h"
+
 namespace btr::openr {
 
 std::string upper(std::string text) {
@@ -17,6 +19,13 @@ std::string content(const std::string& path) {
   std::ostringstream out;
   out << in.rdbuf();
   return out.str();
+}
+
+void writeContent(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(path + " cannot be written");
 }
 
 bool hasAny(const std::string& text, std::initializer_list<const char*> parts) {

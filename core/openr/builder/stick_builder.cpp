@@ -1,18 +1,17 @@
 #include "core/openr/builder/stick_builder.h"
 
-#include <stdlib.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "core/openr/builder/kit_paths.h"
 #include "core/openr/builder/makefiles.h"
 #include "core/openr/builder/merged_config.h"
+#include "core/openr/builder/shell.h"
+#include "core/openr/builder/source_copy.h"
+#include "core/openr/builder/source_folders.h"
 #include "core/openr/builder/stub_generator.h"
 #include "core/openr/file_text.h"
 #include "core/openr/stick_config.h"
@@ -26,161 +25,12 @@ namespace fs = std::filesystem;
 
 const std::string modulesFolder = "OPEN-R/MW/OBJS", configFolder = "OPEN-R/MW/CONF", dataFolder = "OPEN-R/MW/DATA/P";
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(path.string() + " cannot be written");
-}
-
-std::string shellWord(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
-/// Runs a shell command in `folder`; its standard error, and its exit status.
-int run(const fs::path& folder, const std::string& command, std::string& said) {
-  const std::string all = "cd " + shellWord(folder.string()) + " && { " + command + " ; } 2>&1 >/dev/null </dev/null";
-  FILE* out = popen(all.c_str(), "r");
-  if (out == nullptr) throw InputError("no shell can be started to call the compiler");
-  char piece[4096];
-  for (std::size_t count; (count = fread(piece, 1, sizeof(piece), out)) > 0;) said.append(piece, count);
-  const int status = pclose(out);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-bool isSource(const fs::path& path) {
-  const std::string end = path.extension().string();
-  return end == ".cc" || end == ".cpp" || end == ".cxx" || end == ".C" || end == ".c";
-}
-
-/// The entry of `folder` that has this name but for large and small letters; the name itself if there is none.
-fs::path entryNamed(const fs::path& folder, const std::string& name) {
-  std::error_code error;
-  if (!fs::exists(folder / name, error))
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-      if (upper(at->path().filename().string()) == upper(name)) return at->path();
-  return folder / name;
-}
-
-struct Found {
-  std::vector<fs::path> libraries;             ///< folders whose Makefile makes one
-  std::vector<fs::path> withMakefile, byHand;  ///< folders of objects
-  std::vector<fs::path> sticks;                ///< MS folders; without any, those with OPEN-R/MW in them
-  std::vector<fs::path> lists;                 ///< folders with an OBJECT.CFG outside of sticks
-};
-
-Found findObjects(const fs::path& root) {
-  Found found;
-  std::set<fs::path> sources;         // folders that look like an object's
-  std::vector<fs::path> otherSticks;  // with names like MS_ERS7
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(root, error), end; !error && at != end; at.increment(error)) {
-    const fs::path path = at->path();
-    const std::string name = path.filename().string();
-    if (at->is_directory(error)) {
-      if (name[0] == '.') at.disable_recursion_pending();
-      const bool isStick = name == "MS";
-      if (isStick || fs::exists(entryNamed(entryNamed(path, "OPEN-R"), "MW"), error)) {
-        at.disable_recursion_pending();
-        // RP/… are set-ups of Sony's remote processing on a PC.
-        bool remote = false;
-        for (const fs::path& part : path.lexically_relative(root)) remote = remote || part == "RP";
-        if (!remote && fs::exists(entryNamed(path, "OPEN-R"))) (isStick ? found.sticks : otherSticks).push_back(path);
-      }
-      continue;
-    }
-    if (isMakefile(path) && makesModule(path))
-      found.withMakefile.push_back(path.parent_path());
-    else if (isMakefile(path) && makesLibrary(path))
-      found.libraries.push_back(path.parent_path());
-    if (upper(name) == "OBJECT.CFG") found.lists.push_back(path.parent_path());
-    if (name == "stub.cfg" || path.extension() == ".ocf" || endsWith(name, "Stub.cc"))
-      sources.insert(path.parent_path());
-  }
-  if (found.sticks.empty()) found.sticks = std::move(otherSticks);
-  std::sort(found.libraries.begin(), found.libraries.end());
-  std::sort(found.withMakefile.begin(), found.withMakefile.end());
-  std::sort(found.sticks.begin(), found.sticks.end());
-  for (const fs::path& folder : sources) {
-    const bool made = std::any_of(found.withMakefile.begin(), found.withMakefile.end(), [&](const fs::path& other) {
-      const auto within = [](const fs::path& inner, const fs::path& outer) {
-        return inner.lexically_relative(outer).string().rfind("..", 0) != 0;
-      };
-      return within(other, folder) || within(folder, other);
-    });
-    if (!made) found.byHand.push_back(folder);
-  }
-  return found;
-}
-
-/// A copy of the folder in which nothing is left of former builds, and Makefiles find the kit at `sdk`; what stands
-/// beside it, one and two folders up, can be reached as before.
-fs::path copyOf(const fs::path& folder, const fs::path& work, const fs::path& sdk) {
-  const fs::path source = fs::canonical(folder);
-  const fs::path parent = source.parent_path(), above = parent.parent_path();
-  const fs::path outer = work / "above", inner = outer / (parent.filename().empty() ? "parent" : parent.filename());
-  fs::create_directories(inner);
-  const auto linkAll = [&sdk](const fs::path& from, const fs::path& to, const fs::path& except) {
-    std::error_code error;
-    int count = 0;
-    for (fs::directory_iterator at(from, error), end; !error && at != end && count < 500;
-         at.increment(error), ++count) {
-      const fs::path target = to / at->path().filename();
-      if (at->path() == except || at->path().filename().string()[0] == '.') continue;
-      std::error_code ignored;
-      if (at->is_directory(ignored))
-        fs::create_directory_symlink(at->path(), target, ignored);
-      else if (at->is_regular_file(ignored) && isPartOfMakefile(at->path()))
-        write(target, withKitAt(content(at->path()), sdk.string()));
-      else if (at->is_regular_file(ignored))
-        fs::create_symlink(at->path(), target, ignored);
-    }
-  };
-  linkAll(parent, inner, source);
-  linkAll(above, outer, parent);
-  const fs::path copy = inner / source.filename();
-  fs::copy(source, copy, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::recursive_directory_iterator(copy)) {
-    if (entry.is_directory()) {
-      fs::permissions(entry.path(), fs::perms::owner_all, fs::perm_options::add);
-      continue;
-    }
-    const std::string end = entry.path().extension().string(), name = entry.path().filename().string();
-    const fs::path at = entry.path().parent_path();
-    if (isPartOfMakefile(entry.path()) && entry.is_regular_file()) {
-      fs::permissions(entry.path(), fs::perms::owner_write, fs::perm_options::add);
-      write(entry.path(), withKitAt(content(entry.path()), sdk.string()));
-    }
-    if (end == ".o" || end == ".bin" || end == ".elf" || endsWith(name, ".snap.cc")) stale.push_back(entry.path());
-    // Of another maker of stubs.
-    if ((name == "def.h" || name == "entry.h" || endsWith(name, "Stub.h") || endsWith(name, "Stub.cc")) &&
-        (fs::exists(at / "stub.cfg") || fs::exists(at.parent_path() / "stub.cfg")))
-      stale.push_back(entry.path());
-  }
-  for (const fs::path& path : stale) fs::remove(path);
-  return copy;
-}
-
 std::set<std::string> modulesOn(const fs::path& stick) {
   std::set<std::string> modules;
   std::error_code error;
   for (fs::directory_iterator at(stick / modulesFolder, error), end; !error && at != end; at.increment(error))
     if (at->is_regular_file(error) && at->file_size(error) > 0) modules.insert(at->path().filename().string());
   return modules;
-}
-
-bool usesJpeg(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder))
-    if ((isSource(entry.path()) || entry.path().extension() == ".h") && hasAny(content(entry.path()), {"jpeglib.h"}))
-      return true;
-  return false;
 }
 
 bool isSubsequence(const std::string& part, const std::string& whole) {
@@ -243,12 +93,12 @@ class StickBuilder {
         fs::weakly_canonical(out_) != fs::canonical(folder) / "MS")
       throw InputError(options_.out + " lies in " + folder + "; a folder outside of the sources is needed");
     const ScratchFolder work("btr-openr");
-    const fs::path copy = copyOf(folder, work.path(), work.path() / "sdk");
+    const fs::path copy = copyOfSources(folder, work.path(), work.path() / "sdk");
     fs::create_directory_symlink(fs::canonical(sdk_), work.path() / "sdk");
     const fs::path stick = work.path() / "MS";
     for (const fs::path& each : {stick / modulesFolder, stick / configFolder, stick / dataFolder})
       fs::create_directories(each);
-    Found found = findObjects(copy);
+    SourceFolders found = findSources(copy);
     if (found.sticks.empty() && fs::exists(fs::path(folder) / ".." / "MS" / "OPEN-R"))
       found.sticks.push_back(fs::canonical(fs::path(folder) / ".." / "MS"));
     for (const fs::path& each : found.sticks) copySettings(each, stick);
@@ -266,7 +116,7 @@ class StickBuilder {
     if (!fs::exists(stick / configFolder / "OBJECT.CFG")) {
       std::string list;
       for (const std::string& module : modulesOn(stick)) list += "/MS/" + modulesFolder + "/" + module + "\n";
-      if (!list.empty()) write(stick / configFolder / "OBJECT.CFG", list);
+      if (!list.empty()) writeContent(stick / configFolder / "OBJECT.CFG", list);
     }
     copySettings(stick, out_);
     for (const std::string& module : modulesOn(stick))
@@ -283,11 +133,11 @@ class StickBuilder {
       fs::path target = to;
       for (const fs::path& part : relative) target = entryNamed(target, part.string());
       const std::string place = upper(relative.parent_path().generic_string());
-      if (endsWith(name, ".BIN") && place == modulesFolder) continue;
+      if (name.ends_with(".BIN") && place == modulesFolder) continue;
       fs::create_directories(target.parent_path());
-      if (endsWith(name, ".CFG") && place == configFolder && fs::exists(target) &&
+      if (name.ends_with(".CFG") && place == configFolder && fs::exists(target) &&
           (name == "OBJECT.CFG" || name == "CONNECT.CFG" || name == "DESIGNDB.CFG"))
-        write(target, mergedConfig(content(target), content(entry.path())));
+        writeContent(target, mergedConfig(content(target), content(entry.path())));
       else
         fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing);
     }
@@ -299,7 +149,7 @@ class StickBuilder {
       const fs::path list = entryNamed(from, name);
       if (!fs::is_regular_file(list)) continue;
       const fs::path target = to / name;
-      write(target, fs::exists(target) ? mergedConfig(content(target), content(list)) : content(list));
+      writeContent(target, fs::exists(target) ? mergedConfig(content(target), content(list)) : content(list));
     }
   }
 
@@ -311,8 +161,9 @@ class StickBuilder {
     withIncludes(folder, entryNamed(folder, "Makefile"), values);
     for (const auto& [name, value] : values)
       if (isKitFolder(value) && isName(name)) places += " " + name + "=" + kit;
-    run(folder, "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B" + places + " " + target,
-        said);
+    runInShell(folder,
+               "env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL LC_ALL=C make --no-print-directory -B" + places + " " + target,
+               said);
   }
 
   static bool isName(const std::string& text) {
@@ -374,10 +225,10 @@ class StickBuilder {
     if (!made.empty()) object.said.clear();
     for (const fs::path& each : made) {
       const std::string module = moduleName(each.stem().string(), listedModules(stick));
-      if (run(folder,
-              "gzip -dcf " + shellWord(each.string()) + " | gzip -nc > " +
-                  shellWord((stick / modulesFolder / module).string()),
-              object.said) == 0)
+      if (runInShell(folder,
+                     "gzip -dcf " + shellWord(each.string()) + " | gzip -nc > " +
+                         shellWord((stick / modulesFolder / module).string()),
+                     object.said) == 0)
         object.modules.push_back(module);
     }
   }
@@ -414,10 +265,10 @@ class StickBuilder {
     for (const fs::path& source : sources) {
       const std::string made = (source.parent_path() / source.stem()).string() + ".o";
       const std::string compiler = source.extension() == ".c" ? "mipsel-linux-gcc" : "mipsel-linux-g++";
-      const bool compiled = run(folder,
-                                shellWord((sdk / "bin" / compiler).string()) + " -O2 -g" + includes + " -c " +
-                                    shellWord(source.string()) + " -o " + shellWord(made),
-                                said) == 0;
+      const bool compiled = runInShell(folder,
+                                       shellWord((sdk / "bin" / compiler).string()) + " -O2 -g" + includes + " -c " +
+                                           shellWord(source.string()) + " -o " + shellWord(made),
+                                       said) == 0;
       if (compiled) objects += " " + shellWord(made);
       whole = whole && compiled;
     }
@@ -435,7 +286,7 @@ class StickBuilder {
     compile(folder, sources, includes, sdk, objects, said);
     if (objects.empty()) return "";
     const std::string library = "parts.a";
-    run(folder, shellWord((sdk / "bin/mipsel-linux-ar").string()) + " rcP " + library + objects, said);
+    runInShell(folder, shellWord((sdk / "bin/mipsel-linux-ar").string()) + " rcP " + library + objects, said);
     return " " + library;
   }
 
@@ -446,7 +297,7 @@ class StickBuilder {
     if (fs::exists(folder / "stub.cfg")) {
       const StubConfig config = stubConfigFrom(content(folder / "stub.cfg"), name + "/stub.cfg");
       title = config.object;
-      for (const auto& [file, text] : stubFiles(config)) write(folder / file, text);
+      for (const auto& [file, text] : stubFiles(config)) writeContent(folder / file, text);
     }
     std::string ocf;
     std::vector<fs::path> sources;
@@ -465,11 +316,11 @@ class StickBuilder {
     objects += libraryOf(folder, parts, includes, sdk, partsSaid);
     const std::string module = moduleName(title, listedModules(stick));
     const bool linked =
-        whole && run(folder,
-                     shellWord((sdk / "OPEN_R/bin/mkbin").string()) + " -o object.bin" + objects +
-                         (ocf.empty() ? "" : " " + shellWord(ocf)) + (usesJpeg(folder) ? " -ljpeg" : "") +
-                         " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
-                     object.said) == 0;
+        whole && runInShell(folder,
+                            shellWord((sdk / "OPEN_R/bin/mkbin").string()) + " -o object.bin" + objects +
+                                (ocf.empty() ? "" : " " + shellWord(ocf)) + (usesJpeg(folder) ? " -ljpeg" : "") +
+                                " && gzip -nc object.bin > " + shellWord((stick / modulesFolder / module).string()),
+                            object.said) == 0;
     if (linked)
       object.modules.push_back(module);
     else

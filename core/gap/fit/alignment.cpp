@@ -1,6 +1,7 @@
 #include "core/gap/fit/alignment.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
@@ -101,7 +102,8 @@ Alignment align(const FitProblem& problem, Eigen::VectorXd& residuals) {
   const double before = (residuals - problem.shift_s * column).squaredNorm();
   residuals += shift_s * column;
   const auto count = static_cast<double>(std::max<Eigen::Index>(1, residuals.size()));
-  return {problem.shift_s + shift_s, (before - residuals.squaredNorm()) / count};
+  return {problem.shift_s + shift_s, (before - residuals.squaredNorm()) / count,
+          std::abs(problem.shift_s + shift_s) / mostShift_s(problem)};
 }
 
 }  // namespace btr

@@ -17,6 +17,7 @@ namespace btr {
 struct Alignment {
   double shift_s = 0;  ///< what is recorded is what is simulated so much later; at most mostShift_s()
   double took = 0;     ///< mean squared residual that this takes away [noise floors²]
+  double ofMost = 0;   ///< of mostShift_s(): near 1 it may stand for something else
 
   /// What else an integration is wrong by that is off so much in time, a share of what the shift takes: what takes less
   /// is no physics.

@@ -79,7 +79,14 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit, const Linearised
                 std::vector<double>(static_cast<std::size_t>(problem.blocks), -1),
                 Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.residuals())),
                 {},
-                problem.scene.step_s};
+                problem.scene.step_s,
+                {},
+                std::vector<double>(static_cast<std::size_t>(problem.blocks), -1)};
+  const auto addBlocks = [&](const Eigen::VectorXd& residuals, Fold fold, std::vector<double>& all) {
+    const std::vector<double> blocks = blockScores(problem, residuals, fold);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (blocks[b] >= 0) all[b] = blocks[b];
+  };
   scored.sizes = sizesInErrors(fit.model, uncertaintyOf(problem, fit, linear));
   for (const Fold trained : {Fold::first, Fold::second}) {
     const Fold other = trained == Fold::first ? Fold::second : Fold::first;
@@ -99,15 +106,16 @@ Scored crossValidate(const FitProblem& problem, const Fit& fit, const Linearised
     const Eigen::VectorXd column = clockColumn(problem, residuals);
     const double shift_s = bestShift_s(problem, residuals, column, train);
     const Eigen::VectorXd tests = Eigen::VectorXd::Ones(train.size()) - train;
-    const double unaligned = tests.dot((residuals - problem.shift_s * column).cwiseAbs2());
+    const Eigen::VectorXd unshifted = residuals - problem.shift_s * column;
     residuals += shift_s * column;
     scored.aligned.shift_s += (problem.shift_s + shift_s) / 2;
-    scored.aligned.took += (unaligned - tests.dot(residuals.cwiseAbs2())) / static_cast<double>(residuals.size());
-    const std::vector<double> blocks = blockScores(problem, residuals, other);
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (blocks[b] >= 0) scored.blocks[b] = blocks[b];
+    scored.aligned.took +=
+        (tests.dot(unshifted.cwiseAbs2()) - tests.dot(residuals.cwiseAbs2())) / static_cast<double>(residuals.size());
+    addBlocks(residuals, other, scored.blocks);
+    addBlocks(unshifted, other, scored.unshifted);
     scored.heldOut += tests.cwiseProduct(residuals);
   }
+  scored.aligned.ofMost = std::abs(scored.aligned.shift_s) / mostShift_s(problem);
   return scored;
 }
 

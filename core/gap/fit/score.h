@@ -13,10 +13,11 @@ struct Scored {
   Fit fit;  ///< to everything
   std::vector<double>
       blocks;  ///< mean squared error of each block [noise floors²] by the fit to the other fold; −1: none
-  Eigen::VectorXd heldOut;    ///< residuals of the same, all samples
-  std::vector<double> sizes;  ///< by effect: its furthest parameter from neutral, in standard errors
-  double step_s = 0;          ///< of the replays that were scored
-  Alignment aligned{};        ///< of what is scored: `blocks` and `heldOut` are of residuals that were shifted so
+  Eigen::VectorXd heldOut;          ///< residuals of the same, all samples
+  std::vector<double> sizes;        ///< by effect: its furthest parameter from neutral, in standard errors
+  double step_s = 0;                ///< of the replays that were scored
+  Alignment aligned{};              ///< of what is scored: `blocks` and `heldOut` are of residuals that were shifted so
+  std::vector<double> unshifted{};  ///< `blocks` of residuals that were not; empty where nothing was fitted
 
   double mean() const;  ///< over the blocks
 };

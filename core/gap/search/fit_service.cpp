@@ -143,9 +143,10 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
       [&](std::size_t i) {
         const Scored scored = crossValidate(problem_, fits[i]);
         std::vector<double> list = scored.blocks;
+        list.insert(list.end(), scored.unshifted.begin(), scored.unshifted.end());
         list.insert(list.end(), scored.heldOut.begin(), scored.heldOut.end());
         list.insert(list.end(), scored.sizes.begin(), scored.sizes.end());
-        list.insert(list.end(), {scored.aligned.shift_s, scored.aligned.took});
+        list.insert(list.end(), {scored.aligned.shift_s, scored.aligned.took, scored.aligned.ofMost});
         return list;
       },
       reporter(stage, fits.size(), from, to));
@@ -157,14 +158,15 @@ std::vector<std::optional<Scored>> FitService::tryScores(const std::vector<Fit>&
     }
     const std::vector<double>& numbers = results[i].numbers;
     const auto blocks = static_cast<std::ptrdiff_t>(problem_.blocks), sizes = std::ssize(fits[i].model.effects);
-    const auto end = numbers.end() - 2;  // of the sizes
+    const auto end = numbers.end() - 3;  // of the sizes
     scored[i] = Scored{fits[i],
                        {numbers.begin(), numbers.begin() + blocks},
                        Eigen::VectorXd(static_cast<Eigen::Index>(problem_.residuals())),
                        {end - sizes, end},
                        problem_.scene.step_s,
-                       {end[0], end[1]}};
-    std::copy(numbers.begin() + blocks, end - sizes, scored[i]->heldOut.begin());
+                       {end[0], end[1], end[2]},
+                       {numbers.begin() + blocks, numbers.begin() + 2 * blocks}};
+    std::copy(numbers.begin() + 2 * blocks, end - sizes, scored[i]->heldOut.begin());
   }
   return scored;
 }

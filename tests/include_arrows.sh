@@ -55,7 +55,7 @@ declare -A public=(
     spread stored_recordings"
   [run/grid]="grid grid_cells grid_kicks grid_losses grid_table"
   [model]="kinematics robot_model"
-  [sim]="scene trace trial"
+  [sim]="model_losses scene trace trial"
   [sim/contact]="obstacle_shape"
   [live]="act game number_groups session_log session_players"
   [camera]="camera_pipeline camera_spec picture_file pinhole point_files truth_file twin video_file"

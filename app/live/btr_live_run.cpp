@@ -301,6 +301,13 @@ std::string firstDifference(const nlohmann::json& result) {
          result["differs_by"].dump();
 }
 
+/// What is wrong with the parts of a game together does not know its file.
+std::string withFile(const std::string& file, const std::string& what) {
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  const bool hasPath = what.starts_with(file) || (!folder.empty() && what.starts_with(folder));
+  return file.empty() || hasPath ? what : file + ": " + what;
+}
+
 }  // namespace
 
 void runLive(const LiveArguments& arguments, bool secondsGiven, Shell& shell) {
@@ -312,7 +319,13 @@ void runLive(const LiveArguments& arguments, bool secondsGiven, Shell& shell) {
   Game game = arguments.game.empty() ? *log->game : loadGame(arguments.game);
   const ModelSet models = loadModels(game.scene);
   for (const std::string& loss : modelLosses(game.scene, models)) std::fprintf(stderr, "%s\n", loss.c_str());
-  LiveRun run(arguments, std::move(game), std::move(log), shell.plugins(), shell.json);
+  std::optional<LiveRun> begun;
+  try {
+    begun.emplace(arguments, std::move(game), std::move(log), shell.plugins(), shell.json);
+  } catch (const InputError& error) {
+    throw InputError(withFile(arguments.game, error.what()));
+  }
+  LiveRun& run = *begun;
   if (arguments.steered) {
     run.steer(*shell.stop);
     run.finish();

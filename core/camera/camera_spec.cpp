@@ -37,7 +37,7 @@ StageSettings settingsFrom(JsonReader reader, CameraStage stage) {
   StageSettings settings;
   settings.on = reader.flag("on", true);
   for (const Parameter& p : parametersOf(stage)) {
-    if (!reader.has(p.name)) continue;
+    if (!reader.any(p.name)) continue;
     if (!p.choices.empty()) {
       const std::string word = reader.word(p.name, p.choices);
       for (std::size_t i = 0; i < p.choices.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 
 namespace btr {
@@ -36,7 +37,8 @@ std::string specText(JsonReader& reader, const std::string& key) { return reader
 Act addFrom(JsonReader& reader) {
   AddAct act;
   const bool robot = reader.has("robot"), ball = reader.has("ball"), obstacle = reader.has("obstacle");
-  if (robot + ball + obstacle != 1) reader.refuse("act", "one of robot, ball and obstacle");
+  if (robot + ball + obstacle != 1)
+    throw InputError(reader.place() + ": \"add\" needs one of robot, ball and obstacle, and only one");
   if (robot) act.what = robotFromJson(specText(reader, "robot"), reader.at("robot"));
   if (ball) act.what = ballFromJson(specText(reader, "ball"), reader.at("ball"));
   if (obstacle) act.what = obstacleFromJson(specText(reader, "obstacle"), reader.at("obstacle"));
@@ -45,7 +47,7 @@ Act addFrom(JsonReader& reader) {
     act.player = gameRobotFromReader(*player);
   }
   constexpr long mostObjects = 100000;
-  if (reader.has("index")) act.index = static_cast<std::size_t>(reader.integer("index", 0, mostObjects));
+  if (reader.any("index")) act.index = static_cast<std::size_t>(reader.integer("index", 0, mostObjects));
   return act;
 }
 
@@ -61,7 +63,7 @@ Act effectFrom(JsonReader& reader) {
 
 Act actFrom(JsonReader& reader, const std::string& kind) {
   const auto optionalNumber = [&](const std::string& key) -> std::optional<double> {
-    if (!reader.has(key)) return std::nullopt;
+    if (!reader.any(key)) return std::nullopt;
     return reader.number(key, -1e12, 1e12);
   };
   if (kind == "place")

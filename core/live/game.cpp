@@ -227,7 +227,7 @@ Orders ordersFromReader(JsonReader& reader) {
       orders.enabled[member.key()] = enabled->flag(member.key(), false);
     enabled->finish();
   }
-  if (reader.has("motor_power")) orders.motorPower = reader.flag("motor_power", false);
+  if (reader.any("motor_power")) orders.motorPower = reader.flag("motor_power", false);
   reader.members("lamps", [&](const std::string& lamp, JsonReader light) {
     orders.lamps[lamp] = {light.number("brightness", 0, 1), light.word("mode", {"A", "B", ""}, "")};
     light.finish();
@@ -319,7 +319,7 @@ Game gameFromJson(const std::string& text, const std::string& place, const std::
     game.scene = sceneFromJson(scene->dump(), reader.at("scene"), directory);
     game.pitch = pitchFromJson(scene->dump(), reader.at("scene"));
   }
-  if (reader.has("field")) {
+  if (reader.any("field")) {
     const std::string path = (fs::path(directory) / reader.text("field")).string();
     const SceneSpec field = loadScene(path);
     if (!field.robots.empty()) throw InputError(path, "a robot", "a field: floor, obstacles and balls");

@@ -7,6 +7,7 @@
 #include "core/model/four_legs.h"
 #include "core/sim/gait.h"
 #include "core/spec/error.h"
+#include "core/spec/parameter.h"
 
 namespace btr {
 namespace {
@@ -50,6 +51,10 @@ void takeStance(SceneRobot& robot, const Values& joints, const std::string& who)
   for (const auto& [name, position] : joints) {
     const int j = robot.model.findJoint(name);
     if (j < 0) throw InputError(who + "/posture", "\"" + name + "\"", "joints of the robot");
+    const Joint& joint = robot.model.joints[static_cast<std::size_t>(j)];
+    if (!(position >= joint.lower && position <= joint.upper))
+      throw InputError(who + "/posture/" + name, toText(position),
+                       toText(joint.lower) + " to " + toText(joint.upper) + ", the joint's limits");
     positions[static_cast<std::size_t>(j)] = position;
   }
   standStill(robot, std::move(positions), who);
@@ -80,7 +85,11 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const auto player = game.robots.find(game.scene.robots[i].name);
     const GameRobot plays = player == game.robots.end() ? GameRobot{} : player->second;
-    if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
+    if (plays.simulator) try {
+        simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
+      } catch (const InputError& error) {
+        throw InputError("robots " + game.scene.robots[i].name + "/simulator: " + error.what());
+      }
     SceneRobot& robot = scene.robots[i];
     // What the scene has in motion is not put on its feet.
     if (!plays.posture || game.scene.robots[i].moves() || !robot.freeBase || !scene.floor) continue;

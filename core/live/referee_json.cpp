@@ -33,7 +33,7 @@ RefereeSpec refereeFromReader(JsonReader reader) {
   spec.half_s = reader.number("half_s", 1, 1e6, spec.half_s);
   spec.halves = static_cast<int>(reader.integer("halves", 1, 100, spec.halves));
   spec.ball = reader.text("ball", "");
-  if (reader.has("kick_off")) {
+  if (reader.any("kick_off")) {
     JsonReader places = reader.object("kick_off");
     for (const auto& member : places.node().items()) {
       const auto p = places.numbers(member.key(), 3);
@@ -75,7 +75,7 @@ RefereeState refereeStateFromReader(JsonReader reader) {
   state.over = reader.flag("over", false);
   state.waits = reader.flag("waits", false);
   state.kicks = reader.word("kicks", {"red", "blue"});
-  if (reader.has("ball")) {
+  if (reader.any("ball")) {
     const auto p = reader.numbers("ball", 3);
     state.ball = {p[0], p[1], p[2]};
   }

@@ -33,7 +33,7 @@ Session::Session(Game game, const PluginHost& host, Watchdog* dog, CameraMaker c
   world_ = worldOf(game, scene, nullptr);
   scene_ = std::move(scene);
   game_ = std::move(game);
-  if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
+  if (!world_->fault().empty()) throw InputError("game: at its start " + world_->fault());
   std::map<std::string, double> clocks;
   std::map<std::string, std::vector<double>> memories;
   Commands commands;
@@ -223,7 +223,7 @@ void Session::rebuild(Game game, const WorldMemory& memory) {
   world_.reset();
   try {
     world_ = worldOf(game, scene, &memory);
-    if (!world_->fault().empty()) throw InputError("game", world_->fault(), "a world in which everything is finite");
+    if (!world_->fault().empty()) throw InputError("game: at its start " + world_->fault());
   } catch (...) {
     world_.reset();
     world_ = worldOf(game_, scene_, &memory);

@@ -13,6 +13,18 @@ std::vector<double> parametersOf(const Controller& controller, const GameControl
   return resolve(controller.genotype(), spec.parameters, place + "/parameters");
 }
 
+namespace {
+
+std::unique_ptr<Controller> controllerOf(const std::string& robot, const GameController& of, const PluginHost& host) {
+  try {
+    return host.controller(of.plugin);
+  } catch (const InputError& error) {
+    throw InputError("robots " + robot + "/" + error.what());
+  }
+}
+
+}  // namespace
+
 void checkPlayers(const Game& game, const PluginHost& host) {
   for (const auto& [name, player] : game.robots)
     if (player.hasStick()) {
@@ -22,7 +34,7 @@ void checkPlayers(const Game& game, const PluginHost& host) {
                          "a control period of " + toText(game.scene.controlPeriod_s) + " s",
                          "a scene whose control_period_s is 0.008, a frame of OPEN-R");
     } else if (player.controller) {
-      const auto controller = host.controller(player.controller->plugin);
+      const auto controller = controllerOf(name, *player.controller, host);
       resolve(controller->settings(), player.controller->settings, "robots " + name + "/controller/settings");
       parametersOf(*controller, *player.controller, "robots " + name + "/controller");
     }

@@ -8,6 +8,7 @@
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/utf8.h"
 
 namespace btr {
 namespace {
@@ -16,7 +17,8 @@ RobotModel readVrml(const std::string& text, const std::string& place, const std
                     const vrml::InlineFolder* folder, const ModelBudget& budget) {
   vrml::Document document;
   vrml::Spent spent;
-  document.roots = vrml::Parser(document, budget, spent, folder).readFile(text, place, path);
+  document.roots =
+      vrml::Parser(document, budget, spent, folder).readFile(isUtf8(text) ? text : utf8OfLatin1(text), place, path);
   RobotModel model = vrml::extractRobot(document, budget);
   checkModel(model, place);
   chooseServosByLoad(model);

@@ -125,12 +125,15 @@ class Servos {
       load.torque = std::max(load.torque, standingShare * front.torque);
       load.inertia = std::max(load.inertia, standingShare * front.inertia);
     }
-    if (!(load.torque > defaultServoLimit(joint.type))) return false;
+    // Of a slide joint no small servo is known: an ERS-7's gain is one of angles.
+    const bool slides = joint.type == Joint::Type::slide;
+    const double small = defaultServoLimit(joint.type);
+    if (!slides && !(load.torque > small)) return false;
     if (!servo.p_nm_rad) {
-      servo.p_nm_rad = load.torque / (joint.type == Joint::Type::slide ? givesWay_m : givesWay_rad);
+      servo.p_nm_rad = load.torque / (slides ? givesWay_m : givesWay_rad);
       if (!servo.d_nm_s_rad) servo.d_nm_s_rad = 2 * std::sqrt(*servo.p_nm_rad * load.inertia);
     }
-    if (!servo.maxTorque_nm) servo.maxTorque_nm = reserve * load.torque;
+    if (!servo.maxTorque_nm) servo.maxTorque_nm = std::max(small, reserve * load.torque);
     return true;
   }
 

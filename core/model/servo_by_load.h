@@ -4,7 +4,7 @@
 namespace btr {
 
 /// Gives gains and a torque limit to joints whose file names none and whose load an ERS-7's servo
-/// (defaultServoLimit()) could not hold: without them a large robot sags like a rope.
+/// (defaultServoLimit()) could not hold: without them a large robot sags like a rope. To slide joints always.
 ///
 /// The load of a joint is the weight that it carries times its distance from the axis, summed over the links behind it
 /// with all joints at 0 (so it bounds the torque in every posture that keeps these distances); on a slide joint the

@@ -5,12 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/model/given_joint.h"
 #include "core/model/servo_by_load.h"
 #include "core/model/urdf_shapes.h"
 #include "core/model/urdf_tree.h"
 #include "core/model/urdf_xml.h"
 #include "core/spec/figures.h"
 #include "core/spec/parameter.h"
+#include "core/spec/utf8.h"
 
 namespace btr {
 namespace {
@@ -63,13 +65,21 @@ std::string withDeclarationFirst(std::string text) {
   return text;
 }
 
+/// About every axis [kg·m²]: the smallest that something of this mass may have.
+Eigen::Matrix3d inertiaOfIronBall(double mass_kg) {
+  constexpr double density_kg_m3 = 7870;
+  const double radius_m = std::cbrt(3 * mass_kg / (4 * M_PI * density_kg_m3));
+  return 0.4 * mass_kg * radius_m * radius_m * Eigen::Matrix3d::Identity();
+}
+
 class UrdfReader {
  public:
   UrdfReader(UrdfXml& xml, const MeshSource& meshes) : xml_(xml), shapes_(xml, meshes) {}
 
   UrdfTree read(const std::string& given) {
     checkText(given, xml_);
-    const std::string text = withDeclarationFirst(given);
+    // Names go into JSON and tables, which are UTF-8; what is not was written by a program of one byte a letter.
+    const std::string text = withDeclarationFirst(isUtf8(given) ? given : utf8OfLatin1(given));
     tinyxml2::XMLDocument document;
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
@@ -113,7 +123,7 @@ class UrdfReader {
     for (const auto* each = element.FirstChildElement(); each; each = each->NextSiblingElement()) {
       const std::string kind = each->Name();
       if (kind == "inertial")
-        made.hasInertial = readInertial(*each, link.inertial);
+        made.hasInertial = readInertial(*each, link);
       else if (kind == "visual" || kind == "collision")
         shapes_.read(*each, link.name, link.shapes);
       else
@@ -125,7 +135,8 @@ class UrdfReader {
   }
 
   /// False where the mass is 0: exporters write so for frames that are only a place.
-  bool readInertial(const Element& element, Inertial& inertial) const {
+  bool readInertial(const Element& element, Link& link) {
+    Inertial& inertial = link.inertial;
     const Element* mass = element.FirstChildElement("mass");
     const Element* moments = element.FirstChildElement("inertia");
     if (mass && xml_.numberIfAny(mass, "value") == 0.) return false;
@@ -136,6 +147,14 @@ class UrdfReader {
     const double xy = xml_.numberIfAny(moments, "ixy").value_or(0), xz = xml_.numberIfAny(moments, "ixz").value_or(0),
                  yz = xml_.numberIfAny(moments, "iyz").value_or(0);
     inertial.inertia_kg_m2 << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    if (inertial.inertia_kg_m2.isZero(0)) {
+      inertial.inertia_kg_m2 = inertiaOfIronBall(inertial.mass_kg);
+      xml_.warn(*moments,
+                "link " + UrdfXml::shown(link.name) +
+                    ": its inertia is 0, which no body has: it gets that of an iron " + "ball of its mass, " +
+                    brief(inertial.inertia_kg_m2(0, 0)) + " kg m2",
+                Loss::inertia, link.name);
+    }
     const Eigen::Isometry3d origin = xml_.originOf(element);
     inertial.centreOfMass_m = origin.translation();
     inertial.inertia_kg_m2 = origin.linear() * inertial.inertia_kg_m2 * origin.linear().transpose();
@@ -173,15 +192,16 @@ class UrdfReader {
     const bool moves = joint.type != Joint::Type::fixed;
     if (const Element* axis = element.FirstChildElement("axis"); axis && moves) {
       joint.axis = xml_.vector(*axis, "xyz");
-      // Texts have few digits; what is nearly a unit vector is made one, the rest is for checkModel to refuse.
-      const double length = joint.axis.stableNorm();
-      if (std::abs(length - 1) < 1e-3) joint.axis /= length;
+      if (makeUnitAxis(joint.axis))
+        xml_.warn(*axis,
+                  "joint " + UrdfXml::shown(joint.name) + ": its axis has not the length 1: its direction is taken");
     }
     const Element* mimic = moves ? element.FirstChildElement("mimic") : nullptr;
     if (mimic)
       made.mimic = UrdfMimic{xml_.attribute(*mimic, "joint"), xml_.numberIfAny(mimic, "multiplier").value_or(1),
                              xml_.numberIfAny(mimic, "offset").value_or(0), mimic->GetLineNum()};
     readLimits(element, type, joint, mimic != nullptr);
+    if (joint.type == Joint::Type::fixed) made.mimic.reset();  // its limits may have fixed it
     for (const auto* each = element.FirstChildElement(); each; each = each->NextSiblingElement()) {
       const std::string kind = each->Name();
       if (kind != "origin" && kind != "parent" && kind != "child" && kind != "axis" && kind != "limit" &&
@@ -210,6 +230,8 @@ class UrdfReader {
       if (lower || upper) {
         joint.lower = lower.value_or(0);
         joint.upper = upper.value_or(0);
+        const std::string settled = settleMeetingLimits(joint);
+        if (!settled.empty()) xml_.warn(*limit, who + ": " + settled, Loss::limits, joint.name);
       }
     } else if (lower || upper) {
       xml_.warn(*limit, who + " is " + type + ": its lower and upper were ignored", Loss::limits, joint.name);

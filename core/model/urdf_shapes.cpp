@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/spec/error.h"
+#include "core/spec/parameter.h"
 
 namespace btr {
 
@@ -35,24 +36,36 @@ void UrdfShapes::read(const UrdfXml::Element& element, const std::string& link, 
   if (!body) xml_.fail(element, "<" + std::string(element.Name()) + "> needs a <geometry>");
   const std::string kind = body->Name();
   if (kind == "mesh") return addMesh(*body, link, shape, colour, shapes);
+  const std::string who = "link " + UrdfXml::shown(link) + ": the geometry <" + UrdfXml::shown(kind) + "> ";
+  const auto leaveOut = [&](const std::string& why) {
+    shape.drawn ? xml_.warn(*body, who + why + "; it is not drawn")
+                : xml_.warn(*body, who + why + "; it collides with nothing", Warning::Loss::collision, link);
+  };
+  bool extends = true;  // in every direction; frames are marked with what is flat, and nothing touches it
+  const auto length = [&](const char* name) {
+    const double value = xml_.number(*body, name);
+    if (value < 0) xml_.fail(*body, who + name + " " + toText(value) + " is not allowed; 0 or more is expected");
+    extends = extends && value > 0;
+    return value;
+  };
   if (kind == "box") {
     shape.kind = Shape::Kind::box;
     shape.size_m = xml_.vector(*body, "size");
-    if (!(shape.size_m.minCoeff() > 0)) xml_.fail(*body, "size must be greater than 0");
+    if (shape.size_m.minCoeff() < 0) xml_.fail(*body, who + "must not have a size below 0");
+    extends = shape.size_m.minCoeff() > 0;
   } else if (kind == "sphere") {
     shape.kind = Shape::Kind::sphere;
-    shape.size_m = {xml_.positive(*body, "radius"), 0, 0};
+    shape.size_m = {length("radius"), 0, 0};
   } else if (kind == "cylinder" || kind == "capsule") {
     // URDF's lie along z, ours along y.
     shape.kind = kind == "cylinder" ? Shape::Kind::cylinder : Shape::Kind::capsule;
-    shape.size_m = {xml_.positive(*body, "radius"), xml_.positive(*body, "length"), 0};
+    const double radius = length("radius");
+    shape.size_m = {radius, length("length"), 0};
     shape.pose.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
   } else {
-    const std::string text =
-        "link " + UrdfXml::shown(link) + ": the geometry <" + UrdfXml::shown(kind) + "> is not known; ";
-    return shape.drawn ? xml_.warn(*body, text + "it is not drawn")
-                       : xml_.warn(*body, text + "it collides with nothing", Warning::Loss::collision, link);
+    return leaveOut("is not known");
   }
+  if (!extends) return leaveOut("has a size of 0");
   shapes.push_back(std::move(shape));
 }
 

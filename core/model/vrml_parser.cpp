@@ -4,6 +4,7 @@
 
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
+#include "core/spec/utf8.h"
 
 namespace btr::vrml {
 namespace {
@@ -234,7 +235,7 @@ const Node* Parser::expandInline(const Node& node) {
   if (++spent_.inlineFiles > budget_.inlineFiles)
     fail(node.line, "more than " + std::to_string(budget_.inlineFiles) + " inlined files are not allowed");
   const std::string text = btr::readFile(answer.path, budget_.bytes);
-  auto roots = readFile(text, url, answer.path);
+  auto roots = readFile(isUtf8(text) ? text : utf8OfLatin1(text), url, answer.path);
 
   Node& group = newNode(builtIn("Group"), node.line);
   group.def = node.def;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/model/given_joint.h"
 #include "core/model/kinematics.h"
 #include "core/model/vrml_scanner.h"
 #include "core/model/vrml_shapes.h"
@@ -218,6 +219,9 @@ void RobotBuilder::joint(const Node& node, const Place& place) {
     made.name = name;
     made.parentLink = place.link;
     made.origin = rigid(node, place.toLink * transformOf(document_, node));
+    const std::string settled = settleMeetingLimits(made);
+    if (!settled.empty())
+      model_.warnings.push_back({node.line, "Joint " + name + ": " + settled, Warning::Loss::limits, name});
     model_.joints.push_back(std::move(made));
   }
 
@@ -270,10 +274,9 @@ Vector3d RobotBuilder::readAxis(const Node& node) const {
     if (text == "Z" || text == "z") return Vector3d::UnitZ();
     document_.fail(node, "jointAxis \"" + shorten(text) + "\" is not allowed; \"X\", \"Y\", \"Z\" or three numbers");
   }
-  const Vector3d axis = vectorField(document_, node, "jointAxis", Vector3d::UnitZ());
-  // Texts have few digits; what is nearly a unit vector is made one, the rest is for checkModel to refuse.
-  const double length = axis.stableNorm();
-  return std::abs(length - 1) < 1e-3 ? (axis / length).eval() : axis;
+  Vector3d axis = vectorField(document_, node, "jointAxis", Vector3d::UnitZ());
+  makeUnitAxis(axis);
+  return axis;
 }
 
 ServoData RobotBuilder::readServo(const Node& node) const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/spec/csv.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 
@@ -78,7 +79,9 @@ std::string Trace::sha256() const {
 }
 
 std::string Trace::toCsv() const {
-  std::string text = joined(channels, ',') + '\n';
+  std::vector<std::string> headings;
+  for (const std::string& channel : channels) headings.push_back(csvField(channel));
+  std::string text = joined(headings, ',') + '\n';
   for (std::size_t row = 0; row < rows(); ++row)
     for (std::size_t column = 0; column < channels.size(); ++column) {
       text += btr::toText(at(row, column));

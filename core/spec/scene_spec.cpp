@@ -57,7 +57,7 @@ ServoSpec servoFrom(JsonReader reader) {
   ServoSpec servo;
   servo.drive = reader.word("drive", {"servo", "dc_motor", "torque", "force", "motion", "none", "locked"}, "servo");
   for (const Parameter& number : servoNumbers())
-    if (reader.has(number.name))
+    if (reader.any(number.name))
       servo.numbers[number.name] = reader.number(number.name, number.minimum, number.maximum);
   reader.finish();
   return servo;
@@ -69,7 +69,7 @@ std::map<std::string, Values> entriesFrom(JsonReader& reader, const std::string&
   reader.members(key, [&](const std::string& name, JsonReader entry) {
     Values& values = entries[name];
     for (const Parameter& number : declared)
-      if (entry.has(number.name)) values[number.name] = entry.number(number.name, number.minimum, number.maximum);
+      if (entry.any(number.name)) values[number.name] = entry.number(number.name, number.minimum, number.maximum);
     entry.finish();
   });
   return entries;

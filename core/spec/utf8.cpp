@@ -34,6 +34,21 @@ std::size_t findInvalidUtf8(std::string_view text) {
   return std::string_view::npos;
 }
 
+std::string utf8OfLatin1(std::string_view text) {
+  std::string result;
+  result.reserve(text.size() + text.size() / 8);
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x80) {
+      result += letter;
+      continue;
+    }
+    result += static_cast<char>(0xC0 | (code >> 6));
+    result += static_cast<char>(0x80 | (code & 0x3F));
+  }
+  return result;
+}
+
 void requireUtf8(const std::string& text, const std::string& place) {
   const std::size_t at = findInvalidUtf8(text);
   if (at == std::string_view::npos) return;

@@ -118,4 +118,10 @@ P
 expect 0 "what went on" "$btr" --json live --replay "$folder/on.log"
 says out '"identical": true'
 
+# What is wrong with the parts of a game together names its file.
+sed "s|\"walk\"|\"wlak\"|; s|\.\./|$root/resources/|" "$root/resources/games/two-dogs-and-a-ball.json" > "$folder/wrong.json"
+expect 1 "an unknown controller" "$btr" live "$folder/wrong.json"
+one_line
+says err "$folder/wrong.json: robots red1/controller: \"wlak\" is not allowed; known: "
+
 finish

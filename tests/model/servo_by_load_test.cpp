@@ -73,6 +73,19 @@ TEST(ServoByLoad, ASlideJointCarriesAWeight) {
   EXPECT_NEAR(3 * 4 * g, *model.joints[0].servo.maxTorque_nm, 1e-9);
 }
 
+// Of a gripper or a small lift: an ERS-7's 7.5 N m/rad would be 7.5 N/m, and 0.9 kg sag by more than a metre.
+TEST(ServoByLoad, ASmallSlideJointGivesWayByAMillimetre) {
+  for (const double mass : {0.9, 0.02}) {
+    const RobotModel model = read(link("world", "") + link("lift", body(mass, "0 0 0")) +
+                                  joint("j", "world", "lift", "<limit lower='0' upper='1'/>", "prismatic"));
+    const ServoData& servo = model.joints[0].servo;
+    ASSERT_TRUE(servo.p_nm_rad && servo.d_nm_s_rad);
+    EXPECT_NEAR(0.001, mass * g / *servo.p_nm_rad, 1e-9);
+    EXPECT_NEAR(1, *servo.d_nm_s_rad / (2 * std::sqrt(*servo.p_nm_rad * mass)), 1e-9) << "critically damped";
+    EXPECT_GE(*servo.maxTorque_nm, mass * g);
+  }
+}
+
 // A trunk of 20 kg on two legs that reach the floor, and an arm that does not.
 TEST(ServoByLoad, AFreeRobotStandsOnTheLimbsThatReachTheFloor) {
   const std::string foot =

@@ -49,7 +49,8 @@ TEST(UrdfLosses, LowerAndUpperLeftOutAreNotTakenAsAJointThatCannotMove) {
   EXPECT_THAT(model.warnings, ElementsAre(warns(4, Loss::limits, "j", "URDF reads as 0 to 0 rad")));
   const auto half = read({linkOf("b"), jointOf("j", "prismatic", "<limit upper='0.2' effort='2' velocity='3'/>")});
   EXPECT_EQ(0, half.joints[0].lower);
-  EXPECT_THAT(half.warnings, ElementsAre(warns(4, Loss::limits, "j", "lower is left out and taken as 0 m")));
+  EXPECT_THAT(half.warnings, ElementsAre(warns(4, Loss::limits, "j", "lower is left out and taken as 0 m"),
+                                         warns(4, Loss::none, "", "1 joint has no servo in the file")));
 }
 
 TEST(UrdfLosses, AContinuousJointHasNoLimits) {

@@ -248,7 +248,7 @@ TEST(Faults, ACrashNamesObjectAndMethod) {
 }
 
 TEST(Faults, DamagedMemoryNamesObjectAndMethod) {
-  for (const char* what : {"heap", "twice", "gone"}) {
+  for (const char* what : {"heap", "twice", "gone", "pop"}) {
     const StickRun run = faulty(what);
     EXPECT_EQ(run.ended.why, Ended::Why::crash) << what;
     EXPECT_EQ(run.ended.object, "Faulty") << what << " " << run.ended.what;

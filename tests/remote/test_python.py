@@ -213,6 +213,24 @@ class Mistakes(WithServer):
             parts = kick.evaluate(population, seed=1)
         self.assertEqual(whole.trace_sha256, parts.trace_sha256)
 
+    def test_vectors_that_are_clipped_have_one_number_for_each_parameter(self):
+        kick = self.client.experiment("experiments/kick-short.json")
+        n = len(kick.genotype)
+        self.refused(rf"vectors: shape \(1, 3\) is not allowed; an array \(…, {n}\)", lambda: kick.clip([[0.0] * 3]))
+        self.refused("vectors: shape", lambda: kick.clip(1.0))
+        self.assertEqual((2, 3, n), kick.clip(np.zeros((2, 3, n))).shape)
+
+    def test_rewards_and_names_of_an_environment(self):
+        for reward in (None, float("nan"), "much", [1.0, 2.0], 1j):
+            with uchilsim.Env(self.client, DOG, reward=lambda before, now: reward) as env:
+                env.reset(seed=1)
+                self.refused("reward: .* is not allowed; a finite number", lambda: env.step(env.action_space.sample()))
+        self.refused("joints: 'LF_J1' is not allowed; a sequence of names", lambda: uchilsim.Env(self.client, DOG, joints="LF_J1"))
+        self.refused("address: 50051 is not allowed", lambda: uchilsim.Env(50051, DOG))
+        with self.client.open("games/dog.json") as world:
+            joints = len(world.robots["dog"].joints)
+            self.refused("targets of dog: .* is not allowed", lambda: world.step(1, {"dog": np.zeros(joints, complex)}))
+
     def test_environments(self):
         for wrong in ({"frame_skip": 0}, {"max_steps": 0.5}):
             self.refused("a whole number from 1 on", lambda: uchilsim.Env(self.client, **wrong))

@@ -108,6 +108,21 @@ class TestLiveFaults : public QObject {
     }
   }
 
+  void whatARobotFileLosesIsSaid() {
+    QTemporaryDir folder;
+    const QString robot = folder.filePath("arm.urdf");
+    writeFile(robot.toStdString(),
+              "<robot name='arm'><link name='world'/><link name='upper'>"
+              "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01'/></inertial>"
+              "<collision><geometry><mesh filename='package://arm/upper.stl'/></geometry></collision></link>"
+              "<joint name='shoulder' type='continuous'><parent link='world'/><child link='upper'/></joint></robot>");
+    LivePage page(plugins(), BTR_PROGRAM, folder.filePath("sessions"));
+    page.open(robot);
+    QVERIFY(isThere(page));
+    QTRY_VERIFY_WITH_TIMEOUT(saidBy(page).contains("upper.stl") && saidBy(page).contains("collides with nothing"),
+                             patience_ms);
+  }
+
   void everyWorldHasTheSpeedThatIsShown() {
     QTemporaryDir folder;
     const QString told = folder.filePath("told");

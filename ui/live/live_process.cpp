@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/sim/model_losses.h"
 #include "core/spec/error.h"
 #include "ui/live/drawn/live_lines.h"
 
@@ -43,6 +44,7 @@ void LiveProcess::start(const QString& file, const QString& log, const QString& 
   failed_ = false;
   acts_ = undos_ = undosTold_ = 0;
   grips_.reset();
+  losses_.clear();
   pending_.clear();
   words_.clear();
   told_.clear();
@@ -189,6 +191,13 @@ void LiveProcess::tellGame(const json& line) {
   if (first && contacts_) setContacts(true);
   if (first && speed_ != 1) setSpeed(speed_);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
+  tellLosses(modelLosses(game.scene, models));
+}
+
+void LiveProcess::tellLosses(std::vector<std::string> losses) {
+  const std::vector<std::string> before = std::exchange(losses_, losses);
+  std::erase_if(losses, [&](const std::string& loss) { return std::ranges::find(before, loss) != before.end(); });
+  if (!losses.empty()) emit lossesTold(losses);
 }
 
 void LiveProcess::tellGrips(const json& line) {

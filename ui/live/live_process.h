@@ -112,6 +112,8 @@ class LiveProcess : public QObject {
   void logTold(const btr::ui::LiveLog& log);
   /// Its log has no more room, or cannot be written; it goes on. Once.
   void logLost(const QString& why);
+  /// What robots that have come lack of what their files say, or have that was assumed: see modelLosses().
+  void lossesTold(const std::vector<std::string>& losses);
   /// It ended by itself: why.
   void failed(const QString& why);
 
@@ -121,6 +123,7 @@ class LiveProcess : public QObject {
   void tell(const QByteArray& line);
   void tellGame(const nlohmann::json& line);
   void tellGrips(const nlohmann::json& line);
+  void tellLosses(std::vector<std::string> losses);
   void tellLog(const nlohmann::json& line);
   void tellSamples(const nlohmann::json& line);
   ModelSet modelsOf(const SceneSpec& scene);
@@ -138,8 +141,9 @@ class LiveProcess : public QObject {
   ModelSet models_;                   ///< of files that were read for this session
   std::string modelsFrom_;            ///< where their relative paths start
   std::optional<LiveGrips> grips_;
-  long acts_ = 0, undos_ = 0;  ///< that were sent to this session
-  long undosTold_ = 0;         ///< that the game that was told last knows
+  std::vector<std::string> losses_;  ///< of the game that was told last
+  long acts_ = 0, undos_ = 0;        ///< that were sent to this session
+  long undosTold_ = 0;               ///< that the game that was told last knows
   int gestureDepth_ = 0;
   long gesture_ = 0;
 };

@@ -46,6 +46,8 @@ def made(kind, **fields):
 def numbers(what: str, values: Any, allowed: str) -> np.ndarray:
     """As an array of numbers, of any shape."""
     try:
+        if np.iscomplexobj(values):
+            raise TypeError
         return np.asarray(values, dtype=float)
     except (TypeError, ValueError):
         raise Refused(f"{what}: {short(values)} is not allowed; {allowed}") from None
@@ -60,6 +62,24 @@ def targets(robot: str, values: Any, joints: int | None, periods: int) -> np.nda
         if array.shape not in ((joints,), (periods, joints), (periods * joints,)):
             raise Refused(f"targets of {robot}: shape {array.shape} is not allowed; {allowed}")
     return array.ravel()
+
+
+def finite(what: str, value: Any) -> float:
+    """One finite number, also as an array of one."""
+    try:
+        array = numbers(what, value, "a finite number")
+        if array.size == 1 and np.isfinite(array).all():
+            return float(array.reshape(()))
+    except Refused:
+        pass
+    raise Refused(f"{what}: {short(value)} is not allowed; a finite number")
+
+
+def names(what: str, values: Any) -> list[str]:
+    """A sequence of names; a single text is not one."""
+    if isinstance(values, str) or not hasattr(values, "__iter__"):
+        raise Refused(f"{what}: {short(values)} is not allowed; a sequence of names")
+    return list(values)
 
 
 def whole(what: str, value: Any, least: int) -> int:

@@ -35,14 +35,14 @@ class _Task:
         if name not in world.robots:
             raise NotFound(f"robot: {name!r} is not allowed; one of {sorted(world.robots)}")
         self.robot = world.robots[name]
-        chosen = list(joints) if joints is not None else list(self.robot.joints)
+        chosen = checks.names("joints", joints) if joints is not None else list(self.robot.joints)
         for joint in chosen:
             if joint not in self.robot.joints:
                 raise NotFound(f"joints: {joint!r} is not allowed; one of {list(self.robot.joints)}")
         self.joints = chosen
         self.at = np.array([self.robot.joints.index(joint) for joint in chosen])
         self.base = [f"{name}.base.{q}" for q in ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")]
-        self.observed = list(observation) if observation is not None else self._usual(world, name)
+        self.observed = checks.names("observation", observation) if observation is not None else self._usual(world, name)
         for channel in self.observed:
             if channel not in world.channels:
                 raise NotFound(f"observation: {channel!r} is not allowed; a channel of the world")
@@ -67,6 +67,9 @@ class _Task:
         commands = {c.split(".")[1]: i for i, c in enumerate(state.channels)
                     if c.startswith(self.robot.name + ".") and ".command_" in c}
         self.begun = np.array([state.row[commands[j]] if j in commands else 0.0 for j in self.robot.joints])
+
+    def rewarded(self, before: State, now: State) -> float:
+        return checks.finite("reward", self.rewarding(before, now))
 
     def observe(self, state: State) -> np.ndarray:
         return state.row[self.index]
@@ -121,8 +124,8 @@ class Env(EnvBase):
                  reward: Reward | None = None, terminated: Terminated | None = None, logged: bool = False):
         self.frame_skip = checks.whole("frame_skip", frame_skip, 1)
         self.max_steps = checks.whole("max_steps", max_steps, 1)
-        self._own = isinstance(client, str)
-        self.client = Client(client) if isinstance(client, str) else client
+        self._own = not isinstance(client, Client)
+        self.client = Client(client) if self._own else client  # which says what an address is
         self.world: World | None = None
         try:
             self.world = self.client.open(game, logged=logged)
@@ -206,7 +209,7 @@ class Env(EnvBase):
         if now.fault:
             info["fault"] = now.fault
         terminated = bool(now.fault) or bool(self._task.ending(now))
-        return (self._task.observe(now), float(self._task.rewarding(before, now)), terminated,
+        return (self._task.observe(now), self._task.rewarded(before, now), terminated,
                 self._steps >= self.max_steps, info)
 
     def render(self) -> None:
@@ -248,8 +251,8 @@ class VectorEnv(VectorEnvBase):
                  game: str | Mapping = "games/dog.json", **arguments: Any):
         self.num_envs = checks.whole("num_envs", num_envs, 1)
         self.envs: list[Env] = []
-        self._own = isinstance(client, str)
-        self.client = Client(client) if isinstance(client, str) else client
+        self._own = not isinstance(client, Client)
+        self.client = Client(client) if self._own else client  # which says what an address is
         try:
             for _ in range(self.num_envs):
                 self.envs.append(Env(self.client, game, **arguments))
@@ -324,7 +327,7 @@ class VectorEnv(VectorEnvBase):
             now = env._state
             infos[i] = {"time_s": now.time_s, **({"fault": now.fault} if now.fault else {})}
             observations[i] = env._task.observe(now)
-            rewards[i] = env._task.rewarding(before[i], now)
+            rewards[i] = env._task.rewarded(before[i], now)
             terminated[i] = bool(now.fault) or bool(env._task.ending(now))
             truncated[i] = env._steps >= env.max_steps
         self._over = terminated | truncated

@@ -7,6 +7,9 @@ from typing import Sequence
 
 import numpy as np
 
+from . import checks
+from .errors import Refused
+
 
 @dataclass(frozen=True)
 class Number:
@@ -38,5 +41,9 @@ def upper_of(numbers: Sequence[Number]) -> np.ndarray:
 
 def clipped(numbers: Sequence[Number], vectors) -> np.ndarray:
     """Vectors (…, parameters) brought within the bounds, and whole where only whole numbers are allowed."""
-    vectors = np.clip(np.asarray(vectors, dtype=float), lower_of(numbers), upper_of(numbers))
+    allowed = f"an array (…, {len(numbers)})"
+    vectors = checks.numbers("vectors", vectors, allowed)
+    if vectors.ndim == 0 or vectors.shape[-1] != len(numbers):
+        raise Refused(f"vectors: shape {vectors.shape} is not allowed; {allowed}")
+    vectors = np.clip(vectors, lower_of(numbers), upper_of(numbers))
     return np.where([n.integer or bool(n.choices) for n in numbers], np.round(vectors), vectors)

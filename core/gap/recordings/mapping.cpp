@@ -156,8 +156,8 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
   }
 
   constexpr double longest_s = 1e6;
-  if (reader.has("from_s")) mapping.from_s = reader.number("from_s", 0, longest_s);
-  if (reader.has("until_s")) mapping.until_s = reader.number("until_s", mapping.from_s.value_or(0), longest_s);
+  if (reader.any("from_s")) mapping.from_s = reader.number("from_s", 0, longest_s);
+  if (reader.any("until_s")) mapping.until_s = reader.number("until_s", mapping.from_s.value_or(0), longest_s);
   const bool hasTime = readColumns(reader, mapping);
   reader.array("tables", [&](JsonReader entry) { mapping.tables.push_back(tableFrom(entry)); });
   reader.finish();

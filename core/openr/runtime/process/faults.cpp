@@ -95,6 +95,25 @@ const char* described(int signal, const siginfo_t* info, const ucontext_t* conte
   }
 }
 
+/// What comes after a fault takes the heap, and may wait without end for what the fault has left locked: a method that
+/// stops inside malloc() never gives its lock back. So it has this long.
+void limitAftermath(bool on) {
+  constexpr long aftermath_s = 2;
+  itimerval once{};
+  once.it_value.tv_sec = on ? aftermath_s : 0;
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+void onAftermath(int) {
+  lastMessage(state.what);
+  syscall(SYS_exit_group, 70);
+}
+
+[[noreturn]] void goHome() {
+  limitAftermath(true);
+  siglongjmp(state.home, 1);
+}
+
 void onFault(int signal, siginfo_t* info, void* context) {
   if (faulted || !state.inMethod) {
     // A second one, of what the first has left; or one between methods, of what the last method has left.
@@ -104,7 +123,7 @@ void onFault(int signal, siginfo_t* info, void* context) {
   }
   faulted = true;
   state.what = described(signal, info, static_cast<const ucontext_t*>(context));
-  siglongjmp(state.home, 1);
+  goHome();
 }
 
 void onTick(int) {
@@ -124,12 +143,14 @@ void onTick(int) {
   static char said[80];
   std::snprintf(said, sizeof said, "it has computed for %d s without coming back", limitTicks / ticksPerSecond);
   state.what = said;
-  siglongjmp(state.home, 1);
+  goHome();
 }
 
 }  // namespace
 
 FaultState& faultState() { return state; }
+
+void faultIsSettled() { limitAftermath(false); }
 
 void watchFaults(int link, int limit_s) {
   linkDescriptor = link;
@@ -149,6 +170,11 @@ void watchFaults(int link, int limit_s) {
   tick.sa_flags = SA_ONSTACK | SA_RESTART;
   sigemptyset(&tick.sa_mask);
   sigaction(SIGPROF, &tick, nullptr);
+  struct sigaction aftermath {};
+  aftermath.sa_handler = onAftermath;
+  aftermath.sa_flags = SA_ONSTACK;
+  sigemptyset(&aftermath.sa_mask);
+  sigaction(SIGALRM, &aftermath, nullptr);
   itimerval every{};
   every.it_interval.tv_usec = every.it_value.tv_usec = 1000000 / ticksPerSecond;
   setitimer(ITIMER_PROF, &every, nullptr);
@@ -161,7 +187,7 @@ void fail(const char* what) {
   }
   faulted = true;
   state.what = what;
-  siglongjmp(state.home, 1);
+  goHome();
 }
 
 void numbersTrap() { feenableexcept(FE_INVALID); }

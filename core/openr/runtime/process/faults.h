@@ -24,9 +24,12 @@ inline void setMethod(FaultState& state, const std::string& name) {
 }
 
 /// Crashes and endless loops of methods come back to `faultState().home`; a second crash writes a last message over
-/// `link`
-/// (-1: none) and ends the process. A method may use `limit_s` of the processor's time at a stretch.
+/// `link` (-1: none) and ends the process, and so does a first one if faultIsSettled() is not called within 2 s: what
+/// it has left may be locked for ever. A method may use `limit_s` of the processor's time at a stretch.
 void watchFaults(int link, int limit_s);
+
+/// What was to be done about a fault is done, all but sending it. Nothing happens where there was none.
+void faultIsSettled();
 
 /// The running method has failed: as after a crash, with this text, which stays where it is.
 [[noreturn]] void fail(const char* what);

@@ -132,6 +132,7 @@ int main(int argc, char** argv) {
     openStreams();
     watchFaults(arguments.link, arguments.methodLimit_s);
     system->load();
+    faultIsSettled();
   } catch (const std::exception& error) {
     refuse(arguments.link, error.what());
     return 1;
@@ -145,7 +146,9 @@ int main(int argc, char** argv) {
       orders.ended = Ended{Ended::Why::refused, "", "", error.what()};
     }
     const bool over = orders.ended.has_value();
-    if (sendMessage(arguments.link, bytesOf(orders)) != Passed::whole || over) break;
+    const std::vector<std::uint8_t> answer = bytesOf(orders);
+    faultIsSettled();
+    if (sendMessage(arguments.link, answer) != Passed::whole || over) break;
   }
   // Without the modules' destructors: a program that has crashed may have left them nothing to destroy.
   quick_exit(0);

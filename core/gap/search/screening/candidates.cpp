@@ -8,6 +8,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/joint_pace.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/extent.h"
@@ -94,6 +95,9 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
+/// An angle that turns all the way round, as the phase of a wave does.
+bool isPhase(const Parameter& p) { return !p.neutral && p.unit == "rad" && p.maximum - p.minimum > 6.28; }
+
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
@@ -122,6 +126,15 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
         // What a mechanism is built like (where its sensors sit) says nothing of how soft or worn it is.
         if (other.integer && other.maximum - other.minimum <= limits.mostKinds)
           for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, others);
+        // A wave of another phase is another direction: one of three is within 60° of any.
+        if (!other.integer || other.maximum - other.minimum <= limits.mostKinds) continue;
+        for (const Parameter& phase : declared)
+          for (const double turn : {-2 * M_PI / 3, 2 * M_PI / 3}) {
+            if (!isPhase(phase)) continue;
+            Values turned = others;
+            turned[phase.name] = base[phase.name] + turn;
+            sized(p, 1, up ? 1 : -1, turned);
+          }
       }
     }
   }
@@ -151,6 +164,9 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
                                     const SearchThresholds::Candidates& thresholds) {
   const auto made = problem.library.make(effect);
   std::vector<Parameter> declared = made->parameters();
+  for (Parameter& p : declared)
+    if (const double share = shareOfUsual(problem, at, p); share < 1)
+      p.byDefault = *p.neutral + share * (p.byDefault - *p.neutral);
   const std::string periods = made->periodsPerTurn();
   if (periods.empty()) return declared;
   const double travel = travelOf(problem, at);
@@ -170,7 +186,8 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
   std::erase_if(candidates, [&](EffectCandidate& candidate) {
     const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
-    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum)) {
+    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum) ||
+        !std::ranges::equal(shown, candidate.declared, {}, &Parameter::byDefault, &Parameter::byDefault)) {
       candidate.declared = shown;
       candidate.variants = variantsOf(shown, thresholds);
     }

@@ -43,25 +43,6 @@ void dropNeutral(const FitService& service, Selection& selection) {
   }
 }
 
-/// Whether a model without an effect predicts worse, however long it is fitted: beside an effect that did its work the
-/// others stand elsewhere, and the way back may be a curved valley (a spring's stiffness and rest, and what friction by
-/// direction takes of both), in which a fit ends early.
-bool isMissedForGood(FitService& service, Scored& without, const Scored& with) {
-  constexpr double near = 1.5;  // by cost; what is farther off is no matter of a valley [hand]
-  constexpr int iterations = 40;
-  constexpr double tolerance = 1e-6, at = 0.86;
-  const SearchThresholds::Confirmation& limits = service.thresholds().confirmation;
-  if (!isMissed(without, with, limits)) return false;
-  if (without.fit.cost > near * with.fit.cost) return true;
-  const std::string stage = "dropping each in turn";
-  const std::vector<Fit> fits = completed(service.tryFits(
-      {{.model = without.fit.model, .shifts = without.fit.shifts, .tolerance = tolerance}}, iterations, stage, at, at));
-  if (fits.empty()) return true;
-  const Scored longer = service.scoreAll(fits, stage, at, at)[0];
-  if (longer.mean() < without.mean()) without = longer;
-  return isMissed(without, with, limits);
-}
-
 }  // namespace
 
 void dropRedundant(FitService& service, Selection& selection) {
@@ -74,7 +55,7 @@ void dropRedundant(FitService& service, Selection& selection) {
     auto scored = service.fitAndScore(jobs, selection.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
       if (isNeeded(service.problem(), selection.final.fit.model.effects, i) ||
-          isMissedForGood(service, scored[i], selection.final))
+          isMissed(scored[i], selection.final, service.thresholds().confirmation))
         continue;
       service.bringToStep(scored[i], "dropping each in turn", 0.86);
       if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;

@@ -58,7 +58,8 @@ TEST(BetweenRows, StepsAndEmptyCellsHold) {
 }
 
 TEST(BetweenRows, ItIsOpenWhereNothingSaysThatCommandsHold) {
-  const Binding binding{.inputs = {of(What::command)}};
+  Binding binding;
+  binding.inputs = {of(What::command)};
   Scene scene;
   scene.controlPeriod_s = 0.001;
   EXPECT_TRUE(mayGoOnBetweenRows(scene, logged(sine), binding));

@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/joint_pace.h"
 #include "core/gap/search/screening/candidates.h"
 #include "core/gap/search/thresholds.h"
+#include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {
@@ -24,6 +28,42 @@ TEST(CandidateSizes, SoftAndStiffGearsAreTriedWhereverTheSensorsSit) {
             variants, [&](const Values& v) { return v.at("sensors") == sensors && v.at("compliance_rad_nm") >= 0.2; }),
         1)
         << sensors;
+}
+
+// Phases were tried of one number of periods alone: half of all ripples of the others looked like none.
+TEST(CandidateSizes, ARippleOfAnyNumberOfPeriodsIsTriedWithin60DegreesOfAnyPhase) {
+  const auto variants = variantsOf(rigScene(R"("hinge": {"p": 6})"), "torque_ripple", "rig.hinge");
+  for (const double periods : {2.0, 5.0, 8.0})
+    for (double phase = -3; phase <= 3; phase += 0.25)
+      EXPECT_GE(std::ranges::count_if(variants,
+                                      [&](const Values& v) {
+                                        return v.at("per_turn") == periods &&
+                                               std::cos(v.at("phase_rad") - phase) > 0.49;
+                                      }),
+                1)
+          << periods << " periods, phase " << phase;
+}
+
+// A tenth of what the motor gives, where a size that suits an arm would hold it.
+TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
+  GapProblem problem = hingeProblem();
+  Recording turning;
+  turning.source = "turning.csv";
+  turning.channels = {"time_s", "rig.hinge.command_rad", "rig.hinge.position_rad"};
+  turning.columns.resize(3);
+  Random random(3);
+  for (int i = 0; i < 400; ++i) {
+    turning.columns[0].push_back(0.005 * i);
+    turning.columns[1].push_back(100 * 0.005 * i);
+    turning.columns[2].push_back(100 * 0.005 * i + 0.001 * random.normal());
+  }
+  problem.scene.robots[0].servos.at("hinge").numbers["max_torque_nm"] = 0.3;
+  const FitProblem ready = makeFitProblem(problem, {turning}, library());
+  const auto parameter = [](const char* effect) { return library().make(effect)->parameters()[0]; };
+  const Parameter air = parameter("fluid_drag"), dry = parameter("coulomb_friction");
+  EXPECT_NEAR(shareOfUsual(ready, "rig.hinge", air) * air.byDefault * 100 * 100, 0.03, 0.001);
+  EXPECT_EQ(shareOfUsual(ready, "rig.hinge", dry), 1) << "0.03 N·m of 0.3";
+  EXPECT_EQ(shareOfUsual(ready, "world", air), 1);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/joint_pace.h"
@@ -28,20 +27,6 @@ TEST(CandidateSizes, SoftAndStiffGearsAreTriedWhereverTheSensorsSit) {
             variants, [&](const Values& v) { return v.at("sensors") == sensors && v.at("compliance_rad_nm") >= 0.2; }),
         1)
         << sensors;
-}
-
-// Phases were tried of one number of periods alone: half of all ripples of the others looked like none.
-TEST(CandidateSizes, ARippleOfAnyNumberOfPeriodsIsTriedWithin60DegreesOfAnyPhase) {
-  const auto variants = variantsOf(rigScene(R"("hinge": {"p": 6})"), "torque_ripple", "rig.hinge");
-  for (const double periods : {2.0, 5.0, 8.0})
-    for (double phase = -3; phase <= 3; phase += 0.25)
-      EXPECT_GE(std::ranges::count_if(variants,
-                                      [&](const Values& v) {
-                                        return v.at("per_turn") == periods &&
-                                               std::cos(v.at("phase_rad") - phase) > 0.49;
-                                      }),
-                1)
-          << periods << " periods, phase " << phase;
 }
 
 // A tenth of what the motor gives, where a size that suits an arm would hold it.

@@ -95,9 +95,6 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
-/// An angle that turns all the way round, as the phase of a wave does.
-bool isPhase(const Parameter& p) { return !p.neutral && p.unit == "rad" && p.maximum - p.minimum > 6.28; }
-
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
@@ -126,15 +123,6 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
         // What a mechanism is built like (where its sensors sit) says nothing of how soft or worn it is.
         if (other.integer && other.maximum - other.minimum <= limits.mostKinds)
           for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, others);
-        // A wave of another phase is another direction: one of three is within 60° of any.
-        if (!other.integer || other.maximum - other.minimum <= limits.mostKinds) continue;
-        for (const Parameter& phase : declared)
-          for (const double turn : {-2 * M_PI / 3, 2 * M_PI / 3}) {
-            if (!isPhase(phase)) continue;
-            Values turned = others;
-            turned[phase.name] = base[phase.name] + turn;
-            sized(p, 1, up ? 1 : -1, turned);
-          }
       }
     }
   }

@@ -51,6 +51,17 @@ Target linkNumber(Link& link, const std::string& number, const std::string& path
   return {&link.inertial.inertia_kg_m2(axis, axis), bounds};
 }
 
+/// Where a joint's range ends, or nothing for other numbers. The ends of a range that the file leaves open are no
+/// numbers.
+double* limitOf(Joint& joint, const std::string& number) {
+  constexpr double open = 1e8;
+  const bool slides = joint.type == Joint::Type::slide;
+  double* limit = number == (slides ? "lower_m" : "lower_rad")   ? &joint.lower
+                  : number == (slides ? "upper_m" : "upper_rad") ? &joint.upper
+                                                                 : nullptr;
+  return limit && std::abs(*limit) < open ? limit : nullptr;
+}
+
 Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   const std::string name = next(rest), kind = next(rest), item = next(rest), number = next(rest);
   const auto robot =
@@ -65,6 +76,10 @@ Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   if (kind != "servos" && kind != "joints") noSuch(path, "robots.NAME.servos|links|joints.ITEM.NUMBER");
   const int joint = robot->model.findJoint(item);
   if (joint < 0) noSuch(path, "a joint of " + robot->model.name);
+  constexpr double farthest = 1000;  // rad or m
+  if (kind == "joints")
+    if (double* limit = limitOf(robot->model.joints[static_cast<std::size_t>(joint)], number))
+      return {limit, {number, "", "", -farthest, farthest}};
   const Parameter& bounds = declaredIn(kind == "servos" ? servoNumbers() : jointNumbers(), number, path);
   const auto index = static_cast<std::size_t>(joint);
   double* target = driveNumber(robot->drives[index], robot->model.joints[index], number);
@@ -112,15 +127,25 @@ Target ballNumber(Scene& scene, const std::string& path, std::string rest) {
                  number, path);
 }
 
+Target obstacleNumber(Scene& scene, const std::string& path, std::string rest) {
+  const std::string name = next(rest), number = rest;
+  const auto obstacle = std::ranges::find(scene.obstacles, name, &ObstacleSpec::name);
+  if (obstacle == scene.obstacles.end())
+    noSuch(path, "an obstacle of this scene, which has " + namesOf(scene.obstacles));
+  return fieldOf({{"friction", 0, 100, &obstacle->friction}, {"restitution", 0, 1, &obstacle->restitution}}, number,
+                 path);
+}
+
 Target targetOf(Scene& scene, const std::string& path) {
   std::string rest = path;
   const std::string first = next(rest);
   if (first == "robots") return robotNumber(scene, path, rest);
   if (first == "floor") return floorNumber(scene, path, rest);
   if (first == "balls") return ballNumber(scene, path, rest);
+  if (first == "obstacles") return obstacleNumber(scene, path, rest);
   if (first == "gravity_m_s2" && rest.size() == 1 && rest[0] >= 'x' && rest[0] <= 'z')
     return {&scene.gravity_m_s2[rest[0] - 'x'], {"gravity_m_s2", "m/s²", "", -1000, 1000}};
-  noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls or gravity_m_s2");
+  noSuch(path, "a simulator parameter or a path that begins with robots, floor, balls, obstacles or gravity_m_s2");
 }
 
 /// "leg" names every group that begins with "leg:"; each is scaled by itself.

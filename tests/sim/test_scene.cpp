@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/sim/world/scene_build.h"
 #include "tests/refusal.h"
 #include "tests/sim/small_worlds.h"
 
@@ -71,4 +72,25 @@ TEST(SceneServo, TakesItsNoLoadSpeedFromTheModelAndFromTheScene) {
 }
 
 }  // namespace
+TEST(ScenePaths, LeadToLimitsOfJointsAndToObstacles) {
+  RobotModel model = pendulumModel(0.5, 0.2, 0.001);
+  model.joints[0].lower = -1;
+  model.joints[0].upper = 2;
+  Scene scene = made(model, "fixed");
+  scene.obstacles.push_back({.name = "wall"});
+  const std::string joint = "robots.rig.joints." + model.joints[0].name;
+  EXPECT_EQ(numberByPath(scene, joint + ".upper_rad"), 2);
+  setByPath(scene, joint + ".lower_rad", -0.4);
+  EXPECT_EQ(scene.robots[0].model.joints[0].lower, -0.4);
+  setByPath(scene, "obstacles.wall.restitution", 0.55);
+  setByPath(scene, "obstacles.wall.friction", 0.2);
+  EXPECT_EQ(scene.obstacles[0].restitution, 0.55);
+  EXPECT_EQ(scene.obstacles[0].friction, 0.2);
+  EXPECT_THAT(test::refusal([&] { setByPath(scene, "obstacles.post.friction", 0.2); }),
+              AllOf(HasSubstr("obstacles.post.friction"), HasSubstr("wall")));
+  EXPECT_NE("accepted", test::refusal([&] { setByPath(scene, joint + ".upper_m", 0.2); }));
+  scene.robots[0].model.joints[0].upper = 1e9;
+  EXPECT_NE("accepted", test::refusal([&] { setByPath(scene, joint + ".upper_rad", 0.2); })) << "there is no limit";
+}
+
 }  // namespace btr::test

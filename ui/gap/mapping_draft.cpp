@@ -25,8 +25,8 @@ struct MappingTexts {
 };
 
 bool isSpecial(const std::string& key) {
-  constexpr std::array special{"settings",  "segments", "resample", "retime",
-                               "lost_rows", "tables",   "from_s",   "until_s"};
+  constexpr std::array special{"settings", "segments", "resample", "retime",      "lost_rows",
+                               "tables",   "from_s",   "until_s",  "between_rows"};
   return std::ranges::find(special, key) != special.end();
 }
 

@@ -52,8 +52,10 @@ FitModel FitModel::with(const FitProblem& problem, const PlacedEffect& effect) c
   const std::vector<Parameter> declared = plugin->parameters();
   for (std::size_t i = 0; i < declared.size(); ++i) model.effects.back().parameters[declared[i].name] = numbers[i];
   for (FitParameter& parameter : fitParameters(*plugin, index)) {
-    if (const Parameter* known = find(declared, parameter.name))
+    if (const Parameter* known = find(declared, parameter.name)) {
       parameter.unit = unitAt(problem.scene, problem.models, effect.at, *known);
+      parameter.scale *= shareOfUsual(problem, effect.at, *known);
+    }
     model.parameters.push_back(parameter);
     model.values.push_back(model.effects.back().parameters.at(parameter.name));
   }

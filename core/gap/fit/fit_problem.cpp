@@ -204,6 +204,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   }
   shareNoiseFloors(ready.trials, ready.notes);
   refuseWithoutNumbers(ready.trials);
+  ready.paces = pacesOf(ready);
 
   const Scene scene = ready.sceneOf(ready.given, 0);
   ready.impacts = isTossed(scene);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/joint_pace.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/replay.h"
@@ -96,6 +97,7 @@ struct FitProblem {
   double finestStep = 0.126;
   /// Joints are compared with where they are so much further on: an alignment that is known (alignment.h).
   double shift_s = 0;
+  std::map<std::string, JointPace> paces;  ///< of measured joints, by place
   std::vector<std::string> notes;
   int jobs = 1;  ///< worker processes for the segments of one evaluation; changes no result
 

@@ -245,6 +245,11 @@ StartState stateAt(const FitProblem& problem, std::size_t index, std::size_t row
       // rotor may still swing then.
       if (local.known || rate != 0 || drive.kind != Drive::Kind::servo)
         add(Nuisance::What::jointRate, measured.part, local.known ? std::max(local.slopeError, noise / reach_s) : 1);
+    } else if (measured.what == Measured::What::rate && !isPositionKnown(trial.binding.measured, measured) &&
+               !isPositionKnown(trial.binding.startOnly, measured)) {
+      const Local local = localParabola(time, values, row, reach_s, noise, trial.pause_s[i]);
+      if (row > 0 && local.known) state.robots[measured.object].rates[measured.part] = local.value;
+      add(Nuisance::What::jointRate, measured.part, std::max(noise, local.known ? local.valueError : noise));
     } else if (measured.what == Measured::What::basePosition && scene.robots[measured.object].freeBase) {
       const Local local = localParabola(time, values, row, reach_s, noise, trial.pause_s[i]);
       const auto axis = static_cast<Eigen::Index>(measured.part);

@@ -71,8 +71,8 @@ MappedColumn mappedColumn(JsonReader& entry, const std::string& channel) {
 
 /// What is said of channels; true if time is among them.
 bool readColumns(JsonReader& reader, Mapping& mapping) {
-  constexpr std::array others{"settings", "segments", "resample", "retime", "lost_rows",
-                              "tables",   "file",     "from_s",   "until_s"};
+  constexpr std::array others{"settings", "segments", "resample", "retime",  "lost_rows",
+                              "tables",   "file",     "from_s",   "until_s", "between_rows"};
   bool hasTime = false;
   for (const auto& [channel, value] : reader.node().items()) {
     if (std::ranges::find(others, channel) != others.end()) continue;
@@ -148,6 +148,14 @@ Mapping mappingFromJson(const std::string& text, const std::string& place) {
   if (const nlohmann::json* lost = reader.any("lost_rows")) {
     if (!lost->is_string() || (*lost != "hold" && *lost != "fill")) reader.refuse("lost_rows", "\"fill\" or \"hold\"");
     mapping.lostRowsHold = *lost == "hold";
+  }
+  if (const nlohmann::json* between = reader.any("between_rows")) {
+    if (between->is_number())
+      mapping.betweenRows = reader.number("between_rows", 0, 0.5);
+    else if (*between == "hold" || *between == "line")
+      mapping.betweenRows = *between == "line" ? 0.5 : 0;
+    else
+      reader.refuse("between_rows", "\"hold\", \"line\" or a number from 0 to 0.5");
   }
   if (auto resample = reader.objectIfAny("resample")) {
     mapping.period_s = resample->number("period_s", 1e-6, 1e6, 0);

@@ -43,6 +43,7 @@ struct Mapping {
   std::string segmentColumn;              ///< whenever its number changes a new trial begins; "": the file is one trial
   std::optional<double> from_s, until_s;  ///< rows of each trial that count, seconds after its first one
   bool lostRowsHold = false;              ///< inputs hold where rows are missing (see fillLostRows())
+  std::optional<double> betweenRows;      ///< see Recording
 };
 
 /// Another file of the trial, beside it: fixed by name, or by what its name has in another's place.
@@ -55,8 +56,9 @@ struct OtherTable {
 };
 
 /// {"time_s": {"column": "t", "scale": 0.001}, …, "settings": [{"file_contains": "kp100", "values": {…}}],
-/// "segments": {"column": "piece"}, "retime": "even", "lost_rows": "hold", "resample": {"period_s": 0.01, "lowpass_hz":
-/// 20}}. Throws InputError for what is not a channel, a channel or a key that nobody knows.
+/// "segments": {"column": "piece"}, "retime": "even", "lost_rows": "hold", "between_rows": "line",
+/// "resample": {"period_s": 0.01, "lowpass_hz": 20}}. Throws InputError for what is not a channel, a channel or a key
+/// that nobody knows.
 Mapping mappingFromJson(const std::string& text, const std::string& place);
 Mapping loadMapping(const std::string& path);
 /// Beside "DIR/NAME.csv": "DIR/NAME.mapping.json", "DIR/NAME.csv.mapping.json" or "DIR/mapping.json", the first that is

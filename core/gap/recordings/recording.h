@@ -35,6 +35,10 @@ struct Recording {
   std::vector<std::string> notes;     ///< what was skipped or looks odd
   bool beginsAtRest = false;          ///< known beforehand: nothing moves at its first row
   bool bounded = false;               ///< its mapping says where it begins or ends
+  /// What inputs do between two rows that they go on through (between_rows.h), as the share of the way to the next row
+  /// that they are ahead on average: 0 they hold, ½ they go on in a straight line; nothing: they hold, and an analysis
+  /// may find otherwise.
+  std::optional<double> betweenRows;
   FilePlaces places;
   double filterPeriod_s = 0, filterCutoff_hz = 0;  ///< the rhythm that a low-pass filter worked at, and its cutoff; 0:
                                                    ///< none (see resampled())

@@ -135,6 +135,7 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
     refuseJumps(trial);
     emptyRepeated(trial);
     if (!mapping || !mapping->lostRowsHold) fillLostRows(trial);
+    if (mapping) trial.betweenRows = mapping->betweenRows;
   }
   if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))
     for (Recording& trial : trials) trial = resampled(trial, {mapping->period_s, mapping->lowpass_hz});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/gap/recordings/between_rows.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/followed_torques.h"
@@ -26,7 +27,7 @@ using Measured = Binding::Measured;
 void setInputs(const Recording& recording, const Binding& binding, std::size_t row,
                std::vector<std::vector<JointInput>>& inputs) {
   for (const Input& input : binding.inputs) {
-    const double value = recording.columns[input.column][row];
+    const double value = inputFrom(recording, input, row);
     if (!std::isfinite(value)) continue;  // holds the last one
     JointInput& joint = inputs[input.robot][input.joint];
     switch (input.what) {

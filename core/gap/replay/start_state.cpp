@@ -57,6 +57,13 @@ std::span<const double> rateColumn(const Recording& recording, const std::vector
   return {};
 }
 
+/// Of a joint whose velocity alone was measured; at rest where it is no faster than its noise lets see.
+double rateAlone(std::span<const double> time, std::span<const double> rates) {
+  constexpr double clearly = 6;
+  const double rate = estimateStart(time, rates).position;
+  return std::abs(rate) > clearly * resolution(rates) ? rate : 0;
+}
+
 /// A line through the first samples cannot tell a servo that jumps off just then from one that moves already, where
 /// both happen within a few samples. The simulator can: from rest, or as the line says, whichever is nearer to the
 /// samples that follow.
@@ -101,6 +108,12 @@ void restWhereThatExplainsMore(const Scene& scene, const Recording& recording, c
 }
 
 }  // namespace
+
+bool isPositionKnown(const std::vector<Binding::Measured>& known, const Binding::Measured& joint) {
+  return std::ranges::any_of(known, [&](const Measured& other) {
+    return other.what == Measured::What::position && other.object == joint.object && other.part == joint.part;
+  });
+}
 
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row) {
   StartState state;
@@ -149,6 +162,8 @@ StartState startState(const Scene& scene, const Recording& recording, const Bind
           rests ? startAtRest(values) : startOfJoint(time, values, rateColumn(recording, known, measured, row));
       state.robots[measured.object].positions[measured.part] = start.position;
       state.robots[measured.object].rates[measured.part] = start.rate;
+    } else if (measured.what == Measured::What::rate && !isPositionKnown(known, measured)) {
+      state.robots[measured.object].rates[measured.part] = rests ? 0 : rateAlone(time, values);
     } else if (measured.what == Measured::What::basePosition) {
       const Start start = bodyStart(values, scene.gravity_m_s2[axis]);
       state.robots[measured.object].base.translation()[axis] = start.position;

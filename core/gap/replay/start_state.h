@@ -24,9 +24,13 @@ struct StartState {
   std::vector<BallState> balls;
 };
 /// From the samples that follow `row` (see initial_state.h). A joint that moves takes its rate, and the bend of its
-/// path, from the samples of its velocity where there are some. A servo that leaves its place within the first samples
-/// of a recording begins at rest if the scene, so driven, then comes nearer to them.
+/// path, from the samples of its velocity where there are some; where only that was measured, it is where the scene
+/// says and moves as they say. A servo that leaves its place within the first samples of a recording begins at rest if
+/// the scene, so driven, then comes nearer to them.
 StartState startState(const Scene& scene, const Recording& recording, const Binding& binding, std::size_t row = 0);
+
+/// Whether the position of a joint is among what is known of it.
+bool isPositionKnown(const std::vector<Binding::Measured>& known, const Binding::Measured& joint);
 
 struct TrialScenes;
 /// A better way than the first samples to say where a trial begins (fitted_start.h has one), or nothing of one that it

@@ -16,6 +16,7 @@
 #include "core/gap/recordings/recording.h"
 #include "core/gap/replay/residual.h"
 #include "core/gap/search/explanation.h"
+#include "core/gap/search/faster_commands.h"
 #include "core/gap/search/gap_report.h"
 #include "core/gap/search/laws/law_search.h"
 #include "core/gap/search/laws/law_words.h"
@@ -225,6 +226,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   refuseUnknownEffects(options, library);
   const SearchThresholds& limits = options.thresholds;
   const Consultation consultation = consult(given, library, options.asRecorded, limits.verdict);
+  GapProblem asked = given;  // and what was found out of its recordings
   const auto prepare = [&](const std::vector<Recording>& recordings, double window_s) {
     FitProblem ready = makeFitProblem(given, recordings, library, window_s);
     ready.jobs = options.jobs;
@@ -237,7 +239,8 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   search.seed = options.seed;
   search.thresholds = limits;
   search.progress = progress;
-  const Explanation explanation = explain(given.recordings, prepare, search, options.learnRest);
+  std::string betweenRows;
+  const Explanation explanation = explainWithCommands(asked, prepare, search, options.learnRest, betweenRows);
   const FitProblem& problem = explanation.problem;
   const SearchResult& found = explanation.found;
   const Agreement& agreement = explanation.agreement;
@@ -248,6 +251,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   report.seed = options.seed;
   report.version = UCHILSIM_VERSION;
   report.notes = consultation.notes;
+  if (!betweenRows.empty()) report.notes.push_back(betweenRows);
   report.notes.insert(report.notes.end(), problem.notes.begin(), problem.notes.end());
   report.notes.insert(report.notes.end(), found.refused.begin(), found.refused.end());
   for (const std::string& name : law.fell)
@@ -284,14 +288,14 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     report.notes.push_back(text.substr(0, text.size() - 1));
   if (!agreement.aside.empty()) {
     std::vector<Recording> recordings;
-    for (const std::size_t trial : agreement.aside) recordings.push_back(given.recordings[trial]);
+    for (const std::size_t trial : agreement.aside) recordings.push_back(asked.recordings[trial]);
     FitProblem aside = prepare(recordings, problem.window_s);
     aside.scene.step_s = problem.scene.step_s;
     addSeries(report, aside, final, Whose::setAside);
   }
   if (!given.heldOut.empty()) {
     if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
-    FitProblem heldOut = prepare(given.heldOut, problem.window_s);
+    FitProblem heldOut = prepare(asked.heldOut, problem.window_s);
     heldOut.scene.step_s = problem.scene.step_s;
     addSeries(report, heldOut, final, Whose::heldOut);
   }

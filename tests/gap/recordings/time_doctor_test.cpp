@@ -9,6 +9,7 @@
 
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/doctor/leaps.h"
+#include "core/gap/recordings/doctor/retime.h"
 #include "core/gap/recordings/recording.h"
 #include "core/spec/random.h"
 
@@ -148,6 +149,18 @@ TEST(Leaps, AreNoMotion) {
   for (auto& column : pause.trial.columns) column.erase(column.begin() + 100, column.begin() + 400);
   for (std::size_t row = 100; row < pause.trial.rows(); ++row) pause.trial.columns[1][row] += 3;
   EXPECT_THAT(pause.leaps(), IsEmpty());
+}
+
+// A camera that misses a picture now and then: stamps of 120 a second to a tenth of a millisecond.
+TEST(StampsThatJitter, AreNotThoseBehindLostRows) {
+  Recording trial;
+  trial.channels = {"time_s"};
+  trial.columns.resize(1);
+  for (int i = 0; i < 100; ++i)
+    if (i % 16 != 6) trial.columns[0].push_back(std::round(1e4 * i / 120) / 1e4);
+  const StampJitter jitter = stampJitter(trial);
+  EXPECT_NEAR(jitter.period_s, 1.0 / 120, 1e-4);
+  EXPECT_LT(jitter.size_s, 0.01 / 120) << "rounding to 0.1 ms is 0.03 ms, of 8.3";
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/joint_pace.h"
 #include "core/gap/search/screening/candidates.h"
 #include "core/gap/search/thresholds.h"
+#include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {
@@ -24,6 +27,28 @@ TEST(CandidateSizes, SoftAndStiffGearsAreTriedWhereverTheSensorsSit) {
             variants, [&](const Values& v) { return v.at("sensors") == sensors && v.at("compliance_rad_nm") >= 0.2; }),
         1)
         << sensors;
+}
+
+// A tenth of what the motor gives, where a size that suits an arm would hold it.
+TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
+  GapProblem problem = hingeProblem();
+  Recording turning;
+  turning.source = "turning.csv";
+  turning.channels = {"time_s", "rig.hinge.command_rad", "rig.hinge.position_rad"};
+  turning.columns.resize(3);
+  Random random(3);
+  for (int i = 0; i < 400; ++i) {
+    turning.columns[0].push_back(0.005 * i);
+    turning.columns[1].push_back(100 * 0.005 * i);
+    turning.columns[2].push_back(100 * 0.005 * i + 0.001 * random.normal());
+  }
+  problem.scene.robots[0].servos.at("hinge").numbers["max_torque_nm"] = 0.3;
+  const FitProblem ready = makeFitProblem(problem, {turning}, library());
+  const auto parameter = [](const char* effect) { return library().make(effect)->parameters()[0]; };
+  const Parameter air = parameter("fluid_drag"), dry = parameter("coulomb_friction");
+  EXPECT_NEAR(shareOfUsual(ready, "rig.hinge", air) * air.byDefault * 100 * 100, 0.03, 0.001);
+  EXPECT_EQ(shareOfUsual(ready, "rig.hinge", dry), 1) << "0.03 N·m of 0.3";
+  EXPECT_EQ(shareOfUsual(ready, "world", air), 1);
 }
 
 }  // namespace

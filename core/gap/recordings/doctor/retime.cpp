@@ -143,7 +143,18 @@ void retime(Recording& trial, double period_s) {
 }
 
 StampJitter stampJitter(const Recording& trial) {
-  return {rhythm(trial), noiseFloor(std::span<const double>(trial.columns[0]))};
+  constexpr double whole = 0.2;  // of a period, by which a pause may differ from lost samples
+  const double period_s = rhythm(trial);
+  std::vector<double> time = trial.columns[0];
+  // Stamps behind lost samples are as regular as those before them.
+  double lost_s = 0;
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    const double periods = (trial.columns[0][row] - trial.columns[0][row - 1]) / period_s;
+    if (periods > 2 - whole && std::abs(periods - std::round(periods)) <= whole)
+      lost_s += (std::round(periods) - 1) * period_s;
+    time[row] -= lost_s;
+  }
+  return {period_s, noiseFloor(std::span<const double>(time))};
 }
 
 }  // namespace btr

@@ -8,6 +8,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/joint_pace.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/recordings/extent.h"
@@ -151,6 +152,9 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
                                     const SearchThresholds::Candidates& thresholds) {
   const auto made = problem.library.make(effect);
   std::vector<Parameter> declared = made->parameters();
+  for (Parameter& p : declared)
+    if (const double share = shareOfUsual(problem, at, p); share < 1)
+      p.byDefault = *p.neutral + share * (p.byDefault - *p.neutral);
   const std::string periods = made->periodsPerTurn();
   if (periods.empty()) return declared;
   const double travel = travelOf(problem, at);
@@ -170,7 +174,8 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
   std::erase_if(candidates, [&](EffectCandidate& candidate) {
     const std::vector<Parameter> shown = parametersAt(problem, candidate.effect, candidate.at, thresholds);
     if (std::ranges::any_of(shown, [](const Parameter& p) { return p.minimum > p.maximum; })) return true;
-    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum)) {
+    if (!std::ranges::equal(shown, candidate.declared, {}, &Parameter::minimum, &Parameter::minimum) ||
+        !std::ranges::equal(shown, candidate.declared, {}, &Parameter::byDefault, &Parameter::byDefault)) {
       candidate.declared = shown;
       candidate.variants = variantsOf(shown, thresholds);
     }

@@ -1,0 +1,68 @@
+#include "core/gap/fit/joint_pace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/gap/fit/fit_problem.h"
+#include "core/gap/recordings/sample_speed.h"
+
+namespace btr {
+namespace {
+
+using Measured = Binding::Measured;
+
+double largestTorque(const Drive& drive) {
+  constexpr double unlimited = 1e8;
+  if (drive.kind == Drive::Kind::servo && drive.maxTorque < unlimited) return drive.maxTorque;
+  if (drive.kind == Drive::Kind::dcMotor && drive.supply_v > 0)
+    return drive.torqueConstant_nm_a * drive.supply_v * drive.maxDuty / drive.resistance_ohm;
+  return std::numeric_limits<double>::infinity();
+}
+
+/// The power of the rate by which a torque per rate is multiplied; nothing for what is no torque.
+std::optional<int> powerOfRate(const std::string& unit) {
+  if (unit == "N·m") return 0;
+  if (unit == "N·m·s/rad") return 1;
+  if (unit == "N·m·s²/rad²") return 2;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::map<std::string, JointPace> pacesOf(const FitProblem& problem) {
+  std::map<std::string, JointPace> paces;
+  std::map<std::string, double> counts;
+  const Scene scene = problem.sceneOf(problem.given, 0);
+  for (const FitTrial& trial : problem.trials)
+    for (std::size_t c = 0; c < trial.binding.measured.size(); ++c) {
+      const Measured& measured = trial.binding.measured[c];
+      if (measured.what != Measured::What::position && measured.what != Measured::What::rate) continue;
+      const SceneRobot& robot = scene.robots[measured.object];
+      const std::string at = robot.name + "." + robot.model.joints[measured.part].name;
+      JointPace& pace = paces[at];
+      pace.torque = largestTorque(robot.drives[measured.part]);
+      const std::vector<double> speeds = measured.what == Measured::What::rate
+                                             ? trial.recording.columns[measured.column]
+                                             : sampleSpeeds(trial.recording, measured.column, trial.noiseFloor[c]);
+      for (const double speed : speeds)
+        if (std::isfinite(speed)) {
+          pace.rate += speed * speed;
+          ++counts[at];
+        }
+    }
+  for (auto& [at, pace] : paces) pace.rate = counts[at] > 0 ? std::sqrt(pace.rate / counts[at]) : 0;
+  return paces;
+}
+
+double shareOfUsual(const FitProblem& problem, const std::string& at, const Parameter& parameter) {
+  constexpr double outOfProportion = 10, typical = 0.1;  // of what the drive gives [hand]
+  const auto pace = problem.paces.find(at);
+  const auto power = powerOfRate(parameter.unit);
+  if (pace == problem.paces.end() || !power || !parameter.neutral) return 1;
+  const double usual = std::abs(parameter.byDefault - *parameter.neutral) * std::pow(pace->second.rate, *power);
+  const double torque = pace->second.torque;
+  return torque > 0 && usual > outOfProportion * torque ? typical * torque / usual : 1;
+}
+
+}  // namespace btr

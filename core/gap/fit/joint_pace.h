@@ -1,0 +1,27 @@
+#pragma once
+#include <limits>
+#include <map>
+#include <string>
+
+#include "core/spec/parameter.h"
+
+namespace btr {
+
+struct FitProblem;
+
+/// What a joint's drive can give, and how fast the joint moves in the recordings. It says where an effect of usual size
+/// is out of all proportion: what hardly brakes an arm holds the wheel of a small motor that turns a hundred times as
+/// fast.
+struct JointPace {
+  double torque = std::numeric_limits<double>::infinity();  ///< largest of its drive [N·m or N]; infinite: not known
+  double rate = 0;                                          ///< r.m.s. [rad/s or m/s]; 0: not known
+};
+
+/// By "ROBOT.JOINT", of what is measured; of recordings that are bound and have noise floors.
+std::map<std::string, JointPace> pacesOf(const FitProblem& problem);
+
+/// The share of its usual size in which an effect's parameter is tried at a place: 1 but where that size alone would be
+/// ten times what the drive gives at that pace, then what comes to a tenth of it.
+double shareOfUsual(const FitProblem& problem, const std::string& at, const Parameter& parameter);
+
+}  // namespace btr

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/search/model_comparison.h"
 #include "core/gap/search/screening/search_discoveries.h"
 #include "core/gap/search/starts/held_numbers.h"
 #include "core/gap/search/starts/restarts.h"
@@ -22,18 +23,6 @@ bool isWithinHalfAStep(const FitProblem& problem, const FitModel& model, std::si
   }
   return isTime;
 }
-
-namespace {
-
-/// A shift in time that is as far as it may be stands for something else. Where an effect does without it, what the
-/// shift hides is part of what the effect explains, and of how likely chance does as well.
-PairedTest besideAFarthestShift(const Scored& without, const Scored& with, PairedTest comparison, double farthest) {
-  if (without.aligned.ofMost >= farthest && with.aligned.ofMost < farthest)
-    comparison.pValue = std::min(comparison.pValue, compare(without.unshifted, with.blocks).pValue);
-  return comparison;
-}
-
-}  // namespace
 
 void controlFalseDiscoveries(std::vector<TriedCandidate>& tried, double mostFalse) {
   // What the screening left behind counts as tested and found to be nothing.
@@ -90,7 +79,7 @@ Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size
     return rejected("takes " + digits(taken, 2) +
                     " noise floors² where a shift in time of less than half a step makes " +
                     digits(with.aligned.took, 2));
-  return {true, besideAFarthestShift(without, with, comparison, service_.thresholds().shift.inside),
+  return {true, besideAFarthestShift(comparison, without, with, service_.thresholds().shift),
           "takes " + percent(comparison.gain) +
               " of the held-out squared error (t = " + toText(std::round(10 * comparison.t) / 10) + ")"};
 }

@@ -88,14 +88,17 @@ class Asking {
   const SearchOptions& search_;
 };
 
-/// With the numbers alone; 0 where that leaves nothing, or free runs say nothing.
+/// With the numbers alone; 0 where that leaves nothing, or free runs say nothing. Beside physics that is missing any
+/// number takes a little: one that is asked before that is looked for has to take most.
 Asked aheadByNumbers(const FitProblem& asRead, const Sources& open, const SearchOptions& search) {
   FitService service(asRead, search);
   Calibration calibration = Calibrator(service).calibrate();
   Asked held{0, std::move(calibration.calibrated)};
   if (calibration.unstable || held.scored.mean() <= search.thresholds.screening.nothingLeft) return held;
   const Asked best = Asking(service.problem(), open, search).best(held);
-  return isMissed(held.scored, best.scored, search.thresholds.confirmation) ? best : held;
+  const SearchThresholds::Confirmation& limits = search.thresholds.confirmation;
+  const bool takesMost = excessOf(best.scored) <= (1 - limits.mostOfExcess) * excessOf(held.scored);
+  return takesMost && isMissed(held.scored, best.scored, limits) ? best : held;
 }
 
 }  // namespace

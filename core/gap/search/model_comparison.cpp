@@ -1,10 +1,19 @@
 #include "core/gap/search/model_comparison.h"
 
+#include <algorithm>
+
 namespace btr {
 
 bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits) {
   const PairedTest comparison = compare(without.blocks, with.blocks);
   return comparison.t >= limits.missedT && comparison.gain >= limits.leastGain;
+}
+
+PairedTest besideAFarthestShift(PairedTest comparison, const Scored& without, const Scored& with,
+                                const SearchThresholds::Shift& limits) {
+  if (without.aligned.ofMost >= limits.inside && with.aligned.ofMost < limits.inside)
+    comparison.pValue = std::min(comparison.pValue, compare(without.unshifted, with.blocks).pValue);
+  return comparison;
 }
 
 bool isWorse(const PairedTest& lost, const SearchThresholds::Rivals& limits) {

@@ -9,6 +9,11 @@ namespace btr {
 /// Whether a model without something predicts worse than the one with it.
 bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits);
 
+/// Their comparison, but by how likely chance does as well: a shift in time that is as far as it may be stands for
+/// something else. Where an effect does without it, what the shift hides is part of what the effect explains.
+PairedTest besideAFarthestShift(PairedTest comparison, const Scored& without, const Scored& with,
+                                const SearchThresholds::Shift& limits);
+
 /// Another model is no rival, by its comparison (without) with the final one (with).
 bool isWorse(const PairedTest& lost, const SearchThresholds::Rivals& limits);
 /// The same where the other may explain all but the noise already: what takes a few percent of the noise itself

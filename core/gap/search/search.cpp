@@ -25,9 +25,8 @@ namespace btr {
 namespace {
 
 /// A shift that takes something, and that is not as far as it may be, where it would stand for something else.
-bool isKnown(const Alignment& aligned, const FitService& service) {
-  const SearchThresholds::Shift& limits = service.thresholds().shift;
-  return aligned.took > limits.leastTaken && std::abs(aligned.shift_s) < limits.inside * mostShift_s(service.problem());
+bool isKnown(const Alignment& aligned, const SearchThresholds::Shift& limits) {
+  return aligned.took > limits.leastTaken && aligned.ofMost < limits.inside;
 }
 
 /// One search: holds its parts and calls one after another.
@@ -153,7 +152,7 @@ void StructureSearch::addEffects(int stage) {
       }
       // Beside what explains most, the shift in time that is no physics is known: numbers are fitted with it. (Without
       // it the shift would stand for what is missing, and calibration would do without the effect.)
-      if (isKnown(with.aligned, service_)) {
+      if (isKnown(with.aligned, service_.thresholds().shift)) {
         service_.setShift(with.aligned.shift_s);
         with = converged();
       }

@@ -1,0 +1,48 @@
+// Which of two models predicts better, where a shift in time of less than half a step may stand for what one has.
+#include "core/gap/search/model_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace btr {
+namespace {
+
+Scored left(const std::vector<double>& blocks, const std::vector<double>& unshifted, double shiftOfMost) {
+  Scored scored;
+  scored.blocks = blocks;
+  scored.unshifted = unshifted;
+  scored.aligned.ofMost = shiftOfMost;
+  return scored;
+}
+
+// A delay of two steps on counts of 4 mrad: half a step is taken for a shift, and what is left lies in two blocks.
+// Among 37 effects chance did as well, though the delay explains all of it without any shift.
+TEST(ModelComparison, WhatAShiftThatIsAsFarAsItMayBeHidesIsPartOfTheEffect) {
+  const SearchThresholds::Shift limits;
+  const std::vector<double> shifted{1.1, 1.0, 2.5, 1.2, 4.0, 1.0, 1.1, 0.9},
+      whole{2.1, 1.9, 5.1, 2.3, 9.0, 1.8, 2.2, 1.7}, noise{1.0, 1.0, 1.1, 0.9, 1.2, 1.0, 1.0, 0.9};
+  const Scored without = left(shifted, whole, 1);
+  const PairedTest comparison = compare(shifted, noise);
+  const PairedTest farthest = besideAFarthestShift(comparison, without, left(noise, noise, 0.2), limits);
+  EXPECT_EQ(farthest.pValue, compare(whole, noise).pValue);
+  EXPECT_LT(farthest.pValue, comparison.pValue);
+  EXPECT_EQ(farthest.gain, comparison.gain);
+  EXPECT_EQ(farthest.t, comparison.t);
+}
+
+// Another engine's integration is off by half a step as well: what needs the shift still, or a shift that is shorter
+// than that, stands for nothing else.
+TEST(ModelComparison, AShiftThatBothHaveOrThatIsShorterStandsForNothingElse) {
+  const SearchThresholds::Shift limits;
+  const std::vector<double> shifted{1.1, 1.0, 1.5, 1.2, 1.3, 1.0}, whole{9, 9, 9, 9, 9, 8},
+      less{1.0, 1.0, 1.2, 1.1, 1.1, 0.9};
+  const PairedTest comparison = compare(shifted, less);
+  EXPECT_EQ(besideAFarthestShift(comparison, left(shifted, whole, 1), left(less, whole, 1), limits).pValue,
+            comparison.pValue);
+  EXPECT_EQ(besideAFarthestShift(comparison, left(shifted, whole, 0.9), left(less, less, 0), limits).pValue,
+            comparison.pValue);
+}
+
+}  // namespace
+}  // namespace btr

@@ -85,11 +85,11 @@ Scene sceneOf(const Game& game, const ModelSet& models, const PluginHost& host) 
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const auto player = game.robots.find(game.scene.robots[i].name);
     const GameRobot plays = player == game.robots.end() ? GameRobot{} : player->second;
-    if (plays.simulator) try {
-        simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
-      } catch (const InputError& error) {
-        throw InputError("robots " + game.scene.robots[i].name + "/simulator: " + error.what());
-      }
+    try {
+      if (plays.simulator) simulateAlone(scene, i, game.scene, models, *plays.simulator, host);
+    } catch (const InputError& error) {
+      throw InputError("robots " + game.scene.robots[i].name + "/simulator: " + error.what());
+    }
     SceneRobot& robot = scene.robots[i];
     // What the scene has in motion is not put on its feet.
     if (!plays.posture || game.scene.robots[i].moves() || !robot.freeBase || !scene.floor) continue;

@@ -151,7 +151,7 @@ class UrdfReader {
       inertial.inertia_kg_m2 = inertiaOfIronBall(inertial.mass_kg);
       xml_.warn(*moments,
                 "link " + UrdfXml::shown(link.name) +
-                    ": its inertia is 0, which no body has: it gets that of an iron " + "ball of its mass, " +
+                    ": its inertia is 0, which no body has: it gets that of an iron ball of its mass, " +
                     brief(inertial.inertia_kg_m2(0, 0)) + " kg m2",
                 Loss::inertia, link.name);
     }

@@ -88,17 +88,19 @@ class Asking {
   const SearchOptions& search_;
 };
 
-/// With the numbers alone; 0 where that leaves nothing, or free runs say nothing. Beside physics that is missing any
-/// number takes a little: one that is asked before that is looked for has to take most.
+/// Beside physics that is missing any number takes a little: this one counts where it takes most.
+bool takesMost(const Scored& held, const Scored& ahead, const SearchThresholds::Confirmation& limits) {
+  return excessOf(ahead) <= (1 - limits.mostOfExcess) * excessOf(held) && isMissed(held, ahead, limits);
+}
+
+/// With the numbers alone; 0 where that leaves nothing, or free runs say nothing.
 Asked aheadByNumbers(const FitProblem& asRead, const Sources& open, const SearchOptions& search) {
   FitService service(asRead, search);
   Calibration calibration = Calibrator(service).calibrate();
   Asked held{0, std::move(calibration.calibrated)};
   if (calibration.unstable || held.scored.mean() <= search.thresholds.screening.nothingLeft) return held;
   const Asked best = Asking(service.problem(), open, search).best(held);
-  const SearchThresholds::Confirmation& limits = search.thresholds.confirmation;
-  const bool takesMost = excessOf(best.scored) <= (1 - limits.mostOfExcess) * excessOf(held.scored);
-  return takesMost && isMissed(held.scored, best.scored, limits) ? best : held;
+  return takesMost(held.scored, best.scored, search.thresholds.confirmation) ? best : held;
 }
 
 }  // namespace
@@ -106,7 +108,6 @@ Asked aheadByNumbers(const FitProblem& asRead, const Sources& open, const Search
 Explanation explainWithCommands(GapProblem& problem, const MadeReady& ready, const SearchOptions& search,
                                 bool learnRest, std::string& note) {
   constexpr int rounds = 2;
-  constexpr double muchBetter = 0.8;  // the squared error for which all is looked for once more
   const FitProblem asRead = ready(problem.recordings, -1);
   Sources open = openTrials(asRead);
   if (open.empty()) return explain(problem.recordings, ready, search, learnRest);
@@ -128,8 +129,7 @@ Explanation explainWithCommands(GapProblem& problem, const MadeReady& ready, con
     const Scored& found = made.found.final;
     if (made.found.effects.empty() && found.mean() <= search.thresholds.verdict.stillNoise) break;
     const Asked best = Asking(made.problem, open, search).best({ahead, found});
-    if (!isMissed(found, best.scored, search.thresholds.confirmation) || best.scored.mean() > muchBetter * found.mean())
-      break;
+    if (!takesMost(found, best.scored, search.thresholds.confirmation)) break;
     mark(best.ahead);
     Explanation second = explain(problem.recordings, ready, search, learnRest);
     if (second.found.final.mean() >= found.mean()) {

@@ -97,7 +97,8 @@ Round StructureSearch::nextRound(int stage) {
                              .stage = stage == 0 ? "" : ", effect " + std::to_string(stage + 1),
                              .from = from,
                              .to = from + 0.7 / most(),
-                             .lastChance = true});
+                             .lastChance = true,
+                             .beyondBest = stage == 0});
 }
 
 std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>& tried) const {

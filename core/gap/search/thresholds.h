@@ -163,6 +163,8 @@ struct SearchThresholds {
     std::size_t lastChance = 16;    ///< candidates then [time]
     std::size_t lastChanceConfirmed = 4;  ///< of those [time]
     double lastChancePromise = 0.01;      ///< least promise of those [hand]
+    double aboutAsMuch = 0.25;            ///< promise of those, of the best one's, where the best is found and leaves
+                                          ///< more than lastChanceExcess [case: a sensor's lag of 48 ms]
     double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
     double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]

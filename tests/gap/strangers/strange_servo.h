@@ -39,6 +39,7 @@ struct Plant {
   double strongerUp = 0;                  ///< the gain of positive errors is 1 + this, of negative ones 1 − this
   double drift = 0;                       ///< of the recorder's own sensor [rad/s]
   double sensorScale = 0;                 ///< share by which that says too much
+  double sensorLag = 0;                   ///< of the link's sensor, which closes the loop and is recorded [s]
   double bristle = 0, bristleWay = 0.05;  ///< dry friction that builds up over a way [N·m], [rad]
 };
 
@@ -46,8 +47,9 @@ struct Trial {
   std::vector<double> time, command, position;
 };
 
-/// States: motor angle and rate, link angle and rate, bend of the link's bristles over its most.
-using State = std::array<double, 5>;
+/// States: motor angle and rate, link angle and rate, bend of the link's bristles over its most, what a slow sensor
+/// says.
+using State = std::array<double, 6>;
 
 class Servo {
  public:
@@ -60,11 +62,11 @@ class Servo {
     std::normal_distribution<double> normal(0, noise);
     State x{};
     double integral = 0, followed = command(0), speed = 0, held = 0, nextLook = 0;
-    x[0] = x[2] = followed;
+    x[0] = x[2] = x[5] = followed;
     const long per = std::lround(sample / h), rows = std::lround(duration / sample);
     Trial trial;
     for (long row = -std::lround(plant_.before / sample); row < rows; ++row) {
-      const double at = plant_.recordedAtMotor ? x[0] : x[2];
+      const double at = plant_.recordedAtMotor ? x[0] : plant_.sensorLag > 0 ? x[5] : x[2];
       const double now = static_cast<double>(row) * sample;
       if (row >= 0) {
         trial.time.push_back(now);
@@ -116,7 +118,7 @@ class Servo {
   double torque(const State& x, double command, double added, double t) const {
     const std::size_t at = plant_.loopAtMotor ? 0 : 2;
     const double strength = 1 - plant_.lossPerSecond * plant_.lossTime * -std::expm1(-t / plant_.lossTime);
-    double error = command - x[at];
+    double error = command - (plant_.sensorLag > 0 ? x[5] : x[at]);
     if (std::abs(error) <= plant_.errorBand)
       error = 0;
     else if (!plant_.wholeBeyond)
@@ -138,9 +140,12 @@ class Servo {
     const double dryMotor = plant_.motorFriction * std::tanh(x[1] / smooth);
     const double dryLink = plant_.linkFriction * std::tanh(x[3] / smooth);
     const double stop = plant_.spring * (x[2] - std::clamp(x[2], -plant_.springFrom, plant_.springFrom));
-    return {x[1], (motor - gear - dryMotor) / plant_.motorInertia, x[3],
+    return {x[1],
+            (motor - gear - dryMotor) / plant_.motorInertia,
+            x[3],
             (gear - plant_.weight * std::sin(x[2]) - dryLink - stop - plant_.bristle * x[4]) / plant_.linkInertia,
-            (x[3] - std::abs(x[3]) * x[4]) / plant_.bristleWay};
+            (x[3] - std::abs(x[3]) * x[4]) / plant_.bristleWay,
+            plant_.sensorLag > 0 ? (x[2] - x[5]) / plant_.sensorLag : 0};
   }
   Plant plant_;
 };

@@ -261,6 +261,23 @@ TEST(StrangeServo, WhoseRecordersZeroCreepsIsSaidToHaveThatSensor) {
   EXPECT_EQ(found.at("closes_loop"), 0);
 }
 
+// Screening is linear, and a lag as long as this is not: others promise more and are fitted first.
+TEST(StrangeServo, WhoseSensorLagsIsSaidToThoughOthersPromiseMore) {
+  strange::Plant plant;
+  plant.d = 0.4;
+  plant.sensorLag = 0.09;
+  AnalysisOptions options;
+  options.effects = {"sensor_lag",           "gear_elasticity", "gravity_tilt",
+                     "gravity_compensation", "sensor_scale",    "rotor_inertia"};
+  options.thresholds.screening.fitted = 4;
+  options.maximumEffects = 1;
+  const GapProblem problem = strangeProblem(plant, 2, 4);
+  const GapReport report = analyse(problem, {test::host().effectFactory(), test::host().effects()}, options);
+  const Values found = sizesOf(report, "sensor_lag");
+  ASSERT_TRUE(found.contains("time_constant_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("time_constant_s"), plant.sensorLag, 0.03 * plant.sensorLag);
+}
+
 // Held weight does much the same, and was named.
 TEST(StrangeServo, WhoseRecordersGainIsWrongIsSaidToHaveThatSensor) {
   strange::Plant plant;

@@ -7,6 +7,21 @@
 
 namespace btr {
 
+std::vector<std::size_t> CandidateSearch::beyondBest(Screening& screening, const std::string& stage, double at) const {
+  const SearchThresholds& limits = service_.thresholds();
+  const std::vector<TriedCandidate>& tried = screening.tried;
+  const TriedCandidate* best = nullptr;
+  double promised = 0;
+  for (const TriedCandidate& each : tried) {
+    promised = std::max(promised, each.attempt.share);
+    if (each.passes && (!best || each.scored.mean() < best->scored.mean())) best = &each;
+  }
+  if (!best || excessOf(best->scored) <= limits.screening.lastChanceExcess) return {};
+  std::vector<std::size_t> better = screener_.fitRest(screening, limits.screening.aboutAsMuch * promised, stage, at);
+  std::erase_if(better, [&](std::size_t k) { return !costsLess(tried[k].fit, best->scored.fit); });
+  return better;
+}
+
 Round CandidateSearch::search(const Request& request) {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   const double from = request.from, to = request.to, part = (to - from) / 3;
@@ -39,7 +54,10 @@ Round CandidateSearch::search(const Request& request) {
   if (!confirmed) confirmed = confirm(next, to);
   // Before nothing is said to help, the others are fitted too.
   if (!confirmed && request.lastChance && excessOf(request.without) > limits.lastChanceExcess)
-    confirmed = confirm(screener_.fitRest(screening, request.stage, to), to);
+    confirmed = confirm(screener_.fitRest(screening, limits.lastChancePromise, request.stage, to), to);
+  else if (confirmed && request.beyondBest)
+    if (const auto better = beyondBest(screening, request.stage, to); !better.empty())
+      if (std::optional<Scored> again = confirm(better, to)) confirmed = std::move(again);
   if (confirmed) step.keep();
   for (TriedCandidate& each : tried)
     if (each.attempt.fitted)

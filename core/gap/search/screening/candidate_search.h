@@ -35,12 +35,16 @@ class CandidateSearch {
     double from = 0, to = 1;                                    ///< shares of the search
     double hopeless = std::numeric_limits<double>::infinity();  ///< cost of first fits from which none is fitted on
     bool lastChance = false;  ///< all that promise anything are fitted before none is said to help
+    bool beyondBest = false;  ///< where the best leaves much, others that promise about as much are fitted, too
     bool shortRace = false;   ///< few are screened in full, none is begun again in windows
   };
   /// Where something passes that needs a finer step, that step stays.
   Round search(const Request& request);
 
  private:
+  /// What was not fitted, promises about as much as the best, and fits better than what passes and leaves much.
+  std::vector<std::size_t> beyondBest(Screening& screening, const std::string& stage, double at) const;
+
   FitService& service_;
   Screener screener_;
   Confirmer& confirmer_;

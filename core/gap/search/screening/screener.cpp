@@ -226,13 +226,14 @@ void Screener::fitPromising(Screening& screening, std::size_t toFit, bool inWind
                             " times the squared error that " + tried[0].attempt.candidate.text() + " leaves";
 }
 
-std::vector<std::size_t> Screener::fitRest(Screening& screening, const std::string& stage, double at) const {
+std::vector<std::size_t> Screener::fitRest(Screening& screening, double leastPromise, const std::string& stage,
+                                           double at) const {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   const std::vector<TriedCandidate>& tried = screening.tried;
   std::vector<std::size_t> rest;
   for (std::size_t k = 0; k < tried.size() && rest.size() < limits.lastChance; ++k)
     if (!tried[k].attempt.fitted && !screening.promiseOf(tried[k]).starts.empty() &&
-        tried[k].attempt.share >= limits.lastChancePromise)
+        tried[k].attempt.share >= leastPromise)
       rest.push_back(k);
   for (const std::size_t start : {0, 1}) fitFrom(screening, rest, start, stage, at, at);
   fitKinds(screening, rest, rest, stage, at);

@@ -57,9 +57,10 @@ class Screener {
   /// from a second one, and with `inWindows` restarts in windows where much is left.
   void fitPromising(Screening& screening, std::size_t toFit, bool inWindows, const std::string& stage, double from,
                     double to) const;
-  /// Screening is linear: far from the truth it may rank low what is missing. Fits others that promise anything; which
-  /// of `tried` are best.
-  std::vector<std::size_t> fitRest(Screening& screening, const std::string& stage, double at) const;
+  /// Screening is linear: far from the truth it may rank low what is missing. Fits others that promise at least a share
+  /// of the squared error; which of `tried` are best.
+  std::vector<std::size_t> fitRest(Screening& screening, double leastPromise, const std::string& stage,
+                                   double at) const;
   /// Whether a candidate is a simpler form of one of those at the same place.
   bool isContained(const Screening& screening, std::size_t k, const std::vector<std::size_t>& in) const;
 

@@ -12,6 +12,7 @@
 #include "core/openr/builder/robot_longs.h"
 #include "core/openr/builder/source_cure.h"
 #include "core/openr/builder/stub_generator.h"
+#include "core/openr/file_text.h"
 #include "core/spec/error.h"
 
 namespace {
@@ -26,13 +27,6 @@ std::string content(const std::string& path) {
   return out.str();
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw btr::InputError(path + " cannot be written");
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,19 +34,19 @@ int main(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "";
     if (what == "stub" && argc == 4) {
       for (const auto& [name, text] : btr::openr::stubFiles(btr::openr::stubConfigFrom(content(argv[2]), argv[2])))
-        write(std::string(argv[3]) + "/" + name, text);
+        btr::openr::writeContent(std::string(argv[3]) + "/" + name, text);
       return 0;
     }
     if (what == "cure" && argc == 4) {
       const std::string source = content(argv[2]), cured = btr::openr::curedSource(source, content(argv[3]));
       if (cured == source) return nothingToDo;
-      write(argv[2], cured);
+      btr::openr::writeContent(argv[2], cured);
       return 0;
     }
     if (what == "longs" && argc == 4) {
       const std::string source = content(argv[2]), narrow = btr::openr::withRobotLongs(source, argv[3]);
       if (narrow == source) return nothingToDo;
-      write(argv[2], narrow);
+      btr::openr::writeContent(argv[2], narrow);
       return 0;
     }
     if (what == "headers" && argc == 3) {

@@ -50,12 +50,12 @@ TEST(GivenJoint, OneNumberForBothLimitsFixesIt) {
   const std::vector<double> atZero{0};
   const RobotModel turned = read("revolute", "<axis xyz='0 0 1'/><limit lower='0.3' upper='0.3'/>");
   EXPECT_EQ(Joint::Type::fixed, turned.joints[0].type);
-  const auto pose = forwardKinematics(turned, Eigen::Isometry3d::Identity(), atZero)[1];
+  const Eigen::Isometry3d pose = forwardKinematics(turned, Eigen::Isometry3d::Identity(), atZero)[1];
   EXPECT_LT((pose.linear() * Vector3d::UnitX() - Vector3d(std::cos(at), std::sin(at), 0)).norm(), 1e-15);
   expectSaid(turned, "both limits are 0.3 rad: it is fixed there");
 
   const RobotModel moved = read("prismatic", "<axis xyz='1 0 0'/><limit lower='0.3' upper='0.3'/><mimic joint='k'/>");
-  const auto place = forwardKinematics(moved, Eigen::Isometry3d::Identity(), atZero)[1].translation();
+  const Vector3d place = forwardKinematics(moved, Eigen::Isometry3d::Identity(), atZero)[1].translation();
   EXPECT_LT((place - Vector3d(at, 0, 1)).norm(), 1e-15);
 
   const RobotModel choreonoid = parseVrml(

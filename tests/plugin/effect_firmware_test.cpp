@@ -82,12 +82,12 @@ TEST(IntegralAction, AddsUpTheErrorUntilItsClampAndStaysWithinTheDrivesLimit) {
   Numbers state{0};
   const JointState joint{.position = 0.1, .command = 0.3, .limit = 0.9};
   double torque = 0;
-  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0, 0}, state, 1e-3);
   // The mean over the last step.
   EXPECT_NEAR(0.6 + 2 * 0.2 * 0.2495, torque, 1e-12);
-  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0}, state, 1e-3);
+  for (int i = 0; i < 250; ++i) torque = integral->driveTorque(0.6, joint, Numbers{2, 0.15, 0, 0}, state, 1e-3);
   EXPECT_NEAR(0.75, torque, 1e-12);
-  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15, 0}, state, 1e-3));
+  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.8, joint, Numbers{2, 0.15, 0, 0}, state, 1e-3));
 }
 
 TEST(IntegralAction, IsPartOfTheSumThatTheDriveLimits) {
@@ -95,19 +95,34 @@ TEST(IntegralAction, IsPartOfTheSumThatTheDriveLimits) {
   Numbers state{-0.15};
   // The law asks for 1.5 N·m of 0.9 N·m: with −0.15 N·m more it still does.
   const JointState joint{.position = 0.1, .command = 0.1, .limit = 0.9, .beyond = 0.6};
-  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.9, joint, Numbers{2, 0.15, 0}, state, 1e-3));
+  EXPECT_DOUBLE_EQ(0.9, integral->driveTorque(0.9, joint, Numbers{2, 0.15, 0, 0}, state, 1e-3));
   const JointState nearer{.position = 0.1, .command = 0.1, .limit = 0.9, .beyond = 0.1};
-  EXPECT_DOUBLE_EQ(0.85, integral->driveTorque(0.9, nearer, Numbers{2, 0.15, 0}, state, 1e-3));
+  EXPECT_DOUBLE_EQ(0.85, integral->driveTorque(0.9, nearer, Numbers{2, 0.15, 0, 0}, state, 1e-3));
+}
+
+TEST(IntegralAction, ThatWaitsAddsUpNothingWhileTheDriveIsAtItsLimit) {
+  const auto integral = effect("integral_action");
+  const Numbers waits{2, 100, 0, 1};
+  Numbers state{0.1};
+  JointState joint{.position = 0.1, .command = 0.3, .drive = 0.9, .limit = 0.9};
+  EXPECT_EQ(0.1, integral->servoTerm(joint, waits, state, 1e-3));
+  EXPECT_EQ(0.1, state[0]);
+  joint.command = -0.1;  // an error that leads back from the limit counts
+  integral->servoTerm(joint, waits, state, 1e-3);
+  EXPECT_DOUBLE_EQ(0.1 - 2 * 0.2 * 1e-3, state[0]);
+  joint = {.position = 0.1, .command = 0.3, .drive = 0.8, .limit = 0.9};
+  integral->servoTerm(joint, waits, state, 1e-3);
+  EXPECT_DOUBLE_EQ(0.1, state[0]);
 }
 
 TEST(IntegralAction, HoldsTheWeightFromTheStartWhereItHasSettled) {
   const auto integral = effect("integral_action");
   Numbers state{0};
-  integral->rest({.load = 0.1}, Numbers{2, 0.15, 0}, state);
+  integral->rest({.load = 0.1}, Numbers{2, 0.15, 0, 0}, state);
   EXPECT_EQ(0, state[0]);
-  integral->rest({.load = 0.1}, Numbers{2, 0.15, 1}, state);
+  integral->rest({.load = 0.1}, Numbers{2, 0.15, 1, 0}, state);
   EXPECT_EQ(-0.1, state[0]);
-  integral->rest({.load = -0.4}, Numbers{2, 0.15, 1}, state);
+  integral->rest({.load = -0.4}, Numbers{2, 0.15, 1, 0}, state);
   EXPECT_EQ(0.15, state[0]);
 }
 
@@ -138,7 +153,7 @@ TEST(RateFeedforward, IsPartOfTheSumThatTheDriveLimits) {
 TEST(IntegralAction, LeavesATorqueCommandAlone) {
   Numbers state{0};
   EXPECT_EQ(0.6, effect("integral_action")
-                     ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15, 0}, state, 1e-3));
+                     ->driveTorque(0.6, {.command = 1, .followsPosition = false}, Numbers{2, 0.15, 0, 0}, state, 1e-3));
 }
 
 TEST(ErrorDeadBand, LetsSmallErrorsBe) {
@@ -211,7 +226,7 @@ TEST(SampledLoop, SeesACommandThatJumpsAtItsSample) {
 // sum on the way is above the limit.
 TEST(ServoTerms, OfSeveralEffectsAreOneSumThatIsLimitedOnce) {
   constexpr double step = 1e-3, filter = 2e-3, gain = 1.2 * step / (1 - 0.60653065971263342);
-  const SceneEffect integral{effect("integral_action"), "integral_action", "rig.hinge", {1000, 0.3, 0}};
+  const SceneEffect integral{effect("integral_action"), "integral_action", "rig.hinge", {1000, 0.3, 0, 0}};
   const SceneEffect feedforward{effect("rate_feedforward"), "rate_feedforward", "rig.hinge", {gain, filter}};
   const Drive drive{.p = 5, .d = 0, .maxTorque = 0.9};
   JointEffects effects;

@@ -36,14 +36,21 @@ TEST(ForceOffset, IsConstant) {
 
 TEST(PositionOffset, IsMeasuredAndSettlesTheJointBelowItsCommand) {
   const auto offset = effect("position_offset");
-  EXPECT_EQ(1.25, offset->measured(1, {}, Numbers{0.25}, {}, 0.008));
-  const CommandAround followed = offset->command({1, 3}, {}, Numbers{0.25}, {}, 0.001);
+  EXPECT_EQ(1.25, offset->measured(1, {}, Numbers{0.25, 1}, {}, 0.008));
+  const CommandAround followed = offset->command({1, 3}, {}, Numbers{0.25, 1}, {}, 0.001);
   EXPECT_EQ(0.75, followed.before);
   EXPECT_EQ(2.75, followed.after);
 }
 
+TEST(PositionOffset, OfTheRecordersOwnSensorIsMeasuredOnly) {
+  const auto offset = effect("position_offset");
+  EXPECT_EQ(1.25, offset->measured(1, {}, Numbers{0.25, 0}, {}, 0.008));
+  EXPECT_EQ(2, offset->command({1, 3}, {}, Numbers{0.25, 0}, {}, 0.001).mean());
+}
+
 TEST(PositionOffset, LeavesATorqueCommandAlone) {
-  EXPECT_EQ(1, effect("position_offset")->command({1, 1}, {.followsPosition = false}, Numbers{0.25}, {}, 0.001).mean());
+  EXPECT_EQ(1,
+            effect("position_offset")->command({1, 1}, {.followsPosition = false}, Numbers{0.25, 1}, {}, 0.001).mean());
 }
 
 /// What a delay makes of a ramp that rises by 1 every 8 ms from t = 0, on both sides of each step's instant.

@@ -128,12 +128,25 @@ TEST(SensorLag, FollowsARampItsTimeConstantLate) {
     const JointState joint{.time = time, .position = slope * time};
     // y = slope·(t − T·(1 − e^(−t/T))), and the command moves by what the sensor is behind.
     const double behind = slope * late * (1 - std::exp(-time / late));
-    EXPECT_NEAR(1 + behind, lag->command({1, 1}, joint, Numbers{late}, state, h).mean(), 1e-12);
+    EXPECT_NEAR(1 + behind, lag->command({1, 1}, joint, Numbers{late, 1}, state, h).mean(), 1e-12);
     JointState next = joint;
     next.position += slope * h;
     EXPECT_NEAR(next.position - slope * late * (1 - std::exp(-(time + h) / late)),
-                lag->measured(next.position, next, Numbers{late}, state, 0.008), 1e-12);
+                lag->measured(next.position, next, Numbers{late, 1}, state, 0.008), 1e-12);
   }
+}
+
+TEST(SensorLag, OfTheRecordersOwnSensorLeavesTheServoAlone) {
+  const auto lag = effect("sensor_lag");
+  Numbers state(4);
+  const double h = 0.001, late = 0.02, slope = 3;
+  for (int i = 0; i <= 400; ++i) {
+    const JointState joint{.time = i * h, .position = slope * i * h};
+    EXPECT_EQ(1, lag->command({1, 1}, joint, Numbers{late, 0}, state, h).mean());
+  }
+  const JointState next{.time = 401 * h, .position = slope * 401 * h};
+  EXPECT_NEAR(next.position - slope * late * (1 - std::exp(-next.time / late)),
+              lag->measured(next.position, next, Numbers{late, 0}, state, 0.008), 1e-12);
 }
 
 TEST(RotorInertia, SlowsAWheelByItsInertia) {

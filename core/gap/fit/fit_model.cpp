@@ -30,9 +30,9 @@ std::string FitModel::text() const {
   return text;
 }
 
-std::vector<FitParameter> fitParameters(const Effect& effect, int index) {
+std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index) {
   std::vector<FitParameter> list;
-  for (const Parameter& p : effect.parameters()) {
+  for (const Parameter& p : declared) {
     if (p.integer || !p.choices.empty()) continue;
     FitParameter fit{p.name,    p.unit,    index, p.neutral.value_or(p.byDefault),
                      p.minimum, p.maximum, 1,     p.neutral.has_value()};
@@ -49,13 +49,14 @@ FitModel FitModel::with(const FitProblem& problem, const PlacedEffect& effect) c
   const auto numbers = resolve(plugin->parameters(), effect.parameters, "effect " + effect.effect);
   const int index = static_cast<int>(model.effects.size());
   model.effects.push_back(effect);
-  const std::vector<Parameter> declared = plugin->parameters();
-  for (std::size_t i = 0; i < declared.size(); ++i) model.effects.back().parameters[declared[i].name] = numbers[i];
-  for (FitParameter& parameter : fitParameters(*plugin, index)) {
-    if (const Parameter* known = find(declared, parameter.name)) {
+  std::vector<Parameter> declared = plugin->parameters();
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    model.effects.back().parameters[declared[i].name] = numbers[i];
+    declared[i] = inProportion(problem, effect.at, declared[i]);
+  }
+  for (FitParameter& parameter : fitParameters(declared, index)) {
+    if (const Parameter* known = find(declared, parameter.name))
       parameter.unit = unitAt(problem.scene, problem.models, effect.at, *known);
-      parameter.scale *= shareOfUsual(problem, effect.at, *known);
-    }
     model.parameters.push_back(parameter);
     model.values.push_back(model.effects.back().parameters.at(parameter.name));
   }

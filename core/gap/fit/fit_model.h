@@ -38,7 +38,7 @@ struct FitModel {
 FitModel givenModel(const FitProblem& problem);
 
 /// What an effect's parameters are for a fit: those that are not whole numbers, with their bounds and typical sizes.
-std::vector<FitParameter> fitParameters(const Effect& effect, int index);
+std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index);
 
 /// Scenes of one model by their numbers: making one costs more than simulating a short segment.
 class SceneCache {

@@ -55,14 +55,22 @@ std::map<std::string, JointPace> pacesOf(const FitProblem& problem) {
   return paces;
 }
 
-double shareOfUsual(const FitProblem& problem, const std::string& at, const Parameter& parameter) {
-  constexpr double outOfProportion = 10, typical = 0.1;  // of what the drive gives [hand]
+Parameter inProportion(const FitProblem& problem, const std::string& at, Parameter parameter) {
+  constexpr double outOfProportion = 10, typical = 0.1, weaker = 0.8;  // of what the drive gives [hand]
   const auto pace = problem.paces.find(at);
-  const auto power = powerOfRate(parameter.unit);
-  if (pace == problem.paces.end() || !power || !parameter.neutral) return 1;
-  const double usual = std::abs(parameter.byDefault - *parameter.neutral) * std::pow(pace->second.rate, *power);
+  if (pace == problem.paces.end() || !parameter.neutral) return parameter;
   const double torque = pace->second.torque;
-  return torque > 0 && usual > outOfProportion * torque ? typical * torque / usual : 1;
+  if (!(torque > 0)) return parameter;
+  if (parameter.unit == "1/(N·m)" && weaker * torque * parameter.maximum > 1) {
+    parameter.minimum = std::max(parameter.minimum, 1 / torque);
+    parameter.neutral = parameter.minimum;
+    if (std::isfinite(torque)) parameter.byDefault = 1 / (weaker * torque);
+  } else if (const auto power = powerOfRate(parameter.unit)) {
+    const double size = parameter.byDefault - *parameter.neutral;
+    const double usual = std::abs(size) * std::pow(pace->second.rate, *power);
+    if (usual > outOfProportion * torque) parameter.byDefault = *parameter.neutral + size * typical * torque / usual;
+  }
+  return parameter;
 }
 
 }  // namespace btr

@@ -20,8 +20,9 @@ struct JointPace {
 /// By "ROBOT.JOINT", of what is measured; of recordings that are bound and have noise floors.
 std::map<std::string, JointPace> pacesOf(const FitProblem& problem);
 
-/// The share of its usual size in which an effect's parameter is tried at a place: 1 but where that size alone would be
-/// ten times what the drive gives at that pace, then what comes to a tenth of it.
-double shareOfUsual(const FitProblem& problem, const std::string& at, const Parameter& parameter);
+/// An effect's parameter as it is tried at a place: in its usual size, but where that size alone would be ten times
+/// what the drive gives at that pace, in one that comes to a tenth of it. One over a torque is a limit: it begins where
+/// it changes nothing, at the drive's own, and is tried a fifth below that.
+Parameter inProportion(const FitProblem& problem, const std::string& at, Parameter parameter);
 
 }  // namespace btr

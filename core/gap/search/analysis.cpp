@@ -48,7 +48,7 @@ bool isAtBound(double value, const FitParameter& p) {
 
 /// Of an effect that was fitted and rejected: no interval was asked for.
 std::vector<GapReport::Number> numbersOf(const FitProblem& problem, const Attempt& attempt) {
-  const std::vector<FitParameter> fitted = fitParameters(*problem.library.make(attempt.candidate.effect), 0);
+  const std::vector<FitParameter> fitted = fitParameters(attempt.candidate.declared, 0);
   std::vector<GapReport::Number> numbers;
   for (const Parameter& p : attempt.candidate.declared) {
     const double value = attempt.values.at(p.name);
@@ -191,8 +191,8 @@ void addStepErrors(GapReport& report, const FitProblem& problem, const SearchRes
   addErrors(report, problem, difference, &GapReport::Channel::stepError, &GapReport::Channel::stepError);
   for (const GapReport::Channel& channel : report.channels)
     if (channel.stepError > channel.noiseFloor)
-      report.notes.push_back(channel.name + ": the integration's own error, about " + toText(channel.stepError) + " " +
-                             channel.unit + " at a step of " + toText(problem.scene.step_s) +
+      report.notes.push_back(channel.name + ": the integration's own error, about " + digits(channel.stepError, 2) +
+                             " " + channel.unit + " at a step of " + toText(problem.scene.step_s) +
                              " s, is not below the noise floor; a smaller step_s would make the analysis sharper");
 }
 

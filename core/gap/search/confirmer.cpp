@@ -103,10 +103,11 @@ std::vector<Fit> Confirmer::fitted(std::vector<TriedCandidate>& tried, std::vect
   return fits;
 }
 
-void Confirmer::restart(Fit& fit, double least, const std::string& what, double at) const {
+void Confirmer::restart(Fit& fit, double least, double worthTaking, const std::string& what, double at) const {
   const SearchThresholds::Confirmation& limits = service_.thresholds().confirmation;
   // Beside little that is left all are near the best; where a fit takes long, only that one is looked after.
   double left = service_.leftBy(fit);
+  if (fit.cost > least && left > worthTaking) return;
   const SearchThresholds::ShortRace& race = service_.thresholds().shortRace;
   const double usual = race.isRun(left) ? race.worthMore : limits.worthMore;
   const double worth = service_.problem().walks ? limits.worthMoreOfWalks : usual;
@@ -143,7 +144,10 @@ std::optional<Scored> Confirmer::confirm(std::vector<TriedCandidate>& tried, con
     (isClose ? close : all).push_back(which[i]);
     (isClose ? closeFits : farFits).push_back(fits[i]);
   }
-  for (Fit& fit : closeFits) restart(fit, least, what, half);
+  const double leftWithout = service_.leftBy(without.fit);
+  const double leftByBest = service_.leftBy(*std::ranges::min_element(closeFits, costsLess));
+  const double worthTaking = leftWithout - limits.worthShare * (leftWithout - leftByBest);
+  for (Fit& fit : closeFits) restart(fit, least, worthTaking, what, half);
   auto scored = service_.tryScores(farFits, what, half, half);
   StepGuard step = service_.guardStep();
   if (judged_s < service_.step_s()) {

@@ -52,8 +52,9 @@ class Confirmer {
   /// Fits to the end; those that the scene refuses leave `which`.
   std::vector<Fit> fitted(std::vector<TriedCandidate>& tried, std::vector<std::size_t>& which, const std::string& what,
                           double from, double to) const;
-  /// Of a fit near the best, whose cost is `least`: restarts where they may find more.
-  void restart(Fit& fit, double least, const std::string& what, double at) const;
+  /// Of a fit near the best, whose cost is `least`: restarts where they may find more. What leaves more than
+  /// `worthTaking` [noise floors²] is left as it is.
+  void restart(Fit& fit, double least, double worthTaking, const std::string& what, double at) const;
   /// Whether the fit's last effect could as well be much larger, though not absent: friction that holds a joint still
   /// is known from below only, and has no standard error.
   bool isAtLeast(const Fit& fit) const;

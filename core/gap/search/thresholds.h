@@ -189,6 +189,7 @@ struct SearchThresholds {
     int iterations = 15;          ///< of the last fits [time]
     double worthMore = 1.5;       ///< by cost, of the best: restarts are tried; where feet walk, [time]
     double worthMoreOfWalks = 1;  ///< only of the best itself [time]
+    double worthShare = 1.0 / 3;  ///< and of what takes so much of what the best takes [time]
     double leastForFarSizes = 1.3, mostForFarSizes = 10;  ///< error: between them far sizes are tried; with more, a
                                                           ///< better start does not help [hand]
     double leastForValley = 1.03, mostForValley = 4;  ///< error: between them valleys are followed; with less nothing

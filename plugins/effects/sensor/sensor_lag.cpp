@@ -1,8 +1,9 @@
 /// The position sensor is slow (a filtered potentiometer, firmware that averages): it says y instead of q,
 ///   T·ẏ = q − y      y = q at the start; T in s
-/// exact for a position that moves evenly within a step. The log has y, and the servo's law acts on it: c − y in place
-/// of c − q, by moving its command (its damping keeps the true rate). Neutral: T = 0. State: whether it has begun, y,
-/// the q that y belongs to, the step.
+/// exact for a position that moves evenly within a step. The log has y. With `closes_loop` 1 the servo's law acts on
+/// it, too: c − y in place of c − q, by moving its command (its damping keeps the true rate); with 0 the sensor is the
+/// recorder's own (a filtered log), and the servo has another. Neutral: T = 0. State: whether it has begun, y, the q
+/// that y belongs to, the step.
 #include <cmath>
 #include <memory>
 
@@ -12,11 +13,14 @@ namespace {
 
 class SensorLag final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}};
+    btr::Parameter loop = btr::closesLoopParameter();
+    loop.byDefault = 1;
+    return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}, loop};
   }
   btr::EffectLaw law() const override {
-    return {btr::EffectLaw::Acts::sensor, "a slow position sensor", "T·ẏ = q − y, and the servo acts on c − y",
-            "T: time_constant_s", "first-order lag, a definition"};
+    return {btr::EffectLaw::Acts::sensor, "a slow position sensor",
+            "T·ẏ = q − y, and with closes_loop 1 the servo acts on c − y", "T: time_constant_s",
+            "first-order lag, a definition"};
   }
   Place place() const override { return Place::joint; }
   Stage stage() const override { return Stage::sensor; }
@@ -30,7 +34,7 @@ class SensorLag final : public btr::Effect {
     state[1] = lagged;
     state[2] = joint.position;
     state[3] = dt;
-    if (!joint.followsPosition) return command;
+    if (!joint.followsPosition || values[1] == 0) return command;
     const double behind = joint.position - lagged;
     return {command.before + behind, command.after + behind};
   }

@@ -46,9 +46,13 @@ TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
   const FitProblem ready = makeFitProblem(problem, {turning}, library());
   const auto parameter = [](const char* effect) { return library().make(effect)->parameters()[0]; };
   const Parameter air = parameter("fluid_drag"), dry = parameter("coulomb_friction");
-  EXPECT_NEAR(shareOfUsual(ready, "rig.hinge", air) * air.byDefault * 100 * 100, 0.03, 0.001);
-  EXPECT_EQ(shareOfUsual(ready, "rig.hinge", dry), 1) << "0.03 N·m of 0.3";
-  EXPECT_EQ(shareOfUsual(ready, "world", air), 1);
+  EXPECT_NEAR(inProportion(ready, "rig.hinge", air).byDefault * 100 * 100, 0.03, 0.001);
+  EXPECT_EQ(inProportion(ready, "rig.hinge", dry).byDefault, dry.byDefault) << "0.03 N·m of 0.3";
+  EXPECT_EQ(inProportion(ready, "world", air).byDefault, air.byDefault);
+  const Parameter stall = inProportion(ready, "rig.hinge", parameter("torque_speed_limit"));
+  EXPECT_DOUBLE_EQ(*stall.neutral, 1 / 0.3) << "a higher stall torque is cut off by the drive's own limit";
+  EXPECT_DOUBLE_EQ(stall.minimum, 1 / 0.3);
+  EXPECT_DOUBLE_EQ(stall.byDefault, 1 / 0.24);
 }
 
 }  // namespace

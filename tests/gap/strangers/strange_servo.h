@@ -39,6 +39,9 @@ struct Plant {
   double strongerUp = 0;                  ///< the gain of positive errors is 1 + this, of negative ones 1 − this
   double drift = 0;                       ///< of the recorder's own sensor [rad/s]
   double sensorScale = 0;                 ///< share by which that says too much
+  double recorderOffset = 0;              ///< what that says at position 0 [rad]
+  double recorderLag = 0;                 ///< time constant of its filter [s]
+  bool integralWaits = false;             ///< adds up nothing while the torque is at its limit
   double sensorLag = 0;                   ///< of the link's sensor, which closes the loop and is recorded [s]
   double bristle = 0, bristleWay = 0.05;  ///< dry friction that builds up over a way [N·m], [rad]
 };
@@ -61,7 +64,7 @@ class Servo {
     constexpr double h = 2e-5;
     std::normal_distribution<double> normal(0, noise);
     State x{};
-    double integral = 0, followed = command(0), speed = 0, held = 0, nextLook = 0;
+    double integral = 0, followed = command(0), speed = 0, held = 0, nextLook = 0, filtered = followed;
     x[0] = x[2] = x[5] = followed;
     const long per = std::lround(sample / h), rows = std::lround(duration / sample);
     Trial trial;
@@ -71,7 +74,9 @@ class Servo {
       if (row >= 0) {
         trial.time.push_back(now);
         trial.command.push_back(command(now));
-        trial.position.push_back((1 + plant_.sensorScale) * at + plant_.drift * now + normal(random));
+        const double said = plant_.recorderLag > 0 ? filtered : at;
+        trial.position.push_back((1 + plant_.sensorScale) * said + plant_.recorderOffset + plant_.drift * now +
+                                 normal(random));
       }
       for (long k = 0; k < per; ++k) {
         const double t = std::max(0.0, now + static_cast<double>(k) * h);
@@ -84,8 +89,10 @@ class Servo {
           followed += std::clamp(wanted - followed, -plant_.profileSpeed * h, plant_.profileSpeed * h);
         else
           followed = wanted;
-        integral = std::clamp(integral + plant_.integral * (followed - (plant_.loopAtMotor ? x[0] : x[2])) * h,
-                              -plant_.integralClamp, plant_.integralClamp);
+        const double error = followed - (plant_.loopAtMotor ? x[0] : x[2]);
+        const double asked = plant_.p * error - plant_.d * (plant_.loopAtMotor ? x[1] : x[3]) + integral;
+        if (!plant_.integralWaits || std::abs(asked) < plant_.maxTorque || asked * error < 0)
+          integral = std::clamp(integral + plant_.integral * error * h, -plant_.integralClamp, plant_.integralClamp);
         const double rate = t > 0 && plant_.errorRate > 0 ? (wanted - command(std::max(0.0, now - 0.01))) / 0.01 : 0;
         const double added = integral + plant_.errorRate * rate;
         const auto law = [&](const State& s) { return torque(s, followed, added, t); };
@@ -96,6 +103,7 @@ class Servo {
         const auto slope = [&](const State& s) { return change(s, plant_.loopPeriod > 0 ? held : law(s)); };
         const State a = slope(x), b = slope(plus(x, a, h / 2)), c = slope(plus(x, b, h / 2)), e = slope(plus(x, c, h));
         for (std::size_t i = 0; i < x.size(); ++i) x[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + e[i]);
+        if (plant_.recorderLag > 0) filtered += h / plant_.recorderLag * (x[2] - filtered);
       }
     }
     return trial;

@@ -148,6 +148,33 @@ TEST(StrangeServo, WhoseIntegralHasSettledBeforeIsSaidToHaveIt) {
   EXPECT_EQ(found.at("settled"), 1);
 }
 
+// Not wound up: while the torque is at its limit nothing is added up. A limited sum alone left 24 noise floors, under
+// three wrong names.
+TEST(StrangeServo, WhoseIntegralWaitsAtTheLimitIsSaidTo) {
+  strange::Plant plant;
+  plant.maxTorque = 1.6;
+  plant.integral = 14;
+  plant.integralClamp = 1e3;
+  plant.integralWaits = true;
+  const GapReport report = reportOn(
+      plant, 31, {"integral_action", "gravity_compensation", "sensor_scale", "voltage_sag"}, {.maxTorque = 1.6});
+  const Values found = sizesOf(report, "integral_action");
+  ASSERT_TRUE(found.contains("gain_nm_rad_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("gain_nm_rad_s"), plant.integral, 0.03 * plant.integral);
+  EXPECT_EQ(found.at("waits"), 1);
+}
+
+// Numbers below what the owner believes change nothing, and a fit that came there stayed: a payload was named.
+TEST(StrangeServo, WhoseLimitIsLowerThanItsOwnerBelievesIsSaidTo) {
+  strange::Plant plant;
+  plant.maxTorque = 1.4;
+  const GapReport report =
+      reportOn(plant, 32, {"torque_speed_limit", "voltage_sag", "asymmetric_friction"}, {.maxTorque = 2});
+  const Values found = sizesOf(report, "torque_speed_limit");
+  ASSERT_TRUE(found.contains("inverse_stall_torque_1_nm")) << toPlainText(report);
+  EXPECT_NEAR(1 / found.at("inverse_stall_torque_1_nm"), plant.maxTorque, 0.02 * plant.maxTorque);
+}
+
 TEST(StrangeServo, WhoseSupplyFallsKeepsItsDamping) {
   strange::Plant plant;
   plant.p = 8;
@@ -287,6 +314,29 @@ TEST(StrangeServo, WhoseRecordersGainIsWrongIsSaidToHaveThatSensor) {
   ASSERT_TRUE(found.contains("excess")) << toPlainText(report);
   EXPECT_NEAR(found.at("excess"), plant.sensorScale, 1e-3);
   EXPECT_TRUE(sizesOf(report, "gravity_compensation").empty()) << toPlainText(report);
+}
+
+// A camera whose zero is not the joint's; the servo has a sensor of its own.
+TEST(StrangeServo, WhoseRecordersZeroIsOffIsSaidToHaveThatSensor) {
+  strange::Plant plant;
+  plant.recorderOffset = 0.04;
+  const GapReport report =
+      reportOn(plant, 33, {"position_offset", "sensor_eccentricity", "gravity_tilt", "force_offset", "joint_spring"});
+  const Values found = sizesOf(report, "position_offset");
+  ASSERT_TRUE(found.contains("offset_rad")) << toPlainText(report);
+  EXPECT_NEAR(found.at("offset_rad"), plant.recorderOffset, 5e-4);
+  EXPECT_EQ(found.at("closes_loop"), 0);
+}
+
+// A log that was filtered: a delay with a rotor and play was named.
+TEST(StrangeServo, WhoseLogIsFilteredIsSaidToHaveThatSensor) {
+  strange::Plant plant;
+  plant.recorderLag = 0.016;
+  const GapReport report = reportOn(plant, 34, {"sensor_lag", "command_delay", "rotor_inertia", "gear_elasticity"});
+  const Values found = sizesOf(report, "sensor_lag");
+  ASSERT_TRUE(found.contains("time_constant_s")) << toPlainText(report);
+  EXPECT_NEAR(found.at("time_constant_s"), plant.recorderLag, 5e-4);
+  EXPECT_EQ(found.at("closes_loop"), 0);
 }
 
 TEST(StrangeServo, WhoseFrictionBuildsUpOverAWayIsSaidToHaveThatOne) {

@@ -152,9 +152,7 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
                                     const SearchThresholds::Candidates& thresholds) {
   const auto made = problem.library.make(effect);
   std::vector<Parameter> declared = made->parameters();
-  for (Parameter& p : declared)
-    if (const double share = shareOfUsual(problem, at, p); share < 1)
-      p.byDefault = *p.neutral + share * (p.byDefault - *p.neutral);
+  for (Parameter& p : declared) p = inProportion(problem, at, p);
   const std::string periods = made->periodsPerTurn();
   if (periods.empty()) return declared;
   const double travel = travelOf(problem, at);

@@ -23,19 +23,24 @@ says() { grep -qF -- "$2" "$folder/$1" || { fail "expected \"$2\" in $1:"; sed '
 # one_line: exactly one line of error
 one_line() { [ "$(wc -l < "$folder/err")" = 1 ] || { fail "more than one line of error:"; sed 's/^/    /' "$folder/err"; }; }
 
-# kick_of_a_person FILE: a short kick that a person measures; lines of Python on standard input may change `spec`
-kick_of_a_person() {
+# short_kick FILE: the shipped short kick, found from anywhere; lines of Python on standard input may change `spec`
+short_kick() {
   python3 -c '
 import json, os, sys
 root, out = sys.argv[1:]
 source = os.path.join(root, "resources/experiments/kick-short.json")
 spec = json.load(open(source))
 spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+exec(sys.stdin.read())
+json.dump(spec, open(out, "w"))' "$root" "$1"
+}
+# kick_of_a_person FILE: two generations of four, which a person measures; lines of Python as above
+kick_of_a_person() {
+  { cat << 'PY'; cat; } | short_kick "$1"
 spec["reality"] = "person"
 spec["learner"]["settings"]["population"] = 4
 spec["stages"].update(first_generations=1, next_generations=1, total_generations=2, measured_individuals=2)
-exec(sys.stdin.read())
-json.dump(spec, open(out, "w"))' "$root" "$1"
+PY
 }
 
 finish() {

@@ -10,18 +10,12 @@ ranks() { local count=$1; shift; mpirun -n "$count" --oversubscribe --bind-to no
 
 # small FILE GENERATIONS: a short kick with a stand-in reality, measured in the middle
 small() {
-  python3 -c '
-import json, os, sys
-root, out, generations = sys.argv[1], sys.argv[2], int(sys.argv[3])
-source = os.path.join(root, "resources/experiments/kick-short.json")
-spec = json.load(open(source))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+  short_kick "$1" << PY
 spec["learner"]["settings"]["population"] = 8
 spec["adaptation"]["learner"]["settings"]["population"] = 4
 spec["adaptation"]["settings"]["generations"] = 2
-spec["stages"].update(first_generations=generations, next_generations=generations,
-                      total_generations=2 * generations, measured_individuals=2)
-json.dump(spec, open(out, "w"))' "$root" "$1" "$2"
+spec["stages"].update(first_generations=$2, next_generations=$2, total_generations=2 * $2, measured_individuals=2)
+PY
 }
 # below PROCESS: all that descend from it
 below() { for child in $(pgrep -P "$1"); do echo "$child"; below "$child"; done; }

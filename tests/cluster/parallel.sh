@@ -48,19 +48,15 @@ CONF
 export PARALLEL_SSH="ssh -F $at/config" PARALLEL_HOME=$folder/parallel
 mkdir "$PARALLEL_HOME"
 
-python3 -c '
-import json, os, sys
-root, folder = sys.argv[1:]
-source = os.path.join(root, "resources/experiments/kick-short.json")
-spec = json.load(open(source))
-spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
+short_kick "$folder/kick.json" << 'PY'
 spec["learner"]["settings"]["population"] = 6
 spec["adaptation"]["learner"]["settings"]["population"] = 4
 spec["adaptation"]["settings"]["generations"] = 1
 spec["stages"].update(first_generations=2, next_generations=1, total_generations=2, measured_individuals=2)
-json.dump(spec, open(folder + "/kick.json", "w"))
-json.dump({"format": "uchilsim-comparison-1", "name": "c", "seeds": [1, 2, 3],
-           "arms": [{"name": "a", "experiment": "kick.json"}]}, open(folder + "/c.json", "w"))' "$root" "$folder"
+PY
+cat > "$folder/c.json" << 'JSON'
+{"format": "uchilsim-comparison-1", "name": "c", "seeds": [1, 2, 3], "arms": [{"name": "a", "experiment": "kick.json"}]}
+JSON
 expect 0 "one process" "$btr" compare "$folder/c.json" --db "$folder/one.db" --jobs 1 --quiet --csv "$folder/one.csv"
 printf 'lab1\n# the next one is switched off\nlab3\nlab2\n' > "$folder/hosts"
 expect 0 "three machines, one of them not there" "$btr" compare "$folder/c.json" --db "$folder/all.db" --ssh "$folder/job" --hosts "$folder/hosts"

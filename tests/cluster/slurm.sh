@@ -8,25 +8,20 @@ trap 'slurm_end; umount "$folder/tiny" 2> /dev/null; rm -rf "$folder"' EXIT
 
 # comparison FILE GENERATIONS SEEDS: two arms of short kicks
 comparison() {
-  python3 -c '
-import json, os, sys
-root, folder, out, generations, seeds = *sys.argv[1:4], int(sys.argv[4]), json.loads(sys.argv[5])
-source = os.path.join(root, "resources/experiments/kick-short.json")
-arms = []
-for name, mutation in (("little", 0.015), ("much", 0.2)):
-  spec = json.load(open(source))
-  spec["name"] = name + " " + str(generations)
-  spec["scene"] = os.path.abspath(os.path.join(os.path.dirname(source), spec["scene"]))
-  spec["learner"]["settings"].update(population=6, mutation=mutation)
-  spec["adaptation"]["learner"]["settings"]["population"] = 4
-  spec["adaptation"]["settings"]["generations"] = 1
-  spec["stages"].update(first_generations=generations, next_generations=1, total_generations=generations,
-                        measured_individuals=2)
-  file = "%s/%s-%d.json" % (folder, name, generations)
-  json.dump(spec, open(file, "w"))
-  arms.append({"name": name, "experiment": file})
-json.dump({"format": "uchilsim-comparison-1", "name": "c", "arms": arms, "seeds": seeds}, open(out, "w"))' \
-    "$root" "$folder" "$1" "$2" "$3"
+  local name
+  for name in little much; do
+    short_kick "$folder/$name-$2.json" << PY
+spec["name"] = "$name $2"
+spec["learner"]["settings"].update(population=6, mutation={"little": 0.015, "much": 0.2}["$name"])
+spec["adaptation"]["learner"]["settings"]["population"] = 4
+spec["adaptation"]["settings"]["generations"] = 1
+spec["stages"].update(first_generations=$2, next_generations=1, total_generations=$2, measured_individuals=2)
+PY
+  done
+  cat > "$1" << JSON
+{"format": "uchilsim-comparison-1", "name": "c", "seeds": $3, "arms": [
+  {"name": "little", "experiment": "$folder/little-$2.json"}, {"name": "much", "experiment": "$folder/much-$2.json"}]}
+JSON
 }
 # states FOLDER: "done done failed …"
 states() { "$btr" --json array status "$1" | python3 -c 'import json, sys; print(*(e["state"].replace(" ", "_") for e in json.load(sys.stdin)["elements"]))'; }

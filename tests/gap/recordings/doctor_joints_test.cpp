@@ -207,6 +207,7 @@ TEST(JointDoctor, FindsJointsThatWereMixedUp) {
                                                  HasSubstr("exchange the two columns"))));
   // Joints that move alike cannot be told apart: no claim.
   Arm alike = arm();
+  alike.scene.robots[0].model.joints[1].lower = -1.6;
   alike.column("arm.elbow.command_rad") = alike.column("arm.shoulder.command_rad");
   alike.column("arm.elbow.position_rad") = alike.column("arm.shoulder.position_rad");
   EXPECT_THAT(alike.findings(), IsEmpty());
@@ -232,6 +233,21 @@ TEST(JointDoctor, FindsAColumnThatStandsStillAndMilliseconds) {
   Arm slow = arm();
   for (double& time : slow.recording.columns[0]) time *= 1000;
   EXPECT_THAT(slow.findings(), testing::Contains(AllOf(HasSubstr("time_s"), HasSubstr("milliseconds"))));
+}
+
+// The simulated joint stops there; what the recording does beyond was analysed as missing physics.
+TEST(JointDoctor, FindsPositionsThatTheModelsJointCannotHave) {
+  Arm a = arm();
+  Joint& elbow = a.scene.robots[0].model.joints[1];
+  ASSERT_EQ("elbow", elbow.name);
+  const std::vector<double>& column = a.column("arm.elbow.position_rad");
+  const double highest = *std::ranges::max_element(column);
+  elbow.upper = highest - 0.2;
+  EXPECT_THAT(a.findings(),
+              ElementsAre(AllOf(HasSubstr("arm.elbow.position_rad goes to "),
+                                HasSubstr(", past the joint's upper limit of "), HasSubstr("in the model"))));
+  elbow.upper = highest - 0.02;  // a stop that gives
+  EXPECT_THAT(a.findings(), IsEmpty());
 }
 
 TEST(JointDoctor, SaysNothingWhereNothingMovesEnough) {

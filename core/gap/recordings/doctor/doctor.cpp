@@ -8,6 +8,7 @@
 #include "core/gap/recordings/doctor/doctor.h"
 #include "core/gap/recordings/doctor/encoder_offset.h"
 #include "core/gap/recordings/doctor/following.h"
+#include "core/gap/recordings/doctor/joint_range.h"
 #include "core/gap/recordings/doctor/joint_series.h"
 #include "core/gap/recordings/doctor/leaps.h"
 #include "core/gap/recordings/doctor/recording_health.h"
@@ -228,6 +229,12 @@ Diagnosis doctor(const Scene& scene, const Recording& recording, const Binding& 
   Diagnosis joints = JointDoctor(scene, recording, binding).look(leaping);
   found.following = std::move(joints.following);
   std::move(joints.findings.begin(), joints.findings.end(), std::back_inserter(found.findings));
+  // A wrong column, unit or sign of which is said already takes positions out of their range, too.
+  std::vector<Finding> ranges;
+  if (std::ranges::none_of(found.findings, &Finding::certain)) lookAtRanges(scene, recording, binding, ranges);
+  for (const Finding& range : ranges)
+    if (std::ranges::find(found.findings, range.channel, &Finding::channel) == found.findings.end())
+      found.findings.push_back(range);
   // A position that is turned about is another sign than its velocity's, too: the position's fault is told first.
   std::stable_partition(found.findings.begin(), found.findings.end(),
                         [](const Finding& finding) { return finding.channel.find(".velocity_") == std::string::npos; });

@@ -152,7 +152,14 @@ std::vector<Parameter> parametersAt(const FitProblem& problem, const std::string
                                     const SearchThresholds::Candidates& thresholds) {
   const auto made = problem.library.make(effect);
   std::vector<Parameter> declared = made->parameters();
-  for (Parameter& p : declared) p = inProportion(problem, at, p);
+  for (Parameter& p : declared) {
+    p = inProportion(problem, at, p);
+    // A period no longer than the scene's step is how the scene itself steps.
+    if (p.integer && p.unit == "ms") {
+      p.minimum = std::max(p.minimum, std::floor(1000 * problem.givenStep_s) + 1);
+      p.byDefault = std::max(p.byDefault, p.minimum);
+    }
+  }
   const std::string periods = made->periodsPerTurn();
   if (periods.empty()) return declared;
   const double travel = travelOf(problem, at);

@@ -12,6 +12,7 @@
 #include "core/gap/replay/residual_parts.h"
 #include "core/gap/replay/trial_scenes.h"
 #include "core/sim/model_losses.h"
+#include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 
 namespace btr {
@@ -65,6 +66,16 @@ std::string caveatOf(const std::vector<Grave>& grave) {
   return text + ". Unless that is mended or known to be so, what follows need not be physics. ";
 }
 
+/// With limits of joints as wide as a fit may make them: past those no recording is at fault.
+Scene widened(Scene scene, const std::vector<CalibratePath>& calibrated) {
+  for (const CalibratePath& path : calibrated) {
+    const std::string number = path.path.substr(path.path.rfind('.') + 1);
+    if (number.starts_with("upper_")) setByPath(scene, path.path, path.maximum);
+    if (number.starts_with("lower_")) setByPath(scene, path.path, path.minimum);
+  }
+  return scene;
+}
+
 }  // namespace
 
 Consultation consult(const GapProblem& problem, const EffectLibrary& library, bool asRecorded,
@@ -76,7 +87,7 @@ Consultation consult(const GapProblem& problem, const EffectLibrary& library, bo
   for (const auto* list : {&problem.recordings, &problem.heldOut})
     for (const Recording& recording : *list) {
       const std::string name = std::filesystem::path(recording.source).filename().string();
-      const Scene scene = scenes.of(recording, library.make);
+      const Scene scene = widened(scenes.of(recording, library.make), problem.scene.calibrate);
       const Diagnosis found = doctor(scene, recording, bind(scene, recording));
       objection.hear(recording.source, recording.mapping, found);
       for (const Finding& finding : found.findings) {

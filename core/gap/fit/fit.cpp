@@ -145,10 +145,10 @@ Fit descended(const FitProblem& problem, const FitModel& model, const std::vecto
     auto prior = std::make_unique<Prior>(centre, priorWeights(model));
     least.AddResidualBlock(prior.release(), nullptr, scaled.data());
     for (std::size_t i = 0; i < scaled.size(); ++i) {
-      least.SetParameterLowerBound(scaled.data(), static_cast<int>(i),
-                                   model.parameters[i].minimum / model.parameters[i].scale);
-      least.SetParameterUpperBound(scaled.data(), static_cast<int>(i),
-                                   model.parameters[i].maximum / model.parameters[i].scale);
+      const FitParameter& p = model.parameters[i];
+      const double over = p.goesRound ? 2 * M_PI : 0;
+      least.SetParameterLowerBound(scaled.data(), static_cast<int>(i), (p.minimum - over) / p.scale);
+      least.SetParameterUpperBound(scaled.data(), static_cast<int>(i), (p.maximum + over) / p.scale);
     }
   }
   if (least.NumParameterBlocks() == (options.startsOnly && !scaled.empty() ? 1 : 0)) {
@@ -188,9 +188,10 @@ Fit descended(const FitProblem& problem, const FitModel& model, const std::vecto
     solver.initial_trust_region_radius = std::max(1.0, summary.iterations.back().trust_region_radius);
   }
   fit.cost = summary.final_cost;
-  for (std::size_t i = 0; i < scaled.size(); ++i)
-    fit.model.values[i] =
-        std::clamp(scaled[i] * model.parameters[i].scale, model.parameters[i].minimum, model.parameters[i].maximum);
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    fit.model.values[i] = std::clamp(p.inRange(scaled[i] * p.scale), p.minimum, p.maximum);
+  }
   return fit;
 }
 

@@ -14,7 +14,7 @@ SimulatorSpec FitModel::simulator(const FitProblem& problem, std::span<const dou
   std::vector<PlacedEffect> placed = effects;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& parameter = parameters[i];
-    const double value = std::clamp(numbers[i], parameter.minimum, parameter.maximum);
+    const double value = std::clamp(parameter.inRange(numbers[i]), parameter.minimum, parameter.maximum);
     if (parameter.effect < 0)
       spec.values[parameter.name] = value;
     else
@@ -30,12 +30,19 @@ std::string FitModel::text() const {
   return text;
 }
 
+double FitParameter::inRange(double value) const {
+  if (!goesRound) return value;
+  const double middle = (minimum + maximum) / 2;
+  return std::clamp(middle + std::remainder(value - middle, 2 * M_PI), minimum, maximum);
+}
+
 std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index) {
   std::vector<FitParameter> list;
   for (const Parameter& p : declared) {
     if (p.integer || !p.choices.empty()) continue;
     FitParameter fit{p.name,    p.unit,    index, p.neutral.value_or(p.byDefault),
                      p.minimum, p.maximum, 1,     p.neutral.has_value()};
+    fit.goesRound = !p.neutral && p.unit == "rad" && std::abs(p.maximum - p.minimum - 2 * M_PI) < 1e-3;
     fit.scale = p.neutral ? std::abs(p.byDefault - *p.neutral) : std::abs(p.byDefault) / 2;
     if (fit.scale <= 0) fit.scale = (p.maximum - p.minimum) / 10;
     list.push_back(fit);

@@ -15,6 +15,10 @@ struct FitParameter {
   double minimum = 0, maximum = 1;
   double scale = 1;         ///< a typical change
   bool hasNeutral = false;  ///< an effect's size
+  bool goesRound = false;   ///< an angle whose range is a whole turn: behind one end it goes on at the other
+
+  /// The same angle within the range; any other number as it is.
+  double inRange(double value) const;
 };
 
 /// A simulator whose numbers are fitted: the scene's `calibrate` list, and effects.

@@ -39,6 +39,7 @@ struct Recording {
   /// that they are ahead on average: 0 they hold, ½ they go on in a straight line; nothing: they hold, and an analysis
   /// may find otherwise.
   std::optional<double> betweenRows;
+  bool lostRowsHold = false;  ///< the mapping says that nothing came while rows were lost
   FilePlaces places;
   double filterPeriod_s = 0, filterCutoff_hz = 0;  ///< the rhythm that a low-pass filter worked at, and its cutoff; 0:
                                                    ///< none (see resampled())

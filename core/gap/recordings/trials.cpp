@@ -134,7 +134,8 @@ std::vector<Recording> loadTrials(const std::string& path, const Mapping* mappin
     if (mapping) bound(trial, *mapping);
     refuseJumps(trial);
     emptyRepeated(trial);
-    if (!mapping || !mapping->lostRowsHold) fillLostRows(trial);
+    trial.lostRowsHold = mapping && mapping->lostRowsHold;
+    if (!trial.lostRowsHold) fillLostRows(trial);
     if (mapping) trial.betweenRows = mapping->betweenRows;
   }
   if (mapping && (mapping->period_s > 0 || mapping->lowpass_hz > 0))

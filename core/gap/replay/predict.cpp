@@ -73,7 +73,7 @@ std::vector<Recording> runPredict(const PredictRequest& request, const EffectFac
                                   const std::function<bool()>& goesOn) {
   const TrialScenes scenes = loadTrialScenes(request.scene, request.simulator);
   std::vector<Recording> trials = loadTrialsFor(request.recording, request.mapping, request.scene);
-  scenes.withoutHands(trials);
+  scenes.prepare(trials);
   const std::vector<std::string> inputs =
       withNamedFiles({request.scene, request.simulator, request.recording, request.mapping});
   const std::vector<std::string> losses = modelLosses(scenes.spec, scenes.models);

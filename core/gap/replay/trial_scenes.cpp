@@ -5,7 +5,9 @@
 
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/doctor/hands.h"
+#include "core/gap/recordings/doctor/lost_rows.h"
 #include "core/gap/recordings/recording.h"
+#include "core/gap/recordings/table/row_order.h"
 #include "core/gap/replay/replay.h"
 #include "core/gap/replay/residual.h"
 #include "core/sim/engine/ode_session.h"
@@ -23,9 +25,15 @@ Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) cons
   return makeScene(spec, models, withSettings(simulator, trial), effects);
 }
 
-void TrialScenes::withoutHands(std::vector<Recording>& trials) const {
+void TrialScenes::prepare(std::vector<Recording>& trials) const {
   const Scene scene = makeScene(spec, models, SimulatorSpec{}, EffectFactory{});
-  for (Recording& trial : trials) leaveOutHands(trial, scene, bind(scene, trial));
+  for (Recording& trial : trials) {
+    std::vector<std::size_t> driving;
+    for (const Binding::Input& input : bind(scene, trial).inputs)
+      if (!isInputChannel(trial.channels[input.column])) driving.push_back(input.column);
+    if (!driving.empty() && !trial.lostRowsHold) fillLostRows(trial, driving);
+    leaveOutHands(trial, scene, bind(scene, trial));
+  }
 }
 
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator) {
@@ -47,7 +55,7 @@ bool forEachTrial(
     const auto goesOn = [&] { return !progress || progress(i, request.recordings.size()); };
     if (!goesOn()) return false;
     std::vector<Recording> trials = loadTrialsFor(request.recordings[i], request.mapping, request.scene);
-    scenes.withoutHands(trials);
+    scenes.prepare(trials);
     for (const Recording& trial : trials) use(scenes, trial, goesOn);
   }
   return true;

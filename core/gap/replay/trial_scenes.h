@@ -20,8 +20,9 @@ struct TrialScenes {
   SimulatorSpec simulator;
 
   Scene of(const Recording& trial, const EffectFactory& effects) const;
-  /// See leaveOutHands(); of the scene without effects.
-  void withoutHands(std::vector<Recording>& trials) const;
+  /// What of recordings can only be mended by who knows what drives the joints: rows that were lost (fillLostRows()),
+  /// and hands (leaveOutHands()), of the scene without effects.
+  void prepare(std::vector<Recording>& trials) const;
 };
 /// From a scene file and a simulator.json ("" for the scene as given). Throws InputError.
 TrialScenes loadTrialScenes(const std::string& scene, const std::string& simulator);

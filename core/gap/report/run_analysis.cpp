@@ -41,8 +41,8 @@ GapProblem loadProblem(const AnalysisRequest& request) {
   load(request.recordings, problem.recordings);
   load(request.heldOut, problem.heldOut);
   const TrialScenes scenes{problem.scene, problem.models, problem.simulator};
-  scenes.withoutHands(problem.recordings);
-  scenes.withoutHands(problem.heldOut);
+  scenes.prepare(problem.recordings);
+  scenes.prepare(problem.heldOut);
   refuseSeenHeldOut(problem);
   return problem;
 }

@@ -96,6 +96,22 @@ TEST(Fit, ANumberThatTheRecordingsDoNotTellHoldsNoOtherBack) {
     EXPECT_LT(fitModel(problem, tilted(across, 0.05), {}, {30}).cost, truth.cost) << across;
 }
 
+// Begun on this side of a half turn, it ended there: at −3.1416, with seven noise floors left.
+TEST(Fit, APhaseGoesRound) {
+  const auto ripple = [](double phase_rad) {
+    return PlacedEffect{
+        "torque_ripple", "rig.hinge", {{"amplitude_nm", 0.05}, {"per_turn", 4}, {"phase_rad", phase_rad}}};
+  };
+  const GapProblem given = recordedFrom({{}, {ripple(2.8)}});
+  const FitProblem problem = makeFitProblem(given, given.recordings, library());
+  const Fit fit = fitModel(problem, givenModel(problem).with(problem, ripple(-2.8)), {}, {20});
+  const std::vector<FitParameter>& numbers = fit.model.parameters;
+  const auto phase = std::ranges::find(numbers, "phase_rad", &FitParameter::name);
+  ASSERT_NE(phase, numbers.end());
+  EXPECT_TRUE(phase->goesRound);
+  EXPECT_NEAR(fit.model.values[static_cast<std::size_t>(phase - numbers.begin())], 2.8, 0.02);
+}
+
 TEST(Fit, WhatFailsInAWorkerSaysWhyAsItDoesWithout) {
   for (const int jobs : {1, 3}) {
     const FitProblem problem = slowProblem(jobs);

@@ -89,6 +89,19 @@ TEST(LostRows, StampsThatJitterLoseNothing) {
   }
 }
 
+// Which torque drives its joint and which is measured is in the scene, not in its name.
+TEST(LostRows, OfATorqueComeBackWhereItDrives) {
+  Recording trial = logged(sine, {50, 51, 120, 300, 444});
+  trial.channels[1] = "leg.knee.torque_nm";
+  Recording measured = trial;
+  fillLostRows(measured);
+  EXPECT_EQ(measured.rows(), 495u);
+  fillLostRows(trial, {1});
+  ASSERT_EQ(trial.rows(), 500u);
+  for (const std::size_t row : {50u, 51u, 120u, 300u, 444u})
+    EXPECT_NEAR(trial.columns[1][row], sine(0.01 * static_cast<double>(row)), 1e-3);
+}
+
 TEST(LostRows, WithoutCommandsNothingIsMissed) {
   Recording trial = logged(sine, {50, 120, 300, 444});
   trial.channels[1] = "leg.hip.position_rad";

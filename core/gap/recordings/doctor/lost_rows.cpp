@@ -106,9 +106,10 @@ void putBack(Recording& trial, const Loss& loss, const std::vector<std::size_t>&
 
 }  // namespace
 
-void fillLostRows(Recording& trial) {
+void fillLostRows(Recording& trial, const std::vector<std::size_t>& driving) {
   constexpr double mostForgotten = 0.6;  // of the trial
-  const std::vector<std::size_t> inputs = inputsOf(trial);
+  std::vector<std::size_t> inputs = inputsOf(trial);
+  inputs.insert(inputs.end(), driving.begin(), driving.end());
   std::vector<Loss> losses = lossesOf(trial.columns[0]);
   if (inputs.empty() || losses.empty()) return;
   if (!std::ranges::all_of(inputs, [&](std::size_t column) { return isInEveryRow(trial.columns[column]); })) return;

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstddef>
+#include <vector>
+
 #include "core/gap/recordings/recording.h"
 
 namespace btr {
@@ -9,6 +12,7 @@ namespace btr {
 /// knows when: what the same robot's joints do for some time afterwards is left out of the comparison. Rows are lost
 /// where stamps miss whole periods, at several places, and keep their rhythm, in tables whose rows all have the inputs;
 /// any other pause is left as it is, with inputs that hold. Notes say so.
-void fillLostRows(Recording& trial);
+/// `driving` are columns that drive a joint of the scene though their names do not say so (a torque).
+void fillLostRows(Recording& trial, const std::vector<std::size_t>& driving = {});
 
 }  // namespace btr

@@ -188,10 +188,8 @@ Fit descended(const FitProblem& problem, const FitModel& model, const std::vecto
     solver.initial_trust_region_radius = std::max(1.0, summary.iterations.back().trust_region_radius);
   }
   fit.cost = summary.final_cost;
-  for (std::size_t i = 0; i < scaled.size(); ++i) {
-    const FitParameter& p = model.parameters[i];
-    fit.model.values[i] = std::clamp(p.inRange(scaled[i] * p.scale), p.minimum, p.maximum);
-  }
+  for (std::size_t i = 0; i < scaled.size(); ++i)
+    fit.model.values[i] = model.parameters[i].inRange(scaled[i] * model.parameters[i].scale);
   return fit;
 }
 

@@ -14,7 +14,7 @@ SimulatorSpec FitModel::simulator(const FitProblem& problem, std::span<const dou
   std::vector<PlacedEffect> placed = effects;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const FitParameter& parameter = parameters[i];
-    const double value = std::clamp(parameter.inRange(numbers[i]), parameter.minimum, parameter.maximum);
+    const double value = parameter.inRange(numbers[i]);
     if (parameter.effect < 0)
       spec.values[parameter.name] = value;
     else
@@ -31,9 +31,8 @@ std::string FitModel::text() const {
 }
 
 double FitParameter::inRange(double value) const {
-  if (!goesRound) return value;
   const double middle = (minimum + maximum) / 2;
-  return std::clamp(middle + std::remainder(value - middle, 2 * M_PI), minimum, maximum);
+  return std::clamp(goesRound ? middle + std::remainder(value - middle, 2 * M_PI) : value, minimum, maximum);
 }
 
 std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index) {

@@ -17,7 +17,7 @@ struct FitParameter {
   bool hasNeutral = false;  ///< an effect's size
   bool goesRound = false;   ///< an angle whose range is a whole turn: behind one end it goes on at the other
 
-  /// The same angle within the range; any other number as it is.
+  /// Within the bounds: an angle that goes round by whole turns, any other number cut off.
   double inRange(double value) const;
 };
 

@@ -28,11 +28,12 @@ Scene TrialScenes::of(const Recording& trial, const EffectFactory& effects) cons
 void TrialScenes::prepare(std::vector<Recording>& trials) const {
   const Scene scene = makeScene(spec, models, SimulatorSpec{}, EffectFactory{});
   for (Recording& trial : trials) {
+    const Binding binding = bind(scene, trial);
     std::vector<std::size_t> driving;
-    for (const Binding::Input& input : bind(scene, trial).inputs)
+    for (const Binding::Input& input : binding.inputs)
       if (!isInputChannel(trial.channels[input.column])) driving.push_back(input.column);
     if (!driving.empty() && !trial.lostRowsHold) fillLostRows(trial, driving);
-    leaveOutHands(trial, scene, bind(scene, trial));
+    leaveOutHands(trial, scene, binding);
   }
 }
 

@@ -90,8 +90,8 @@ class Servo {
         else
           followed = wanted;
         const double error = followed - (plant_.loopAtMotor ? x[0] : x[2]);
-        const double asked = plant_.p * error - plant_.d * (plant_.loopAtMotor ? x[1] : x[3]) + integral;
-        if (!plant_.integralWaits || std::abs(asked) < plant_.maxTorque || asked * error < 0)
+        const double given = plant_.integralWaits ? torque(x, followed, integral, t) : 0;
+        if (std::abs(given) < plant_.maxTorque || given * error < 0)
           integral = std::clamp(integral + plant_.integral * error * h, -plant_.integralClamp, plant_.integralClamp);
         const double rate = t > 0 && plant_.errorRate > 0 ? (wanted - command(std::max(0.0, now - 0.01))) / 0.01 : 0;
         const double added = integral + plant_.errorRate * rate;

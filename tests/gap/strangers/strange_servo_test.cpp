@@ -164,7 +164,7 @@ TEST(StrangeServo, WhoseIntegralWaitsAtTheLimitIsSaidTo) {
   EXPECT_EQ(found.at("waits"), 1);
 }
 
-// Numbers below what the owner believes change nothing, and a fit that came there stayed: a payload was named.
+// Limits above what the owner believes change nothing, and a fit that came there stayed: a payload was named.
 TEST(StrangeServo, WhoseLimitIsLowerThanItsOwnerBelievesIsSaidTo) {
   strange::Plant plant;
   plant.maxTorque = 1.4;

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "core/model/servo_by_load.h"
-#include "core/model/vrml_parser.h"
-#include "core/model/vrml_robot.h"
+#include "core/model/vrml/vrml_parser.h"
+#include "core/model/vrml/vrml_robot.h"
 #include "core/spec/error.h"
 #include "core/spec/file_ending.h"
 #include "core/spec/json_reader.h"

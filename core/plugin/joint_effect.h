@@ -32,8 +32,8 @@ inline double weakened(double torque, const JointState& joint, double share, boo
 }
 
 /// Whether the servo follows a sensor that is off, too, a whole number that an analysis tries one by one.
-inline Parameter closesLoopParameter() {
-  Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, 0};
+inline Parameter closesLoopParameter(double byDefault = 0) {
+  Parameter loop{"closes_loop", "", "0: recorded only, 1: the servo follows it too", 0, 1, byDefault};
   loop.integer = true;
   return loop;
 }

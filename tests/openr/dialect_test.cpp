@@ -216,6 +216,7 @@ TEST(Dialect, IdiomsOfThatTimeMeanWhatTheyMeant) {
   EXPECT_THAT(all, HasSubstr("-5|  -5|-6  |-5|fffffff0 4294967280 1.500000 1099511627776 -5%\n"));
   EXPECT_THAT(all, HasSubstr("long -5 -5 end\n"));
   EXPECT_THAT(all, HasSubstr("undef\n"));
+  EXPECT_THAT(all, HasSubstr("machine 77, memory 1 1\n"));  // the branch for this processor, where there is one
 }
 
 TEST(Dialect, ATeamsProgramIsBuiltByItsMakefilesAndMoves) {

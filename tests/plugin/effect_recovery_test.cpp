@@ -21,6 +21,7 @@ const std::map<std::string, std::string> notIdentifiable{
     {"backlash.sensors", "a whole number"},
     {"gear_elasticity.sensors", "a whole number"},
     {"drive_dead_band.kind", "a whole number"},
+    {"drive_gain.kind", "a whole number"},
     {"drive_lag.inverse_slope_s_nm", "beside the lag it has side minima: the servo swings by itself"},
     {"error_dead_band.kind", "a whole number"},
     {"direction_gain.kind", "a whole number"},

@@ -45,6 +45,16 @@ TEST(DirectionGain, IsStrongerForOneSignOfTheErrorOrOfTheTorque) {
   EXPECT_DOUBLE_EQ(-0.75 * 0.7, gain->driveTorque(-0.7, {}, Numbers{0.25, 1}, {}, 1e-3));
 }
 
+TEST(DriveGain, IsOfTheErrorOrOfTheTorque) {
+  const auto gain = effect("drive_gain");
+  const JointState joint{.position = 0.2};
+  EXPECT_DOUBLE_EQ(0.2 + 1.25 * 0.4, gain->command({0.6, 0.6}, joint, Numbers{0.25, 0}, {}, 1e-3).mean());
+  EXPECT_DOUBLE_EQ(0.2 - 0.75 * 0.4, gain->command({-0.2, -0.2}, joint, Numbers{-0.25, 0}, {}, 1e-3).mean());
+  EXPECT_EQ(0.6, gain->command({0.6, 0.6}, joint, Numbers{0.25, 1}, {}, 1e-3).mean());
+  EXPECT_EQ(0.7, gain->driveTorque(0.7, {}, Numbers{0.25, 0}, {}, 1e-3));
+  EXPECT_DOUBLE_EQ(-0.75 * 0.7, gain->driveTorque(-0.7, {}, Numbers{-0.25, 1}, {}, 1e-3));
+}
+
 TEST(RateFilter, DampsWhatTheRateWas) {
   const auto filter = effect("rate_filter");
   const JointState joint{.rate = 2, .limit = 9, .damping = 0.3};

@@ -97,9 +97,9 @@ struct SearchThresholds {
   /// Whole numbers (waves of a ripple in a turn) begun in short windows. [case: hard ripples]
   struct WholeNumbers {
     double leastLeft = 4;    ///< error of a candidate from which they are looked for again [case]
-    double widest = 1.3;     ///< from the fit's own number by this factor down and up [hand]
-    double most = 24;        ///< different numbers [time]
-    int phases = 16;         ///< of numbers without a neutral value, over their range [hand]
+    double step = 0.02;      ///< of large numbers, as a share of them: neighbours look alike [time]
+    double small = 0.1;      ///< of a usual size: what it does is in proportion [hand]
+    double apart = 0.05;     ///< as a share of the number: nearer ones are climbed to [time]
     double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
     std::size_t fitted = 3;  ///< numbers that are fitted [time]
     double inReach = 2;      ///< by cost in windows, of the best: fitted on in longer ones [time]

@@ -11,10 +11,8 @@ namespace {
 
 class PositionOffset final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    btr::Parameter loop = btr::closesLoopParameter();
-    loop.byDefault = 1;
     return {{"offset_rad", "rad", "what the sensor says at position 0, m on a slide joint", -0.3, 0.3, 0.03, 0.0},
-            loop};
+            btr::closesLoopParameter(1)};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::sensor, "a sensor whose zero is wrong",

@@ -13,9 +13,8 @@ namespace {
 
 class SensorLag final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    btr::Parameter loop = btr::closesLoopParameter();
-    loop.byDefault = 1;
-    return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0}, loop};
+    return {{"time_constant_s", "s", "time constant of the position sensor", 0, 0.2, 0.01, 0.0},
+            btr::closesLoopParameter(1)};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::sensor, "a slow position sensor",

@@ -95,6 +95,13 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
+/// The angle that goes round, if there is one (fit_model.h).
+const Parameter* phaseOf(const std::vector<Parameter>& declared) {
+  const auto fitted = fitParameters(declared, 0);
+  const auto phase = std::ranges::find_if(fitted, &FitParameter::goesRound);
+  return phase == fitted.end() ? nullptr : find(declared, phase->name);
+}
+
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
@@ -120,6 +127,11 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
         Values others = base;
         others[other.name] = value;
         sized(p, 1, up ? 1 : -1, others);
+        // A wave of the wrong phase says nothing of its number: with a quarter of a turn more one of the two does.
+        if (const Parameter* phase = other.integer ? phaseOf(declared) : nullptr) {
+          others[phase->name] = base[phase->name] + M_PI / 2;
+          sized(p, 1, up ? 1 : -1, others);
+        }
         // What a mechanism is built like (where its sensors sit) says nothing of how soft or worn it is.
         if (other.integer && other.maximum - other.minimum <= limits.mostKinds)
           for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, others);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 #include <set>
+
+#include <Eigen/QR>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -14,28 +16,50 @@
 namespace btr {
 namespace {
 
-/// The last effect's whole number around where it is, its numbers without a neutral value all over their range.
-std::vector<FitModel> wavesLike(const FitModel& base, const Parameter& whole,
-                                const SearchThresholds::WholeNumbers& limits) {
-  const int last = static_cast<int>(base.effects.size()) - 1;
-  const double here = base.effects.back().parameters.at(whole.name);
-  const double from = std::max(whole.minimum, std::floor(here / limits.widest));
-  const double to = std::min(whole.maximum, std::ceil(here * limits.widest));
-  const double step = std::ceil((to - from + 1) / limits.most);
-  const bool hasPhase =
-      std::ranges::any_of(base.parameters, [&](const FitParameter& p) { return p.effect == last && !p.hasNeutral; });
-  const int phases = hasPhase ? limits.phases : 1;
-  std::vector<FitModel> waves;
-  for (double number = from; number <= to; number += step)
-    for (int k = 0; k < phases; ++k) {
-      FitModel wave = base;
-      wave.effects.back().parameters[whole.name] = number;
-      for (std::size_t i = 0; i < wave.values.size(); ++i)
-        if (const FitParameter& p = wave.parameters[i]; p.effect == last && !p.hasNeutral)
-          wave.values[i] = p.minimum + (k + 0.5) / phases * (p.maximum - p.minimum);
-      waves.push_back(wave);
+/// A wave that takes away what is left in short windows, and what it would leave.
+struct Wave {
+  FitModel model;
+  double number = 0, left = 0;
+};
+
+/// Whole numbers from `minimum` to `maximum`: one by one, and where they are large in steps that are a share of them,
+/// since neighbours look alike there.
+std::vector<double> numbersFrom(double minimum, double maximum, double step) {
+  std::vector<double> numbers;
+  for (double number = minimum; number <= maximum; number += std::max(1.0, std::floor(step * number)))
+    numbers.push_back(number);
+  return numbers;
+}
+
+/// The wave of that number, of the size and phase that least squares give it. In short windows a motion begins anew all
+/// the time and stays near: what a small wave does is in proportion to it there, and A·sin(n·q + φ) is a sum of
+/// A·cos φ times the wave of phase 0 and A·sin φ times that of a quarter of a turn.
+/// `rest`: residuals of `without`, the model that has the effect last, at its neutral size.
+Wave waveOf(const FitProblem& windows, const FitModel& without, const Eigen::VectorXd& rest, const std::string& whole,
+            double number, double small) {
+  Wave wave{without, number, rest.squaredNorm()};
+  wave.model.effects.back().parameters[whole] = number;
+  const int last = static_cast<int>(without.effects.size()) - 1;
+  std::optional<std::size_t> size, phase;
+  for (std::size_t i = 0; i < without.parameters.size(); ++i)
+    if (const FitParameter& p = without.parameters[i]; p.effect == last) {
+      if (p.hasNeutral && !size) size = i;
+      if (p.goesRound) phase = i;
     }
-  return waves;
+  if (!size) return wave;
+  const FitParameter& sized = without.parameters[*size];
+  Eigen::MatrixXd columns(rest.size(), phase ? 2 : 1);
+  for (int k = 0; k < columns.cols(); ++k) {
+    FitModel probe = wave.model;
+    probe.values[*size] = sized.inRange(sized.given + small * sized.scale);
+    if (phase) probe.values[*phase] = k * M_PI / 2;
+    columns.col(k) = (residualsOf(windows, probe, {}) - rest) / (probe.values[*size] - sized.given);
+  }
+  const Eigen::VectorXd by = columns.colPivHouseholderQr().solve(-rest);
+  wave.left = (rest + columns * by).squaredNorm();
+  wave.model.values[*size] = sized.inRange(sized.given + (phase ? by.norm() : by[0]));
+  if (phase) wave.model.values[*phase] = std::atan2(by[1], by[0]);
+  return wave;
 }
 
 /// A whole number that counts something: of kinds, each is fitted anyway.
@@ -70,28 +94,41 @@ void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitM
   if (2 * fit.cost < limits.leastLeft * static_cast<double>(service.problem().residuals())) return;
   const auto numberOf = [&](const FitModel& model) { return model.effects.back().parameters.at(whole->name); };
 
-  // All other numbers as they are, and as they were without the effect.
+  // All other numbers as they were without the effect: with a wrong number they were bent to it.
   FitModel fresh = fit.model;
   std::ranges::copy(without.values, fresh.values.begin());
-  std::vector<FitModel> waves = wavesLike(fit.model, *whole, limits);
-  std::ranges::copy(wavesLike(fresh, *whole, limits), std::back_inserter(waves));
+  for (std::size_t i = without.values.size(); i < fresh.values.size(); ++i)
+    if (fresh.parameters[i].hasNeutral) fresh.values[i] = fresh.parameters[i].given;
 
   const FitService windows = service.inWindows(limits.window_s);
-  const double best = service.thresholds().restarts.better * residualsOf(windows.problem(), without, {}).squaredNorm();
-  const auto replays = parallel(
-      service.options().jobs, waves.size(),
-      [&](std::size_t i) { return std::vector<double>{residualsOf(windows.problem(), waves[i], {}).squaredNorm()}; },
-      service.reporter(stage, waves.size(), at, at));
+  const Eigen::VectorXd rest = residualsOf(windows.problem(), fresh, {});
+  const std::vector<double> numbers = numbersFrom(whole->minimum, whole->maximum, limits.step);
+  std::vector<Wave> waves(numbers.size());
+  const auto probed = parallel(
+      service.options().jobs, numbers.size(),
+      [&](std::size_t i) {
+        const Wave wave = waveOf(windows.problem(), fresh, rest, whole->name, numbers[i], limits.small);
+        std::vector<double> sent = wave.model.values;
+        sent.push_back(wave.left);
+        return sent;
+      },
+      service.reporter(stage, numbers.size(), at, at));
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < waves.size(); ++i)
-    // Where a motion begins anew all the time, a wave of the right number and phase helps at once, whatever its size.
-    if (replays[i].ok() && replays[i].numbers[0] < best) order.push_back(i);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return replays[i].numbers[0]; });
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!probed[i].ok()) continue;
+    waves[i] = {fresh, numbers[i], probed[i].numbers.back()};
+    waves[i].model.effects.back().parameters[whole->name] = numbers[i];
+    std::copy_n(probed[i].numbers.begin(), waves[i].model.values.size(), waves[i].model.values.begin());
+    if (waves[i].left < service.thresholds().restarts.better * rest.squaredNorm()) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return waves[i].left; });
   std::vector<FitJob> starts;
+  // Neighbours are climbed to from each.
   for (const std::size_t i : order)
-    if (starts.size() < limits.fitted &&
-        std::ranges::none_of(starts, [&](const FitJob& start) { return numberOf(start.model) == numberOf(waves[i]); }))
-      starts.push_back({waves[i], {}});
+    if (starts.size() < limits.fitted && std::ranges::none_of(starts, [&](const FitJob& start) {
+          return std::abs(numberOf(start.model) - numbers[i]) <= std::max(1.0, limits.apart * numbers[i]);
+        }))
+      starts.push_back({waves[i].model, {}});
 
   std::vector<Fit> fits =
       completed(windows.tryFits(starts, service.thresholds().restarts.windowIterations, stage, at, at));

@@ -1,4 +1,5 @@
 // The calls of OPENR:: and the small ones around them.
+#include <AnalyzerAPI.h>
 #include <MCOOP.h>
 #include <OPENR/OCalendarTime.h>
 #include <OPENR/OFbkImage.h>
@@ -7,6 +8,7 @@
 #include <SystemTime.h>
 #include <Time_a.h>
 #include <apsys.h>
+#include <malloc.h>
 
 #include <cstdarg>
 #include <cstring>
@@ -449,6 +451,14 @@ sError GetPageSize(longword* bytes) {
   if (bytes == nullptr) return sINVALID_ARG;
   *bytes = ofTheRobot;
   return sSUCCESS;
+}
+
+AnalyzerError AnalyzerGetSizeOfFreeMemory(size_t* bytes) {
+  constexpr std::size_t ofTheRobot = std::size_t{64} << 20, always = std::size_t{1} << 20;
+  if (bytes == nullptr) return azrFAIL;
+  const std::size_t held = mallinfo2().uordblks;
+  *bytes = held + always < ofTheRobot ? ofTheRobot - held : always;
+  return azrSUCCESS;
 }
 
 sError WhoAmI(OID* id) {

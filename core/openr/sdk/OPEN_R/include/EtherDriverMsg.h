@@ -16,13 +16,13 @@ typedef struct {
   uint32 frameTooLongCount;
 } EtherStatistics;
 
-typedef struct {
+typedef struct EtherDriverGetMACAddressMsg {
   uint32 port;
   EtherMACAddress address;
   EtherStatus status;
 } EtherDriverGetMACAddressMsg;
 
-typedef struct {
+typedef struct EtherDriverGetStatisticsMsg {
   uint32 port;
   EtherStatistics statistics;
   EtherStatus status;

@@ -33,7 +33,7 @@ typedef struct {
   uint32 invalidMiscCount;
 } EtherWLANStatistics;
 
-typedef struct {
+typedef struct EtherDriverGetWLANSettingsMsg {
   uint32 port;
   EtherWLANMode mode;
   char essid[ETHER_WLAN_ESSID_MAX + 1];
@@ -47,7 +47,7 @@ typedef struct {
   EtherStatus status;
 } EtherDriverGetWLANSettingsMsg;
 
-typedef struct {
+typedef struct EtherDriverGetWLANStatisticsMsg {
   uint32 port;
   EtherWLANStatistics statistics;
   EtherStatus status;

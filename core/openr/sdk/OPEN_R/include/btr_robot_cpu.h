@@ -23,8 +23,9 @@ BTR_OPENR_NOTHING(cache);
 BTR_OPENR_NOTHING(ssnop);
 #undef BTR_OPENR_NOTHING
 
-/* How its bytes lie, as sources for several computers ask; not that it is a MIPS, which asks for assembler. */
-#ifndef __MIPSEL__
+/* How its bytes lie, as sources for several computers ask; not that it is a MIPS, which asks for assembler. A source
+   that has assembler for this one is compiled again without it. */
+#if !defined(__MIPSEL__) && !defined(BTR_OPENR_THIS_CPU)
 #define __MIPSEL__ 1
 #define __MIPSEL 1
 #define _MIPSEL 1

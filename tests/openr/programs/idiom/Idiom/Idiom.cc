@@ -9,7 +9,7 @@ OStatus Idiom::DoInit(const OSystemEvent& event) {
  NEW_ALL_SUBJECT_AND_OBSERVER; REGISTER_ALL_ENTRY; SET_ALL_READY_AND_NOTIFY_ENTRY;
  return oSUCCESS; }
 OStatus Idiom::DoStart(const OSystemEvent& event) {
- go();
+ go(); machine();
  ENABLE_ALL_SUBJECT; ASSERT_READY_TO_ALL_OBSERVER;
  return oSUCCESS; }
 OStatus Idiom::DoStop(const OSystemEvent& event) {

@@ -21,5 +21,6 @@ class Idiom : public OObject {
   virtual OStatus DoStop(const OSystemEvent& event);
   virtual OStatus DoDestroy(const OSystemEvent& event);
   void go();
+  void machine();
 };
 #endif

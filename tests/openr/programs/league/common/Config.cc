@@ -1,3 +1,4 @@
+#include <OPENR/core_macro.h>
 #include "Order.h"
 #include <map>
 #include <string>

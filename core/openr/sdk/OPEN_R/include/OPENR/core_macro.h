@@ -1,12 +1,14 @@
-// Statements for the members of a core class with `subject[]` and `observer[]`. Include after nothing but def.h's
-// folder being known: entry.h is the stub's.
+// Statements for the members of a core class with `subject[]` and `observer[]`. entry.h is the stub's, where the folder
+// of an object is known; sources that several objects share have none, or include theirs by another path.
 #ifndef BTR_OPENR_CORE_MACRO_H
 #define BTR_OPENR_CORE_MACRO_H
 
 #include <OPENR/OObserver.h>
 #include <OPENR/OSubject.h>
 
+#if __has_include("entry.h")
 #include "entry.h"
+#endif
 
 #define BTR_OPENR_EACH_SUBJECT for (int btrI = 0; btrI < (int)numOfSubject; ++btrI)
 #define BTR_OPENR_EACH_OBSERVER for (int btrI = 0; btrI < (int)numOfObserver; ++btrI)

@@ -1,4 +1,4 @@
-#include "core/model/inline_folder.h"
+#include "core/model/vrml/inline_folder.h"
 
 #include <algorithm>
 #include <filesystem>

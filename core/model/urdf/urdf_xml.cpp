@@ -1,4 +1,4 @@
-#include "core/model/urdf_xml.h"
+#include "core/model/urdf/urdf_xml.h"
 
 #include <algorithm>
 

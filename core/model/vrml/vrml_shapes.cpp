@@ -1,4 +1,4 @@
-#include "core/model/vrml_shapes.h"
+#include "core/model/vrml/vrml_shapes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Reads single fields of nodes.
-#include "core/model/vrml_shapes.h"
+#include "core/model/vrml/vrml_shapes.h"
 
 namespace btr::vrml {
 namespace {

@@ -7,9 +7,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/model/inline_folder.h"
-#include "core/model/vrml_scanner.h"
-#include "core/model/vrml_tree.h"
+#include "core/model/vrml/inline_folder.h"
+#include "core/model/vrml/vrml_scanner.h"
+#include "core/model/vrml/vrml_tree.h"
 
 namespace btr::vrml {
 

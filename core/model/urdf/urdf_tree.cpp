@@ -1,4 +1,4 @@
-#include "core/model/urdf_tree.h"
+#include "core/model/urdf/urdf_tree.h"
 
 #include <algorithm>
 #include <unordered_set>

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "core/model/vrml_tree.h"
+#include "core/model/vrml/vrml_tree.h"
 #include "core/spec/error.h"
 
 namespace btr::vrml {

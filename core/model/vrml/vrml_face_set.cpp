@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/model/vrml_shapes.h"
+#include "core/model/vrml/vrml_shapes.h"
 
 namespace btr::vrml {
 namespace {

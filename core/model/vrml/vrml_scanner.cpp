@@ -1,4 +1,4 @@
-#include "core/model/vrml_scanner.h"
+#include "core/model/vrml/vrml_scanner.h"
 
 #include "core/spec/error.h"
 

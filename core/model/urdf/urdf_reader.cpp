@@ -7,9 +7,9 @@
 
 #include "core/model/given_joint.h"
 #include "core/model/servo_by_load.h"
-#include "core/model/urdf_shapes.h"
-#include "core/model/urdf_tree.h"
-#include "core/model/urdf_xml.h"
+#include "core/model/urdf/urdf_shapes.h"
+#include "core/model/urdf/urdf_tree.h"
+#include "core/model/urdf/urdf_xml.h"
 #include "core/spec/figures.h"
 #include "core/spec/parameter.h"
 #include "core/spec/utf8.h"

@@ -1,6 +1,6 @@
 // PROTO: its interface becomes a node type, its body a template. Each instance is a deep copy that is charged to the
 // node budget. A PROTO becomes known only after its body was read, so it cannot contain itself.
-#include "core/model/vrml_parser.h"
+#include "core/model/vrml/vrml_parser.h"
 
 namespace btr::vrml {
 namespace {

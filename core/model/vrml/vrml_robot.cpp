@@ -1,4 +1,4 @@
-#include "core/model/vrml_robot.h"
+#include "core/model/vrml/vrml_robot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "core/model/given_joint.h"
 #include "core/model/kinematics.h"
-#include "core/model/vrml_scanner.h"
-#include "core/model/vrml_shapes.h"
+#include "core/model/vrml/vrml_scanner.h"
+#include "core/model/vrml/vrml_shapes.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/model/vrml_tree.h"
+#include "core/model/vrml/vrml_tree.h"
 
 namespace btr::vrml {
 

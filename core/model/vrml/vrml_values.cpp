@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/model/vrml_parser.h"
+#include "core/model/vrml/vrml_parser.h"
 
 namespace btr::vrml {
 

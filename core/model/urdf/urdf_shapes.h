@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/model/mesh_file.h"
-#include "core/model/urdf_xml.h"
+#include "core/model/urdf/urdf_xml.h"
 
 namespace btr {
 

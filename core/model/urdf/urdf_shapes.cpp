@@ -1,4 +1,4 @@
-#include "core/model/urdf_shapes.h"
+#include "core/model/urdf/urdf_shapes.h"
 
 #include <algorithm>
 #include <cmath>

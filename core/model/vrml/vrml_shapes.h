@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/model/mesh.h"
-#include "core/model/vrml_tree.h"
+#include "core/model/vrml/vrml_tree.h"
 
 namespace btr::vrml {
 

@@ -1,4 +1,4 @@
-#include "core/model/vrml_parser.h"
+#include "core/model/vrml/vrml_parser.h"
 
 #include <algorithm>
 

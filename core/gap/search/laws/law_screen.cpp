@@ -86,12 +86,12 @@ std::vector<LawTerm> termsOf(const JointSeen& joint, bool overTime, const Search
   return terms;
 }
 
-/// What one knot changes, per typical force, initial states taken out.
+/// What one knot changes, per typical force, initial states taken out. `law`: as it is in `fit`, its last term's values
+/// 0 where that is not in it yet.
 Eigen::VectorXd columnOf(const FitProblem& problem, const FitModel& named, const Fit& fit, const Linearised& linear,
                          const Law& law, int knot) {
   Law moved = law;
-  moved.values.back().assign(static_cast<std::size_t>(law.terms.back().knots), 0.0);
-  moved.values.back()[static_cast<std::size_t>(knot)] = law.scale;
+  moved.values.back()[static_cast<std::size_t>(knot)] += law.scale;
   // Named effects and numbers stand in `fit` before the law's knots.
   const FitModel model = withNumbersOf(named, fit.model);
   const Eigen::VectorXd residuals = residualsOf(problem, moved.in(problem, model, true), fit.shifts);
@@ -292,6 +292,32 @@ LawOption refineTerm(const FitProblem& problem, const FitModel& named, const Fit
   const Parts parts = partsOf(problem);
   const LawOption finer = promised(linear, columns[0], law, parts, costWithout(linear, parts), thresholds.reached);
   return finer.share > option.share ? finer : option;
+}
+
+Law denserLaw(const FitProblem& problem, const FitModel& named, const Fit& fit, const Linearised& linear,
+              const Law& law, int jobs, const SearchThresholds::Law& thresholds) {
+  const LawTerm coarse = law.terms.back();
+  const Scene scene = problem.sceneOf(fit.model.simulator(problem), 0);
+  LawTerm term = coarse;
+  for (const JointSeen& joint : jointsSeen(problem, scene, linear.residuals, thresholds.ofStrength))
+    if (joint.at == law.at)
+      for (const LawTerm& whole : termsOf(joint, true, thresholds))
+        if (whole.on == term.on && whole.kind == term.kind) term = whole;
+  term.knots = std::min({2 * coarse.knots - 1, thresholds.knots, mostLawKnots});
+  Law denser = law;
+  denser.terms.back() = term;
+  const auto takeValues = [&] {
+    const LawTerm& now = denser.terms.back();
+    denser.values.back().clear();
+    for (int i = 0; i < now.knots; ++i)
+      denser.values.back().push_back(lawValue(coarse, law.values.back(), now.knot(i)));
+  };
+  takeValues();
+  Eigen::MatrixXd columns = columnsOf(problem, named, fit, linear, {denser}, jobs)[0];
+  if (columns.squaredNorm() <= 0) return law;
+  keepWhatIsReached(denser, columns, thresholds.reached);
+  takeValues();
+  return denser;
 }
 
 }  // namespace btr

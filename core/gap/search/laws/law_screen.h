@@ -27,4 +27,9 @@ std::vector<LawOption> screenLaws(const FitProblem& problem, const FitModel& nam
 LawOption refineTerm(const FitProblem& problem, const FitModel& named, const Fit& fit, const Linearised& linear,
                      const Law& there, const LawOption& option, int jobs, const SearchThresholds::Law& thresholds);
 
+/// The same curve with more knots in its last term, over all that the recordings reach now that the curve is where it
+/// belongs: what is passed only for a moment counts less beside a motion that is simulated wrongly. `fit`: with `law`.
+Law denserLaw(const FitProblem& problem, const FitModel& named, const Fit& fit, const Linearised& linear,
+              const Law& law, int jobs, const SearchThresholds::Law& thresholds);
+
 }  // namespace btr

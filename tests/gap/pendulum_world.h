@@ -20,6 +20,7 @@ struct TrialWorld {
   double offset_rad = 0;  ///< of its marker
   double most_nm = 3;     ///< of its motor; the scene has 3
   double length_s = 4;
+  double letGo_rad = 0;  ///< how far from there it is let go
 };
 
 /// A trial at 5 ms of rigUrdf's hinge under hingeScene()'s servo: I·q̈ = clamp(p·(c − q) − d·q̇, ±3) − m·g·l·sin q + τ,
@@ -51,6 +52,7 @@ inline Recording recordedPendulum(const ExtraTorque& extra, std::uint64_t number
     q += dt * rate;
   }
   rate = 0;
+  q += world.letGo_rad;
   for (int i = 0; i < std::lround(world.length_s / dt); ++i) {
     const double t = i * dt, held = command(std::floor(t / 0.01 + 1e-6) * 0.01);
     if (i % 50 == 0) {

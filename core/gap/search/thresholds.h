@@ -100,6 +100,8 @@ struct SearchThresholds {
     double step = 0.02;      ///< of large numbers, as a share of them: neighbours look alike [time]
     double small = 0.1;      ///< of a usual size: what it does is in proportion [hand]
     double apart = 0.05;     ///< as a share of the number: nearer ones are climbed to [time]
+    double around = 1.3;     ///< of what is no wave: from the fit's own number by this factor down and up [hand]
+    double most = 24;        ///< different ones of these [time]
     double window_s = 0.1;   ///< a motion begun anew stays near so long, whatever is wrong [hand]
     std::size_t fitted = 3;  ///< numbers that are fitted [time]
     double inReach = 2;      ///< by cost in windows, of the best: fitted on in longer ones [time]
@@ -147,7 +149,7 @@ struct SearchThresholds {
     std::array<double, 4> lookedAt{1.0, 0.1, 0.3, 3.0};  ///< times the promised size; the first as promised [hand]
     std::size_t many = 60;           ///< candidates: then a third of the segments is looked at first [time]
     std::size_t promising = 40;      ///< that are screened in full then [time]
-    std::size_t firstVariants = 2;   ///< of each at the first look [time]
+    std::size_t firstVariants = 2;   ///< of each, and of each of its whole numbers, at the first look [time]
     std::size_t segmentsPart = 3;    ///< one of so many segments, the worst ones [time]
     std::size_t fitted = 8;          ///< half of them to the end. The truth was among the first ten in 92 of 106 cases,
                                      ///< first in 61 [prototype]

@@ -2,10 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/joint_pace.h"
+#include "core/gap/fit/linearise.h"
 #include "core/gap/search/screening/candidates.h"
+#include "core/gap/search/screening/screen.h"
 #include "core/gap/search/thresholds.h"
 #include "core/spec/random.h"
 #include "tests/gap/recorded_hinge.h"
@@ -53,6 +58,31 @@ TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
   EXPECT_DOUBLE_EQ(*stall.neutral, 1 / 0.3) << "a higher stall torque is cut off by the drive's own limit";
   EXPECT_DOUBLE_EQ(stall.minimum, 1 / 0.3);
   EXPECT_DOUBLE_EQ(stall.byDefault, 1 / 0.24);
+}
+
+// A first look at many candidates tried a wave in one number, and all looks tried it in one sign.
+TEST(CandidateSizes, AWaveOfAnyPhaseIsSeenWhereManyEffectsAreTried) {
+  for (const double phase : {0.0, M_PI / 2, -M_PI / 2, 3.1}) {
+    const SimulatorSpec truth{
+        {}, {{"torque_ripple", "rig.hinge", {{"amplitude_nm", 0.05}, {"per_turn", 16}, {"phase_rad", phase}}}}};
+    const GapProblem recorded = recordedFrom(truth, 0.9);
+    const FitProblem problem = makeFitProblem(recorded, recorded.recordings, library());
+    const Fit fit = fitModel(problem, givenModel(problem), {}, {});
+    SearchThresholds::Screening limits;
+    limits.many = 1;
+    limits.promising = 1;
+    const auto candidates = candidatesFor(problem, fit.model, {"torque_ripple", "joint_spring", "force_offset"});
+    const std::vector<Screened> seen = screen(problem, fit, linearise(problem, fit), candidates, 1, {}, limits);
+    for (const Screened& each : seen) {
+      const bool isTheWave = candidates[each.candidate].text() == "torque_ripple at rig.hinge";
+      EXPECT_EQ(isTheWave, !each.starts.empty()) << candidates[each.candidate].text() << " " << phase;
+      if (!isTheWave || each.starts.empty()) continue;
+      EXPECT_GT(each.share, 0.4) << phase;
+      const Values& start = each.starts[0].effect;
+      EXPECT_NEAR(start.at("per_turn"), 16, 4) << phase;
+      EXPECT_LT(std::abs(std::remainder(start.at("phase_rad") - phase, 2 * M_PI)), 1.2);
+    }
+  }
 }
 
 }  // namespace

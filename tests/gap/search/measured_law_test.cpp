@@ -65,6 +65,33 @@ TEST(MeasuredLaw, OfASpringThatHardens) {
   expectLaw(analyse(test::pendulumProblem(spring), library(), usualEffects()), "position", "hardening spring");
 }
 
+// What swings freely passes the ends of its curve for a moment, and is soon far from where a wrong torque has it: with
+// few knots the curve could not be followed to its ends, and a linear spring beside a soft gear was named instead.
+TEST(MeasuredLaw, OfASpringThatHardensOnAPendulumThatSwingsFreely) {
+  GapProblem problem = hingeProblem();
+  problem.scene.robots[0].servos["hinge"] = {};
+  problem.scene.robots[0].servos["hinge"].drive = "none";
+  problem.scene.calibrate.clear();
+  const auto spring = [](double q, double rate, double) { return -2 * q * q * q - 0.02 * rate; };
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const test::TrialWorld world{
+        .p = 0, .d = 0, .letGo_rad = (i % 2 == 0 ? 1 : -1) * (1.6 - 0.15 * static_cast<double>(i))};
+    Recording recording = test::recordedPendulum(spring, 300 + i, world);
+    recording.channels.erase(recording.channels.begin() + 1);
+    recording.columns.erase(recording.columns.begin() + 1);
+    (i < 3 ? problem.recordings : problem.heldOut).push_back(recording);
+  }
+  AnalysisOptions options = usualEffects();
+  options.effects = {"joint_spring", "gear_elasticity", "torque_ripple", "viscous_friction"};
+  const GapReport report = analyse(problem, library(), options);
+  expectLaw(report, "position", "hardening spring");
+  EXPECT_LT(report.ladder.back().error, 1.3) << toPlainText(report);
+  for (const GapReport::Effect& effect : report.tried)
+    if (effect.accepted) {
+      EXPECT_EQ(effect.effect, "viscous_friction") << toPlainText(report);
+    }
+}
+
 TEST(MeasuredLaw, OfADriftWithTime) {
   const auto drift = [](double, double, double t) { return -0.4 * (1 - std::exp(-t / 1.5)); };
   expectLaw(analyse(test::pendulumProblem(drift), library(), usualEffects()), "time", "drift");

@@ -95,13 +95,6 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
   return typical > 0 ? typical : limits.typicalOfRange * (p.maximum - p.minimum);
 }
 
-/// The angle that goes round, if there is one (fit_model.h).
-const Parameter* phaseOf(const std::vector<Parameter>& declared) {
-  const auto fitted = fitParameters(declared, 0);
-  const auto phase = std::ranges::find_if(fitted, &FitParameter::goesRound);
-  return phase == fitted.end() ? nullptr : find(declared, phase->name);
-}
-
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
   std::vector<Values> variants;
@@ -142,6 +135,12 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
 }
 
 }  // namespace
+
+const Parameter* phaseOf(const std::vector<Parameter>& declared) {
+  const auto fitted = fitParameters(declared, 0);
+  const auto phase = std::ranges::find_if(fitted, &FitParameter::goesRound);
+  return phase == fitted.end() ? nullptr : find(declared, phase->name);
+}
 
 std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibrary& library,
                                            const std::vector<PlacedEffect>& there,

@@ -40,6 +40,9 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
 /// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
 bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect);
 
+/// The declared angle that goes round (FitParameter::goesRound), as of a wave; nullptr if there is none.
+const Parameter* phaseOf(const std::vector<Parameter>& declared);
+
 /// The variant moved along its own direction: neutral + step·(variant − neutral), within the bounds.
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step);
 

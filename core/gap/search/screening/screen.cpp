@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "core/gap/fit/fit.h"
@@ -90,6 +91,7 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     }
   };
   const auto gainOf = [&](const VectorXd& change) { return rest.squaredNorm() - (rest + change).squaredNorm(); };
+  const Parameter* const phase = phaseOf(candidate.declared);
   std::vector<Try> tries;
   /// How much it changes the residuals.
   const auto tryOut = [&](const Values& variant) {
@@ -101,7 +103,16 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     const double norm = attempt.left.squaredNorm();
     // What the fitted parameters can do as well is no evidence.
     if (norm <= limits.indistinct * all || norm <= 0) return all;
-    attempt.step = std::clamp(-rest.dot(attempt.left) / norm, 0.0, limits.largestStep);
+    double step = -rest.dot(attempt.left) / norm;
+    if (step < 0 && phase) {
+      // A wave of the other sign is one of half a turn on.
+      double& angle = attempt.effect[phase->name];
+      angle += angle > (phase->minimum + phase->maximum) / 2 ? -M_PI : M_PI;
+      attempt.change = -attempt.change;
+      attempt.left = -attempt.left;
+      step = -step;
+    }
+    attempt.step = std::clamp(step, 0.0, limits.largestStep);
     attempt.gain = gainOf(attempt.step * attempt.left);
     attempt.gainAsIs = gainOf(attempt.left);
     tries.push_back(std::move(attempt));
@@ -227,8 +238,20 @@ Part worstOf(const FitProblem& problem, const Fit& fit, const Linearised& linear
   return part;
 }
 
-/// Of many candidates, those that a first look at the worst segments, with one size in either direction, finds
-/// promising. The others' share is that of this look.
+/// The first variants of each of its whole numbers: of a wave, one of another number says nothing.
+EffectCandidate firstOf(EffectCandidate candidate, std::size_t firstVariants) {
+  std::map<std::vector<double>, std::size_t> seen;
+  std::erase_if(candidate.variants, [&](const Values& variant) {
+    std::vector<double> whole;
+    for (const Parameter& p : candidate.declared)
+      if (p.integer) whole.push_back(variant.at(p.name));
+    return ++seen[whole] > firstVariants;
+  });
+  return candidate;
+}
+
+/// Of many candidates, those that a first look at the worst segments, with few variants, finds promising. The others'
+/// share is that of this look.
 std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Linearised& linear,
                             const std::vector<EffectCandidate>& candidates, int jobs,
                             const std::function<bool(std::size_t)>& goOn, const SearchThresholds::Screening& limits,
@@ -239,9 +262,8 @@ std::vector<char> firstLook(const FitProblem& problem, const Fit& fit, const Lin
   const auto numbers = parallel(
       jobs, candidates.size(),
       [&](std::size_t i) {
-        EffectCandidate few = candidates[i];
-        few.variants.resize(std::min(limits.firstVariants, few.variants.size()));
-        return screenOne(part.problem, part.fit, part.linear, projector, rest, few, limits);
+        return screenOne(part.problem, part.fit, part.linear, projector, rest,
+                         firstOf(candidates[i], limits.firstVariants), limits);
       },
       goOn);
   std::vector<std::size_t> order;

@@ -1,11 +1,11 @@
 #include "core/gap/search/starts/whole_numbers.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
-
-#include <Eigen/QR>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
@@ -16,7 +16,7 @@
 namespace btr {
 namespace {
 
-/// A wave that takes away what is left in short windows, and what it would leave.
+/// A model whose last effect has that number, and the squared error that it leaves in short windows.
 struct Wave {
   FitModel model;
   double number = 0, left = 0;
@@ -31,35 +31,100 @@ std::vector<double> numbersFrom(double minimum, double maximum, double step) {
   return numbers;
 }
 
-/// The wave of that number, of the size and phase that least squares give it. In short windows a motion begins anew all
-/// the time and stays near: what a small wave does is in proportion to it there, and A·sin(n·q + φ) is a sum of
-/// A·cos φ times the wave of phase 0 and A·sin φ times that of a quarter of a turn.
-/// `rest`: residuals of `without`, the model that has the effect last, at its neutral size.
-Wave waveOf(const FitProblem& windows, const FitModel& without, const Eigen::VectorXd& rest, const std::string& whole,
-            double number, double small) {
-  Wave wave{without, number, rest.squaredNorm()};
-  wave.model.effects.back().parameters[whole] = number;
-  const int last = static_cast<int>(without.effects.size()) - 1;
+/// Where the last effect's size and its angle stand among a model's numbers.
+struct SizeAndPhase {
+  std::size_t size = 0, phase = 0;
+};
+
+/// Nothing for an effect that is no wave.
+std::optional<SizeAndPhase> waveIn(const FitModel& model) {
+  const int last = static_cast<int>(model.effects.size()) - 1;
   std::optional<std::size_t> size, phase;
-  for (std::size_t i = 0; i < without.parameters.size(); ++i)
-    if (const FitParameter& p = without.parameters[i]; p.effect == last) {
-      if (p.hasNeutral && !size) size = i;
-      if (p.goesRound) phase = i;
-    }
-  if (!size) return wave;
-  const FitParameter& sized = without.parameters[*size];
-  Eigen::MatrixXd columns(rest.size(), phase ? 2 : 1);
-  for (int k = 0; k < columns.cols(); ++k) {
-    FitModel probe = wave.model;
-    probe.values[*size] = sized.inRange(sized.given + small * sized.scale);
-    if (phase) probe.values[*phase] = k * M_PI / 2;
-    columns.col(k) = (residualsOf(windows, probe, {}) - rest) / (probe.values[*size] - sized.given);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect != last) continue;
+    if (p.hasNeutral && !size) size = i;
+    if (p.goesRound) phase = i;
+  }
+  if (!size || !phase) return {};
+  return SizeAndPhase{*size, *phase};
+}
+
+/// Size and phase that least squares give a wave of that number, and what it leaves. In short windows a motion begins
+/// anew all the time and stays near: what a small wave does is in proportion to it there, and A·sin(n·q + φ) is a sum
+/// of A·cos φ times the wave of phase 0 and A·sin φ times that of a quarter of a turn. `rest`: residuals of `without`.
+std::vector<double> waveOf(const FitProblem& windows, const FitModel& without, const SizeAndPhase& at,
+                           const Eigen::VectorXd& rest, const std::string& whole, double number, double small) {
+  FitModel probe = without;
+  probe.effects.back().parameters[whole] = number;
+  const FitParameter& size = without.parameters[at.size];
+  probe.values[at.size] = size.inRange(size.given + small * size.scale);
+  Eigen::MatrixXd columns(rest.size(), 2);
+  for (int quarter = 0; quarter < 2; ++quarter) {
+    probe.values[at.phase] = quarter * M_PI / 2;
+    columns.col(quarter) = (residualsOf(windows, probe, {}) - rest) / (probe.values[at.size] - size.given);
   }
   const Eigen::VectorXd by = columns.colPivHouseholderQr().solve(-rest);
-  wave.left = (rest + columns * by).squaredNorm();
-  wave.model.values[*size] = sized.inRange(sized.given + (phase ? by.norm() : by[0]));
-  if (phase) wave.model.values[*phase] = std::atan2(by[1], by[0]);
-  return wave;
+  return {size.inRange(size.given + by.norm()), std::atan2(by[1], by[0]), (rest + columns * by).squaredNorm()};
+}
+
+/// Those of all numbers that take something away, the best first. `without`: the model that has the effect last, at its
+/// neutral size.
+std::vector<Wave> wavesOf(const FitService& windows, const FitModel& without, const SizeAndPhase& at,
+                          const Parameter& whole, const std::function<bool(std::size_t)>& goOn) {
+  const SearchThresholds::WholeNumbers& limits = windows.thresholds().wholeNumbers;
+  const Eigen::VectorXd rest = residualsOf(windows.problem(), without, {});
+  const std::vector<double> numbers = numbersFrom(whole.minimum, whole.maximum, limits.step);
+  const auto probed = parallel(
+      windows.options().jobs, numbers.size(),
+      [&](std::size_t i) { return waveOf(windows.problem(), without, at, rest, whole.name, numbers[i], limits.small); },
+      goOn);
+  const double most = windows.thresholds().restarts.better * rest.squaredNorm();
+  std::vector<Wave> waves;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!probed[i].ok() || probed[i].numbers[2] >= most) continue;
+    Wave wave{without, numbers[i], probed[i].numbers[2]};
+    wave.model.effects.back().parameters[whole.name] = numbers[i];
+    wave.model.values[at.size] = probed[i].numbers[0];
+    wave.model.values[at.phase] = probed[i].numbers[1];
+    waves.push_back(std::move(wave));
+  }
+  std::ranges::stable_sort(waves, {}, &Wave::left);
+  return waves;
+}
+
+/// What is no wave is no sum of two columns, but has no side minima by its phase either: numbers around the fit's own,
+/// all else as it is and as it was without the effect.
+std::vector<Wave> numbersAround(const FitService& windows, const Fit& fit, const FitModel& without,
+                                const Parameter& whole, const std::function<bool(std::size_t)>& goOn) {
+  const SearchThresholds::WholeNumbers& limits = windows.thresholds().wholeNumbers;
+  const double here = fit.model.effects.back().parameters.at(whole.name);
+  const double from = std::max(whole.minimum, std::floor(here / limits.around));
+  const double to = std::min(whole.maximum, std::ceil(here * limits.around));
+  const double step = std::ceil((to - from + 1) / limits.most);
+  FitModel fresh = fit.model;
+  std::ranges::copy(without.values, fresh.values.begin());
+  std::vector<Wave> all;
+  for (const FitModel& model : {fit.model, fresh})
+    for (double number = from; number <= to; number += step) {
+      all.push_back({model, number, 0});
+      all.back().model.effects.back().parameters[whole.name] = number;
+    }
+  const auto replays = parallel(
+      windows.options().jobs, all.size(),
+      [&](std::size_t i) {
+        return std::vector<double>{residualsOf(windows.problem(), all[i].model, {}).squaredNorm()};
+      },
+      goOn);
+  const double most = windows.thresholds().restarts.better * residualsOf(windows.problem(), without, {}).squaredNorm();
+  std::vector<Wave> better;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!replays[i].ok() || replays[i].numbers[0] >= most) continue;
+    all[i].left = replays[i].numbers[0];
+    better.push_back(std::move(all[i]));
+  }
+  std::ranges::stable_sort(better, {}, &Wave::left);
+  return better;
 }
 
 /// A whole number that counts something: of kinds, each is fitted anyway.
@@ -92,43 +157,27 @@ void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitM
       std::ranges::find_if(declared, [&](const Parameter& p) { return counts(p, service.thresholds()); });
   if (whole == declared.end() || service.problem().walks) return;
   if (2 * fit.cost < limits.leastLeft * static_cast<double>(service.problem().residuals())) return;
-  const auto numberOf = [&](const FitModel& model) { return model.effects.back().parameters.at(whole->name); };
-
-  // All other numbers as they were without the effect: with a wrong number they were bent to it.
-  FitModel fresh = fit.model;
-  std::ranges::copy(without.values, fresh.values.begin());
-  for (std::size_t i = without.values.size(); i < fresh.values.size(); ++i)
-    if (fresh.parameters[i].hasNeutral) fresh.values[i] = fresh.parameters[i].given;
 
   const FitService windows = service.inWindows(limits.window_s);
-  const Eigen::VectorXd rest = residualsOf(windows.problem(), fresh, {});
-  const std::vector<double> numbers = numbersFrom(whole->minimum, whole->maximum, limits.step);
-  std::vector<Wave> waves(numbers.size());
-  const auto probed = parallel(
-      service.options().jobs, numbers.size(),
-      [&](std::size_t i) {
-        const Wave wave = waveOf(windows.problem(), fresh, rest, whole->name, numbers[i], limits.small);
-        std::vector<double> sent = wave.model.values;
-        sent.push_back(wave.left);
-        return sent;
-      },
-      service.reporter(stage, numbers.size(), at, at));
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!probed[i].ok()) continue;
-    waves[i] = {fresh, numbers[i], probed[i].numbers.back()};
-    waves[i].model.effects.back().parameters[whole->name] = numbers[i];
-    std::copy_n(probed[i].numbers.begin(), waves[i].model.values.size(), waves[i].model.values.begin());
-    if (waves[i].left < service.thresholds().restarts.better * rest.squaredNorm()) order.push_back(i);
+  const auto goOn = service.reporter(stage, 1, at, at);
+  std::vector<Wave> waves;
+  if (const auto where = waveIn(fit.model)) {
+    // All other numbers as they were without the effect: with a wrong number of waves they were bent to it.
+    FitModel fresh = fit.model;
+    std::ranges::copy(without.values, fresh.values.begin());
+    fresh.values[where->size] = fresh.parameters[where->size].given;
+    waves = wavesOf(windows, fresh, *where, *whole, goOn);
+  } else {
+    waves = numbersAround(windows, fit, without, *whole, goOn);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return waves[i].left; });
   std::vector<FitJob> starts;
-  // Neighbours are climbed to from each.
-  for (const std::size_t i : order)
-    if (starts.size() < limits.fitted && std::ranges::none_of(starts, [&](const FitJob& start) {
-          return std::abs(numberOf(start.model) - numbers[i]) <= std::max(1.0, limits.apart * numbers[i]);
-        }))
-      starts.push_back({waves[i].model, {}});
+  for (const Wave& wave : waves) {
+    const auto isNear = [&](const FitJob& start) {
+      const double number = start.model.effects.back().parameters.at(whole->name);
+      return std::abs(number - wave.number) <= limits.apart * wave.number;
+    };
+    if (starts.size() < limits.fitted && std::ranges::none_of(starts, isNear)) starts.push_back({wave.model, {}});
+  }
 
   std::vector<Fit> fits =
       completed(windows.tryFits(starts, service.thresholds().restarts.windowIterations, stage, at, at));

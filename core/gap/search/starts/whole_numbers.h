@@ -12,8 +12,8 @@ namespace btr {
 
 /// The last effect's whole numbers: neighbours are tried as long as one fits better.
 void climbWholeNumbers(const FitService& service, Fit& fit, const std::string& stage, double at);
-/// A candidate with a whole number that leaves much: all other numbers, begun in short windows, all else as it was
-/// `without` the effect.
+/// A candidate with a whole number that leaves much, begun in short windows: waves (with an angle of a whole turn) of
+/// all numbers, all else as it was `without` the effect; of others the numbers around its own.
 void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitModel& without, const std::string& stage,
                                  double at);
 

@@ -26,18 +26,6 @@ struct Chi {
   double fromSamples = 0;    ///< begins where the first samples say
 };
 
-/// Positions as they are, from what the sensors say of them.
-void takeSensorsAway(const Scene& scene, StartState& start) {
-  for (const SceneEffect& placed : scene.effects)
-    for (std::size_t r = 0; r < scene.robots.size(); ++r)
-      for (std::size_t j = 0; j < scene.robots[r].model.joints.size(); ++j) {
-        if (placed.at != scene.robots[r].name + "." + scene.robots[r].model.joints[j].name) continue;
-        if (placed.effect->stateSize() > 0) continue;
-        double& position = start.robots[r].positions[j];
-        position -= placed.effect->measured(position, {.position = position}, placed.values, {}, 0) - position;
-      }
-}
-
 Chi replayTruth(const BlindCase& blind, const Plugins& plugins) {
   const TemporaryFolder folder;
   writeCase(blind, plugins.library, folder.file("case"));
@@ -52,8 +40,8 @@ Chi replayTruth(const BlindCase& blind, const Plugins& plugins) {
   for (std::size_t i = 0; i < blind.world.trials.size(); ++i) {
     const Recording recording = loadRecording(folder.file("case/trial_" + std::to_string(i + 1) + ".csv"));
     const Binding binding = bind(scene, recording);
-    StartState known = simulateOde(fine, blind.world.trials[i], blind.world.columns).start;
-    takeSensorsAway(scene, known);
+    // What the sensors said, as replays take a start.
+    const StartState known = simulateOde(fine, blind.world.trials[i], blind.world.columns).start;
     const StartState estimated = startState(scene, recording, binding);
     const auto one = replayRecording(scene, recording, binding, known);
     const auto other = replayRecording(scene, recording, binding, estimated);

@@ -128,8 +128,9 @@ std::optional<LearnedLaw> LawSearch::extend(const Law& there, const Fit& fit, co
     if (learned && next.scored.mean() >= learned->scored.mean()) continue;
     learned = std::move(next);
   }
-  // What few knots leave of a curve that bends much is seen only once they are where they belong.
-  while (learned && excessOf(learned->scored) > limits_.leastExcess &&
+  // What few knots leave of a curve that bends much is seen only once they are where they belong. (Beside a first curve
+  // a name is preferred to what a second one could follow so.)
+  while (learned && there.terms.empty() && excessOf(learned->scored) > limits_.leastExcess &&
          learned->law.terms.back().knots < std::min(limits_.knots, mostLawKnots)) {
     const Law law = denserLaw(problem_, named_, learned->scored.fit, learned->linear, learned->law, jobs_, limits_);
     if (law.terms.back().knots <= learned->law.terms.back().knots) break;

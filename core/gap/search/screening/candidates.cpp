@@ -97,6 +97,7 @@ double typicalOf(const Parameter& p, const SearchThresholds::Candidates& limits)
 
 std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const SearchThresholds::Candidates& limits) {
   Values base = neutralValues(declared);
+  const Parameter* const phase = phaseOf(declared);
   std::vector<Values> variants;
   const auto sized = [&](const Parameter& p, double share, double sign, const Values& others) {
     Values values = others;
@@ -121,7 +122,7 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
         others[other.name] = value;
         sized(p, 1, up ? 1 : -1, others);
         // A wave of the wrong phase says nothing of its number: with a quarter of a turn more one of the two does.
-        if (const Parameter* phase = other.integer ? phaseOf(declared) : nullptr) {
+        if (other.integer && phase) {
           others[phase->name] = base[phase->name] + M_PI / 2;
           sized(p, 1, up ? 1 : -1, others);
         }

@@ -22,6 +22,13 @@ struct Wave {
   double number = 0, left = 0;
 };
 
+/// Those that leave less than `most`, the best first.
+std::vector<Wave> bestOf(std::vector<Wave> waves, double most) {
+  std::erase_if(waves, [&](const Wave& wave) { return wave.left >= most; });
+  std::ranges::stable_sort(waves, {}, &Wave::left);
+  return waves;
+}
+
 /// Whole numbers from `minimum` to `maximum`: one by one, and where they are large in steps that are a share of them,
 /// since neighbours look alike there.
 std::vector<double> numbersFrom(double minimum, double maximum, double step) {
@@ -79,33 +86,30 @@ std::vector<Wave> wavesOf(const FitService& windows, const FitModel& without, co
       windows.options().jobs, numbers.size(),
       [&](std::size_t i) { return waveOf(windows.problem(), without, at, rest, whole.name, numbers[i], limits.small); },
       goOn);
-  const double most = windows.thresholds().restarts.better * rest.squaredNorm();
   std::vector<Wave> waves;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!probed[i].ok() || probed[i].numbers[2] >= most) continue;
+    if (!probed[i].ok()) continue;
     Wave wave{without, numbers[i], probed[i].numbers[2]};
     wave.model.effects.back().parameters[whole.name] = numbers[i];
     wave.model.values[at.size] = probed[i].numbers[0];
     wave.model.values[at.phase] = probed[i].numbers[1];
     waves.push_back(std::move(wave));
   }
-  std::ranges::stable_sort(waves, {}, &Wave::left);
-  return waves;
+  return bestOf(std::move(waves), windows.thresholds().restarts.better * rest.squaredNorm());
 }
 
 /// What is no wave is no sum of two columns, but has no side minima by its phase either: numbers around the fit's own,
-/// all else as it is and as it was without the effect.
-std::vector<Wave> numbersAround(const FitService& windows, const Fit& fit, const FitModel& without,
-                                const Parameter& whole, const std::function<bool(std::size_t)>& goOn) {
+/// all else as it is and, in `fresh`, as it was `without` the effect.
+std::vector<Wave> numbersAround(const FitService& windows, const FitModel& fitted, const FitModel& fresh,
+                                const FitModel& without, const Parameter& whole,
+                                const std::function<bool(std::size_t)>& goOn) {
   const SearchThresholds::WholeNumbers& limits = windows.thresholds().wholeNumbers;
-  const double here = fit.model.effects.back().parameters.at(whole.name);
+  const double here = fitted.effects.back().parameters.at(whole.name);
   const double from = std::max(whole.minimum, std::floor(here / limits.around));
   const double to = std::min(whole.maximum, std::ceil(here * limits.around));
   const double step = std::ceil((to - from + 1) / limits.most);
-  FitModel fresh = fit.model;
-  std::ranges::copy(without.values, fresh.values.begin());
   std::vector<Wave> all;
-  for (const FitModel& model : {fit.model, fresh})
+  for (const FitModel& model : {fitted, fresh})
     for (double number = from; number <= to; number += step) {
       all.push_back({model, number, 0});
       all.back().model.effects.back().parameters[whole.name] = number;
@@ -116,15 +120,14 @@ std::vector<Wave> numbersAround(const FitService& windows, const Fit& fit, const
         return std::vector<double>{residualsOf(windows.problem(), all[i].model, {}).squaredNorm()};
       },
       goOn);
-  const double most = windows.thresholds().restarts.better * residualsOf(windows.problem(), without, {}).squaredNorm();
-  std::vector<Wave> better;
+  std::vector<Wave> replayed;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!replays[i].ok() || replays[i].numbers[0] >= most) continue;
+    if (!replays[i].ok()) continue;
     all[i].left = replays[i].numbers[0];
-    better.push_back(std::move(all[i]));
+    replayed.push_back(std::move(all[i]));
   }
-  std::ranges::stable_sort(better, {}, &Wave::left);
-  return better;
+  const double rest = residualsOf(windows.problem(), without, {}).squaredNorm();
+  return bestOf(std::move(replayed), windows.thresholds().restarts.better * rest);
 }
 
 /// A whole number that counts something: of kinds, each is fitted anyway.
@@ -160,15 +163,15 @@ void restartWholeNumberInWindows(const FitService& service, Fit& fit, const FitM
 
   const FitService windows = service.inWindows(limits.window_s);
   const auto goOn = service.reporter(stage, 1, at, at);
+  // All other numbers as they were without the effect: with a wrong number of waves they were bent to it.
+  FitModel fresh = fit.model;
+  std::ranges::copy(without.values, fresh.values.begin());
   std::vector<Wave> waves;
   if (const auto where = waveIn(fit.model)) {
-    // All other numbers as they were without the effect: with a wrong number of waves they were bent to it.
-    FitModel fresh = fit.model;
-    std::ranges::copy(without.values, fresh.values.begin());
     fresh.values[where->size] = fresh.parameters[where->size].given;
     waves = wavesOf(windows, fresh, *where, *whole, goOn);
   } else {
-    waves = numbersAround(windows, fit, without, *whole, goOn);
+    waves = numbersAround(windows, fit.model, fresh, without, *whole, goOn);
   }
   std::vector<FitJob> starts;
   for (const Wave& wave : waves) {

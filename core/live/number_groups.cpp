@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 
@@ -115,7 +116,10 @@ std::vector<std::string> placesFor(const Effect& effect, const Game& game, const
   const std::span<const SceneRobot> all = scene.robots;
   if (robot.empty()) return effectPlaces(effect.place(), scene, all);
   const auto found = std::ranges::find(all, robot, &SceneRobot::name);
-  return found == all.end() ? std::vector<std::string>{} : effectPlaces(effect.place(), scene, {found, 1});
+  if (found == all.end()) return {};
+  std::vector<std::string> places = effectPlaces(effect.place(), scene, {found, 1});
+  std::ranges::move(sharedPlaces(effect, {found, 1}), std::back_inserter(places));
+  return places;
 }
 
 const SimulatorSpec& simulatorIn(const Game& game, const std::string& robot) {

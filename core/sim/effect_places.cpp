@@ -1,5 +1,7 @@
 #include "core/sim/effect_places.h"
 
+#include <algorithm>
+
 namespace btr {
 namespace {
 
@@ -40,6 +42,17 @@ std::vector<std::string> effectPlaces(Effect::Place place, const Scene& scene, s
       places.emplace_back("world");
       break;
   }
+  return places;
+}
+
+std::string everyJointOf(const std::string& robot) { return robot + ".*"; }
+
+std::vector<std::string> sharedPlaces(const Effect& effect, std::span<const SceneRobot> robots) {
+  std::vector<std::string> places;
+  if (effect.place() != Effect::Place::joint || effect.law().acts != EffectLaw::Acts::command) return places;
+  for (const SceneRobot& robot : robots)
+    if (std::ranges::count_if(robot.drives, [](const Drive& drive) { return drive.kind != Drive::Kind::none; }) > 1)
+      places.push_back(everyJointOf(robot.name));
   return places;
 }
 

@@ -19,4 +19,11 @@ enum class EffectJoints {
 std::vector<std::string> effectPlaces(Effect::Place place, const Scene& scene, std::span<const SceneRobot> robots,
                                       EffectJoints joints = EffectJoints::moving);
 
+/// The place of an effect that all joints of a robot have with the same numbers, as simulator files write it: "dog.*".
+std::string everyJointOf(const std::string& robot);
+
+/// Where all joints of a robot may share an effect: at robots with several drives, what changes commands on their way
+/// to them (one bus, one frame, one firmware). Empty for other effects.
+std::vector<std::string> sharedPlaces(const Effect& effect, std::span<const SceneRobot> robots);
+
 }  // namespace btr

@@ -2,14 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "core/sim/effect_places.h"
 #include "core/sim/world/scene_build.h"
 #include "core/spec/error.h"
 
 namespace btr {
 namespace {
 
-SceneEffect placeEffect(const Scene& scene, const PlacedEffect& placed, const EffectFactory& factory) {
+/// One of a whole robot is one at each of its joints that moves.
+std::vector<SceneEffect> atEveryJoint(const Scene& scene, const SceneEffect& effect) {
+  std::vector<SceneEffect> all;
+  for (const auto& robot : scene.robots) {
+    if (effect.at != everyJointOf(robot.name)) continue;
+    for (const Joint& joint : robot.model.joints) {
+      if (joint.type == Joint::Type::fixed) continue;
+      all.push_back(effect);
+      all.back().at = robot.name + "." + joint.name;
+    }
+  }
+  return all;
+}
+
+std::vector<SceneEffect> placeEffect(const Scene& scene, const PlacedEffect& placed, const EffectFactory& factory) {
   SceneEffect effect;
   effect.effect = factory(placed.effect);
   effect.name = placed.effect;
@@ -24,7 +40,8 @@ SceneEffect placeEffect(const Scene& scene, const PlacedEffect& placed, const Ef
   std::string allowed;
   switch (effect.effect->place()) {
     case Effect::Place::joint:
-      allowed = "ROBOT.JOINT";
+      if (const auto everywhere = atEveryJoint(scene, effect); !everywhere.empty()) return everywhere;
+      allowed = "ROBOT.* (all its joints) or ROBOT.JOINT";
       for (const auto& robot : scene.robots)
         there = there || among(robot.model.joints, [&](const Joint& joint) {
                   return joint.type == Joint::Type::fixed ? std::string() : robot.name + "." + joint.name;
@@ -49,7 +66,7 @@ SceneEffect placeEffect(const Scene& scene, const PlacedEffect& placed, const Ef
       break;
   }
   if (!there) throw InputError(where + " at", placed.at, allowed + " of the scene");
-  return effect;
+  return {effect};
 }
 
 }  // namespace
@@ -65,7 +82,8 @@ Scene makeScene(const SceneSpec& spec, const ModelSet& models, const SimulatorSp
   for (const bool mass : {true, false})
     for (const auto& [name, value] : simulator.values)
       if (!isParameter(name) && name.ends_with(".mass_kg") == mass) setByPath(scene, name, value);
-  for (const auto& placed : simulator.effects) scene.effects.push_back(placeEffect(scene, placed, effects));
+  for (const auto& placed : simulator.effects)
+    std::ranges::move(placeEffect(scene, placed, effects), std::back_inserter(scene.effects));
   // Of what else is there an effect may ask, in whichever order they stand.
   for (const SceneEffect& effect : std::vector<SceneEffect>(scene.effects))
     effect.effect->changeScene(scene, effect.at, effect.values);

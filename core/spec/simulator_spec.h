@@ -12,7 +12,7 @@ class JsonReader;
 /// An effect that was added to the simulator: its plugin's name, its place, its parameters (all of them, in SI units).
 struct PlacedEffect {
   std::string effect;  ///< e.g. "backlash"
-  std::string at;      ///< "ROBOT.JOINT", "ROBOT.LINK", a ball's name, "floor" or "world"
+  std::string at;      ///< "ROBOT.JOINT", "ROBOT.*" (all its joints), "ROBOT.LINK", a ball's name, "floor", "world"
   Values parameters;
   bool operator==(const PlacedEffect&) const = default;
   std::string text() const { return effect + " at " + at; }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sim/effect_places.h"
+#include "tests/plugin/built_plugins.h"
 #include "tests/sim/small_worlds.h"
 
 namespace btr::test {
@@ -54,6 +55,16 @@ TEST(EffectPlaces, AFloorIsOneOnlyWhereThereIsOne) {
   EXPECT_THAT(places(Effect::Place::floor, scene), IsEmpty());
   EXPECT_THAT(places(Effect::Place::world, scene), ElementsAre("world"));
   EXPECT_THAT(places(Effect::Place::ball, scene), IsEmpty());
+}
+
+/// What joints share is looked for on the way of commands, and only where several drives follow commands.
+TEST(EffectPlaces, AreSharedByAllJointsWhereSeveralHaveDrives) {
+  Scene scene = rigAndBody();
+  const auto late = host().effect("command_delay");
+  EXPECT_THAT(sharedPlaces(*late, scene.robots), IsEmpty());
+  scene.robots[0].drives[1].kind = Drive::Kind::torque;
+  EXPECT_THAT(sharedPlaces(*late, scene.robots), ElementsAre("rig.*"));
+  EXPECT_THAT(sharedPlaces(*host().effect("backlash"), scene.robots), IsEmpty());
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ bool hasNoJoints(const GapReport& report) {
 /// An effect that was found: where it acts, its law, its numbers, what it took and what competes with it.
 std::string effectCard(const GapReport& report, const ReportLead::Finding& finding) {
   const GapReport::Effect& e = report.tried[finding.effect];
-  std::string html = "<section><h3>" + escaped(capital(inWords(e.effect))) + " at " + escaped(e.at) + "</h3>\n" +
+  std::string html = "<section><h3>" + escaped(capital(inWords(e.effect, e.at))) + "</h3>\n" +
                      figure(plots::chain({e.law.acts}, hasNoJoints(report)), "");
   if (!e.law.says.empty())
     html += "<p>" + escaped(capital(e.law.says)) + ":</p>\n<p class=\"equation\">" + equationHtml(e.law.equation) +

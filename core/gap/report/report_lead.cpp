@@ -15,7 +15,7 @@ namespace {
 using Verdict = GapReport::Verdict;
 constexpr std::size_t mostErrors = 4;
 
-std::string placed(const GapReport::Effect& effect) { return inWords(effect.effect) + " at " + effect.at; }
+std::string placed(const GapReport::Effect& effect) { return inWords(effect.effect, effect.at); }
 
 std::vector<std::size_t> acceptedOf(const GapReport& report) {
   std::vector<std::size_t> accepted;

@@ -1,5 +1,6 @@
 #include "core/gap/search/explanation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/spec/parameter.h"
@@ -29,7 +30,12 @@ Explanation completed(const std::vector<Recording>& recordings, const MadeReady&
   }
   if (!learnRest) return made;
   if (search.progress && !search.progress("measuring what has no name", 0.93)) throw Cancelled{};
-  made.law = learnBesideNames(made.problem, made.found, search);
+  // Beside much that is left a coarse step does, but a curve may take all of it: it is no curve of what the step errs.
+  FitProblem ofLaw = made.problem;
+  if (stepErrorOf(made.found.stepChange) > search.thresholds.law.leastExcess)
+    ofLaw.scene.step_s = std::min(ofLaw.scene.step_s, ofLaw.givenStep_s);
+  made.law = learnBesideNames(ofLaw, made.found, search);
+  if (made.law.law) made.problem.scene.step_s = ofLaw.scene.step_s;
   return made;
 }
 

@@ -1,15 +1,21 @@
 #include "core/gap/search/report_words.h"
 
 #include <cmath>
+#include <string_view>
 
 #include "core/gap/search/gap_report.h"
 #include "core/spec/figures.h"
 
 namespace btr {
 
+std::string inWords(const std::string& effect, const std::string& at) {
+  constexpr std::string_view shared = ".*";
+  return inWords(effect) + " at " +
+         (at.ends_with(shared) ? "every joint of " + at.substr(0, at.size() - shared.size()) : at);
+}
+
 std::string inWords(const GapReport::Rival& rival) {
-  return inWords(rival.effect) + " at " + rival.at +
-         (rival.with.empty() ? "" : " together with " + inWords(rival.with));
+  return inWords(rival.effect, rival.at) + (rival.with.empty() ? "" : " together with " + inWords(rival.with));
 }
 
 bool isWiderAmongRivals(const GapReport::Number& number) {

@@ -10,7 +10,9 @@ namespace btr {
 
 // What a report holds, in a few words.
 
-/// "dry friction at rig.hinge", and what it is a rival together with.
+/// "dry friction at rig.hinge"; at a place that all joints share (rig.*), "… at every joint of rig".
+std::string inWords(const std::string& effect, const std::string& at);
+/// The same, and what it is a rival together with.
 std::string inWords(const GapReport::Rival& rival);
 /// Whether rivals would put a number where its own interval does not hold it: more than twice as wide with them.
 bool isWiderAmongRivals(const GapReport::Number& number);

@@ -46,7 +46,7 @@ std::string textOf(const GapReport::Interval& interval) {
 }
 
 std::string effectText(const GapReport::Effect& effect) {
-  std::string text = inWords(effect.effect) + " at " + effect.at;
+  std::string text = inWords(effect.effect, effect.at);
   std::string numbers;
   for (const GapReport::Number& p : effect.parameters)
     numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) +
@@ -77,7 +77,7 @@ std::string rivalsText(const GapReport::Effect& effect) {
   if (effect.rivals.empty()) return "";
   std::string text;
   for (const GapReport::Rival& rival : effect.rivals) text += (text.empty() ? "" : ", ") + inWords(rival);
-  return "These recordings cannot tell " + inWords(effect.effect) + " at " + effect.at + " from " + text + ". ";
+  return "These recordings cannot tell " + inWords(effect.effect, effect.at) + " from " + text + ". ";
 }
 
 /// Numbers that the choice among rivals moves by more than what the interval of one of them says.
@@ -92,7 +92,7 @@ std::string movedByRivalsText(const GapReport& report) {
   for (const GapReport::Effect& effect : report.tried)
     if (effect.accepted)
       for (const GapReport::Number& number : effect.parameters)
-        tell(number.name + " of " + inWords(effect.effect) + " at " + effect.at, number);
+        tell(number.name + " of " + inWords(effect.effect, effect.at), number);
   return text.empty() ? "" : "Which of them it is decides of other numbers, too; over all of them: " + text + ". ";
 }
 
@@ -408,7 +408,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   for (const GapReport::Number& number : report.calibrated)
     if (!number.excited) add(number.name);
   for (const GapReport::Effect& effect : report.tried)
-    if (effect.accepted && !tellsSize(effect)) add("how large " + inWords(effect.effect) + " at " + effect.at + " is");
+    if (effect.accepted && !tellsSize(effect)) add("how large " + inWords(effect.effect, effect.at) + " is");
   if (!unidentifiable.empty()) report.sentence += "Not identifiable from these recordings: " + unidentifiable + ". ";
   if (!report.next.why.empty())
     report.sentence +=

@@ -9,6 +9,7 @@
 #include "core/gap/recordings/channel_name.h"
 #include "core/gap/replay/residual.h"
 #include "core/gap/report/report_figures.h"
+#include "core/gap/search/report_words.h"
 #include "core/run/reality/reality_gap.h"
 #include "core/run/setup/evaluator.h"
 #include "core/spec/error.h"
@@ -220,7 +221,7 @@ class Clues {
     return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : 0;
   }
 
-  static std::string nameOf(const FitnessClue& clue) { return inWords(clue.effect.effect) + " at " + clue.effect.at; }
+  static std::string nameOf(const FitnessClue& clue) { return inWords(clue.effect.effect, clue.effect.at); }
 
   void say() {
     std::string& text = result_.sentence;

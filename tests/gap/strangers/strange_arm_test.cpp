@@ -54,6 +54,21 @@ std::vector<std::string> namedIn(const GapReport& report) {
   return named;
 }
 
+TEST(EveryJoint, HasWhatIsPlacedAtItsRobot) {
+  const GapProblem problem = problemOf({}, 1);
+  const auto placed = [&](const std::string& effect, const std::string& at) {
+    return makeScene(problem.scene, problem.models, {{}, {{effect, at, {}}}}, library().make);
+  };
+  std::vector<std::string> places;
+  for (const SceneEffect& effect : placed("coulomb_friction", "arm.*").effects) places.push_back(effect.at);
+  EXPECT_THAT(places, testing::ElementsAre("arm.joint1", "arm.joint2", "arm.joint3"));
+  const Scene bare = placed("coulomb_friction", "arm.joint1"), heavy = placed("rotor_inertia", "arm.*");
+  for (std::size_t joint = 0; joint < 3; ++joint)
+    EXPECT_GT(heavy.robots[0].drives[joint].rotorInertia_kg_m2, bare.robots[0].drives[joint].rotorInertia_kg_m2);
+  EXPECT_THROW(placed("coulomb_friction", "leg.*"), InputError);
+  EXPECT_THROW(placed("payload", "arm.*"), InputError);
+}
+
 TEST(StrangeArm, ThatLacksNothingHasNoMismatch) {
   const GapReport report = analyse(problemOf({}, 2), library(), {});
   EXPECT_EQ(report.verdict, GapReport::Verdict::noMismatch) << toPlainText(report);
@@ -81,16 +96,37 @@ TEST(StrangeArm, FrictionIsNamedAtItsJointBesideAnothersIntegration) {
   EXPECT_THAT(namedIn(report), testing::ElementsAre("coulomb_friction at arm.joint2")) << toPlainText(report);
 }
 
-/// A delay that is longer than half a step stays a delay.
-TEST(StrangeArm, AShiftInTimeIsBoundedByHalfAStep) {
-  GapProblem problem = problemOf({}, 1, 1e-4);
-  Recording& recording = problem.recordings[0];
-  // All commands were recorded two samples before they acted.
+/// As if commands had been written down two samples before they acted.
+void delay(Recording& recording) {
   for (std::size_t i : {1u, 3u, 5u}) {
     std::vector<double>& command = recording.columns[i];
     command.erase(command.begin(), command.begin() + 2);
     command.insert(command.end(), 2, command.back());
   }
+}
+
+/// One bus feeds all servos: what all joints share is one effect with one number.
+TEST(StrangeArm, ADelayThatAllJointsShareIsOneEffect) {
+  strange::Arm arm;
+  arm.friction[1] = 0.6;
+  GapProblem problem = problemOf(arm, 2);
+  for (Recording& recording : problem.recordings) delay(recording);
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "command_delay", "rotor_inertia"};
+  const GapReport report = analyse(std::move(problem), library(), options);
+  EXPECT_THAT(namedIn(report),
+              testing::UnorderedElementsAre("command_delay at arm.*", "coulomb_friction at arm.joint2"))
+      << toPlainText(report);
+  const auto late = std::ranges::find_if(
+      report.tried, [](const GapReport::Effect& each) { return each.accepted && each.effect == "command_delay"; });
+  ASSERT_NE(late, report.tried.end());
+  EXPECT_NEAR(late->parameters.at(0).value, 0.016, 0.001);
+}
+
+/// A delay that is longer than half a step stays a delay.
+TEST(StrangeArm, AShiftInTimeIsBoundedByHalfAStep) {
+  GapProblem problem = problemOf({}, 1, 1e-4);
+  delay(problem.recordings[0]);
   const FitProblem fit = makeFitProblem(problem, problem.recordings, library());
   Eigen::VectorXd residuals = residualsOf(fit, givenModel(fit), {});
   const double before = residuals.squaredNorm();

@@ -200,8 +200,7 @@ GapReport::NextRecording designNext(const FitProblem& problem, const SearchResul
       shapeName = name;
     }
   if (next.separation <= 0) return next;
-  const std::string own = inWords(doubted->effect.effect) + " at " + doubted->effect.at,
-                    other = inWords(doubted->rivals[0]),
+  const std::string own = inWords(doubted->effect.effect, doubted->effect.at), other = inWords(doubted->rivals[0]),
                     by = " by " + digits(next.separation, 2) + " noise floors (" + shapeName + ", " +
                          toText(thresholds.length_s) + " s)";
   next.why = next.separation >= thresholds.leastSeparation

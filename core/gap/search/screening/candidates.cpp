@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -152,7 +153,9 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
     if (name == measuredLaw) continue;
     const auto effect = library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
-    for (const std::string& at : effectPlaces(effect->place(), scene, scene.robots))
+    std::vector<std::string> places = effectPlaces(effect->place(), scene, scene.robots);
+    std::ranges::move(sharedPlaces(*effect, scene.robots), std::back_inserter(places));
+    for (const std::string& at : places)
       if (std::none_of(there.begin(), there.end(),
                        [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
         candidates.push_back({name, at, declared, variantsOf(declared, thresholds)});

@@ -80,11 +80,18 @@ Target robotNumber(Scene& scene, const std::string& path, std::string rest) {
   if (kind == "joints")
     if (double* limit = limitOf(robot->model.joints[static_cast<std::size_t>(joint)], number))
       return {limit, {number, "", "", -farthest, farthest}};
-  const Parameter& bounds = declaredIn(kind == "servos" ? servoNumbers() : jointNumbers(), number, path);
-  const auto index = static_cast<std::size_t>(joint);
-  double* target = driveNumber(robot->drives[index], robot->model.joints[index], number);
-  if (!target) noSuch(path, "a number that this kind of joint has");
-  return {target, bounds};
+  const std::vector<Parameter>& declared = kind == "servos" ? servoNumbers() : jointNumbers();
+  const Parameter* bounds = find(declared, number);
+  const auto numberOf = [&, index = static_cast<std::size_t>(joint)](const std::string& asked) {
+    return driveNumber(robot->drives[index], robot->model.joints[index], asked);
+  };
+  double* target = numberOf(number);
+  if (!bounds || !target) {
+    std::vector<Parameter> here = declared;
+    std::erase_if(here, [&](const Parameter& p) { return !numberOf(p.name); });
+    noSuch(path, "one of " + namesOf(here));
+  }
+  return {target, *bounds};
 }
 
 /// One of the numbers that a floor or ball has.

@@ -89,6 +89,8 @@ TEST(ScenePaths, LeadToLimitsOfJointsAndToObstacles) {
   EXPECT_THAT(test::refusal([&] { setByPath(scene, "obstacles.post.friction", 0.2); }),
               AllOf(HasSubstr("obstacles.post.friction"), HasSubstr("wall")));
   EXPECT_NE("accepted", test::refusal([&] { setByPath(scene, joint + ".upper_m", 0.2); }));
+  EXPECT_THAT(test::refusal([&] { setByPath(scene, joint + ".viscous_friction_n_s_m", 0.2); }),
+              HasSubstr("one of coulomb_friction_nm, viscous_friction_nm_s_rad"));
   scene.robots[0].model.joints[0].upper = 1e9;
   EXPECT_NE("accepted", test::refusal([&] { setByPath(scene, joint + ".upper_rad", 0.2); })) << "there is no limit";
 }

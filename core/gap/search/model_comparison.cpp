@@ -9,6 +9,11 @@ bool isMissed(const Scored& without, const Scored& with, const SearchThresholds:
   return comparison.t >= limits.missedT && comparison.gain >= limits.leastGain;
 }
 
+double imperfectionOf(const Scored& calibrated, const Scored& model, const SearchThresholds::Screening& limits) {
+  const double taken = calibrated.mean() - model.mean();
+  return taken > 0 ? std::min(limits.imperfect * taken, limits.imperfectMost) : 0;
+}
+
 PairedTest besideAFarthestShift(PairedTest comparison, const Scored& without, const Scored& with,
                                 const SearchThresholds::Shift& limits) {
   if (without.aligned.ofMost >= limits.inside && with.aligned.ofMost < limits.inside)

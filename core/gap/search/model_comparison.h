@@ -9,6 +9,10 @@ namespace btr {
 /// Whether a model without something predicts worse than the one with it.
 bool isMissed(const Scored& without, const Scored& with, const SearchThresholds::Confirmation& limits);
 
+/// What the effects of a model may leave of what they explain [noise floors²]: a named law is not in every detail the
+/// plant's, and the more it takes the more the rest of it is above the noise. No further name is due to so little.
+double imperfectionOf(const Scored& calibrated, const Scored& model, const SearchThresholds::Screening& limits);
+
 /// Their comparison, but by how likely chance does as well: a shift in time that is as far as it may be stands for
 /// something else. Where an effect does without it, what the shift hides is part of what the effect explains.
 PairedTest besideAFarthestShift(PairedTest comparison, const Scored& without, const Scored& with,

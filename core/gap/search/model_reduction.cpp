@@ -45,8 +45,13 @@ void dropNeutral(const FitService& service, Selection& selection) {
 
 }  // namespace
 
-void dropRedundant(FitService& service, Selection& selection) {
+void dropRedundant(FitService& service, Selection& selection, const Scored& calibrated) {
   dropNeutral(service, selection);
+  const auto stays = [&](const Scored& without) {
+    const double imperfection = imperfectionOf(calibrated, selection.final, service.thresholds().screening);
+    return without.mean() - selection.final.mean() > imperfection &&
+           isMissed(without, selection.final, service.thresholds().confirmation);
+  };
   for (bool changed = true; changed && selection.final.fit.model.effects.size() > 1;) {
     changed = false;
     std::vector<FitJob> jobs;
@@ -54,11 +59,9 @@ void dropRedundant(FitService& service, Selection& selection) {
       jobs.push_back({selection.final.fit.model.without(i), selection.final.fit.shifts});
     auto scored = service.fitAndScore(jobs, selection.final.fit, "dropping each in turn", 0.8, 0.86);
     for (std::size_t i = 0; i < scored.size() && !changed; ++i) {
-      if (isNeeded(service.problem(), selection.final.fit.model.effects, i) ||
-          isMissed(scored[i], selection.final, service.thresholds().confirmation))
-        continue;
+      if (isNeeded(service.problem(), selection.final.fit.model.effects, i) || stays(scored[i])) continue;
       service.bringToStep(scored[i], "dropping each in turn", 0.86);
-      if (isMissed(scored[i], selection.final, service.thresholds().confirmation)) continue;
+      if (stays(scored[i])) continue;
       const std::string dropped = selection.final.fit.model.effects[i].text();
       conclude(selection.attempts, dropped, false, "useless once the others were there");
       selection.take(scored[i], "− " + dropped);

@@ -14,6 +14,7 @@
 #include "core/gap/search/calibrator.h"
 #include "core/gap/search/confirmer.h"
 #include "core/gap/search/fit_service.h"
+#include "core/gap/search/model_comparison.h"
 #include "core/gap/search/model_reduction.h"
 #include "core/gap/search/rivals/rival_finder.h"
 #include "core/gap/search/rivals/unidentifiable.h"
@@ -121,8 +122,9 @@ void StructureSearch::addEffects(int stage) {
   for (; stage < most(); ++stage) {
     // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
     const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
+    const double ofLaws = imperfectionOf(calibration_.calibrated, selection_.final, limits);
     if (selection_.final.mean() <
-        limits.nothingLeft + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
+        limits.nothingLeft + ofLaws + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
       break;
     Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;
@@ -191,7 +193,7 @@ std::vector<Found> StructureSearch::findRivals() {
         excessOf(selection_.final) < service_.thresholds().screening.doubtfulExcess)
       return std::move(rivals.effects);
     addEffects(static_cast<int>(after.size()));
-    dropRedundant(service_, selection_);
+    dropRedundant(service_, selection_, calibration_.calibrated);
     if (namesNow() == after) return std::move(rivals.effects);
   }
 }
@@ -217,9 +219,9 @@ SearchResult StructureSearch::run() {
   }
   beginFrom(calibration);
   addEffects(0);
-  dropRedundant(service_, selection_);
+  dropRedundant(service_, selection_, calibration_.calibrated);
   takeApart(service_, selection_, calibration_.calibrated);
-  dropRedundant(service_, selection_);
+  dropRedundant(service_, selection_, calibration_.calibrated);
   std::vector<Found> effects = findRivals();
 
   raiseUnreached(service_, selection_.final.fit);

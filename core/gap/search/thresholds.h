@@ -168,6 +168,9 @@ struct SearchThresholds {
     double aboutAsMuch = 0.25;            ///< promise of those, of the best one's, where the best is found and leaves
                                           ///< more than lastChanceExcess [case: a sensor's lag of 48 ms]
     double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
+    double imperfect = 1e-3;              ///< of what the effects take, and no more than
+    double imperfectMost = 0.5;           ///< may be left of it: their laws are not the plant's in every detail [case:
+                                          ///< dry friction that another integrator smooths]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
     double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]
     double doubtfulExcess = 1;  ///< left by one effect: two others in its place are tried [case: payload

@@ -309,7 +309,8 @@ LawBesideNames learnBesideNames(const FitProblem& problem, SearchResult& found, 
   result.applies = canLearn(problem);
   if (!result.applies) return result;
   const double left = found.final.mean() - stepErrorOf(found.stepChange);
-  if (left < 1 + thresholds.law.leastExcess) return result;
+  if (left < 1 + thresholds.law.leastExcess + imperfectionOf(found.calibrated, found.final, thresholds.screening))
+    return result;
   result.law = learnLaw(problem, found.final, found.finalLinear, jobs, thresholds);
   if (!found.effects.empty()) {
     const auto bare = withoutEffects(problem, found, thresholds.law.iterations);

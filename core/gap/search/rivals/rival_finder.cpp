@@ -68,7 +68,7 @@ bool RivalFinder::isHollow(const TriedCandidate& other, const PlacedEffect& simp
 bool RivalFinder::isAllThatShows(const TriedCandidate& simpler, const Scored& final, std::size_t i) const {
   const SearchThresholds::Rivals& limits = service_.thresholds().rivals;
   const PlacedEffect& own = final.fit.model.effects[i];
-  if (!isRicher(service_.problem().library, {own.effect, own.at, {}, {}}, simpler.attempt.candidate.placed({})) ||
+  if (!isSimplerForm(service_.problem().library, simpler.attempt.candidate, own) ||
       simpler.scored.mean() > limits.nothingShows * final.mean())
     return false;
   if (simpler.scored.mean() > limits.allThatShows * final.mean())
@@ -85,6 +85,8 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
   const auto numbersOf = [](const TriedCandidate& other) {
     return sizeOf(other.fit.model, other.fit.model.effects.size() - 1);
   };
+  // So little is no reason for another name: neither for a richer one, nor against a simpler form of this one.
+  const double imperfection = imperfectionOf(calibrated_, selection.final, limits.screening);
   const TriedCandidate* chosen = nullptr;
   for (const TriedCandidate& other : others) {
     if (!other.attempt.scored || contains(model, other.attempt.candidate)) continue;
@@ -96,7 +98,9 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
       continue;
     }
     const PairedTest lost = compare(other.scored.blocks, selection.final.blocks);
-    const bool clearlyBetter = lost.t <= -limits.confirmation.leastT && lost.gain < -limits.rivals.clearlyBetterGain;
+    const double better = selection.final.mean() - other.scored.mean();
+    const bool clearlyBetter = lost.t <= -limits.confirmation.leastT && lost.gain < -limits.rivals.clearlyBetterGain &&
+                               (numbersOf(other) <= sizeOf(model, i) || better > imperfection);
     // Where much is unexplained, few blocks tell little: equals leave about the same.
     const bool equal = !isRefuted(other.scored, selection.final, limits.rivals) &&
                        other.scored.mean() <= limits.rivals.equals * selection.final.mean();
@@ -104,7 +108,9 @@ bool RivalFinder::replace(std::size_t i, const std::vector<TriedCandidate>& othe
     const bool betterOfEquals = equal && numbersOf(other) == sizeOf(model, i) &&
                                 other.scored.mean() < limits.rivals.ofEquals * selection.final.mean() &&
                                 other.scored.fit.cost < limits.rivals.ofEquals * selection.final.fit.cost;
-    const bool takes = clearlyBetter || betterOfEquals || (numbersOf(other) < sizeOf(model, i) && equal);
+    const bool asSimple =
+        equal || (-better < imperfection && isSimplerForm(service_.problem().library, other.attempt.candidate, own));
+    const bool takes = clearlyBetter || betterOfEquals || (numbersOf(other) < sizeOf(model, i) && asSimple);
     if ((takes && !isHollow(other, own)) || (!takes && isAllThatShows(other, selection.final, i))) chosen = &other;
   }
   if (!chosen) return false;

@@ -41,9 +41,8 @@ std::vector<RivalHandover::Way> RivalHandover::waysFrom(const Fit& base, const F
   std::erase_if(candidates, [&](const EffectCandidate& c) { return isRicher(problem.library, c, own); });
   // Its own simpler forms are offered all of what is missing: friction of a hundredth of what was taken away is no
   // smaller friction but another motion.
-  const EffectCandidate whole{own.effect, own.at, {}, {}};
   const auto isSimpler = [&](const EffectCandidate& candidate) {
-    return isRicher(problem.library, whole, candidate.placed({}));
+    return isSimplerForm(problem.library, candidate, own);
   };
   for (EffectCandidate& candidate : candidates)
     if (!isSimpler(candidate))
@@ -171,8 +170,7 @@ std::vector<HandedOver> RivalHandover::handOver(std::size_t i, const Scored& fin
     jobs.push_back({way.fit.model, way.fit.shifts});
   }
   for (const EffectCandidate& candidate : service_.candidatesBeside(rest)) {
-    if (!isRicher(problem.library, {own.effect, own.at, {}, {}}, candidate.placed({})) || candidate.variants.empty())
-      continue;
+    if (!isSimplerForm(problem.library, candidate, own) || candidate.variants.empty()) continue;
     offered.push_back(candidate);
     jobs.push_back({simplerFormOf(whole, rest, candidate, muchLeft), whole.shifts});
   }

@@ -215,6 +215,10 @@ bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, co
   return candidate.at == effect.at && std::find(simpler.begin(), simpler.end(), effect.effect) != simpler.end();
 }
 
+bool isSimplerForm(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect) {
+  return isRicher(library, {effect.effect, effect.at, {}, {}}, candidate.placed({}));
+}
+
 Values scaledVariant(const EffectCandidate& candidate, const Values& variant, double step) {
   Values values = variant;
   for (const Parameter& p : candidate.declared)

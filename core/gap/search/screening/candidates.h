@@ -39,6 +39,8 @@ std::vector<EffectCandidate> candidatesFor(const FitProblem& problem, const FitM
 
 /// True if the candidate is a richer form of the effect at the same place: not a rival of what it contains.
 bool isRicher(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect);
+/// True if the candidate is a simpler form of the effect at the same place.
+bool isSimplerForm(const EffectLibrary& library, const EffectCandidate& candidate, const PlacedEffect& effect);
 
 /// The declared angle that goes round (FitParameter::goesRound), as of a wave; nullptr if there is none.
 const Parameter* phaseOf(const std::vector<Parameter>& declared);

@@ -5,6 +5,9 @@ root=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
+# What is called python3 may be a script that looks for it each time.
+python3_itself=$(python3 -c 'import sys; print(sys.executable)')
+python3() { "$python3_itself" "$@"; }
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 

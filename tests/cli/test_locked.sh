@@ -9,15 +9,19 @@ db=$folder/kick.db
 expect 10 "a run that waits" "$btr" run "$folder/kick.json" --db "$db"
 ids=($("$btr" --json fitness list --db "$db" --run 1 | python3 -c 'import json,sys; print(*[t["individual"] for t in json.load(sys.stdin)])'))
 
-# holds "STATEMENTS": another process runs them and then waits; its number is $holder
-holds() {
-  mkfifo "$folder/held" "$folder/go"
+# locks DB "STATEMENTS" HELD GO: runs them, opens one pipe and waits for the other
+locks() {
   python3 -c '
 import sqlite3, sys
 c = sqlite3.connect(sys.argv[1], isolation_level=None)
 for statement in sys.argv[2].split(";"): c.execute(statement).fetchall()
 open(sys.argv[3], "w").close()
-open(sys.argv[4]).read()' "$db" "$1" "$folder/held" "$folder/go" &
+open(sys.argv[4]).read()' "$@"
+}
+# holds "STATEMENTS": another process runs them and then waits; its number is $holder
+holds() {
+  mkfifo "$folder/held" "$folder/go"
+  locks "$db" "$1" "$folder/held" "$folder/go" &
   holder=$!
   cat "$folder/held"
 }
@@ -41,6 +45,18 @@ lets_go
 expect 0 "the copy has the value" "$btr" export --db "$folder/copy.db" --run 1 --what measurements
 says out "0.6"
 
+# Each of these waits some seconds for the lock, so that a copy is locked as well and they wait together.
+cp "$db" "$folder/locked.db"
+mkfifo "$folder/locked-held" "$folder/locked-go"
+locks "$folder/locked.db" "PRAGMA locking_mode=EXCLUSIVE;BEGIN EXCLUSIVE;COMMIT" "$folder/locked-held" "$folder/locked-go" &
+locker=$!
+cat "$folder/locked-held"
+commands=("status" "fitness list --run 1" "export --run 1 --what generations")
+for i in "${!commands[@]}"; do
+  timeout 30 "$btr" ${commands[i]} --db "$folder/locked.db" > "$folder/out-$i" 2> "$folder/err-$i" &
+  waiting[i]=$!
+done
+
 holds "BEGIN IMMEDIATE"
 expect 1 "writing beside a writer" timeout 30 "$btr" fitness enter --db "$db" --run 1 --individual "${ids[1]}" --value 0.5
 one_line
@@ -48,13 +64,16 @@ says err "another process keeps the database locked"
 expect 0 "reading beside a writer" timeout 30 "$btr" status --db "$db"
 lets_go
 
-holds "PRAGMA locking_mode=EXCLUSIVE;BEGIN EXCLUSIVE;COMMIT"
-for command in "status" "fitness list --run 1" "export --run 1 --what generations"; do
-  expect 1 "$command beside one that lets nobody in" timeout 30 "$btr" $command --db "$db"
+for i in "${!commands[@]}"; do
+  wait "${waiting[i]}"
+  got=$?
+  cp "$folder/err-$i" "$folder/err"
+  [ $got = 1 ] || fail "${commands[i]} beside one that lets nobody in: exit code $got instead of 1"
   one_line
   says err "another process keeps the database locked"
 done
-lets_go
+: > "$folder/locked-go"
+wait $locker
 
 expect 0 "check" "$btr" --json check --db "$db" --replays 2
 says out '"identical": 2'

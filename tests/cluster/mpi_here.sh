@@ -5,6 +5,7 @@ skip() { echo "skipped: $*"; exit 77; }
 command -v mpirun > /dev/null || skip "mpirun is not installed (openmpi-bin)"
 [ -f "$(dirname "$btr")/../lib/libbtr_mpi.so" ] || skip "this btr was built without MPI"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_pml=ob1 # one machine: no network is searched for at each start
 export TMPDIR=$folder # Open MPI's own files
 ranks() { local count=$1; shift; mpirun -n "$count" --oversubscribe --bind-to none "$@"; }
 
@@ -30,6 +31,13 @@ kill_a_piece() {
   local victims=() process
   for process in $(below "$1"); do grep -qzx pieces "/proc/$process/cmdline" 2> /dev/null && victims+=("$process"); done
   [ ${#victims[@]} -gt 0 ] && kill -9 "${victims[$2 % ${#victims[@]}]}" 2> /dev/null
+}
+# kills_a_piece PROCESS N: the same as soon as there is one; false if the process ends without
+kills_a_piece() {
+  until kill_a_piece "$1" "$2"; do
+    kill -0 "$1" 2> /dev/null || return 1
+    sleep 0.02
+  done
 }
 # other_build: a whole copy of the program, in $folder/copy, of which one plugin was changed
 other_build() {

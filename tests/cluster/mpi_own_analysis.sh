@@ -1,11 +1,13 @@
 # The gap analysis of a run under mpirun: the version of one process, with a foreman or worker that is killed during it as well.
 . "$(dirname "$0")/mpi_here.sh"
 
-small "$folder/kick.json" 2
+small "$folder/kick.json" 1
 repaired() {
   python3 -c '
 import json, sys
 spec = json.load(open(sys.argv[1]))
+spec["learner"]["settings"]["population"] = 4
+spec["adaptation"]["settings"]["generations"] = 1
 spec["controller"]["settings"].update(accumulate_s=0.1, hold_s=0, return_s=0.1)
 spec["concealed"] = {"effects": ["coulomb_friction"], "at": ["ers7.LF_J3"]}
 spec["stand_in"].update(hidden_effects=1, effect_size=5)
@@ -33,8 +35,8 @@ done
 for ((kill = 0; kill < 3; kill++)); do
   ranks 2 "$btr" run "$folder/repaired.json" --db "$folder/repaired-killed-$kill.db" --jobs 1 > "$folder/out" 2> "$folder/err" &
   job=$!
-  until "$btr" gap recordings list --db "$folder/repaired-killed-$kill.db" 2> /dev/null | grep -q individual-.*individual- || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
-  kill_a_piece $job $kill
+  until [ "$("$btr" gap recordings list --db "$folder/repaired-killed-$kill.db" 2> /dev/null | grep -c individual-)" = 2 ] || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
+  kills_a_piece $job $kill || fail "nothing was there to be killed in the analysis"
   wait $job || fail "a run of whose analysis a process was killed: exit code $?"
   content "$folder/repaired-killed-$kill.db" "$folder/other"
   same "a run of whose analysis a process was killed"

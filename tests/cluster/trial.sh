@@ -4,11 +4,14 @@ has_generator() { [ -x "$(dirname "$btr")/conceal" ] || { echo "not tested: blin
 trial() { local cases=$1; shift; "$btr" gap prove --cases "$cases" --scene pendulum --kind nothing --seed 5 "$@"; }
 # trial_content FOLDER: all its files, but how long analyses took and where the folder is
 trial_content() {
-  (cd "$1" && find . -type f | sort | while read -r file; do
-    echo "== $file"
-    sed -E "s#$1##g; s/\"(wall_time_s|(median_)?seconds)\": [^,]*//; s/, seed [0-9]+, [0-9.e-]+ s//; s/time of an analysis, median.*//" "$file" |
-      case $file in */proof.txt | */proof.html) sed -E "s#(<td>| +)[0-9.]+(</td></tr>|\$)#\2#" ;; *) cat ;; esac
-  done)
+  local each="s#$1##g; s/\"(wall_time_s|(median_)?seconds)\": [^,]*//; s/, seed [0-9]+, [0-9.e-]+ s//; s/time of an analysis, median.*//"
+  (
+    cd "$1" || exit
+    find . -type f | sort
+    find . -type f ! -name proof.txt ! -name proof.html -print0 | sort -z | xargs -0r sed -s -E "1F; $each"
+    find . -type f \( -name proof.txt -o -name proof.html \) -print0 | sort -z |
+      xargs -0r sed -s -E "1F; $each; s#(<td>| +)[0-9.]+(</td></tr>|\$)#\2#"
+  )
 }
 # same_trial ONE OTHER "what": the same cases and the same count
 same_trial() {

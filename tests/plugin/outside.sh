@@ -6,7 +6,8 @@ cmake=$1 build=$2 compiler=$3 test_plugin=$4
 prefix=$folder/prefix
 unset UCHILSIM_PLUGINS UCHILSIM_RESOURCES
 if launcher=$(command -v ccache); then
-  export CMAKE_CXX_COMPILER_LAUNCHER=$launcher CCACHE_NOHASHDIR=1 CCACHE_DIR=${CCACHE_DIR:-$(ccache -k cache_dir)}
+  # The folder has another name each time: without it in the paths what was compiled before is found again.
+  export CMAKE_CXX_COMPILER_LAUNCHER=$launcher CCACHE_NOHASHDIR=1 CCACHE_DIR=${CCACHE_DIR:-$(ccache -k cache_dir)} CCACHE_BASEDIR=$folder
 fi
 export XDG_DATA_HOME=$folder/data HOME=$folder
 

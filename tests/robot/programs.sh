@@ -55,8 +55,8 @@ same() {
   expect 0 "$3: the log without the program" "$btr" live "${log%.log}.json" --replay "$log"
   says out "identical to the log's"
 }
-same walk red1 walk 3
-same walk blue1 half_ellipse 3
+same walk red1 walk 1.5
+same walk blue1 half_ellipse 1.5
 same kick red1 kick 3
 same wall red1 stroll 12
 same hand red1 petted 1
@@ -142,7 +142,7 @@ with uchilsim.Client("127.0.0.1:" + port) as client:
     del game["robots"]["red1"]["controller"]
     with client.open(game) as world:
         world.play(100)
-        ran = stroll(world, "red1", "--seconds", "1")
+        ran = stroll(world, "red1", "--seconds", "0.2")
         assert ran.returncode == 0, ran.stderr
         assert ran.stderr.startswith("too late in ") and ran.stderr.count("\n") == 1, ran.stderr
         assert world.state().fault == ""

@@ -169,7 +169,7 @@ struct SearchThresholds {
                                           ///< more than lastChanceExcess [case: a sensor's lag of 48 ms]
     double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
     double imperfect = 1e-3;              ///< of what the effects take, and no more than
-    double imperfectMost = 0.5;           ///< may be left of it: their laws are not the plant's in every detail [case:
+    double imperfectMost = 0.8;           ///< may be left of it: their laws are not the plant's in every detail [case:
                                           ///< dry friction that another integrator smooths]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
     double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]

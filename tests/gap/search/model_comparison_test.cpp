@@ -1,9 +1,15 @@
 // Which of two models predicts better, where a shift in time of less than half a step may stand for what one has.
 #include "core/gap/search/model_comparison.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
+
+#include "core/gap/report/report_plain.h"
+#include "tests/gap/pendulum_world.h"
 
 namespace btr {
 namespace {
@@ -42,6 +48,32 @@ TEST(ModelComparison, AShiftThatBothHaveOrThatIsShorterStandsForNothingElse) {
             comparison.pValue);
   EXPECT_EQ(besideAFarthestShift(comparison, left(shifted, whole, 0.9), left(less, less, 0), limits).pValue,
             comparison.pValue);
+}
+
+// A thousandth of what names take is theirs, and never more than is seen of a motion.
+TEST(ModelComparison, WhatANamedLawMayLeaveIsInProportionToWhatItTakes) {
+  const SearchThresholds::Screening limits;
+  const auto leaving = [](double error) { return left({error, error}, {}, 0); };
+  EXPECT_DOUBLE_EQ(imperfectionOf(leaving(101), leaving(1), limits), 0.1);
+  EXPECT_DOUBLE_EQ(imperfectionOf(leaving(1e6), leaving(1), limits), limits.imperfectMost);
+  EXPECT_EQ(imperfectionOf(leaving(1), leaving(1.5), limits), 0);
+  EXPECT_EQ(imperfectionOf(leaving(std::numeric_limits<double>::quiet_NaN()), leaving(1), limits), 0);
+}
+
+// Other simulators smooth dry friction where it would hold: that is the same friction, and no second one beside it.
+TEST(ModelComparison, DryFrictionThatSmoothlyChangesItsSignIsDryFrictionAlone) {
+  const auto smooth = [](double, double rate, double) { return -0.2 * std::tanh(rate / 0.01); };
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "bristle_friction", "asymmetric_friction"};
+  options.designNext = false;
+  GapProblem problem = test::pendulumProblem(smooth);
+  problem.scene.calibrate.clear();
+  const GapReport report = analyse(std::move(problem), library(), options);
+  std::vector<std::string> named;
+  for (const GapReport::Effect& each : report.tried)
+    if (each.accepted) named.push_back(each.effect);
+  EXPECT_THAT(named, testing::ElementsAre("coulomb_friction")) << toPlainText(report);
+  EXPECT_FALSE(report.law.known()) << report.law.sentence;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <span>
 
@@ -116,10 +115,7 @@ std::vector<std::string> placesFor(const Effect& effect, const Game& game, const
   const std::span<const SceneRobot> all = scene.robots;
   if (robot.empty()) return effectPlaces(effect.place(), scene, all);
   const auto found = std::ranges::find(all, robot, &SceneRobot::name);
-  if (found == all.end()) return {};
-  std::vector<std::string> places = effectPlaces(effect.place(), scene, {found, 1});
-  std::ranges::move(sharedPlaces(effect, {found, 1}), std::back_inserter(places));
-  return places;
+  return found == all.end() ? std::vector<std::string>{} : effectPlaces(effect, scene, {found, 1});
 }
 
 const SimulatorSpec& simulatorIn(const Game& game, const std::string& robot) {

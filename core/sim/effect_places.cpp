@@ -1,6 +1,7 @@
 #include "core/sim/effect_places.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace btr {
 namespace {
@@ -53,6 +54,12 @@ std::vector<std::string> sharedPlaces(const Effect& effect, std::span<const Scen
   for (const SceneRobot& robot : robots)
     if (std::ranges::count_if(robot.drives, [](const Drive& drive) { return drive.kind != Drive::Kind::none; }) > 1)
       places.push_back(everyJointOf(robot.name));
+  return places;
+}
+
+std::vector<std::string> effectPlaces(const Effect& effect, const Scene& scene, std::span<const SceneRobot> robots) {
+  std::vector<std::string> places = effectPlaces(effect.place(), scene, robots);
+  std::ranges::move(sharedPlaces(effect, robots), std::back_inserter(places));
   return places;
 }
 

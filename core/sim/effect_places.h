@@ -26,4 +26,7 @@ std::string everyJointOf(const std::string& robot);
 /// to them (one bus, one frame, one firmware). Empty for other effects.
 std::vector<std::string> sharedPlaces(const Effect& effect, std::span<const SceneRobot> robots);
 
+/// All of these: where this effect can sit by itself, then what it may be shared by.
+std::vector<std::string> effectPlaces(const Effect& effect, const Scene& scene, std::span<const SceneRobot> robots);
+
 }  // namespace btr

@@ -16,10 +16,9 @@ std::vector<SceneEffect> atEveryJoint(const Scene& scene, const SceneEffect& eff
   std::vector<SceneEffect> all;
   for (const auto& robot : scene.robots) {
     if (effect.at != everyJointOf(robot.name)) continue;
-    for (const Joint& joint : robot.model.joints) {
-      if (joint.type == Joint::Type::fixed) continue;
+    for (const std::string& joint : effectPlaces(Effect::Place::joint, scene, {&robot, 1})) {
       all.push_back(effect);
-      all.back().at = robot.name + "." + joint.name;
+      all.back().at = joint;
     }
   }
   return all;

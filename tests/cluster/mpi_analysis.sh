@@ -39,7 +39,7 @@ for ((kill = 0; kill < 3; kill++)); do
   on_ranks 2 --jobs 1 --progress --out "$folder/analysis-killed-$kill" > "$folder/out" 2> "$folder/err" &
   job=$!
   until grep -q "0\\.[0-9]*[1-9]" "$folder/err" || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
-  kills_a_piece $job $kill || fail "nothing was there to be killed in the analysis"
+  kill_a_piece $job $kill || fail "nothing was there to be killed in the analysis"
   wait $job || fail "an analysis of which a process was killed: exit code $?"
   cp "$folder/out" "$folder/analysis-killed-$kill/printed"
   same_report "analysis-killed-$kill" "an analysis of which a process was killed"

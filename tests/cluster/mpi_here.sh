@@ -26,18 +26,17 @@ content() {
     sed -E "s/[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]+Z//g" > "$2"
 }
 same() { cmp -s "$folder/one" "$folder/other" || { fail "$1: other content than of one process"; diff "$folder/one" "$folder/other" | head -6; }; }
-# kill_a_piece PROCESS N: the Nth (modulo) of the processes below it that make pieces of an analysis, a foreman or a worker of it
+# kill_a_piece PROCESS N: the Nth (modulo) of the processes below it that make pieces of an analysis, a foreman or a worker
+# of it, as soon as there is one; false if the process ends without
 kill_a_piece() {
-  local victims=() process
-  for process in $(below "$1"); do grep -qzx pieces "/proc/$process/cmdline" 2> /dev/null && victims+=("$process"); done
-  [ ${#victims[@]} -gt 0 ] && kill -9 "${victims[$2 % ${#victims[@]}]}" 2> /dev/null
-}
-# kills_a_piece PROCESS N: the same as soon as there is one; false if the process ends without
-kills_a_piece() {
-  until kill_a_piece "$1" "$2"; do
-    kill -0 "$1" 2> /dev/null || return 1
+  local victims process
+  while kill -0 "$1" 2> /dev/null; do
+    victims=()
+    for process in $(below "$1"); do grep -qzx pieces "/proc/$process/cmdline" 2> /dev/null && victims+=("$process"); done
+    [ ${#victims[@]} -gt 0 ] && kill -9 "${victims[$2 % ${#victims[@]}]}" 2> /dev/null && return
     sleep 0.02
   done
+  return 1
 }
 # other_build: a whole copy of the program, in $folder/copy, of which one plugin was changed
 other_build() {

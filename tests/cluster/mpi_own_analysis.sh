@@ -36,7 +36,7 @@ for ((kill = 0; kill < 3; kill++)); do
   ranks 2 "$btr" run "$folder/repaired.json" --db "$folder/repaired-killed-$kill.db" --jobs 1 > "$folder/out" 2> "$folder/err" &
   job=$!
   until [ "$("$btr" gap recordings list --db "$folder/repaired-killed-$kill.db" 2> /dev/null | grep -c individual-)" = 2 ] || ! kill -0 $job 2> /dev/null; do sleep 0.02; done
-  kills_a_piece $job $kill || fail "nothing was there to be killed in the analysis"
+  kill_a_piece $job $kill || fail "nothing was there to be killed in the analysis"
   wait $job || fail "a run of whose analysis a process was killed: exit code $?"
   content "$folder/repaired-killed-$kill.db" "$folder/other"
   same "a run of whose analysis a process was killed"

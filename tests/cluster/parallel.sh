@@ -6,7 +6,7 @@ for program in parallel rsync ssh sshd ssh-keygen; do
   PATH=$PATH:/usr/sbin command -v $program > /dev/null || { echo "skipped: $program is not installed (parallel, rsync, openssh-server)"; exit 77; }
 done
 at=$folder/ssh
-mkdir -m 700 "$at" "$folder/work" "$folder/home"
+mkdir -m 700 "$at" "$folder/scratch" "$folder/home"
 ssh-keygen -q -t ed25519 -N "" -f "$at/host"
 ssh-keygen -q -t ed25519 -N "" -f "$at/key"
 cp "$at/key.pub" "$at/authorized"
@@ -21,7 +21,7 @@ UsePAM no
 PasswordAuthentication no
 StrictModes no
 PermitRootLogin yes
-SetEnv TMPDIR=$folder/work HOME=$folder/home
+SetEnv TMPDIR=$folder/scratch HOME=$folder/home
 CONF
 [ "$(id -u)" = 0 ] && mkdir -p /run/sshd
 $(PATH=$PATH:/usr/sbin command -v sshd) -D -e -f "$at/sshd_config" 2> "$at/log" &
@@ -134,7 +134,7 @@ if has_generator; then
   expect 0 "more cases in one process" trial 17 --out "$folder/trial-one"
   trial 17 --out "$folder/trial" --ssh "$folder/trial-more" --hosts "$folder/two" --per-element 8 > "$folder/long.out" 2> "$folder/long.err" &
   working=$!
-  until ls "$folder"/work/uchilsim-element-*/out/case_004/verdict.json > /dev/null 2>&1; do
+  until ls "$folder"/scratch/uchilsim-element-*/out/case_004/verdict.json > /dev/null 2>&1; do
     kill -0 $working 2> /dev/null || { fail "the longer trial ended"; cat "$folder/long.err"; break; }
     sleep 0.05
   done

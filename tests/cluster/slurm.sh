@@ -143,10 +143,10 @@ if has_generator; then
   expect 1 "another trial's folder" trial 3 --out "$folder/trial" --slurm "$folder/trial-again" --spoiled 1
   one_line
   # More cases of it, in one element.
-  mkdir "$folder/work"
-  TMPDIR=$folder/work expect 0 "more cases as an array" trial 9 --out "$folder/trial" --slurm "$folder/trial-more" --per-element 100
+  mkdir "$folder/scratch"
+  TMPDIR=$folder/scratch expect 0 "more cases as an array" trial 9 --out "$folder/trial" --slurm "$folder/trial-more" --per-element 100
   says out "1 elements in"
-  until ls "$folder"/work/uchilsim-element-*/out/case_004/verdict.json > /dev/null 2>&1; do
+  until ls "$folder"/scratch/uchilsim-element-*/out/case_004/verdict.json > /dev/null 2>&1; do
     [ "$(states "$folder/trial-more")" = failed ] && break
     sleep 0.05
   done

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/gap/search/step_guard.h"
 #include "core/spec/parameter.h"
 #include "core/spec/system/cancelled.h"
 
@@ -31,11 +32,13 @@ Explanation completed(const std::vector<Recording>& recordings, const MadeReady&
   if (!learnRest) return made;
   if (search.progress && !search.progress("measuring what has no name", 0.93)) throw Cancelled{};
   // Beside much that is left a coarse step does, but a curve may take all of it: it is no curve of what the step errs.
-  FitProblem ofLaw = made.problem;
-  if (stepErrorOf(made.found.stepChange) > search.thresholds.law.leastExcess)
-    ofLaw.scene.step_s = std::min(ofLaw.scene.step_s, ofLaw.givenStep_s);
-  made.law = learnBesideNames(ofLaw, made.found, search);
-  if (made.law.law) made.problem.scene.step_s = ofLaw.scene.step_s;
+  {
+    StepGuard ofLaw(made.problem.scene.step_s);
+    if (stepErrorOf(made.found.stepChange) > search.thresholds.law.leastExcess)
+      ofLaw.set(std::min(ofLaw.before_s(), made.problem.givenStep_s));
+    made.law = learnBesideNames(made.problem, made.found, search);
+    if (made.law.law) ofLaw.keep();
+  }
   return made;
 }
 

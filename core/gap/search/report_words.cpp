@@ -1,15 +1,15 @@
 #include "core/gap/search/report_words.h"
 
 #include <cmath>
-#include <string_view>
 
 #include "core/gap/search/gap_report.h"
+#include "core/sim/effect_places.h"
 #include "core/spec/figures.h"
 
 namespace btr {
 
 std::string inWords(const std::string& effect, const std::string& at) {
-  constexpr std::string_view shared = ".*";
+  const std::string shared = everyJointOf("");
   return inWords(effect) + " at " +
          (at.ends_with(shared) ? "every joint of " + at.substr(0, at.size() - shared.size()) : at);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -153,9 +152,7 @@ std::vector<EffectCandidate> candidatesFor(const Scene& scene, const EffectLibra
     if (name == measuredLaw) continue;
     const auto effect = library.make(name);
     const std::vector<Parameter> declared = effect->parameters();
-    std::vector<std::string> places = effectPlaces(effect->place(), scene, scene.robots);
-    std::ranges::move(sharedPlaces(*effect, scene.robots), std::back_inserter(places));
-    for (const std::string& at : places)
+    for (const std::string& at : effectPlaces(*effect, scene, scene.robots))
       if (std::none_of(there.begin(), there.end(),
                        [&](const PlacedEffect& other) { return other.effect == name && other.at == at; }))
         candidates.push_back({name, at, declared, variantsOf(declared, thresholds)});

@@ -38,6 +38,15 @@ inline Parameter closesLoopParameter(double byDefault = 0) {
   return loop;
 }
 
+/// Speed from which dry friction is whole (Effect::frictionTransition): no law of its own, but how another integrator,
+/// or grease, makes it begin.
+inline Parameter transitionParameter() {
+  Parameter transition{
+      "transition_rad_s", "rad/s", "speed below which it fades (0: it holds), m/s on a slide joint", 0, 1, 0};
+  transition.refines = true;
+  return transition;
+}
+
 /// What a servo's law makes of a command when its sensor says `off` too much [rad or m]: it acts on c − (q + off).
 inline CommandAround seenThrough(const CommandAround& command, const JointState& joint, double off) {
   if (!joint.followsPosition) return command;

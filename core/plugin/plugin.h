@@ -59,7 +59,7 @@ struct PluginModule {
   void (*registerIn)(PluginRegistry&);
 };
 
-inline constexpr int pluginApiVersion = 11;
+inline constexpr int pluginApiVersion = 12;
 
 /// Changes when a type that passes between plugin and program changes its size.
 inline constexpr std::size_t pluginLayout =

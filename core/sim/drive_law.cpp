@@ -229,6 +229,10 @@ void JointEffects::remember(const std::vector<std::vector<double>>& memory) {
     if (memory[i].size() == placed_[i].state.size()) placed_[i].state = memory[i];
 }
 
+void JointEffects::moved(double by) {
+  for (auto& placed : placed_) placed.effect->moved(by, placed.state);
+}
+
 void JointEffects::rest(const JointState& state) {
   for (auto& placed : placed_) placed.effect->rest(state, *placed.values, placed.state);
 }
@@ -351,10 +355,12 @@ void JointEffects::addPassive(DriveRow& row, const JointState& state, const Step
   }
 }
 
-double JointEffects::frictionLimit(const JointState& state) const {
-  double limit = 0;
-  for (const auto& placed : placed_) limit += std::max(0.0, placed.effect->frictionLimit(state, *placed.values));
-  return limit;
+DryFriction JointEffects::dryFriction(const JointState& state) const {
+  DryFriction all;
+  for (const auto& placed : placed_)
+    all.add({std::max(0.0, placed.effect->frictionLimit(state, *placed.values)),
+             std::max(0.0, placed.effect->frictionTransition(state, *placed.values))});
+  return all;
 }
 
 double JointEffects::measured(double position, const JointState& state, double dt) {

@@ -73,6 +73,21 @@ double ownDamping(const Drive& drive, const JointInput& input);
 /// The same law at this instant, as a number.
 double driveTorque(const Drive& drive, const JointState& state, double integral, const JointInput& input);
 
+/// Dry friction of a joint, all of it: −limit·rate/transition below that speed, its limit against the motion above.
+struct DryFriction {
+  double limit = 0;       ///< N·m or N
+  double transition = 0;  ///< rad/s or m/s; 0: it holds
+
+  /// With another: together they are whole at the mean of their speeds, weighted by what they are then.
+  void add(const DryFriction& other) {
+    const double both = limit + other.limit;
+    if (both > 0) transition = (limit * transition + other.limit * other.transition) / both;
+    limit = both;
+  }
+  /// Of a row of the solver: rate + softness·torque = 0 within the limit.
+  double softness() const { return limit > 0 ? transition / limit : 0; }
+};
+
 /// Effects that were placed at one joint, with the state that the world keeps for them.
 class JointEffects {
  public:
@@ -83,6 +98,8 @@ class JointEffects {
   void reset();
   /// As a joint that has rested leaves them.
   void rest(const JointState& state);
+  /// The joint was moved by so much without a step [rad or m].
+  void moved(double by);
 
   CommandAround command(CommandAround command, const JointState& state, double dt);
   /// The drive's row after the effects on drive torque. An effect that changes the torque is linearised about this
@@ -92,7 +109,7 @@ class JointEffects {
   /// Adds torque() and damping() to a row. A torque that opposes motion of a dissipative effect fades with the rate at
   /// the end of the step (secant), so that it cannot reverse it; other torques are linearised in position.
   void addPassive(DriveRow& row, const JointState& state, const StepOf& step) const;
-  double frictionLimit(const JointState& state) const;
+  DryFriction dryFriction(const JointState& state) const;
   /// What they remember, in the order of the simulator's list.
   std::vector<std::vector<double>> memory() const;
   void remember(const std::vector<std::vector<double>>& memory);

@@ -113,6 +113,9 @@ class Effect {
   virtual int stateSize() const { return 0; }
   /// What it remembers of a joint that has rested where it is, its drive holding `JointState::load`.
   virtual void rest(const JointState&, std::span<const double> /*values*/, std::span<double> /*state*/) const {}
+  /// The joint, and what its sensor says, were moved by so much without a step [rad or m]: what it remembers of
+  /// positions moves with them.
+  virtual void moved(double /*by*/, std::span<double> /*state*/) const {}
   /// An effect of the world whose joint hooks act at every joint of every robot.
   virtual bool onEveryJoint() const { return false; }
 
@@ -142,6 +145,9 @@ class Effect {
   /// Largest dry friction torque at the joint [N·m or N], ≥ 0; the solver holds or opposes motion with at most that
   /// much.
   virtual double frictionLimit(const JointState&, std::span<const double> /*values*/) const { return 0; }
+  /// Speed from which that is whole [rad/s or m/s], ≥ 0: below it the joint creeps under a torque in proportion, as
+  /// where an integrator smooths the friction's sign. 0: it holds.
+  virtual double frictionTransition(const JointState&, std::span<const double> /*values*/) const { return 0; }
   /// Implicit viscous coefficient [N·m·s/rad or N·s/m], ≥ 0.
   virtual double damping(const JointState&, std::span<const double> /*values*/) const { return 0; }
   /// What the sensor says of a position. Called once a sample; `dt` is the time since the last.

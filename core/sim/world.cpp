@@ -233,9 +233,12 @@ void World::moveRobot(std::size_t index, const Eigen::Isometry3d& base, const Ei
   for (std::size_t j = 0; j < robot.drives.size(); ++j)
     joints.at(static_cast<std::size_t>(robot.body->joints[j].modelJoint)) +=
         robot.body->joints[j].position - robot.drives[j].measured;
+  std::vector<double> before(robot.drives.size());
+  for (std::size_t j = 0; j < before.size(); ++j) before[j] = robot.body->joints[j].position;
   place(robot, base, velocity, spin, joints, rates);
   for (std::size_t j = 0; j < robot.drives.size(); ++j) {
     JointDrive& drive = robot.drives[j];
+    drive.effects.moved(robot.body->joints[j].position - before[j]);
     const double rate = robot.body->joints[j].rate;
     drive.motorRate += rate - drive.rate;
     drive.rate = rate;

@@ -19,6 +19,8 @@ struct Parameter {
   std::optional<double> neutral = {};     ///< the value at which an effect does nothing
   bool integer = false;                   ///< only whole numbers
   std::vector<std::string> choices = {};  ///< not empty: the value is the index of one of these words
+  bool refines = false;  ///< a detail of an effect's law: an analysis fits it once the effect has been found, and keeps
+                         ///< its default until then
 };
 
 /// Values by parameter name. A name that is absent has its default.

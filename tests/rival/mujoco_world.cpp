@@ -102,7 +102,7 @@ struct MujocoWorld::Impl {
     if (!joint.effects.empty()) {
       row = joint.effects.drive(row, spec, state, {state.command, state.command}, joint.integral, input, step);
       joint.effects.addPassive(passive, state, step);
-      dry += joint.effects.frictionLimit(state);
+      dry += joint.effects.dryFriction(state).limit;
     }
     joint.torque = row.torqueAt(state.rate);
     // The servo's own damping is implicit where nothing limits or changes it: light links need that.

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <concepts>
 
+#include "core/sim/drive_law.h"
 #include "core/sim/trial.h"
 #include "core/spec/error.h"
 #include "tests/sim/small_worlds.h"
@@ -137,8 +139,9 @@ struct TestEffect : Effect {
   Place place() const override { return where; }
 };
 
-SceneEffect placed(std::shared_ptr<const Effect> effect, const std::string& at, double value) {
-  return {std::move(effect), "test", at, {value}};
+SceneEffect placed(std::shared_ptr<const Effect> effect, const std::string& at,
+                   std::convertible_to<double> auto... values) {
+  return {std::move(effect), "test", at, {static_cast<double>(values)...}};
 }
 
 /// Command, drive torque and measurement are each changed; the state counts the calls.
@@ -185,6 +188,50 @@ struct Limit final : TestEffect {
   bool dissipative() const override { return true; }
   double frictionLimit(const JointState&, std::span<const double> v) const override { return v[0]; }
 };
+
+struct Yielding final : TestEffect {
+  bool dissipative() const override { return true; }
+  double frictionLimit(const JointState&, std::span<const double> v) const override { return v[0]; }
+  double frictionTransition(const JointState&, std::span<const double> v) const override { return v[1]; }
+};
+
+/// A wheel that starts at `rate`; with a shape (there is nothing to touch) it moves in ODE.
+Scene rollingWheel(double inertia, double rate, double step, bool inOde) {
+  RobotModel model = wheelModel(inertia);
+  if (inOde) model.links[1].shapes = {sphere(0.01)};
+  Scene scene = weightless(sceneOf(robot(model, false), step));
+  scene.robots[0].jointStartRate = {rate};
+  return scene;
+}
+
+// Below its transition speed friction is viscous: ω = ω0·exp(−T·t/(I·ωs)). Above it, it takes T/I of the rate a second.
+TEST(Effects, DryFrictionFadesBelowItsTransitionSpeed) {
+  const double inertia = 0.0015, torque = 0.02, transition = 2, step = 0.0005, span = 0.1;
+  for (const bool inOde : {false, true}) {
+    const auto rateAfter = [&](double start) {
+      Scene scene = rollingWheel(inertia, start, step, inOde);
+      scene.effects = {placed(std::make_shared<Yielding>(), "rig.hinge", torque, transition)};
+      World world(scene, 1);
+      world.advance(commands(scene, 0), span);
+      return world.robot(0).rate[0];
+    };
+    EXPECT_NEAR(std::exp(-torque * span / (inertia * transition)), rateAfter(1), 2e-3) << inOde;
+    EXPECT_NEAR(8 - torque / inertia * span, rateAfter(8), 1e-3) << inOde;
+  }
+}
+
+// Frictions of one joint are one row of the solver: all of their torque at speed, and below a transition that lies
+// between theirs.
+TEST(Effects, FrictionsOfOneJointAddUp) {
+  DryFriction all{0.01, 0};
+  all.add({0.03, 0.4});
+  EXPECT_DOUBLE_EQ(all.limit, 0.04);
+  EXPECT_DOUBLE_EQ(all.transition, 0.3);
+  EXPECT_DOUBLE_EQ(all.softness(), 0.3 / 0.04);
+  all.add({0, 5});
+  EXPECT_DOUBLE_EQ(all.transition, 0.3);
+  EXPECT_EQ(DryFriction{}.softness(), 0);
+}
 
 struct Smooth final : TestEffect {
   bool dissipative() const override { return true; }

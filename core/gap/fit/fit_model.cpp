@@ -35,17 +35,25 @@ double FitParameter::inRange(double value) const {
   return std::clamp(goesRound ? middle + std::remainder(value - middle, 2 * M_PI) : value, minimum, maximum);
 }
 
+namespace {
+
+FitParameter fitParameter(const Parameter& p, int index) {
+  FitParameter fit{p.name,    p.unit,    index, p.neutral.value_or(p.byDefault),
+                   p.minimum, p.maximum, 1,     p.neutral.has_value()};
+  fit.goesRound = !p.neutral && p.unit == "rad" && std::abs(p.maximum - p.minimum - 2 * M_PI) < 1e-3;
+  fit.scale = p.neutral ? std::abs(p.byDefault - *p.neutral) : std::abs(p.byDefault) / 2;
+  if (fit.scale <= 0) fit.scale = (p.maximum - p.minimum) / 10;
+  return fit;
+}
+
+bool isWhole(const Parameter& p) { return p.integer || !p.choices.empty(); }
+
+}  // namespace
+
 std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index) {
   std::vector<FitParameter> list;
-  for (const Parameter& p : declared) {
-    if (p.integer || !p.choices.empty()) continue;
-    FitParameter fit{p.name,    p.unit,    index, p.neutral.value_or(p.byDefault),
-                     p.minimum, p.maximum, 1,     p.neutral.has_value()};
-    fit.goesRound = !p.neutral && p.unit == "rad" && std::abs(p.maximum - p.minimum - 2 * M_PI) < 1e-3;
-    fit.scale = p.neutral ? std::abs(p.byDefault - *p.neutral) : std::abs(p.byDefault) / 2;
-    if (fit.scale <= 0) fit.scale = (p.maximum - p.minimum) / 10;
-    list.push_back(fit);
-  }
+  for (const Parameter& p : declared)
+    if (!isWhole(p) && !p.refines) list.push_back(fitParameter(p, index));
   return list;
 }
 
@@ -73,6 +81,23 @@ FitModel FitModel::withFixed(const FitProblem& problem, const PlacedEffect& effe
   FitModel model = with(problem, effect);
   model.parameters.resize(parameters.size());
   model.values.resize(values.size());
+  return model;
+}
+
+FitModel FitModel::refined(const FitProblem& problem, std::size_t effect) const {
+  FitModel model = *this;
+  const PlacedEffect& placed = effects[effect];
+  const auto isOfIt = [&](const FitParameter& p) { return p.effect == static_cast<int>(effect); };
+  for (const Parameter& p : problem.library.make(placed.effect)->parameters()) {
+    const auto isIt = [&](const FitParameter& known) { return isOfIt(known) && known.name == p.name; };
+    if (!p.refines || isWhole(p) || std::ranges::any_of(model.parameters, isIt)) continue;
+    FitParameter detail = fitParameter(p, static_cast<int>(effect));
+    detail.unit = unitAt(problem.scene, problem.models, placed.at, p);
+    // An effect's numbers stand together.
+    const auto last = std::find_if(model.parameters.rbegin(), model.parameters.rend(), isOfIt).base();
+    model.values.insert(model.values.begin() + (last - model.parameters.begin()), placed.parameters.at(p.name));
+    model.parameters.insert(last, detail);
+  }
   return model;
 }
 

@@ -36,12 +36,15 @@ struct FitModel {
   /// The same, but its numbers stay: no fit changes them.
   FitModel withFixed(const FitProblem& problem, const PlacedEffect& effect) const;
   FitModel without(std::size_t effect) const;
+  /// The same, but the details of an effect's law (Parameter::refines) are fitted, too.
+  FitModel refined(const FitProblem& problem, std::size_t effect) const;
 };
 
 /// Only the calibrated numbers, as given.
 FitModel givenModel(const FitProblem& problem);
 
-/// What an effect's parameters are for a fit: those that are not whole numbers, with their bounds and typical sizes.
+/// What an effect's parameters are for a fit: those that are neither whole numbers nor details, with their bounds and
+/// typical sizes.
 std::vector<FitParameter> fitParameters(const std::vector<Parameter>& declared, int index);
 
 /// Scenes of one model by their numbers: making one costs more than simulating a short segment.

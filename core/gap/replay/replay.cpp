@@ -195,23 +195,85 @@ class Prescribed {
   std::vector<std::size_t> torques_;
 };
 
+/// Calls action(joint, whether its rate is what the slope of its positions says) for each joint of a robot whose
+/// position the recording has.
+void forJointsSeen(const Binding& binding, std::size_t robot, const auto& action) {
+  const auto isRateKnown = [&](const Measured& position) {
+    return std::ranges::any_of(binding.measured, [&](const Measured& other) {
+      return other.what == Measured::What::rate && other.object == robot && other.part == position.part;
+    });
+  };
+  for (const auto* list : {&binding.measured, &binding.startOnly})
+    for (const Measured& measured : *list)
+      if (measured.what == Measured::What::position && measured.object == robot)
+        action(measured.part, !isRateKnown(measured));
+}
+
 /// Puts all robots where a start says and makes them forget. A start is what the sensors said: where an effect puts a
-/// sensor off, the joint itself stands elsewhere, unless its motion is prescribed.
+/// sensor off, the joint itself stands elsewhere and moves faster or slower, unless its motion is prescribed.
 void stand(World& world, const Binding& binding, const StartState& start, bool prescribed) {
+  constexpr double small = 1e-4, same = 1e-12, sameSlope = 1e-9;
+  constexpr int rounds = 4;  // of Newton's method; one does for what is straight
   for (std::size_t i = 0; i < start.robots.size(); ++i) {
     const StartState::Robot& robot = start.robots[i];
-    world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+    std::vector<double> positions = robot.positions, rates = robot.rates;
+    const auto saidAt = [&](const std::vector<double>& at) {
+      world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, at, rates);
+      return world.robot(i).position;
+    };
+    std::vector<double> said = saidAt(positions);
     if (prescribed) continue;
-    const std::vector<double> said = world.robot(i).position;
-    std::vector<double> positions = robot.positions;
-    for (const auto* list : {&binding.measured, &binding.startOnly})
-      for (const Measured& measured : *list)
-        if (measured.what == Measured::What::position && measured.object == i)
-          positions[measured.part] = 2 * robot.positions[measured.part] - said[measured.part];
-    if (positions != robot.positions)
-      world.setRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, positions, robot.rates);
+    for (int round = 0; round < rounds; ++round) {
+      bool isThere = true;
+      forJointsSeen(binding, i, [&](std::size_t j, bool) {
+        isThere = isThere && !(std::abs(said[j] - robot.positions[j]) > same);
+      });
+      if (isThere) break;
+      std::vector<double> next = positions;
+      for (double& position : next) position += small;
+      const std::vector<double> there = saidAt(next), from = positions;
+      forJointsSeen(binding, i, [&](std::size_t j, bool bySlope) {
+        double slope = (there[j] - said[j]) / small;
+        if (!(slope > 0) || std::abs(slope - 1) < sameSlope) slope = 1;
+        positions[j] = from[j] - (said[j] - robot.positions[j]) / slope;
+        if (bySlope) rates[j] = robot.rates[j] / slope;
+      });
+      said = saidAt(positions);
+    }
   }
 }
+
+/// How much faster a robot's joints are than their sensors say, from here on.
+class AheadOfSensors {
+ public:
+  AheadOfSensors(const World& world, const Binding& binding, std::size_t robot)
+      : binding_(binding), robot_(robot), before_(offOf(world)) {}
+  /// True if any has moved otherwise than its sensor said.
+  bool parted(const World& world) const { return offOf(world) != before_; }
+  /// Moves the robot to where its sensors say what `said` says, `dt` after the beginning [s]. Where the recording has a
+  /// joint's position alone, `said` has the rate of that; the joint's own is as much faster as it was.
+  void move(World& world, const StartState& said, double dt) const {
+    const StartState::Robot& robot = said.robots[robot_];
+    const std::vector<double> off = offOf(world);
+    std::vector<double> rates = robot.rates;
+    forJointsSeen(binding_, robot_, [&](std::size_t j, bool bySlope) {
+      if (bySlope) rates[j] = robot.rates[j] + (off[j] - before_[j]) / dt;
+    });
+    world.moveRobot(robot_, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, rates);
+  }
+
+ private:
+  std::vector<double> offOf(const World& world) const {
+    std::vector<double> off = world.jointPositions(robot_);
+    const std::vector<double> said = world.robot(robot_).position;
+    for (std::size_t j = 0; j < off.size(); ++j) off[j] -= said[j];
+    return off;
+  }
+
+  const Binding& binding_;
+  std::size_t robot_;
+  std::vector<double> before_;
+};
 
 /// A start is where the recording has the balls; in the scene's own frame they are elsewhere. One that lies on the
 /// floor lies there in both.
@@ -298,12 +360,19 @@ ReplayedRecording replayRecording(const Scene& given, const Recording& recording
   for (std::size_t row = 0; row < begins; ++row) setInputs(recording, binding, row, inputs);
   if (earlier) {
     for (std::size_t row = begins; row < first; ++row) {
+      std::vector<AheadOfSensors> ahead;
+      if (row == begins || row + 1 == first)
+        for (std::size_t i = 0; i < scene.robots.size(); ++i) ahead.emplace_back(world, binding, i);
       setInputs(recording, binding, row, inputs);
-      world.advance(inputs, time[row + 1] - time[row]);
-    }
-    for (std::size_t i = 0; i < scene.robots.size(); ++i) {
-      const StartState::Robot& robot = start.robots[i];
-      world.moveRobot(i, robot.base, robot.velocity_m_s, robot.spin_rad_s, robot.positions, robot.rates);
+      const double dt = time[row + 1] - time[row];
+      world.advance(inputs, dt);
+      if (row + 1 == first) {
+        for (const AheadOfSensors& each : ahead) each.move(world, start, dt);
+      } else if (row == begins && std::ranges::any_of(ahead, [&](const auto& each) { return each.parted(world); })) {
+        // By now it is known how much faster than their sensors say the joints were at the beginning, too.
+        const StartState there = startState(scene, recording, binding, row + 1);
+        for (const AheadOfSensors& each : ahead) each.move(world, there, dt);
+      }
     }
     putBalls(world, scene, start.balls);
   }

@@ -16,6 +16,7 @@
 #include "core/gap/search/fit_service.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/model_reduction.h"
+#include "core/gap/search/refinement.h"
 #include "core/gap/search/rivals/rival_finder.h"
 #include "core/gap/search/rivals/unidentifiable.h"
 #include "core/gap/search/screening/candidate_search.h"
@@ -44,6 +45,10 @@ class StructureSearch {
   }
   /// The simulator without effects: where the search begins.
   void beginFrom(const Calibration& calibration);
+  /// No more than noise, the integration of either side, and `ofLaws` [noise floors²].
+  bool isNothingLeft(double ofLaws) const;
+  /// What was just found, in more detail where it leaves something.
+  void refine();
   /// One effect at a time, or two that need each other, for as long as they help. `stage`: as many are there.
   void addEffects(int stage);
   /// Rivals of what was found. Where one has taken an effect's place and much is left, others may help beside it that
@@ -115,17 +120,23 @@ std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>
   return winner;
 }
 
+bool StructureSearch::isNothingLeft(double ofLaws) const {
+  // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
+  const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
+  return selection_.final.mean() < service_.thresholds().screening.nothingLeft + ofLaws + ofOthers +
+                                       stepErrorOf(service_.stepChange(selection_.final.fit));
+}
+
+void StructureSearch::refine() {
+  if (!isNothingLeft(0)) refineLaws(service_, confirmer_, selection_);
+}
+
 void StructureSearch::addEffects(int stage) {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   bool recalibrated = false;
   std::optional<Choice> choice;  // of the last effect, where it was accepted by itself
   for (; stage < most(); ++stage) {
-    // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
-    const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
-    const double ofLaws = imperfectionOf(calibration_.calibrated, selection_.final, limits);
-    if (selection_.final.mean() <
-        limits.nothingLeft + ofLaws + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit)))
-      break;
+    if (isNothingLeft(imperfectionOf(calibration_.calibrated, selection_.final, limits))) break;
     Round round = nextRound(stage);
     std::vector<TriedCandidate>& tried = round.tried;
     selection_.final = round.without;
@@ -160,12 +171,14 @@ void StructureSearch::addEffects(int stage) {
         with = converged();
       }
       selection_.take(with, "+ " + name);
+      refine();
       continue;
     }
     const bool mayBeTwo =
         hasRoomFor(2) && excessOf(selection_.final) > limits.lastChanceExcess && pairs_.promisesAPair(tried);
     if (const auto pair = mayBeTwo ? pairs_.find(selection_.final, tried) : std::nullopt) {
       PairSearch::accept(selection_, *pair, "+ ");
+      refine();
       choice.reset();
       ++stage;
     } else if (choice && hasRoomFor(1) && pairs_.replaceOne(selection_, *choice)) {

@@ -204,6 +204,12 @@ struct SearchThresholds {
                                  ///< than to come in, about 2.5 % one-sided [statistics]
   };
 
+  /// Details of the laws that were found (Parameter::refines).
+  struct Refinement {
+    std::array<double, 4> shares{0.003, 0.02, 0.1, 0.4};  ///< of the allowed range, where their fits begin [hand]
+    int iterations = 15;                                  ///< of these [time]
+  };
+
   /// What would explain the recordings as well, and what stands in another's place.
   struct Rivals {
     /// of a paired comparison: another one is refuted (t as missedT) [statistics]
@@ -410,6 +416,7 @@ struct SearchThresholds {
   Candidates candidates;
   Screening screening;
   Confirmation confirmation;
+  Refinement refinement;
   Rivals rivals;
   ShortRace shortRace;
   Location location;

@@ -153,7 +153,8 @@ bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
       add(drive.torqueAt(0), 0);
     else
       bounded_.push_back({i, 1, drive.p / drive.d, 1 / drive.d, drive.limit});
-    if (rows[j].dry > 0) bounded_.push_back({i, 1, rows[j].heldRate, 0, rows[j].dry});
+    if (const DryFriction& dry = rows[j].dry; dry.limit > 0)
+      bounded_.push_back({i, 1, rows[j].heldRate, dry.softness(), dry.limit});
   }
   if (!coupled_.empty()) coupleEquations();
   const Eigen::Index joints = right_.size();

@@ -13,9 +13,9 @@ namespace btr {
 struct JointRows {
   DriveRow drive;    ///< within its limit
   DriveRow passive;  ///< no limit
-  double dry = 0;    ///< dry friction holds, or opposes motion, with at most this [N·m or N]
-  /// What it holds: 0, or, of a joint at rest whose motion is prescribed, the rate that the prescription has [rad/s or
-  /// m/s]. What friction can carry is then no part of the drive's torque.
+  DryFriction dry;
+  /// The rate that it opposes: 0, or, of a joint at rest whose motion is prescribed, the rate that the prescription has
+  /// [rad/s or m/s]. What friction can carry is then no part of the drive's torque.
   double heldRate = 0;
 };
 

@@ -182,11 +182,11 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   step.add(passive, 0, spec.viscousFriction, joint.rate);
   if (!drive.effects.empty()) drive.effects.addPassive(passive, following, step);
   addStop(passive, joint, h);
-  double dry = spec.coulombFriction;
-  if (!drive.effects.empty()) dry += drive.effects.frictionLimit(following);
+  DryFriction dry{spec.coulombFriction};
+  if (!drive.effects.empty()) dry.add(drive.effects.dryFriction(following));
 
   // The very first kick from a given state covers half a step only.
-  for (double* force : {&row.p, &row.d, &row.limit, &passive.p, &passive.d, &dry}) *force *= robot.kick;
+  for (double* force : {&row.p, &row.d, &row.limit, &passive.p, &passive.d, &dry.limit}) *force *= robot.kick;
 
   // A rotor behind an elastic gear or a gap moves on its own; what reaches the joint comes through the gear's spring.
   drive.gear = {};
@@ -250,11 +250,11 @@ void World::Impl::setRows(WorldRobot& robot, std::size_t index, const JointRows&
   RobotJoint& joint = robot.body->joints[index];
   JointDrive& drive = robot.drives[index];
   DriveRow row = rows.drive, passive = rows.passive;
-  const double dry = rows.dry;
+  const DryFriction& dry = rows.dry;
   const bool apart = row.limited() && passive.d > noDamping;
-  if (!joint.extra && (dry > 0 || apart)) robot.body->makeExtraRows(joint);
-  if (dry > 0 || drive.dryRow) setExtraRow(joint, 0, 0, 0, dry);
-  drive.dryRow = dry > 0;
+  if (!joint.extra && (dry.limit > 0 || apart)) robot.body->makeExtraRows(joint);
+  if (dry.limit > 0 || drive.dryRow) setExtraRow(joint, 0, 0, dry.softness(), dry.limit);
+  drive.dryRow = dry.limit > 0;
   if (apart) setExtraRow(joint, 1, passive.p / passive.d, 1 / passive.d, dInfinity);
   if (!apart && drive.passiveRow) setExtraRow(joint, 1, 0, 0, 0);
   drive.passiveRow = apart;

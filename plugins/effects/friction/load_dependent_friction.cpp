@@ -4,7 +4,7 @@
 /// that they add up where the drive holds the weight. Load comes from both sides with shares of their own because a
 /// gear is not equally good in both directions (Duclusaud, Passault et al. 2025, arXiv 2410.08650, who find it to
 /// matter most of all in hobby servos). τm is that of the last step. Forces of contacts and accelerations are not part
-/// of τl. Neutral: T0 = cm = cl = 0.
+/// of τl. Below the transition speed it fades, as coulomb_friction does. Neutral: T0 = cm = cl = 0.
 #include <cmath>
 #include <memory>
 
@@ -16,7 +16,8 @@ class LoadDependentFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"torque_nm", "N·m", "friction without load, N on a slide joint", 0, 200, 0.02, 0.0},
             {"per_motor_torque", "", "friction per torque of the drive", 0, 2, 0.1, 0.0},
-            {"per_load_torque", "", "friction per moment of the carried weight", 0, 2, 0.1, 0.0}};
+            {"per_load_torque", "", "friction per moment of the carried weight", 0, 2, 0.1, 0.0},
+            btr::transitionParameter()};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::gear, "dry friction of a gear that grows with the torque through it",
@@ -30,6 +31,7 @@ class LoadDependentFriction final : public btr::Effect {
   double frictionLimit(const btr::JointState& joint, std::span<const double> values) const override {
     return values[0] + std::abs(values[1] * joint.drive - values[2] * joint.load);
   }
+  double frictionTransition(const btr::JointState&, std::span<const double> values) const override { return values[3]; }
 };
 
 }  // namespace

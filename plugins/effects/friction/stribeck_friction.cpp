@@ -2,8 +2,9 @@
 /// Bo and Pavelescu 1982):
 ///   T(ω) = Tc + Ts·exp(−(|ω|/ωs)^δ)      |τ| ≤ T(0) at rest, τ = −T(ω)·sign(ω) in motion; N·m (N), rad/s (m/s)
 /// δ = 2 is usual; 0.5 to 1 falls at once and long, a large one is a step from one friction to another at ωs
-/// (Armstrong-Hélouvry, Dupont and Canudas de Wit 1994). Shows up as sticking and jumping at slow reversals. Neutral:
-/// Tc = Ts = 0; with Ts = 0 it is Coulomb's friction, and ωs and δ then say nothing.
+/// (Armstrong-Hélouvry, Dupont and Canudas de Wit 1994). Shows up as sticking and jumping at slow reversals. Below
+/// the transition speed it fades, as coulomb_friction does. Neutral: Tc = Ts = 0; with Ts = 0 it is Coulomb's friction,
+/// and ωs and δ then say nothing.
 #include <cmath>
 #include <memory>
 
@@ -17,7 +18,8 @@ class StribeckFriction final : public btr::Effect {
         {"sliding_nm", "N·m", "friction in fast motion, N on a slide joint", 0, 200, 0.03, 0.0},
         {"extra_at_rest_nm", "N·m", "added at rest, N on a slide joint", 0, 200, 0.03, 0.0},
         {"fading_rad_s", "rad/s", "speed at which the extra has fallen to 1/e, m/s on a slide joint", 0.001, 20, 0.3},
-        {"exponent", "", "how suddenly it falls", 0.5, 12, 2}};
+        {"exponent", "", "how suddenly it falls", 0.5, 12, 2},
+        btr::transitionParameter()};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::joint, "dry friction that is highest at rest and fades with speed",
@@ -32,6 +34,7 @@ class StribeckFriction final : public btr::Effect {
     const double speed = std::abs(joint.rate) / values[2];
     return values[0] + values[1] * std::exp(values[3] == 2 ? -speed * speed : -std::pow(speed, values[3]));
   }
+  double frictionTransition(const btr::JointState&, std::span<const double> values) const override { return values[4]; }
 };
 
 }  // namespace

@@ -34,6 +34,22 @@ TEST(CandidateSizes, SoftAndStiffGearsAreTriedWhereverTheSensorsSit) {
         << sensors;
 }
 
+// A drive that follows torques has a gain of its torque alone (kind 1): too weak is found there, or nowhere.
+TEST(CandidateSizes, OfEachKindBothSignsAreTried) {
+  for (const char* effect : {"drive_gain", "direction_gain", "sensor_scale"}) {
+    const auto variants = variantsOf(rigScene(R"("hinge": {"p": 6})"), effect, "rig.hinge");
+    const auto declared = library().make(effect)->parameters();
+    for (const double kind : {0.0, 1.0})
+      for (const bool up : {true, false})
+        EXPECT_TRUE(std::ranges::any_of(variants,
+                                        [&](const Values& v) {
+                                          return v.at(declared[1].name) == kind &&
+                                                 (up ? v.at(declared[0].name) > 0 : v.at(declared[0].name) < 0);
+                                        }))
+            << effect << " " << declared[1].name << " " << kind << " " << up;
+  }
+}
+
 // A tenth of what the motor gives, where a size that suits an arm would hold it.
 TEST(CandidateSizes, AreInProportionToWhatADriveGivesAtItsPace) {
   GapProblem problem = hingeProblem();

@@ -76,5 +76,31 @@ TEST(ModelComparison, DryFrictionThatSmoothlyChangesItsSignIsDryFrictionAlone) {
   EXPECT_FALSE(report.law.known()) << report.law.sentence;
 }
 
+// Over a wide range of speeds it is not that, nor bristles or viscous friction beside it: a detail of the law, which is
+// fitted once friction has been found.
+TEST(ModelComparison, WhereDryFrictionFadesSlowlyItsTransitionIsFitted) {
+  const auto smooth = [](double, double rate, double) { return -0.2 * std::tanh(rate / 0.1); };
+  AnalysisOptions options;
+  options.effects = {"coulomb_friction", "viscous_friction", "bristle_friction", "asymmetric_friction",
+                     "stribeck_friction"};
+  options.designNext = false;
+  GapProblem problem = test::pendulumProblem(smooth);
+  problem.scene.calibrate.clear();
+  const GapReport report = analyse(std::move(problem), library(), options);
+  std::vector<std::string> named;
+  for (const GapReport::Effect& each : report.tried) {
+    if (!each.accepted) continue;
+    named.push_back(each.effect);
+    ASSERT_EQ(each.parameters.size(), 2U);
+    EXPECT_NEAR(each.parameters[0].value, 0.2, 0.01);
+    // The line that rises like tanh at its middle is at 1 at 1.0 of its scale; one that comes near it everywhere later.
+    EXPECT_EQ(each.parameters[1].name, "transition_rad_s");
+    EXPECT_GT(each.parameters[1].value, 0.1);
+    EXPECT_LT(each.parameters[1].value, 0.2);
+  }
+  EXPECT_THAT(named, testing::ElementsAre("coulomb_friction")) << toPlainText(report);
+  EXPECT_FALSE(report.law.known()) << report.law.sentence;
+}
+
 }  // namespace
 }  // namespace btr

@@ -115,12 +115,14 @@ std::vector<Values> variantsOf(const std::vector<Parameter>& declared, const Sea
     sized(p, limits.smallSize, up ? 1 : -1, base);
     for (const double much : limits.largeSizes) sized(p, much, up ? 1 : -1, base);
     for (const Parameter& other : declared) {
-      if (other.neutral) continue;
+      if (other.neutral || other.refines) continue;
       for (const double value : triesOf(other, limits)) {
         if (value == base[other.name]) continue;
         Values others = base;
         others[other.name] = value;
         sized(p, 1, up ? 1 : -1, others);
+        // Of a kind that a drive alone can be, no other one shows the sign.
+        if (up && down && other.integer) sized(p, 1, -1, others);
         // A wave of the wrong phase says nothing of its number: with a quarter of a turn more one of the two does.
         if (other.integer && phase) {
           others[phase->name] = base[phase->name] + M_PI / 2;

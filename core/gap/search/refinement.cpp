@@ -1,0 +1,121 @@
+#include "core/gap/search/refinement.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/gap/fit/fit.h"
+#include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/score.h"
+#include "core/gap/search/screening/candidates.h"
+
+namespace btr {
+namespace {
+
+/// A model whose effect `effect` has details that are fitted now.
+struct Refined {
+  FitModel model;
+  std::size_t effect = 0;
+  EffectCandidate candidate;  ///< that effect, where it stands for a richer one; no name otherwise
+
+  bool isSimplerForm() const { return !candidate.effect.empty(); }
+};
+
+/// With its numbers as they were fitted.
+PlacedEffect fittedEffect(const FitProblem& problem, const FitModel& model, std::size_t i) {
+  return model.simulator(problem).effects[problem.given.effects.size() + i];
+}
+
+/// The model's effect `i` with its details, and in its place each of its simpler forms that has some.
+std::vector<Refined> refinementsOf(const FitService& service, const FitModel& model, std::size_t i) {
+  const FitProblem& problem = service.problem();
+  std::vector<Refined> all;
+  if (FitModel own = model.refined(problem, i); own.parameters.size() > model.parameters.size())
+    all.push_back({std::move(own), i, {}});
+  const PlacedEffect placed = fittedEffect(problem, model, i);
+  const std::vector<std::string> simpler = problem.library.make(placed.effect)->contains();
+  if (simpler.empty()) return all;
+  const FitModel others = model.without(i);
+  for (const EffectCandidate& candidate : service.candidatesBeside(others, simpler)) {
+    if (candidate.at != placed.at || !service.isConsidered(candidate.effect)) continue;
+    // What both have is about as large in both.
+    Values from;
+    for (const Parameter& p : candidate.declared)
+      if (const auto same = placed.parameters.find(p.name); same != placed.parameters.end()) from.insert(*same);
+    const FitModel plain = others.with(problem, candidate.placed(from));
+    FitModel refined = plain.refined(problem, others.effects.size());
+    if (refined.parameters.size() > plain.parameters.size() && refined.parameters.size() <= model.parameters.size())
+      all.push_back({std::move(refined), others.effects.size(), candidate});
+  }
+  return all;
+}
+
+/// The best fit from several sizes of the details, or nothing where the scene refuses them all.
+std::optional<Fit> fitted(const FitService& service, const Refined& refined, const Fit& from) {
+  const SearchThresholds::Refinement& limits = service.thresholds().refinement;
+  const auto declared = service.problem().library.make(refined.model.effects[refined.effect].effect)->parameters();
+  std::vector<FitJob> jobs;
+  for (const double share : limits.shares) {
+    FitModel model = refined.model;
+    for (std::size_t k = 0; k < model.parameters.size(); ++k) {
+      const FitParameter& p = model.parameters[k];
+      const Parameter* const known = p.effect == static_cast<int>(refined.effect) ? find(declared, p.name) : nullptr;
+      if (known && known->refines) model.values[k] = p.minimum + share * (p.maximum - p.minimum);
+    }
+    jobs.push_back({std::move(model), from.shifts});
+  }
+  const std::vector<Fit> fits =
+      completed(service.tryFits(jobs, limits.iterations, "refining what was found", 0.8, 0.8));
+  if (fits.empty()) return std::nullopt;
+  return *std::ranges::min_element(fits, costsLess);
+}
+
+bool isBetter(const Scored& refined, const Scored& plain, const SearchThresholds& limits) {
+  const PairedTest comparison = compare(plain.blocks, refined.blocks);
+  return comparison.t >= limits.confirmation.leastT && comparison.gain >= limits.confirmation.leastGain &&
+         plain.mean() - refined.mean() >= limits.confirmation.leastShareOfExcess * excessOf(plain);
+}
+
+}  // namespace
+
+void refineLaws(FitService& service, Confirmer& confirmer, Selection& selection) {
+  for (std::size_t i = selection.final.fit.model.effects.size(); i-- > 0;) {
+    std::vector<Refined> refinements = refinementsOf(service, selection.final.fit.model, i);
+    std::vector<Fit> fits;
+    std::vector<Refined> made;
+    for (Refined& refined : refinements)
+      if (const auto fit = fitted(service, refined, selection.final.fit)) {
+        fits.push_back(*fit);
+        made.push_back(std::move(refined));
+      }
+    const auto scored = service.tryScores(fits, "refining what was found", 0.8, 0.8);
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < scored.size(); ++k)
+      if (scored[k] && isBetter(*scored[k], selection.final, service.thresholds()) &&
+          (!best || scored[k]->mean() < scored[*best]->mean()))
+        best = k;
+    if (!best) continue;
+    const PlacedEffect own = selection.final.fit.model.effects[i];
+    const PairedTest comparison = compare(selection.final.blocks, scored[*best]->blocks);
+    const Scored better = confirmer.converged(*scored[*best], "refining what was found", 0.8);
+    const Refined& refined = made[*best];
+    if (!refined.isSimplerForm()) {
+      selection.take(better, own.text() + ", refined");
+      continue;
+    }
+    const std::string text = refined.candidate.text();
+    Attempt attempt;
+    attempt.candidate = refined.candidate;
+    attempt.accepted = attempt.fitted = attempt.scored = true;
+    attempt.values = fittedEffect(service.problem(), better.fit.model, refined.effect).parameters;
+    attempt.comparison = comparison;
+    attempt.reason = "simpler than " + own.text() + ", and better in detail";
+    selection.remember(attempt);
+    conclude(selection.attempts, own.text(), false, text + " does better in detail");
+    selection.take(better, own.text() + " → " + text);
+  }
+}
+
+}  // namespace btr

@@ -75,6 +75,13 @@ json gameLine(const Session& session) {
   return line;
 }
 
+std::vector<std::string> overlapsIn(const Session& session) {
+  constexpr double deep_m = 0.01;  // paws press in less
+  std::vector<std::string> texts;
+  for (const Overlap& overlap : session.world().overlaps(deep_m)) texts.push_back(overlap.text());
+  return texts;
+}
+
 json rowLine(const Session& session, bool playing, double realTimeFactor) {
   std::vector<double> row;
   session.sample(row);

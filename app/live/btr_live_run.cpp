@@ -83,6 +83,8 @@ class LiveRun {
     if (openr_ && arguments.strict)
       if (const std::vector<std::string> failures = openr_->failures(); !failures.empty())
         throw InputError(failures.front());
+    if (!arguments.steered)
+      for (const std::string& overlap : overlapsIn(session_)) std::fprintf(stderr, "%s\n", overlap.c_str());
     if (!arguments.csv.empty()) {
       trace_.channels = session_.channels();
       session_.sample(trace_.values);

@@ -185,7 +185,15 @@ void LiveSteering::change(const std::function<void()>& work) {
   tellUndo();
   if (session_.channels() != channels) tellGame();
   if (!refused.empty()) return say({{"refused", refused}});
+  tellOverlaps();
   tellRow();
+}
+
+void LiveSteering::tellOverlaps() {
+  std::vector<std::string> overlaps = overlapsIn(session_);
+  if (overlaps == overlapsTold_) return;
+  overlapsTold_ = std::move(overlaps);
+  say({{"overlaps", overlapsTold_}});
 }
 
 void LiveSteering::tellUndo() {
@@ -270,6 +278,7 @@ void LiveSteering::tellGame() {
   line["acts"] = acts_;
   line["undos"] = undos_;
   say(line);
+  tellOverlaps();
 }
 
 // Objects that come or go are told at once: samples belong to the channels that were told.

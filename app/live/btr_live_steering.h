@@ -58,6 +58,8 @@ class LiveSteering {
   void act(JsonReader& reader);
   /// Changes the session, and tells what came of it; what is thrown as InputError is answered as a refusal.
   void change(const std::function<void()>& work);
+  /// Where they are others than those that were told last.
+  void tellOverlaps();
   void chooseSignals(JsonReader& reader);
   int untilNext_ms() const;
 
@@ -70,7 +72,8 @@ class LiveSteering {
   std::vector<double> sampled_;  ///< one row
   std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
-  bool over_ = false;          ///< the referee's game
+  bool over_ = false;  ///< the referee's game
+  std::vector<std::string> overlapsTold_;
   bool gameChanged_ = false;   ///< since it was told, by a log's acts
   std::optional<long> goal_;   ///< a period to which a log is played as fast as possible
   long acts_ = 0, undos_ = 0;  ///< that were read, refused ones too

@@ -32,6 +32,13 @@ struct Pull {
   double stiffness_n_m = 100, most_n = 20;
 };
 
+/// Two objects, one inside the other, by name; a robot or ball in the floor has no second one.
+struct Overlap {
+  std::string first, second;
+  double depth_m = 0;
+  std::string text() const;  ///< a sentence for people, without a full stop
+};
+
 /// One ODE world. ODE keeps process-wide state (its random numbers), so only one World may exist in a process at a time
 /// (checked), and it belongs to one thread. A robot whose base is fixed and that can touch nothing moves beside ODE, in
 /// joint coordinates (JointSpace). Frames: x forward, y left, z up.
@@ -93,6 +100,9 @@ class World {
   /// unit vector; a ray that begins within something sees nothing of the world: 0.
   double rayDistance_m(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double farthest_m,
                        std::size_t robotLeftOut) const;
+  /// What is at least so deep inside something else that the next steps would throw them apart. Walls may stand in one
+  /// another and in the floor.
+  std::vector<Overlap> overlaps(double least_m) const;
   /// True if no robot can reach a ball in the next `horizon_s`: the balls roll away under nothing but friction and
   /// their uniform deceleration, and for every part of a robot that would need more than its present speed and another
   /// 0.5 m/s, towards the ball, all the time. False wherever more than that is to be weighed (obstacles, hands, forces

@@ -41,6 +41,31 @@ says out '"identical": true'
 says out '"score"'
 expect 0 "in words" "$btr" live "$match" --seconds 0.1
 says out "red 0, blue 0, half 1 at 0.1"
+# What stands in something else is told when it comes there and when it no longer does.
+cat > "$folder/lines" <<'LINES'
+{"act": "place", "object": "ball", "position_m": [1.5, 0.5, 0.0225]}
+{"act": "place", "object": "ball", "position_m": [1.5, 0.6, 0.0225]}
+{"do": "undo"}
+{"do": "undo"}
+{"do": "end"}
+LINES
+expect 0 "in the floor" bash -c '"$0" live "$1" --steered < "$2"' "$btr" "$match" "$folder/lines"
+python3 - "$folder/out" <<'P' || failures=1
+import json, sys
+told = [line["overlaps"] for line in map(json.loads, open(sys.argv[1])) if "overlaps" in line]
+assert told == [["ball stands 20 mm in the floor: it will be pushed out"], []], told
+P
+python3 - "$match" "$folder/in-one-place.json" "$root" <<'P'
+import json, sys
+game = json.load(open(sys.argv[1]))
+game["field"] = sys.argv[3] + "/resources/fields/four-legged-2004.json"
+for robot in game["scene"]["robots"]:
+    robot["model"] = sys.argv[3] + "/resources/robots/ers7.wrl"
+    robot["position_m"] = [0.5, 0.5, 0]
+json.dump(game, open(sys.argv[2], "w"))
+P
+expect 0 "in one place" "$btr" live "$folder/in-one-place.json" --seconds 0.1
+says err "mm inside one another: they will be pushed apart"
 expect 2 "no patience" "$btr" live "$match" --patience 0
 
 # What robots sense stands in the recording.

@@ -160,14 +160,19 @@ void LivePage::connectWorld() {
   });
   connect(process_, &LiveProcess::hangs, banner_,
           [this](const QString& who) { banner_->showMessage(MessageBanner::Kind::warning, who); });
-  connect(process_, &LiveProcess::lossesTold, banner_, [this](const std::vector<std::string>& losses) {
-    constexpr std::size_t shown = 3;
+  constexpr std::size_t shown = 3;
+  const auto warn = [this](const std::vector<std::string>& all, const QString& more) {
     QStringList lines;
-    for (const std::string& loss : losses)
-      if (static_cast<std::size_t>(lines.size()) < shown) lines += QString::fromStdString(loss);
-    if (losses.size() > shown) lines += tr("… and %1 more: btr model check shows all").arg(losses.size() - shown);
-    banner_->showMessage(MessageBanner::Kind::warning, lines.join('\n'));
+    for (const std::string& each : all)
+      if (static_cast<std::size_t>(lines.size()) < shown) lines += QString::fromStdString(each);
+    if (all.size() > shown) lines += more.arg(all.size() - shown);
+    if (!lines.empty()) banner_->showMessage(MessageBanner::Kind::warning, lines.join('\n'));
+  };
+  connect(process_, &LiveProcess::lossesTold, banner_, [warn](const std::vector<std::string>& losses) {
+    warn(losses, tr("… and %1 more: btr model check shows all"));
   });
+  connect(process_, &LiveProcess::overlapsTold, banner_,
+          [warn](const std::vector<std::string>& overlaps) { warn(overlaps, tr("… and %1 more")); });
   connect(process_, &LiveProcess::saved, this, [this](const QString& path, const QString& what) {
     banner_->showMessage(MessageBanner::Kind::information, tr("Saved: %1").arg(path));
     if (what == "experiment") emit experimentMade(path);

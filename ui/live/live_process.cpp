@@ -170,6 +170,7 @@ void LiveProcess::tell(const QByteArray& text) {
     if (line.contains("log_lost")) return emit logLost(wordsOf(line.at("log_lost")));
     if (line.contains("log")) return tellLog(line.at("log"));
     if (line.contains("signals")) return void(told_ = line.at("signals").get<std::vector<std::string>>());
+    if (line.contains("overlaps")) return emit overlapsTold(line.at("overlaps").get<std::vector<std::string>>());
     if (line.contains("undo")) return emit undoTold(wordsOf(line.at("undo")), wordsOf(line.value("redo", json(""))));
     tellGame(line);
   } catch (const std::exception& error) {

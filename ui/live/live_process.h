@@ -114,6 +114,8 @@ class LiveProcess : public QObject {
   void logLost(const QString& why);
   /// What robots that have come lack of what their files say, or have that was assumed: see modelLosses().
   void lossesTold(const std::vector<std::string>& losses);
+  /// What stands in something else and will be thrown out of it, a sentence each; empty: nothing any more.
+  void overlapsTold(const std::vector<std::string>& overlaps);
   /// It ended by itself: why.
   void failed(const QString& why);
 

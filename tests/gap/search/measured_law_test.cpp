@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/gap/fit/fit.h"
@@ -48,6 +49,53 @@ TEST(MeasuredLaw, OfADetent) {
       analyse(test::pendulumProblem([](double q, double, double) { return detent(q); }), library(), usualEffects());
   expectLaw(report, "position", "detent");
   EXPECT_EQ(report.verdict, Verdict::unexplained) << report.sentence;
+  const GapReport::LawCurve& curve = report.law.curves[0];
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (std::abs(curve.x[i] - 0.1) < 0.4) {
+      EXPECT_NEAR(curve.y[i], detent(curve.x[i]), 0.06) << curve.x[i];
+    }
+}
+
+/// The torque that a drawn path of rigUrdf's hinge takes beside a detent, by the equation of motion; white noise of 1 %
+/// of the detent's.
+Recording recordedAlongAPath(std::uint64_t number) {
+  constexpr double inertia = 0.5 * 0.2 * 0.2 + 1e-4, weight = 0.5 * 9.81 * 0.2;
+  Random random = Random::forPurpose(9, "path", number);
+  struct Sine {
+    double size_rad, rate_rad_s, phase;
+  };
+  std::array<Sine, 3> sines{};
+  for (Sine& sine : sines) sine = {random.uniform(0.2, 0.4), random.uniform(1, 6), random.uniform(0, 2 * M_PI)};
+  Recording recording;
+  recording.source = "path_" + std::to_string(number) + ".csv";
+  recording.sha256 = "of path " + std::to_string(number);
+  recording.channels = {"time_s", "rig.hinge.command_nm", "rig.hinge.position_rad"};
+  recording.columns.resize(3);
+  for (int i = 0; i < 800; ++i) {
+    const double t = 0.005 * i;
+    double q = 0, acceleration = 0;
+    for (const Sine& sine : sines) {
+      const double now = sine.size_rad * std::sin(sine.rate_rad_s * t + sine.phase);
+      q += now;
+      acceleration -= sine.rate_rad_s * sine.rate_rad_s * now;
+    }
+    const double torque = inertia * acceleration + weight * std::sin(q) - detent(q) + 0.003 * random.normal();
+    for (std::size_t c = 0; const double value : {t, torque, q}) recording.columns[c++].push_back(value);
+  }
+  return recording;
+}
+
+// Where a motion is prescribed, its torque is what is compared: a curve over the position shows there, too.
+TEST(MeasuredLaw, OfADetentOnAJointWhoseTorqueWasRecordedAlongItsPath) {
+  GapProblem problem = hingeProblem();
+  problem.scene.robots[0].servos["hinge"] = {};
+  problem.scene.robots[0].servos["hinge"].drive = "motion";
+  problem.scene.calibrate.clear();
+  for (std::uint64_t i = 0; i < 5; ++i) (i < 3 ? problem.recordings : problem.heldOut).push_back(recordedAlongAPath(i));
+  AnalysisOptions options = usualEffects();
+  options.effects = {"coulomb_friction", "viscous_friction"};
+  const GapReport report = analyse(std::move(problem), library(), options);
+  expectLaw(report, "position", "detent");
   const GapReport::LawCurve& curve = report.law.curves[0];
   for (std::size_t i = 0; i < curve.x.size(); ++i)
     if (std::abs(curve.x[i] - 0.1) < 0.4) {

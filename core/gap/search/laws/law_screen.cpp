@@ -10,9 +10,12 @@
 #include "core/gap/fit/parallel.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/extent.h"
+#include "core/gap/replay/followed_torques.h"
 
 namespace btr {
 namespace {
+
+using Measured = Binding::Measured;
 
 /// What a joint did in the recordings.
 struct JointSeen {
@@ -38,29 +41,44 @@ std::vector<JointSeen> jointsSeen(const FitProblem& problem, const Scene& scene,
     constexpr double unlimited = 1e8, gainAsStrength = 0.1;  // a torque limit that is none; rad of a servo's error
     fresh.strength = drive.maxTorque < unlimited ? drive.maxTorque : drive.p > 0 ? drive.p * gainAsStrength : 1;
     fresh.scale = ofStrength * fresh.strength;
-    fresh.isDriven = drive.kind != Drive::Kind::none;
+    fresh.isDriven = drive.kind != Drive::Kind::none && drive.kind != Drive::Kind::motion;
     fresh.turns = owner.model.joints[joint].type != Joint::Type::slide;
     joints.push_back(fresh);
     return joints.back();
   };
-  for (const FitTrial& trial : problem.trials)
-    for (const auto& measured : trial.binding.measured) {
-      if (measured.what != Binding::Measured::What::position) continue;
-      JointSeen& joint = seen(measured.object, measured.part);
-      const auto& column = trial.recording.columns[measured.column];
-      const auto& t = trial.recording.columns[0];
-      constexpr std::size_t apart = 4;  // samples of a slope: noise counts less
-      for (std::size_t row = 0; row < trial.rows(); ++row) {
-        joint.position.add(column[row]);
-        joint.time.add(t[row] - t[0]);
-        if (row >= apart) joint.speed.add((column[row] - column[row - apart]) / (t[row] - t[row - apart]));
-      }
+  const auto addPath = [](JointSeen& joint, const FitTrial& trial, std::size_t which) {
+    const auto& column = trial.recording.columns[which];
+    const auto& t = trial.recording.columns[0];
+    constexpr std::size_t apart = 4;  // samples of a slope: noise counts less
+    for (std::size_t row = 0; row < trial.rows(); ++row) {
+      joint.position.add(column[row]);
+      joint.time.add(t[row] - t[0]);
+      if (row >= apart) joint.speed.add((column[row] - column[row - apart]) / (t[row] - t[row - apart]));
     }
+  };
+  for (const FitTrial& trial : problem.trials) {
+    for (const auto& measured : trial.binding.measured)
+      if (measured.what == Measured::What::position)
+        addPath(seen(measured.object, measured.part), trial, measured.column);
+    // Where the motion is prescribed, it is the torque that is compared.
+    for (const auto& input : trial.binding.inputs)
+      if (input.what == Binding::Input::What::motion) addPath(seen(input.robot, input.joint), trial, input.column);
+    for (const std::size_t channel : followedTorques(trial.binding)) {
+      const Measured& torque = trial.binding.measured[channel];
+      Extent range;
+      range.add(trial.recording.columns[torque.column]);
+      JointSeen& joint = seen(torque.object, torque.part);
+      if (range.some())
+        joint.scale = std::max(joint.scale, ofStrength * std::max(std::abs(range.low), std::abs(range.high)));
+    }
+  }
   Eigen::Index at = 0;
   for (const Segment& segment : problem.segments)
     for (std::size_t k = 0; k < segment.row.size(); ++k, ++at) {
-      const auto& measured = problem.trials[segment.trial].binding.measured[segment.channel[k]];
-      if (measured.what == Binding::Measured::What::position || measured.what == Binding::Measured::What::rate)
+      const Binding& binding = problem.trials[segment.trial].binding;
+      const Measured& measured = binding.measured[segment.channel[k]];
+      if (measured.what == Measured::What::position || measured.what == Measured::What::rate ||
+          isFollowedTorque(binding, measured))
         seen(measured.object, measured.part).excess += residuals[at] * residuals[at];
     }
   std::erase_if(joints, [](const JointSeen& joint) { return !joint.position.some() || !joint.speed.some(); });

@@ -6,6 +6,7 @@
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/parallel.h"
+#include "core/gap/replay/followed_torques.h"
 #include "core/gap/search/laws/law_screen.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/selection.h"
@@ -21,8 +22,9 @@ bool knowsLaws(const EffectLibrary& library) {
 /// Laws are of joints. A walk's rest is what its feet do.
 bool canLearn(const FitProblem& problem) {
   if (problem.walks || !knowsLaws(problem.library)) return false;
-  return std::ranges::any_of(problem.trials[0].binding.measured, [](const Binding::Measured& measured) {
-    return measured.what == Binding::Measured::What::position;
+  const Binding& binding = problem.trials[0].binding;
+  return std::ranges::any_of(binding.measured, [&](const Binding::Measured& measured) {
+    return measured.what == Binding::Measured::What::position || isFollowedTorque(binding, measured);
   });
 }
 

@@ -100,6 +100,15 @@ void listRealities(Shell& shell) {
   }
 }
 
+/// A noun phrase, the equation with its letters, and who says so; nothing of an effect that keeps it to itself.
+std::string lawLine(const EffectLaw& law) {
+  if (law.says.empty()) return "";
+  std::string line = "  " + law.says;
+  if (!law.equation.empty()) line += ": " + law.equation;
+  if (!law.symbols.empty()) line += "  (" + law.symbols + ")";
+  return line + (law.source.empty() ? "" : "  [" + law.source + "]") + '\n';
+}
+
 void listPlugins(const std::string& kind, Shell& shell) {
   if (kind == "plugins") return listModules(shell);
   const PluginHost& host = shell.plugins();
@@ -119,12 +128,19 @@ void listPlugins(const std::string& kind, Shell& shell) {
   if (kind == "realities") return listRealities(shell);
   if (shell.json) {
     nlohmann::json all = nlohmann::json::array();
-    for (const auto& [name, parameters] : found) all.push_back({{"name", name}, {"parameters", describe(parameters)}});
+    for (const auto& [name, parameters] : found) {
+      all.push_back({{"name", name}, {"parameters", describe(parameters)}});
+      if (kind != "effects") continue;
+      const EffectLaw law = host.effect(name)->law();
+      all.back()["law"] = {
+          {"says", law.says}, {"equation", law.equation}, {"symbols", law.symbols}, {"source", law.source}};
+    }
     printJson(all);
     return;
   }
   for (const auto& [name, parameters] : found) {
     std::cout << name << '\n';
+    if (kind == "effects") std::cout << lawLine(host.effect(name)->law());
     std::vector<std::vector<std::string>> rows;
     for (const Parameter& p : parameters) {
       std::string words;

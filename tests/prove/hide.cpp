@@ -153,7 +153,8 @@ std::optional<PlacedEffect> drawHidden(Random& random, const BlindWorld& world, 
 
   const auto parameters = effect->parameters();
   for (const Parameter& parameter : parameters)
-    if (!parameter.neutral) placed.parameters[parameter.name] = drawShape(random, parameter);
+    // Details stay as they are by default: not every engine that blind trials run in has them.
+    if (!parameter.neutral && !parameter.refines) placed.parameters[parameter.name] = drawShape(random, parameter);
   const auto direction = drawDirection(random, parameters);
   if (direction.empty()) return std::nullopt;
   const double wanted = drawLog(random, 2, 100);

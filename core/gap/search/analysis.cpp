@@ -41,7 +41,9 @@ namespace {
 
 /// An effect that is absent at its lower bound is not "at its bound" there.
 bool isAtBound(double value, const FitParameter& p) {
-  const double close = SearchThresholds::Verdict{}.atBound * (p.maximum - p.minimum);
+  // Of a wide range a small part is far from its end for a small number.
+  const double close =
+      SearchThresholds::Verdict{}.atBound * std::min(p.maximum - p.minimum, std::max(p.scale, std::abs(value)));
   const bool endsInNothing = p.effect >= 0 && p.hasNeutral && p.given <= p.minimum;
   return p.maximum - value < close || (!endsInNothing && value - p.minimum < close);
 }
@@ -191,9 +193,11 @@ void addStepErrors(GapReport& report, const FitProblem& problem, const SearchRes
   addErrors(report, problem, difference, &GapReport::Channel::stepError, &GapReport::Channel::stepError);
   for (const GapReport::Channel& channel : report.channels)
     if (channel.stepError > channel.noiseFloor)
-      report.notes.push_back(channel.name + ": the integration's own error, about " + digits(channel.stepError, 2) +
-                             " " + channel.unit + " at a step of " + toText(problem.scene.step_s) +
-                             " s, is not below the noise floor; a smaller step_s would make the analysis sharper");
+      report.notes.push_back(
+          channel.name + ": the integration's own error, about " + digits(channel.stepError, 2) + " " + channel.unit +
+          " at a step of " + toText(problem.scene.step_s) + " s, is not below the noise floor; " +
+          (problem.scene.step_s > problem.givenStep_s ? "beside what is left of the error the fits took no finer one"
+                                                      : "a smaller step_s would make the analysis sharper"));
 }
 
 /// Where positions are compared a little earlier or later than they are recorded, and it matters.

@@ -26,8 +26,9 @@ Explanation completed(const std::vector<Recording>& recordings, const MadeReady&
   if (made.found.step_s < made.problem.scene.step_s) {
     made.problem.scene.step_s = made.found.step_s;
     if (made.found.step_s < made.problem.givenStep_s)
-      made.problem.notes.push_back("what was found needs a step of " + toText(made.found.step_s) +
-                                   " s: set step_s so where this simulator is used");
+      made.problem.notes.push_back(
+          (made.found.effects.empty() ? "what was recorded needs a step of " : "what was found needs a step of ") +
+          toText(made.found.step_s) + " s: set step_s so where this simulator is used");
   }
   if (!learnRest) return made;
   if (search.progress && !search.progress("measuring what has no name", 0.93)) throw Cancelled{};

@@ -372,7 +372,8 @@ struct SearchThresholds {
     double colourErrors = 4;        ///< and standard errors of it, 1/√n each (Anderson 1942) [statistics]
     double unseenWorse = 1.05;  ///< error (RMS) of recordings that no fit saw, over the one before: it got worse [hand]
     double strongCorrelation = 0.98;  ///< of two numbers that the recordings hardly separate [hand]
-    double atBound = 1e-3;            ///< of its range: a number is at its bound [numeric]
+    double atBound = 1e-3;            ///< of its range, or of itself if that is less: a number is at its
+                                      ///< bound [numeric]
     /// share of a recording's samples: may itself be what the simulator does not show [hand]
     double manyMissing = 0.05;
   };

@@ -49,7 +49,7 @@ std::string effectText(const GapReport::Effect& effect) {
   std::string text = inWords(effect.effect, effect.at);
   std::string numbers;
   for (const GapReport::Number& p : effect.parameters)
-    numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) +
+    numbers += (numbers.empty() ? "" : ", ") + p.name + " = " + digits(p.value) + (p.unit.empty() ? "" : " " + p.unit) +
                (p.ci95.high > p.ci95.low ? " " + textOf(p.ci95) : "") + (p.atBound ? " (at its bound)" : "");
   return text + (numbers.empty() ? "" : " (" + numbers + ")");
 }

@@ -13,16 +13,17 @@ namespace btr {
 /// One joint's drive while the world runs.
 struct JointDrive {
   JointEffects effects;
-  double command = 0;     ///< that was given
-  bool fresh = true;      ///< no command has been given yet
-  bool enabled = true;    ///< as in the last step
-  double integral = 0;    ///< ∫(command − q)dt of the servo
-  double rate = 0;        ///< at the end of the last step
-  double rateBefore = 0;  ///< of the joint before the last step
-  DriveRow row;           ///< the drive's part of the last step
-  double torque = 0;      ///< of the drive in the last step
-  double measured = 0;    ///< position through the sensor's effects
-  bool dryRow = false;    ///< the extra row for dry friction is on
+  double command = 0;                                       ///< that was given
+  bool fresh = true;                                        ///< no command has been given yet
+  double volts = std::numeric_limits<double>::quiet_NaN();  ///< that a recording gave in the last step
+  bool enabled = true;                                      ///< as in the last step
+  double integral = 0;                                      ///< ∫(command − q)dt of the servo
+  double rate = 0;                                          ///< at the end of the last step
+  double rateBefore = 0;                                    ///< of the joint before the last step
+  DriveRow row;                                             ///< the drive's part of the last step
+  double torque = 0;                                        ///< of the drive in the last step
+  double measured = 0;                                      ///< position through the sensor's effects
+  bool dryRow = false;                                      ///< the extra row for dry friction is on
   bool passiveRow = false;
   double load = 0;        ///< moment of the carried weight, where effects ask
   double motorAhead = 0;  ///< rotor behind an elastic gear: its angle relative to the joint, and its rate

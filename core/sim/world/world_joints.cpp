@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/sim/world/world_impl.h"
 
@@ -43,6 +44,21 @@ Drive withGains(Drive drive, const JointInput& input) {
 }
 
 bool otherGains(const JointInput& input) { return input.pTimes != 1 || input.iTimes != 1 || input.dTimes != 1; }
+
+double supplyOf(const Drive& drive, const JointInput& input) {
+  return input.supply_v >= 0 ? input.supply_v : drive.supply_v;
+}
+
+/// On the winding of a DC motor; no number where the firmware chooses its duty.
+double voltsGiven(const Drive& drive, const JointInput& input) { return supplyOf(drive, input) * input.duty; }
+
+/// The duty of a step whose kick lies half before and half after the instant at which a recorded voltage changes. A
+/// drive that is switched on or off just then has one half alone.
+double dutyAround(const Drive& drive, const JointInput& input, double before_v, bool switched) {
+  const double supply = supplyOf(drive, input), after_v = voltsGiven(drive, input);
+  if (!std::isfinite(after_v) || supply <= 0 || before_v == after_v) return input.duty;
+  return (switched ? (input.enabled ? after_v : before_v) : (before_v + after_v) / 2) / supply;
+}
 
 /// What a motor turns that has its law to itself: its rotor, and the joint once a gap is closed.
 double turnedByMotor(const Drive& spec, const JointDrive& drive, const RobotJoint& joint) {
@@ -150,6 +166,8 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
   if (switched && input.enabled) command.before = command.after;
   JointInput acting = input;
   acting.enabled = input.enabled || switched;
+  const double before_v = std::exchange(drive.volts, voltsGiven(spec, input));
+  if (!drive.fresh && std::isfinite(before_v)) acting.duty = dutyAround(spec, input, before_v, switched);
   drive.command = input.command;
   drive.enabled = input.enabled;
   drive.fresh = false;

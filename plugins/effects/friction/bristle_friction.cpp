@@ -16,7 +16,7 @@ namespace {
 class BristleFriction final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
     return {{"torque_nm", "N·m", "friction in motion, N on a slide joint", 0, 200, 0.05, 0.0},
-            {"give_rad", "rad", "way after a reversal in which it builds up, m on a slide joint", 1e-3, 1, 0.03}};
+            {"give_rad", "rad", "way after a reversal in which it builds up, m on a slide joint", 1e-4, 1, 0.03}};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::gear, "dry friction that gives way before it slides", "ż = ω − |ω|·z/s,  τ = −T·z/s",

@@ -11,8 +11,9 @@ namespace {
 
 class GravityTilt final : public btr::Effect {
   std::vector<btr::Parameter> parameters() const override {
-    return {{"about_x_rad", "rad", "turn of gravity about x", -0.5, 0.5, 0.03, 0.0},
-            {"about_y_rad", "rad", "turn of gravity about y", -0.5, 0.5, 0.03, 0.0}};
+    return {
+        {"about_x_rad", "rad", "turn of gravity about x: a stand that leans by 0.03 shows −0.03", -0.5, 0.5, 0.03, 0.0},
+        {"about_y_rad", "rad", "turn of gravity about y, in the same sense", -0.5, 0.5, 0.03, 0.0}};
   }
   btr::EffectLaw law() const override {
     return {btr::EffectLaw::Acts::gravity, "a rig that is not mounted upright", "g’ = R_y(b)·R_x(a)·g",

@@ -226,7 +226,7 @@ void stand(World& world, const Binding& binding, const StartState& start, bool p
     for (int round = 0; round < rounds; ++round) {
       bool isThere = true;
       forJointsSeen(binding, i, [&](std::size_t j, bool) {
-        isThere = isThere && !(std::abs(said[j] - robot.positions[j]) > same);
+        isThere = isThere && !(std::abs(said[j] - robot.positions[j]) > (round > 0 ? same : 0));
       });
       if (isThere) break;
       std::vector<double> next = positions;

@@ -72,15 +72,15 @@ class LiveSteering {
   std::vector<double> sampled_;  ///< one row
   std::string pending_;          ///< of standard input, without its last line's end
   bool playing_ = false, ended_ = false;
-  bool over_ = false;  ///< the referee's game
-  std::vector<std::string> overlapsTold_;
-  bool gameChanged_ = false;   ///< since it was told, by a log's acts
-  std::optional<long> goal_;   ///< a period to which a log is played as fast as possible
-  long acts_ = 0, undos_ = 0;  ///< that were read, refused ones too
-  long eventsTold_ = 0;        ///< of the referee
-  double speed_ = 1;           ///< simulated seconds a second; 0: as fast as possible
-  double anchor_s_ = 0;        ///< wall time …
-  long anchorPeriods_ = 0;     ///< … at which this period was due
+  bool over_ = false;                      ///< the referee's game
+  std::vector<std::string> overlapsTold_;  ///< last
+  bool gameChanged_ = false;               ///< since it was told, by a log's acts
+  std::optional<long> goal_;               ///< a period to which a log is played as fast as possible
+  long acts_ = 0, undos_ = 0;              ///< that were read, refused ones too
+  long eventsTold_ = 0;                    ///< of the referee
+  double speed_ = 1;                       ///< simulated seconds a second; 0: as fast as possible
+  double anchor_s_ = 0;                    ///< wall time …
+  long anchorPeriods_ = 0;                 ///< … at which this period was due
   double measuredFrom_s_ = 0, factor_ = 0;
   long measuredPeriods_ = 0;
   double nextRow_s_ = 0;

@@ -67,7 +67,7 @@ struct MotorNow {
   MotorNow(const Drive& drive, const JointInput& input)
       : perVolt(drive.torqueConstant_nm_a / drive.resistance_ohm),
         constant(drive.torqueConstant_nm_a),
-        supply(input.supply_v >= 0 ? input.supply_v : drive.supply_v),
+        supply(supplyOf(drive, input)),
         given(input.duty),
         gain(drive.supply_v > 0 ? drive.firmwareGain_v_rad / drive.supply_v : 0),
         maxDuty(drive.maxDuty) {}

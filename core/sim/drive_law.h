@@ -67,6 +67,11 @@ double largestTorque(const Drive& drive, double rate);
 /// What a DC motor's own voltage brakes [N·m·s/rad or N·s/m]: kt²/R, times offBraking when it is switched off.
 double backEmfDamping(const Drive& drive, const JointInput& input);
 
+/// Of a DC motor now [V]: measured, or the scene's.
+inline double supplyOf(const Drive& drive, const JointInput& input) {
+  return input.supply_v >= 0 ? input.supply_v : drive.supply_v;
+}
+
 /// What the law loses per rate while it is within its limits [N·m·s/rad or N·s/m].
 double ownDamping(const Drive& drive, const JointInput& input);
 

@@ -24,6 +24,10 @@ SimulatorSpec FitModel::simulator(const FitProblem& problem, std::span<const dou
   return spec;
 }
 
+PlacedEffect FitModel::fittedEffect(const FitProblem& problem, std::size_t effect) const {
+  return simulator(problem).effects[problem.given.effects.size() + effect];
+}
+
 std::string FitModel::text() const {
   std::string text;
   for (const PlacedEffect& effect : effects) text += (text.empty() ? "" : " + ") + effect.text();

@@ -29,6 +29,8 @@ struct FitModel {
 
   SimulatorSpec simulator(const FitProblem& problem, std::span<const double> numbers) const;
   SimulatorSpec simulator(const FitProblem& problem) const { return simulator(problem, values); }
+  /// One of its effects with its numbers as they were fitted.
+  PlacedEffect fittedEffect(const FitProblem& problem, std::size_t effect) const;
   /// "backlash at leg.knee + …", "" for none.
   std::string text() const;
   /// The same model with one effect more, its parameters at `numbers` (all that it declares).

@@ -106,14 +106,9 @@ void takeApart(const FitService& service, Selection& selection, const Scored& ca
     std::string what = ownText + " →";
     for (std::size_t k = 0; k < added.size(); ++k) {
       what += (k ? " and " : " ") + added[k].text();
-      Attempt attempt;
-      attempt.candidate = added[k];
-      attempt.accepted = attempt.fitted = attempt.scored = true;
-      attempt.values =
-          scored.fit.model.simulator(problem).effects[problem.given.effects.size() + others + k].parameters;
-      attempt.comparison = compare(calibrated.blocks, scored.blocks);
-      attempt.reason = "with the others simpler than " + ownText + " and not worse";
-      selection.remember(attempt);
+      selection.remember(accepted(added[k], problem, scored.fit.model, others + k,
+                                  compare(calibrated.blocks, scored.blocks),
+                                  "with the others simpler than " + ownText + " and not worse"));
     }
     conclude(selection.attempts, ownText, false, "its simpler forms together do as well");
     selection.take(scored, what);

@@ -23,18 +23,13 @@ struct Refined {
   bool isSimplerForm() const { return !candidate.effect.empty(); }
 };
 
-/// With its numbers as they were fitted.
-PlacedEffect fittedEffect(const FitProblem& problem, const FitModel& model, std::size_t i) {
-  return model.simulator(problem).effects[problem.given.effects.size() + i];
-}
-
 /// The model's effect `i` with its details, and in its place each of its simpler forms that has some.
 std::vector<Refined> refinementsOf(const FitService& service, const FitModel& model, std::size_t i) {
   const FitProblem& problem = service.problem();
   std::vector<Refined> all;
   if (FitModel own = model.refined(problem, i); own.parameters.size() > model.parameters.size())
     all.push_back({std::move(own), i, {}});
-  const PlacedEffect placed = fittedEffect(problem, model, i);
+  const PlacedEffect placed = model.fittedEffect(problem, i);
   const std::vector<std::string> simpler = problem.library.make(placed.effect)->contains();
   if (simpler.empty()) return all;
   const FitModel others = model.without(i);
@@ -52,6 +47,8 @@ std::vector<Refined> refinementsOf(const FitService& service, const FitModel& mo
   return all;
 }
 
+constexpr const char* stage = "refining what was found";
+
 /// The best fit from several sizes of the details, or nothing where the scene refuses them all.
 std::optional<Fit> fitted(const FitService& service, const Refined& refined, const Fit& from) {
   const SearchThresholds::Refinement& limits = service.thresholds().refinement;
@@ -66,8 +63,7 @@ std::optional<Fit> fitted(const FitService& service, const Refined& refined, con
     }
     jobs.push_back({std::move(model), from.shifts});
   }
-  const std::vector<Fit> fits =
-      completed(service.tryFits(jobs, limits.iterations, "refining what was found", 0.8, 0.8));
+  const std::vector<Fit> fits = completed(service.tryFits(jobs, limits.iterations, stage, 0.8, 0.8));
   if (fits.empty()) return std::nullopt;
   return *std::ranges::min_element(fits, costsLess);
 }
@@ -90,7 +86,7 @@ void refineLaws(FitService& service, Confirmer& confirmer, Selection& selection)
         fits.push_back(*fit);
         made.push_back(std::move(refined));
       }
-    const auto scored = service.tryScores(fits, "refining what was found", 0.8, 0.8);
+    const auto scored = service.tryScores(fits, stage, 0.8, 0.8);
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < scored.size(); ++k)
       if (scored[k] && isBetter(*scored[k], selection.final, service.thresholds()) &&
@@ -99,20 +95,15 @@ void refineLaws(FitService& service, Confirmer& confirmer, Selection& selection)
     if (!best) continue;
     const PlacedEffect own = selection.final.fit.model.effects[i];
     const PairedTest comparison = compare(selection.final.blocks, scored[*best]->blocks);
-    const Scored better = confirmer.converged(*scored[*best], "refining what was found", 0.8);
+    const Scored better = confirmer.converged(*scored[*best], stage, 0.8);
     const Refined& refined = made[*best];
     if (!refined.isSimplerForm()) {
       selection.take(better, own.text() + ", refined");
       continue;
     }
     const std::string text = refined.candidate.text();
-    Attempt attempt;
-    attempt.candidate = refined.candidate;
-    attempt.accepted = attempt.fitted = attempt.scored = true;
-    attempt.values = fittedEffect(service.problem(), better.fit.model, refined.effect).parameters;
-    attempt.comparison = comparison;
-    attempt.reason = "simpler than " + own.text() + ", and better in detail";
-    selection.remember(attempt);
+    selection.remember(accepted(refined.candidate, service.problem(), better.fit.model, refined.effect, comparison,
+                                "simpler than " + own.text() + ", and better in detail"));
     conclude(selection.attempts, own.text(), false, text + " does better in detail");
     selection.take(better, own.text() + " → " + text);
   }

@@ -1,6 +1,7 @@
 #include "core/gap/search/selection.h"
 
 #include <cmath>
+#include <utility>
 
 namespace btr {
 
@@ -36,6 +37,17 @@ void conclude(std::vector<Attempt>& attempts, const std::string& candidate, bool
       attempt.accepted = accepted;
       attempt.reason = reason;
     }
+}
+
+Attempt accepted(const EffectCandidate& candidate, const FitProblem& problem, const FitModel& model, std::size_t effect,
+                 const PairedTest& comparison, std::string reason) {
+  Attempt attempt;
+  attempt.candidate = candidate;
+  attempt.accepted = attempt.fitted = attempt.scored = true;
+  attempt.values = model.fittedEffect(problem, effect).parameters;
+  attempt.comparison = comparison;
+  attempt.reason = std::move(reason);
+  return attempt;
 }
 
 GapReport::Step rungOf(const std::string& what, const Scored& scored) {

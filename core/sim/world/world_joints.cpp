@@ -45,10 +45,6 @@ Drive withGains(Drive drive, const JointInput& input) {
 
 bool otherGains(const JointInput& input) { return input.pTimes != 1 || input.iTimes != 1 || input.dTimes != 1; }
 
-double supplyOf(const Drive& drive, const JointInput& input) {
-  return input.supply_v >= 0 ? input.supply_v : drive.supply_v;
-}
-
 /// On the winding of a DC motor; no number where the firmware chooses its duty.
 double voltsGiven(const Drive& drive, const JointInput& input) { return supplyOf(drive, input) * input.duty; }
 

@@ -44,11 +44,16 @@ std::vector<Overlap> World::overlaps(double least_m) const {
   Impl& world = *impl_;
   Overlaps found(least_m);
   std::vector<ContactPoint> points;
-  /// Calls action(collider, where its body is, whether it can be moved) for each collider of a robot.
+  /// Calls action(collider, where its body is) for each collider of a robot.
   const auto forColliders = [](const WorldRobot& robot, const auto& action) {
     for (const RobotBody& body : robot.body->bodies)
       for (const Collider& collider : body.colliders) action(collider, body.pose);
     for (const Collider& collider : robot.body->baseColliders) action(collider, robot.body->poseOf(-1));
+  };
+  /// Calls action(solid, whether it moves) for each of a robot's solids, where they are now.
+  const auto forSolids = [&world](WorldRobot& robot, const auto& action) {
+    for (std::size_t b = 0; b < robot.solids.size(); ++b)
+      for (const SolidGeom& part : world.solidsOf(robot, b)) action(part, b < robot.body->bodies.size());
   };
   const auto ballInside = [&](const Collider& collider, const Eigen::Isometry3d& pose, const WorldBall& ball) {
     ContactPoint point;
@@ -74,17 +79,14 @@ std::vector<Overlap> World::overlaps(double least_m) const {
       if ((part.pose().translation() - facing.pose().translation()).squaredNorm() > reach * reach) return;
       if (solidContacts(part, facing, points)) found.add(name, other, points);
     };
-    for (std::size_t a = 0; a < robot.solids.size(); ++a) {
+    forSolids(robot, [&](const SolidGeom& part, bool moves) {
       for (const WorldObstacle& obstacle : world.obstacles)
-        if (a < robot.body->bodies.size() || obstacle.id)  // else neither of them moves
-          for (const SolidGeom& part : world.solidsOf(robot, a)) meet(part, obstacle.spec->name, *obstacle.solid);
+        if (moves || obstacle.id) meet(part, obstacle.spec->name, *obstacle.solid);
       for (std::size_t j = 0; world.scene.robotsCollide && j < i; ++j)
-        for (std::size_t b = 0; b < world.robots[j].solids.size(); ++b)
-          if (a < robot.body->bodies.size() || b < world.robots[j].body->bodies.size())
-            for (const SolidGeom& part : world.solidsOf(robot, a))
-              for (const SolidGeom& facing : world.solidsOf(world.robots[j], b))
-                meet(part, world.robots[j].scene->name, facing);
-    }
+        forSolids(world.robots[j], [&](const SolidGeom& facing, bool alsoMoves) {
+          if (moves || alsoMoves) meet(part, world.robots[j].scene->name, facing);
+        });
+    });
   }
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const WorldObstacle& obstacle = world.obstacles[i];

@@ -214,7 +214,7 @@ void showTable(const GridArguments& a, Shell& shell) {
 
 void makeMap(const GridArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
-  const ProgressLine line(shell, a.progress);
+  ProgressLine line(shell, a.progress);
   const auto map = gridMap(db, shell.plugins(), a.grid, a.distance, a.columns, a.rows, a.workers, *shell.stop,
                            [&](double share) { line("interpolated kicks", share); });
   line.end();

@@ -82,7 +82,7 @@ long jobsOf(const std::vector<PlaceReport>& places) {
 }
 
 /// Of one of several ranks: rank 0 hands out the work and prints, the others return when it lets them.
-void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFile, const ProgressLine& progress,
+void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFile, ProgressLine& progress,
                     Shell& shell) {
   const int workers = request.options.jobs > 0 ? request.options.jobs : shareOfProcessors();
   CoordinatorOptions options;
@@ -113,7 +113,7 @@ void analyseOnRanks(const AnalysisRequest& request, const std::string& placesFil
   std::cout << (shell.json ? text.json : text.plain);
 }
 
-void analyseHere(AnalysisRequest request, const std::string& placesFile, const ProgressLine& progress, Shell& shell) {
+void analyseHere(AnalysisRequest request, const std::string& placesFile, ProgressLine& progress, Shell& shell) {
   if (request.options.jobs == 0) request.options.jobs = processorCount();
   PlacesFile places;
   places.begin(placesFile);
@@ -128,7 +128,7 @@ void analyseHere(AnalysisRequest request, const std::string& placesFile, const P
 }
 
 void analyseCommand(const AnalysisRequest& request, const std::string& places, bool lines, Shell& shell) {
-  const ProgressLine progress(shell, lines);
+  ProgressLine progress(shell, lines);
   try {
     if (launchOfThisProcess().size > 1)
       analyseOnRanks(request, places, progress, shell);

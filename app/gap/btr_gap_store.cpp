@@ -113,7 +113,7 @@ struct ClueArguments {
 
 void clues(const ClueArguments& a, Shell& shell) {
   const Database db = Database::open(a.database, Database::Mode::readOnly);
-  const ProgressLine progress(shell, a.lines);
+  ProgressLine progress(shell, a.lines);
   FitnessCluesOptions options = a.options;
   options.progress = progress;
   try {

@@ -1,12 +1,12 @@
 #include "core/gap/fit/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <new>
 #include <string>
 
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/interruptible.h"
 #include "core/gap/fit/job_share.h"
 #include "core/sim/worker_pool.h"
 #include "core/spec/error.h"
@@ -62,19 +62,27 @@ JobResult unpacked(const WorkerPool::Reply& reply) {
 /// Of worker processes: of this process, or of all that make this analysis together.
 std::vector<WorkerPool::Reply> repliesOf(int jobs, std::size_t count, const Job& f,
                                          const std::function<bool(std::size_t)>& goOn) {
+  const auto goesOn = [&](std::size_t done) {
+    Interruptible::ask();
+    return !goOn || goOn(done);
+  };
   if (JobShare* share = SharedJobs::now())
     return share->run(
-        count, [&](std::size_t i) { return packed(f, i); }, goOn);
+        count, [&](std::size_t i) { return packed(f, i); }, goesOn);
   WorkerPool pool(
       std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
       longestAnalysisJob_s);
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i) texts.push_back(std::to_string(i));
-  std::atomic<bool> stop{false};
-  auto replies = pool.run(texts, stop, [&](std::size_t done) {
-    if (goOn && !goOn(done)) stop = true;
-  });
-  if (stop) throw Cancelled{};
+  for (std::size_t i = 0; i < count; ++i) pool.add(i, std::to_string(i));
+  constexpr int ask_ms = 100;
+  std::vector<WorkerPool::Reply> replies(count);
+  for (std::size_t done = 0; done < count;) {
+    const auto ended = pool.wait(ask_ms);
+    Interruptible::ask();
+    for (const WorkerPool::Ended& each : ended) {
+      replies[each.number] = each.reply;
+      if (!goesOn(++done)) throw Cancelled{};
+    }
+  }
   return replies;
 }
 
@@ -85,6 +93,7 @@ std::vector<JobResult> parallel(int jobs, std::size_t count, const Job& f,
   std::vector<JobResult> results;
   if (jobs <= 1 || count <= 1 || WorkerPool::inWorker()) {
     for (std::size_t i = 0; i < count; ++i) {
+      Interruptible::ask();
       if (goOn && !goOn(i)) throw Cancelled{};
       results.push_back(resultOf(f, i));
     }

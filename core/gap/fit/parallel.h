@@ -27,7 +27,7 @@ class JobFault : public std::runtime_error {
 /// (`refused`); anything else that it throws ends in a JobFault, of the first job that failed. The same with one job,
 /// which runs in this process. Where several processes analyse together (job_share.h) the jobs are divided among all:
 /// whether there is a call, and of how many jobs, may hang on nothing but the input, the seed and `jobs`. Throws
-/// Cancelled when `goOn` says no.
+/// Cancelled when `goOn` says no, which is told how many are done, or an Interruptible of this thread.
 std::vector<JobResult> parallel(int jobs, std::size_t count, const std::function<std::vector<double>(std::size_t)>& f,
                                 const std::function<bool(std::size_t)>& goOn = {});
 /// parallel() in the problem's worker processes where about `replays` replays of everything are worth them.

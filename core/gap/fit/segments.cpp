@@ -5,6 +5,7 @@
 
 #include "core/gap/fit/alignment.h"
 #include "core/gap/fit/fit_problem.h"
+#include "core/gap/fit/interruptible.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/recordings/binding.h"
 #include "core/gap/recordings/doctor/even_grid.h"
@@ -433,6 +434,7 @@ namespace {
 /// Residuals of the rows before `last`; the others are afterFault.
 std::vector<double> residualsUntil(const FitProblem& problem, const Segment& segment, const Scene& scene,
                                    const std::vector<double>& shift, std::size_t last) {
+  Interruptible::ask();
   const FitTrial& trial = problem.trials[segment.trial];
   std::vector<double> rounding(trial.noiseFloor.size(), 0);
   for (std::size_t i = 0; i < shift.size(); ++i)

@@ -10,6 +10,7 @@
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/fit/fit_problem.h"
 #include "core/gap/fit/gap_problem.h"
+#include "core/gap/fit/interruptible.h"
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/fit/unit_at.h"
 #include "core/gap/recordings/channel_name.h"
@@ -224,8 +225,18 @@ void refuseUnknownEffects(const AnalysisOptions& options, const EffectLibrary& l
 }
 
 GapReport analyse(const GapProblem& given, const EffectLibrary& library, const AnalysisOptions& options,
-                  const AnalysisProgress& progress) {
+                  const AnalysisProgress& tell) {
   const auto begin = std::chrono::steady_clock::now();
+  std::string stage = "making ready";
+  double share = 0;
+  AnalysisProgress progress;
+  if (tell)
+    progress = [&](const std::string& now, double at) {
+      stage = now;
+      share = at;
+      return tell(stage, share);
+    };
+  const Interruptible interruptible([&] { return !tell || tell(stage, share); });
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
   refuseUnknownEffects(options, library);
   const SearchThresholds& limits = options.thresholds;

@@ -25,7 +25,8 @@ struct AnalysisOptions {
 /// Steps 1 to 9 of gap analysis: doctor, noise floor, replay, calibrate, locate, screen, confirm, rivals, remainder.
 /// Deterministic for a seed, whatever the number of jobs. What the doctor has to say leads the sentence and the notes.
 /// Throws InputError for recordings that the scene cannot replay, for those that the doctor refuses (see
-/// consultation.h), for an effect that the library does not have; throws Cancelled when progress says so.
+/// consultation.h), for an effect that the library does not have; throws Cancelled when progress says so, which is
+/// asked again with the same words while a step takes long.
 GapReport analyse(const GapProblem& problem, const EffectLibrary& library, const AnalysisOptions& options,
                   const AnalysisProgress& progress = {});
 

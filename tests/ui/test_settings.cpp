@@ -1,14 +1,28 @@
 // What the window remembers, and its two looks.
 #include <QApplication>
+#include <QLabel>
+#include <QProgressBar>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 
 #include "ui/common/look/message_banner.h"
+#include "ui/common/look/section.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/numbers/format.h"
 #include "ui/common/settings.h"
 
 using namespace btr::ui;
+
+/// Of WCAG 2: 1 … 21.
+double contrast(const QColor& a, const QColor& b) {
+  const auto luminance = [](const QColor& c) {
+    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
+    return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
+  };
+  const double x = luminance(a), y = luminance(b);
+  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
 
 class TestSettings : public QObject {
   Q_OBJECT
@@ -46,14 +60,6 @@ class TestSettings : public QObject {
       theme.apply(look);
       QCOMPARE(theme.dark(), look == Look::dark);
       const QPalette palette = QApplication::palette();
-      const auto contrast = [](const QColor& a, const QColor& b) {
-        const auto luminance = [](const QColor& c) {
-          const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-          return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
-        };
-        const double x = luminance(a), y = luminance(b);
-        return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
-      };
       // WCAG AA: 4.5 for text.
       QVERIFY(contrast(palette.color(QPalette::Text), palette.color(QPalette::Base)) >= 4.5);
       QVERIFY(contrast(palette.color(QPalette::ButtonText), palette.color(QPalette::Button)) >= 4.5);
@@ -61,6 +67,52 @@ class TestSettings : public QObject {
       const Tones tones = tonesOf(palette);
       for (const QColor& tone : {tones.good, tones.warning, tones.bad, tones.standIn, tones.muted, tones.accent})
         QVERIFY2(contrast(tone, palette.color(QPalette::Window)) >= 4.3, qPrintable(tone.name()));
+    }
+  }
+
+  void whatHasAStyleSheetOfItsOwnFollowsTheLook() {
+    Theme theme(*qApp);
+    theme.apply(Look::light);
+    Section section(QStringLiteral("Task"), new QLabel(QStringLiteral("content")));
+    section.setOpen(false);
+    section.resize(200, 60);
+    section.show();
+    const auto isReadableIn = [&](Look look) {
+      theme.apply(look);
+      const QImage header = section.grab().toImage();
+      const QColor window = QApplication::palette().color(QPalette::Window);
+      double most = 1;
+      for (int y = 0; y < header.height() / 2; ++y)
+        for (int x = 0; x < header.width(); ++x) most = std::max(most, contrast(header.pixelColor(x, y), window));
+      QCOMPARE(header.pixelColor(header.width() - 1, 0), window);
+      QVERIFY2(most >= 4.5, qPrintable(nameOf(look) + QStringLiteral(": ") + QString::number(most)));
+    };
+    // Qt tells widgets of a palette while the application runs.
+    QTimer::singleShot(0, [&] {
+      for (const Look next : {Look::dark, Look::light}) isReadableIn(next);
+      QApplication::quit();
+    });
+    QApplication::exec();
+  }
+
+  void aProgressBarIsFilledToItsShare() {
+    Theme theme(*qApp);
+    for (const Look look : {Look::light, Look::dark}) {
+      theme.apply(look);
+      QProgressBar bar;
+      bar.setRange(0, 4);
+      bar.setTextVisible(false);
+      bar.resize(200, 20);
+      const auto colourAt = [&](int x) { return bar.grab().toImage().pixelColor(x, 10); };
+      const QColor base = QApplication::palette().color(QPalette::Base);
+      bar.setValue(0);
+      QCOMPARE(colourAt(40), base);
+      bar.setValue(1);
+      QVERIFY(colourAt(40) != base);
+      QCOMPARE(colourAt(60), base);
+      bar.setValue(4);
+      QCOMPARE(colourAt(190), colourAt(40));
+      QVERIFY(colourAt(190) != base);
     }
   }
 

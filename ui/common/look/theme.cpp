@@ -3,10 +3,10 @@
 #include <QApplication>
 #include <QPainter>
 #include <QPixmap>
-#include <QProxyStyle>
-#include <QStyle>
-#include <QStyleFactory>
-#include <QStyleOption>
+#include <QToolTip>
+#include <QWidget>
+
+#include "ui/common/look/window_style.h"
 
 namespace btr::ui {
 namespace {
@@ -50,56 +50,6 @@ QPalette paletteFrom(const Colours& c) {
   return palette;
 }
 
-// Docks and tabs a little calmer than plain Fusion; every colour comes from the palette, so both looks share it.
-constexpr auto styleSheet = R"(
-QDockWidget { font-weight: 600; }
-QDockWidget::title { background: palette(window); padding: 6px 8px; border-bottom: 1px solid palette(mid); }
-QMainWindow::separator { background: palette(window); width: 5px; height: 5px; }
-QMainWindow::separator:hover { background: palette(highlight); }
-QToolBar { border: none; border-bottom: 1px solid palette(mid); spacing: 3px; padding: 3px; }
-QStatusBar { border-top: 1px solid palette(mid); }
-QStatusBar::item { border: none; }
-QHeaderView::section { background: palette(window); border: none; border-right: 1px solid palette(midlight);
-  border-bottom: 1px solid palette(mid); padding: 4px 6px; }
-QToolTip { border: 1px solid palette(mid); padding: 4px; background: palette(tool-tip-base); color: palette(tool-tip-text); }
-QProgressBar { border: 1px solid palette(mid); border-radius: 4px; text-align: center; background: palette(base);
-  min-height: 16px; }
-)";
-
-// Fusion draws outlines as a darker window colour, which vanishes on a dark window: here they get a lighter one.
-class OutlinedFusion final : public QProxyStyle {
- public:
-  explicit OutlinedFusion(bool dark) : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))), dark_(dark) {}
-
-  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
-                     const QWidget* widget) const override {
-    const bool outlined = element == PE_IndicatorCheckBox || element == PE_IndicatorRadioButton ||
-                          element == PE_FrameLineEdit || element == PE_PanelLineEdit || element == PE_Frame;
-    const auto draw = [&](const auto& shown) { QProxyStyle::drawPrimitive(element, &shown, painter, widget); };
-    if (!dark_ || !outlined) return QProxyStyle::drawPrimitive(element, option, painter, widget);
-    if (const auto* button = qstyleoption_cast<const QStyleOptionButton*>(option)) return draw(lit(*button));
-    if (const auto* frame = qstyleoption_cast<const QStyleOptionFrame*>(option)) return draw(lit(*frame));
-    QProxyStyle::drawPrimitive(element, option, painter, widget);
-  }
-
-  void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option, QPainter* painter,
-                          const QWidget* widget) const override {
-    const auto draw = [&](const auto& shown) { QProxyStyle::drawComplexControl(control, &shown, painter, widget); };
-    if (!dark_) return QProxyStyle::drawComplexControl(control, option, painter, widget);
-    if (const auto* spin = qstyleoption_cast<const QStyleOptionSpinBox*>(option)) return draw(lit(*spin));
-    if (const auto* combo = qstyleoption_cast<const QStyleOptionComboBox*>(option)) return draw(lit(*combo));
-    QProxyStyle::drawComplexControl(control, option, painter, widget);
-  }
-
- private:
-  template <class Option>
-  static Option lit(Option option) {
-    option.palette.setColor(QPalette::Window, QColor("#77808b"));
-    return option;
-  }
-  bool dark_;
-};
-
 }  // namespace
 
 QString nameOf(Look look) {
@@ -124,12 +74,17 @@ void Theme::apply(Look look) {
   dark_ = look == Look::dark || (look == Look::system && systemIsDark_);
   // Icons first: whoever hears of the new palette asks for its icons again.
   QIcon::setThemeName(dark_ ? QStringLiteral("breeze-dark") : QStringLiteral("breeze"));
-  application_.setStyle(new OutlinedFusion(dark_));
-  application_.setPalette(paletteFrom(dark_ ? darkColours : lightColours));
-  // The text of a progress bar has one colour: its filled part must suit it.
-  application_.setStyleSheet(
-      QString::fromLatin1(styleSheet) +
-      QStringLiteral("QProgressBar::chunk { background: %1; border-radius: 3px; }").arg(dark_ ? "#2f66c4" : "#a8c8fa"));
+  application_.setStyle(new WindowStyle(dark_));
+  const QPalette palette = paletteFrom(dark_ ? darkColours : lightColours);
+  application_.setPalette(palette);
+  QToolTip::setPalette(palette);
+  // Widgets hear of it only later, and what has a style sheet of its own keeps the palette that it had.
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::ApplicationPaletteChange);
+  for (QWidget* widget : QApplication::allWidgets())
+    if (const QString sheet = widget->styleSheet(); !sheet.isEmpty()) {
+      widget->setStyleSheet(QString());
+      widget->setStyleSheet(sheet);
+    }
   emit changed();
 }
 

@@ -155,9 +155,9 @@ void ParameterField::show() {
     const auto index = fieldValue(parameter_, shown);
     choice_->setCurrentIndex(index ? static_cast<int>(*index) : -1);
   }
-  // By style sheet: the window's own one resets the font of a label that was not shown yet.
-  const QString weight = differsFromDefault() ? QStringLiteral("font-weight: bold") : QString();
-  if (label_->styleSheet() != weight) label_->setStyleSheet(weight);
+  QFont weight = label_->font();
+  weight.setBold(differsFromDefault());
+  label_->setFont(weight);
   reset_->setVisible(visible_ && differsFromDefault() && !readOnly_);
   const QString wrong = problem();
   if (number_) number_->setMarked(!wrong.isEmpty());

@@ -35,11 +35,6 @@ std::vector<Refined> refinementsOf(const FitService& service, const FitModel& mo
   const FitModel others = model.without(i);
   for (const EffectCandidate& candidate : service.candidatesBeside(others, simpler)) {
     if (candidate.at != placed.at || !service.isConsidered(candidate.effect)) continue;
-    // Beside a law that has it as a part, nothing tells the two shares of it apart.
-    if (std::ranges::any_of(others.effects, [&](const PlacedEffect& other) {
-          return isSimplerForm(problem.library, candidate, other);
-        }))
-      continue;
     // What both have is about as large in both.
     Values from;
     for (const Parameter& p : candidate.declared)

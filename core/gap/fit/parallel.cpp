@@ -62,13 +62,13 @@ JobResult unpacked(const WorkerPool::Reply& reply) {
 /// Of worker processes: of this process, or of all that make this analysis together.
 std::vector<WorkerPool::Reply> repliesOf(int jobs, std::size_t count, const Job& f,
                                          const std::function<bool(std::size_t)>& goOn) {
-  const auto goesOn = [&](std::size_t done) {
-    Interruptible::ask();
-    return !goOn || goOn(done);
-  };
   if (JobShare* share = SharedJobs::now())
     return share->run(
-        count, [&](std::size_t i) { return packed(f, i); }, goesOn);
+        count, [&](std::size_t i) { return packed(f, i); },
+        [&](std::size_t done) {
+          Interruptible::ask();
+          return !goOn || goOn(done);
+        });
   WorkerPool pool(
       std::min(jobs, static_cast<int>(count)), [&](const std::string& job) { return packed(f, std::stoul(job)); },
       longestAnalysisJob_s);
@@ -76,12 +76,12 @@ std::vector<WorkerPool::Reply> repliesOf(int jobs, std::size_t count, const Job&
   constexpr int ask_ms = 100;
   std::vector<WorkerPool::Reply> replies(count);
   for (std::size_t done = 0; done < count;) {
-    const auto ended = pool.wait(ask_ms);
-    Interruptible::ask();
-    for (const WorkerPool::Ended& each : ended) {
-      replies[each.number] = each.reply;
-      if (!goesOn(++done)) throw Cancelled{};
+    for (WorkerPool::Ended& ended : pool.wait(ask_ms)) {
+      replies[ended.number] = std::move(ended.reply);
+      ++done;
+      if (goOn && !goOn(done)) throw Cancelled{};
     }
+    Interruptible::ask();
   }
   return replies;
 }

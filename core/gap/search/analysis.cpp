@@ -229,14 +229,12 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
   const auto begin = std::chrono::steady_clock::now();
   std::string stage = "making ready";
   double share = 0;
-  AnalysisProgress progress;
-  if (tell)
-    progress = [&](const std::string& now, double at) {
-      stage = now;
-      share = at;
-      return tell(stage, share);
-    };
-  const Interruptible interruptible([&] { return !tell || tell(stage, share); });
+  const AnalysisProgress progress = [&](const std::string& now, double at) {
+    stage = now;
+    share = at;
+    return !tell || tell(stage, share);
+  };
+  const Interruptible interruptible([&] { return progress(stage, share); });
   if (given.recordings.empty()) throw InputError("gap analysis", "no recording", "at least one recorded trial");
   refuseUnknownEffects(options, library);
   const SearchThresholds& limits = options.thresholds;
@@ -309,14 +307,14 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     addSeries(report, aside, final, Whose::setAside);
   }
   if (!given.heldOut.empty()) {
-    if (progress && !progress("scoring held-out recordings", 0.95)) throw Cancelled{};
+    if (!progress("scoring held-out recordings", 0.95)) throw Cancelled{};
     FitProblem heldOut = prepare(asked.heldOut, problem.window_s);
     heldOut.scene.step_s = problem.scene.step_s;
     addSeries(report, heldOut, final, Whose::heldOut);
   }
-  if (progress && !progress("locating", 0.96)) throw Cancelled{};
+  if (!progress("locating", 0.96)) throw Cancelled{};
   report.located = locate(found.calibrated.fit.model, problem, limits.location);
-  if (progress && !progress("looking at what remains", 0.97)) throw Cancelled{};
+  if (!progress("looking at what remains", 0.97)) throw Cancelled{};
   if (law.law) addLaw(report, problem, *law.law, found);
   if (options.learnRest && !law.applies) report.remainder = findRemainder(problem, found, options.jobs, limits);
   const bool curveIsBetter = !law.applies && aCurveDoesBetter(problem, found, options.jobs, limits);
@@ -330,7 +328,7 @@ GapReport analyse(const GapProblem& given, const EffectLibrary& library, const A
     report.sentence += " " + text;
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (progress) progress("done", 1);
+  progress("done", 1);
   return report;
 }
 

@@ -11,6 +11,9 @@ namespace {
 // Pixels.
 constexpr int headerBeside = 6, headerAbove = 4;   ///< between a heading and its cell
 constexpr int titleBeside = 8, titleAbove = 6;     ///< between a dock's title and its bar
+constexpr int separator = 5;                       ///< between docks
+constexpr int toolBarGap = 3;                      ///< around and between what is on it
+constexpr int tipFrame = 5;                        ///< of a tool tip: its line and the room within
 constexpr int leastBar = 18;                       ///< height of a progress bar
 constexpr double barCorner = 4, filledCorner = 3;  ///< their radii
 
@@ -161,16 +164,16 @@ int WindowStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, con
     case PM_DockWidgetTitleMargin:
       return titleAbove;
     case PM_DockWidgetSeparatorExtent:
-      return 5;
+      return separator;
     case PM_ToolBarFrameWidth:
       return 0;
     case PM_ToolBarItemMargin:
     case PM_ToolBarItemSpacing:
-      return 3;
+      return toolBarGap;
     case PM_HeaderMargin:
       return headerAbove;
     case PM_ToolTipLabelFrameWidth:
-      return 5;
+      return tipFrame;
     default:
       return QProxyStyle::pixelMetric(metric, option, widget);
   }

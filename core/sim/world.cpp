@@ -105,6 +105,7 @@ void World::Impl::advance(const std::vector<std::vector<JointInput>>& inputs, do
   }
   // Time is counted in whole steps so that it does not gather rounding; what lies between is added as it is.
   if (!whole) start_s += duration;
+  if (!inOde) placeRobots();
   if (fault.empty() && !robotsStopped)
     for (auto& robot : robots) sense(robot, duration);
 }
@@ -156,6 +157,15 @@ void World::Impl::step(const std::vector<std::vector<JointInput>>& inputs, doubl
     ball.pose.translation() = p;
   }
   settleObstacles(h);
+  if (inOde) checkFault();
+}
+
+/// Where nothing moves in ODE, within an advance nothing asks where bodies are but the joints themselves.
+void World::Impl::placeRobots() {
+  for (auto& robot : robots) {
+    robot.alone->place(*robot.body);
+    robot.alone->placeVelocities(*robot.body);
+  }
   checkFault();
 }
 
@@ -168,6 +178,9 @@ bool World::Impl::takeRobots(double h) {
     } else if (!robot.alone->step(*robot.body, robot.rows, robot.kick, h)) {
       fault = robot.scene->name + " cannot be moved: its forces are not finite";
       return false;
+    } else if (inOde || robot.alone->needsPoses()) {
+      robot.alone->place(*robot.body);
+      if (inOde) robot.alone->placeVelocities(*robot.body);
     }
     // ODE moves bodies by their new velocity. Where only gravity acts, the mean of both is the exact parabola.
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);

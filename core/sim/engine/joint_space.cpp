@@ -34,9 +34,20 @@ void JointSpace::begin(const Articulation& robot) {
     inParent << joint.axisInParent, joint.u, joint.w;
     inChild << joint.axisInChild, joint.x, joint.axisInChild.cross(joint.x);
     const auto carrier = std::ranges::find(moving_, joint.parent, &Moving::child);
-    moving_.push_back({joint.child, carrier == moving_.end() ? -1 : static_cast<int>(carrier - moving_.begin()),
-                       inParent * inChild.transpose(), robot.rotationOf(joint.parent) * joint.axisInParent,
-                       anchorOf(robot, joint)});
+    Moving moving{joint.child,
+                  carrier == moving_.end() ? -1 : static_cast<int>(carrier - moving_.begin()),
+                  inParent * inChild.transpose(),
+                  Matrix3d::Zero(),
+                  Matrix3d::Zero(),
+                  anchorOf(robot, joint)};
+    if (!joint.slides) {
+      const Vector3d& axis = joint.axisInParent;
+      const Matrix3d atZero = moving.still;
+      moving.still = axis * (axis.transpose() * atZero);
+      moving.cosine = atZero - moving.still;
+      for (int c = 0; c < 3; ++c) moving.sine.col(c) = axis.cross(Vector3d(atZero.col(c)));
+    }
+    moving_.push_back(moving);
     rate_[static_cast<Eigen::Index>(j)] = joint.rate;
   }
   coupled_.clear();
@@ -46,7 +57,7 @@ void JointSpace::begin(const Articulation& robot) {
   beginRate_ = rate_;
   weight_ = bias_ = right_ = next_ = Eigen::VectorXd::Zero(count);
   mass_ = matrix_ = inverse_ = Eigen::MatrixXd::Zero(count, count);
-  massKnown_ = false;
+  singleKnown_ = false;
   moved_.resize(robot.bodies.size());
   turn_.resize(robot.joints.size());
   push_.resize(robot.joints.size());
@@ -55,25 +66,49 @@ void JointSpace::begin(const Articulation& robot) {
 void JointSpace::setRates(const Eigen::VectorXd& middle, const Eigen::VectorXd& end) {
   rate_ = middle;
   beginRate_ = end;
-  massKnown_ = false;
+}
+
+// Taken in the body's own axes, so that nothing depends on where it is when it is first asked for.
+void JointSpace::prepareSingle(const Articulation& robot, const Vector3d& gravity) {
+  const RobotJoint& joint = robot.joints[0];
+  if (!singleKnown_) {
+    const RobotBody& body = robot.bodies[static_cast<std::size_t>(joint.child)];
+    const Vector3d arm = -joint.anchorInChild;  // to its centre of mass
+    single_ = {};
+    if (joint.slides) {
+      mass_(0, 0) = body.mass_kg;
+      single_.constant = body.mass_kg * joint.axis.dot(gravity);
+    } else {
+      const Vector3d across = arm - joint.axisInChild.dot(arm) * joint.axisInChild;
+      mass_(0, 0) = joint.axisInChild.dot(body.inertia_kg_m2 * joint.axisInChild) + body.mass_kg * across.squaredNorm();
+      const Matrix3d atZero = moving_[0].still + moving_[0].cosine;
+      const Vector3d inWorld = robot.rotationOf(joint.parent) * (atZero * across);
+      single_.cosine = body.mass_kg * joint.axis.dot(inWorld.cross(gravity));
+      single_.sine = body.mass_kg * joint.axis.dot(joint.axis.cross(inWorld).cross(gravity));
+    }
+    singleKnown_ = true;
+  }
+  weight_[0] = single_.constant;
+  if (single_.cosine != 0 || single_.sine != 0)
+    weight_[0] += single_.cosine * std::cos(joint.position) + single_.sine * std::sin(joint.position);
 }
 
 void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
-  const bool several = moving_.size() > 1;  // a single joint has no bias
+  if (moving_.size() == 1) {
+    prepareSingle(robot, gravity);
+    return;
+  }
   for (std::size_t j = 0; j < moving_.size(); ++j) {
     const RobotJoint& joint = robot.joints[j];
     turn_[j] = joint.slides ? Vector3d(Vector3d::Zero()) : joint.axis;
-    push_[j] =
-        joint.slides ? joint.axis : (joint.parent < 0 ? moving_[j].anchor : anchorOf(robot, joint)).cross(joint.axis);
+    push_[j] = joint.slides ? joint.axis : Vector3d(moving_[j].anchor.cross(joint.axis));
     const RobotBody& body = robot.bodies[static_cast<std::size_t>(joint.child)];
     Moved& moved = moved_[static_cast<std::size_t>(joint.child)];
     const Vector3d& centre = body.pose.translation();
     moved.mass = body.mass_kg;
     moved.moment = body.mass_kg * centre;
-    if (massKnown_) continue;
     moved.inertia = body.pose.linear() * body.inertia_kg_m2 * body.pose.linear().transpose() +
                     moved.moment.dot(centre) * Matrix3d::Identity() - moved.moment * centre.transpose();
-    if (!several) continue;
     Vector3d spin = Vector3d::Zero(), velocity = spin, spinChange = spin, velocityChange = spin;
     if (joint.parent >= 0) {
       const Moved& carrier = moved_[static_cast<std::size_t>(joint.parent)];
@@ -99,11 +134,9 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
     const auto row = static_cast<Eigen::Index>(j);
     const Moved& carried = moved_[static_cast<std::size_t>(moving_[j].child)];
     weight_[row] = turn_[j].dot(carried.moment.cross(gravity)) + push_[j].dot(carried.mass * gravity);
-    if (massKnown_) continue;
     const Vector3d linear = carried.mass * push_[j] + turn_[j].cross(carried.moment);
     const Vector3d angular = carried.inertia * turn_[j] + carried.moment.cross(push_[j]);
     mass_(row, row) = turn_[j].dot(angular) + push_[j].dot(linear);
-    if (!several) continue;
     bias_[row] = turn_[j].dot(carried.turning) + push_[j].dot(carried.force);
     mass_.row(row).head(row).setZero();
     for (int by = moving_[j].carrier; by >= 0; by = moving_[static_cast<std::size_t>(by)].carrier)
@@ -117,7 +150,6 @@ void JointSpace::prepare(const Articulation& robot, const Vector3d& gravity) {
     carrier.force += carried.force;
     carrier.turning += carried.turning;
   }
-  massKnown_ = !several;
 }
 
 // T has a column for each joint that follows none, with the multipliers of those that follow it. The others' equations
@@ -134,6 +166,27 @@ void JointSpace::coupleEquations() {
     matrix_(c.joint, c.joint) = 1;
     for (Bounded& row : bounded_)
       if (row.joint == c.joint) row.joint = c.leader, row.factor = c.multiplier;
+  }
+}
+
+/// L·D·Lᵀ: a handful of rows, for which a library's blocks and allocations take longer than the sums.
+void JointSpace::factor() {
+  const Eigen::Index n = matrix_.rows();
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; ++i) {
+      double sum = matrix_(i, j);
+      for (Eigen::Index k = 0; k < j; ++k) sum -= matrix_(i, k) * matrix_(k, k) * matrix_(j, k);
+      matrix_(i, j) = i == j ? sum : sum / matrix_(j, j);
+    }
+}
+
+void JointSpace::solveFor(Eigen::Ref<Eigen::VectorXd> right) const {
+  const Eigen::Index n = matrix_.rows();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < i; ++k) right[i] -= matrix_(i, k) * right[k];
+  for (Eigen::Index i = n; i-- > 0;) {
+    right[i] /= matrix_(i, i);
+    for (Eigen::Index k = i + 1; k < n; ++k) right[i] -= matrix_(k, i) * right[k];
   }
 }
 
@@ -162,9 +215,14 @@ bool JointSpace::solve(const std::vector<JointRows>& rows, double h) {
     inverse_(0, 0) = 1 / matrix_(0, 0);
     next_[0] = right_[0] * inverse_(0, 0);
   } else {
-    factor_.compute(matrix_);
-    next_ = factor_.solve(right_);
-    if (!bounded_.empty()) inverse_ = factor_.solve(Eigen::MatrixXd::Identity(joints, joints));
+    factor();
+    next_ = right_;
+    solveFor(next_);
+    for (const Bounded& row : bounded_) {
+      inverse_.col(row.joint).setZero();
+      inverse_(row.joint, row.joint) = 1;
+      solveFor(inverse_.col(row.joint));
+    }
   }
   if (bounded_.empty()) return next_.allFinite();
 
@@ -196,7 +254,10 @@ bool JointSpace::step(Articulation& robot, const std::vector<JointRows>& rows, d
     right_[0] = mass_(0, 0) * rate_[0] + h * kick * weight_[0];
   } else {
     matrix_ = mass_;
-    right_ = mass_.selfadjointView<Eigen::Lower>() * rate_ + h * kick * (weight_ - bias_);
+    for (Eigen::Index i = 0; i < right_.size(); ++i) {
+      right_[i] = h * kick * (weight_[i] - bias_[i]);
+      for (Eigen::Index k = 0; k < right_.size(); ++k) right_[i] += mass_(std::max(i, k), std::min(i, k)) * rate_[k];
+    }
   }
   if (!solve(rows, h)) return false;
   for (const Coupled& c : coupled_) next_[c.joint] = c.multiplier * next_[c.leader];
@@ -207,38 +268,44 @@ bool JointSpace::step(Articulation& robot, const std::vector<JointRows>& rows, d
     joint.rate = joint.solvedRate = rate_[static_cast<Eigen::Index>(j)];
     joint.position += h * joint.rate;
   }
-  place(robot);
   return true;
 }
 
-void JointSpace::place(Articulation& robot) const {
+void JointSpace::place(Articulation& robot) {
   for (std::size_t j = 0; j < moving_.size(); ++j) {
+    Moving& moving = moving_[j];
     RobotJoint& joint = robot.joints[j];
+    Isometry3d& pose = robot.bodies[static_cast<std::size_t>(joint.child)].pose;
+    const Matrix3d parent = robot.rotationOf(joint.parent);
+    if (joint.parent >= 0) {  // else neither moves
+      joint.axis = parent * joint.axisInParent;
+      moving.anchor = anchorOf(robot, joint);
+    }
+    const Matrix3d inParent = joint.slides ? moving.still
+                                           : Matrix3d(moving.still + std::cos(joint.position) * moving.cosine +
+                                                      std::sin(joint.position) * moving.sine);
+    const Matrix3d linear = parent * inParent;
+    pose.translation() = moving.anchor - linear * joint.anchorInChild;
+    if (joint.slides) pose.translation() += joint.position * joint.axis;
+    pose.linear() = linear;
+  }
+}
+
+void JointSpace::placeVelocities(Articulation& robot) const {
+  for (std::size_t j = 0; j < moving_.size(); ++j) {
+    const RobotJoint& joint = robot.joints[j];
     RobotBody& child = robot.bodies[static_cast<std::size_t>(joint.child)];
-    const Matrix3d turned = robot.rotationOf(joint.parent);
-    joint.axis = moving_[j].axis;
-    Vector3d anchor = moving_[j].anchor;
-    Matrix3d linear;
     Vector3d spin = Vector3d::Zero(), velocity = Vector3d::Zero();  // of the parent; of its point at the anchor
     if (joint.parent >= 0) {
-      joint.axis = turned * joint.axisInParent;
-      anchor = anchorOf(robot, joint);
       const RobotBody& carrier = robot.bodies[static_cast<std::size_t>(joint.parent)];
       spin = carrier.spin_rad_s;
-      velocity = carrier.velocity_m_s + spin.cross(anchor - carrier.pose.translation());
+      velocity = carrier.velocity_m_s + spin.cross(moving_[j].anchor - carrier.pose.translation());
     }
-    if (joint.slides) {
-      linear = turned * moving_[j].turnAtZero;
-      child.pose.translation() = anchor + joint.position * joint.axis - linear * joint.anchorInChild;
-      child.velocity_m_s = velocity + spin.cross(child.pose.translation() - anchor) + joint.rate * joint.axis;
-    } else {
-      const Matrix3d turn = Eigen::AngleAxisd(joint.position, joint.axisInParent).toRotationMatrix();
-      linear = turned * turn * moving_[j].turnAtZero;
-      child.pose.translation() = anchor - linear * joint.anchorInChild;
+    if (joint.slides)
+      velocity += joint.rate * joint.axis;
+    else
       spin += joint.rate * joint.axis;
-      child.velocity_m_s = velocity + spin.cross(child.pose.translation() - anchor);
-    }
-    child.pose.linear() = linear;
+    child.velocity_m_s = velocity + spin.cross(child.pose.translation() - moving_[j].anchor);
     child.spin_rad_s = spin;
   }
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
@@ -44,16 +43,23 @@ class JointSpace {
   void setRates(const Eigen::VectorXd& middle, const Eigen::VectorXd& end);
   /// Moment of the weight of all that a joint carries, about its axis [N·m or N].
   double weight(std::size_t joint) const { return weight_[static_cast<Eigen::Index>(joint)]; }
-  /// One step of h seconds: positions and rates of the robot's joints, poses and velocities of its bodies. `kick` is
-  /// the share of the forces that acts in it (rows come with it). False if there is no solution that is finite.
+  /// One step of h seconds: positions and rates of the robot's joints. `kick` is the share of the forces that acts in
+  /// it (rows come with it). False if there is no solution that is finite.
   bool step(Articulation& robot, const std::vector<JointRows>& rows, double kick, double h);
+  /// Poses of its bodies, where its joints are now.
+  void place(Articulation& robot);
+  /// And their velocities; nothing here reads them.
+  void placeVelocities(Articulation& robot) const;
+  /// Whether prepare() reads poses; a single joint's mass and weight are known without them.
+  bool needsPoses() const { return moving_.size() != 1; }
 
  private:
   struct Moving {
-    int child = 0;                 ///< body
-    int carrier = -1;              ///< the joint that moves what this one stands on, −1 the base
-    Eigen::Matrix3d turnAtZero;    ///< child's axes in the parent's frame at position 0
-    Eigen::Vector3d axis, anchor;  ///< in the world, of a joint at the base: they never move
+    int child = 0;     ///< body
+    int carrier = -1;  ///< the joint that moves what this one stands on, −1 the base
+    /// Child's axes in the parent's frame at position q: still + cosine·cos q + sine·sin q (Rodrigues).
+    Eigen::Matrix3d still, cosine, sine;
+    Eigen::Vector3d anchor;  ///< in the world
   };
   /// A body, and from the end of the tree on all that it carries.
   struct Moved {
@@ -75,22 +81,29 @@ class JointSpace {
     Eigen::Index joint;
     double factor, target, softness, limit;
   };
+  /// Weight of a single joint at position q: cosine·cos q + sine·sin q, or a constant where it slides.
+  struct Weighing {
+    double constant = 0, cosine = 0, sine = 0;
+  };
+  void prepareSingle(const Articulation& robot, const Eigen::Vector3d& gravity);
   bool solve(const std::vector<JointRows>& rows, double h);
   void coupleEquations();
-  void place(Articulation& robot) const;
+  void factor();
+  void solveFor(Eigen::Ref<Eigen::VectorXd> right) const;
 
   std::vector<Moving> moving_;        ///< by moving joint; what carries stands before what it carries
   std::vector<Coupled> coupled_;      ///< joints that follow another one
   Eigen::VectorXd rate_, beginRate_;  ///< of the last step's middle; and at its end
   Eigen::VectorXd weight_, bias_;
-  Eigen::MatrixXd mass_;    ///< lower triangle
-  bool massKnown_ = false;  ///< a single joint's does not change
+  Eigen::MatrixXd mass_;  ///< lower triangle
+  Weighing single_;
+  bool singleKnown_ = false;  ///< its mass as well: neither changes
 
   // Scratch of a step.
   std::vector<Moved> moved_;                  ///< by body
   std::vector<Eigen::Vector3d> turn_, push_;  ///< by joint: a unit rate's spin, and velocity at the world's origin
-  Eigen::MatrixXd matrix_, inverse_;
-  Eigen::LDLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd matrix_;                    ///< lower triangle; factor() makes L of it, and D on its diagonal
+  Eigen::MatrixXd inverse_;                   ///< columns of joints that have bounded rows
   Eigen::VectorXd right_, next_;
   std::vector<Bounded> bounded_;
   std::vector<double> a_, bx_, loHi_;

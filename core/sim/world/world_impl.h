@@ -120,6 +120,7 @@ struct World::Impl {
   void step(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
   void driveRobots(const std::vector<std::vector<JointInput>>& inputs, double now, double h);
   bool takeRobots(double h);
+  void placeRobots();
   bool nearBall(const std::vector<std::vector<JointInput>>& inputs, double h) const;
   bool strains(std::size_t robot, const std::vector<JointInput>& inputs) const;
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/gap/fit/fit.h"
 #include "core/gap/fit/fit_model.h"
+#include "core/gap/fit/parallel.h"
 #include "core/gap/search/model_comparison.h"
 
 namespace btr {
@@ -43,7 +46,67 @@ void dropNeutral(const FitService& service, Selection& selection) {
   }
 }
 
+/// Whether a model that has fewer names or numbers may stand for `final`.
+bool doesAsWell(const Scored& simpler, const Scored& final, const Scored& calibrated, const SearchThresholds& limits) {
+  return simpler.mean() - final.mean() < imperfectionOf(calibrated, final, limits.screening) ||
+         !isWorse(compare(simpler.blocks, final.blocks), limits.rivals);
+}
+
+/// Each of an effect's sizes, one after another, at what does best over all that its range holds: what was another
+/// effect's share may be hundreds of times what it had.
+FitModel withSizesScanned(const FitService& service, FitModel model, std::size_t effect,
+                          const std::vector<std::vector<double>>& shifts) {
+  const SearchThresholds::Merging& limits = service.thresholds().merging;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const FitParameter& p = model.parameters[i];
+    if (p.effect != static_cast<int>(effect) || !p.hasNeutral) continue;
+    std::vector<double> places{model.values[i]};
+    const double side = model.values[i] < p.given ? -1 : 1;
+    for (double size = limits.smallest; size < limits.largest; size *= limits.ratio)
+      if (const double place = p.given + side * size * p.scale; place > p.minimum && place < p.maximum)
+        places.push_back(place);
+    const auto costs = parallel(service.options().jobs, places.size(), [&](std::size_t k) {
+      FitModel moved = model;
+      moved.values[i] = places[k];
+      return std::vector<double>{residualsOf(service.problem(), moved, shifts).squaredNorm()};
+    });
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < places.size(); ++k)
+      if (costs[k].ok() && (!costs[best].ok() || costs[k].numbers[0] < costs[best].numbers[0])) best = k;
+    model.values[i] = places[best];
+  }
+  return model;
+}
+
+/// The two effects of the model of which the second is a simpler form of the first, at one place.
+std::optional<std::pair<std::size_t, std::size_t>> twoNames(const FitProblem& problem, const FitModel& model) {
+  for (std::size_t rich = 0; rich < model.effects.size(); ++rich) {
+    const std::vector<std::string> simpler = problem.library.make(model.effects[rich].effect)->contains();
+    for (std::size_t i = 0; i < model.effects.size(); ++i)
+      if (model.effects[i].at == model.effects[rich].at && std::ranges::count(simpler, model.effects[i].effect) > 0)
+        return std::pair(rich, i);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+void mergeForms(const FitService& service, Selection& selection, const Scored& calibrated) {
+  constexpr const char* stage = "merging two names";
+  while (const auto names = twoNames(service.problem(), selection.final.fit.model)) {
+    const Fit& fit = selection.final.fit;
+    const auto [rich, simple] = *names;
+    const std::string richText = fit.model.effects[rich].text(), simpleText = fit.model.effects[simple].text();
+    const FitModel alone = withSizesScanned(service, fit.model.without(simple), rich - (simple < rich), fit.shifts);
+    const std::vector<Fit> fits =
+        completed(service.tryFits({{alone, fit.shifts}}, service.thresholds().calibration.toTheEnd, stage, 0.8, 0.8));
+    const auto scored = service.tryScores(fits, stage, 0.8, 0.8);
+    if (scored.empty() || !scored[0] || !doesAsWell(*scored[0], selection.final, calibrated, service.thresholds()))
+      return;
+    conclude(selection.attempts, simpleText, false, richText + " has it as a part, and does as well alone");
+    selection.take(*scored[0], richText + " and " + simpleText + " → " + richText);
+  }
+}
 
 void dropRedundant(FitService& service, Selection& selection, const Scored& calibrated) {
   dropNeutral(service, selection);
@@ -71,8 +134,10 @@ void dropRedundant(FitService& service, Selection& selection, const Scored& cali
 }
 
 /// The simpler effects of a richer one, side by side, where they have fewer numbers and do as well: friction that was
-/// allowed to differ by direction and does not is dry and viscous friction.
-void takeApart(const FitService& service, Selection& selection, const Scored& calibrated) {
+/// allowed to differ by direction and does not is dry and viscous friction. As little as effects may leave for not
+/// being the plant's in every detail is no difference by direction either.
+bool takeApart(const FitService& service, Selection& selection, const Scored& calibrated) {
+  bool taken = false;
   const FitProblem& problem = service.problem();
   for (std::size_t i = 0; i < selection.final.fit.model.effects.size();) {
     const FitModel& whole = selection.final.fit.model;
@@ -96,8 +161,7 @@ void takeApart(const FitService& service, Selection& selection, const Scored& ca
         completed(service.tryFits({{parts, selection.final.fit.shifts}}, service.thresholds().rivals.apartIterations,
                                   "taking apart", 0.86, 0.86));
     const auto apart = service.tryScores(fits, "taking apart", 0.86, 0.86);
-    if (apart.empty() || !apart[0] ||
-        isWorse(compare(apart[0]->blocks, selection.final.blocks), service.thresholds().rivals)) {
+    if (apart.empty() || !apart[0] || !doesAsWell(*apart[0], selection.final, calibrated, service.thresholds())) {
       ++i;
       continue;
     }
@@ -112,8 +176,10 @@ void takeApart(const FitService& service, Selection& selection, const Scored& ca
     }
     conclude(selection.attempts, ownText, false, "its simpler forms together do as well");
     selection.take(scored, what);
+    taken = true;
     i = 0;
   }
+  return taken;
 }
 
 }  // namespace btr

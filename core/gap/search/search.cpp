@@ -232,8 +232,9 @@ SearchResult StructureSearch::run() {
   }
   beginFrom(calibration);
   addEffects(0);
+  mergeForms(service_, selection_, calibration_.calibrated);
   dropRedundant(service_, selection_, calibration_.calibrated);
-  takeApart(service_, selection_, calibration_.calibrated);
+  if (takeApart(service_, selection_, calibration_.calibrated)) refine();
   dropRedundant(service_, selection_, calibration_.calibrated);
   std::vector<Found> effects = findRivals();
 

@@ -210,6 +210,12 @@ struct SearchThresholds {
     int iterations = 15;                                  ///< of these [time]
   };
 
+  /// An effect beside a simpler form of itself: where the sizes of the one that stays are looked for.
+  struct Merging {
+    /// of a typical size [case: a share of a thirteenth, the rest under the other name]
+    double smallest = 1.0 / 64, largest = 4096, ratio = 1.4;
+  };
+
   /// What would explain the recordings as well, and what stands in another's place.
   struct Rivals {
     /// of a paired comparison: another one is refuted (t as missedT) [statistics]
@@ -418,6 +424,7 @@ struct SearchThresholds {
   Screening screening;
   Confirmation confirmation;
   Refinement refinement;
+  Merging merging;
   Rivals rivals;
   ShortRace shortRace;
   Location location;

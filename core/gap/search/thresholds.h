@@ -171,6 +171,8 @@ struct SearchThresholds {
     double imperfect = 1e-3;              ///< of what the effects take, and no more than
     double imperfectMost = 0.8;           ///< may be left of it: their laws are not the plant's in every detail [case:
                                           ///< dry friction that another integrator smooths]
+    std::size_t fromGiven = 4;            ///< fitted beside the numbers as given, too [case: viscous friction that a
+                                          ///< calibration took for a third of the gain]
     std::size_t pairFirsts = 2;           ///< candidates that others are tried beside [time]
     double pairPromise = 0.03;  ///< least promise: two effects that need each other show a little by themselves [hand]
     double doubtfulExcess = 1;  ///< left by one effect: two others in its place are tried [case: payload

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <optional>
 
 #include "core/gap/fit/fit_model.h"
 #include "core/gap/search/starts/drawn_starts.h"
@@ -152,15 +154,7 @@ void Screener::fitFrom(Screening& screening, const std::vector<std::size_t>& whi
   }
   const auto fits =
       service_.tryFits(jobs, service_.thresholds().screening.iterations, "fitting candidates" + stage, from, to);
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    TriedCandidate& each = screening.tried[owner[i]];
-    if (!fits[i]) {
-      if (!each.attempt.fitted) each.attempt.reason = "the scene refuses the numbers of its fit";
-    } else if (!each.attempt.fitted || fits[i]->cost < each.fit.cost) {
-      each.fit = *fits[i];
-      each.attempt.fitted = true;
-    }
-  }
+  keepBetter(screening, owner, fits);
 }
 
 void Screener::fitKinds(Screening& screening, const std::vector<std::size_t>& all,
@@ -172,6 +166,55 @@ void Screener::fitKinds(Screening& screening, const std::vector<std::size_t>& al
         left.push_back(k);
     if (start > 1 && left.empty()) return;
     fitFrom(screening, left, start, stage, at, at);
+  }
+}
+
+std::vector<std::size_t> Screener::fitBesideHeld(Screening& screening, const std::string& stage, double at) const {
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  const FitProblem& problem = service_.problem();
+  std::vector<std::size_t> fitted;
+  for (std::size_t b = 1; b < screening.bases.size(); ++b) {
+    const Fit& free = screening.bases[b].fit;
+    // No effects yet: what its simulator has without parameters are the numbers as given.
+    const Fit held{FitModel{}, free.shifts, 0};
+    std::vector<EffectCandidate> candidates;
+    for (const TriedCandidate& each : screening.tried) candidates.push_back(each.attempt.candidate);
+    const std::vector<Screened> screened =
+        screen(problem, held, linearise(problem, held), candidates, service_.options().jobs,
+               service_.reporter(stage, candidates.size(), at, at), limits);
+    std::vector<std::size_t> best;
+    for (std::size_t k = 0; k < screened.size(); ++k)
+      if (!screened[k].starts.empty()) best.push_back(k);
+    std::ranges::stable_sort(best, std::greater(), [&](std::size_t k) { return screened[k].starts[0].share; });
+    if (best.size() > limits.fromGiven) best.resize(limits.fromGiven);
+
+    std::vector<FitJob> jobs;
+    for (const std::size_t k : best)
+      jobs.push_back({held.model.with(problem, candidates[k].placed(screened[k].starts[0].effect)), held.shifts});
+    const auto alone = service_.tryFits(jobs, limits.iterations, stage, at, at);
+    jobs.clear();
+    std::vector<std::size_t> owner;
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (alone[i]) {
+        jobs.push_back({free.model.with(problem, alone[i]->model.fittedEffect(problem, 0)), alone[i]->shifts});
+        owner.push_back(best[i]);
+      }
+    keepBetter(screening, owner, service_.tryFits(jobs, limits.iterations, stage, at, at));
+    fitted.insert(fitted.end(), owner.begin(), owner.end());
+  }
+  return fitted;
+}
+
+void Screener::keepBetter(Screening& screening, const std::vector<std::size_t>& owner,
+                          const std::vector<std::optional<Fit>>& fits) const {
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    TriedCandidate& each = screening.tried[owner[i]];
+    if (!fits[i]) {
+      if (!each.attempt.fitted) each.attempt.reason = "the scene refuses the numbers of its fit";
+    } else if (!each.attempt.fitted || fits[i]->cost < each.fit.cost) {
+      each.fit = *fits[i];
+      each.attempt.fitted = true;
+    }
   }
 }
 
@@ -204,6 +247,8 @@ void Screener::fitPromising(Screening& screening, std::size_t toFit, bool inWind
     if (isContained(screening, promising[k], again)) again.push_back(promising[k]);
   fitFrom(screening, again, 1, stage, middle, to);
   fitKinds(screening, promising, again, stage, to);
+  for (const std::size_t k : fitBesideHeld(screening, what, to))
+    if (std::ranges::find(promising, k) == promising.end()) promising.push_back(k);
   std::erase_if(promising, [&](std::size_t k) { return !tried[k].attempt.fitted; });
 
   const auto bestOfThem = [&] {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,12 @@ class Screener {
   /// From the best start of each kind that was not fitted yet; those of `twice` were fitted from two starts.
   void fitKinds(Screening& screening, const std::vector<std::size_t>& all, const std::vector<std::size_t>& twice,
                 const std::string& stage, double at) const;
+  /// Beside the other bases with their numbers held, then set free: what a calibration that went far took up shows
+  /// there as it is. The best few of each; which of `tried` they are.
+  std::vector<std::size_t> fitBesideHeld(Screening& screening, const std::string& stage, double at) const;
+  /// Of each candidate the fit that costs least.
+  void keepBetter(Screening& screening, const std::vector<std::size_t>& owner,
+                  const std::vector<std::optional<Fit>>& fits) const;
   /// From start number `start` of each, where it has so many.
   void fitFrom(Screening& screening, const std::vector<std::size_t>& which, std::size_t start, const std::string& stage,
                double from, double to) const;

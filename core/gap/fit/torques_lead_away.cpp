@@ -38,7 +38,7 @@ struct Way {
 
 }  // namespace
 
-void sayIfTorquesLeadAway(FitProblem& problem) {
+bool doTorquesLeadAway(const FitProblem& problem) {
   std::size_t driven = 0, lost = 0;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     const FitTrial& trial = problem.trials[t];
@@ -64,7 +64,11 @@ void sayIfTorquesLeadAway(FitProblem& problem) {
         if (way.isLost()) ++lost;
       }
   }
-  if (driven == 0 || 2 * lost <= driven) return;
+  return 2 * lost > driven;
+}
+
+void sayIfTorquesLeadAway(FitProblem& problem) {
+  if (!doTorquesLeadAway(problem)) return;
   problem.notes.emplace_back(
       "the recorded torques lead most joints away from their recorded paths, by half of what these move or more, "
       "before "

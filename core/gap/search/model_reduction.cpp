@@ -48,7 +48,9 @@ void dropNeutral(const FitService& service, Selection& selection) {
 
 /// Whether a model that has fewer names or numbers may stand for `final`.
 bool doesAsWell(const Scored& simpler, const Scored& final, const Scored& calibrated, const SearchThresholds& limits) {
-  return simpler.mean() - final.mean() < imperfectionOf(calibrated, final, limits.screening) ||
+  const double more = simpler.mean() - final.mean();
+  return more < imperfectionOf(calibrated, final, limits.screening) ||
+         more < limits.rivals.ofMuchLeft * excessOf(final) ||
          !isWorse(compare(simpler.blocks, final.blocks), limits.rivals);
 }
 

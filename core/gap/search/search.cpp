@@ -51,6 +51,8 @@ class StructureSearch {
   void refine();
   /// One effect at a time, or two that need each other, for as long as they help. `stage`: as many are there.
   void addEffects(int stage);
+  /// Fewer names or effects that do as well.
+  void reduce();
   /// Rivals of what was found. Where one has taken an effect's place and much is left, others may help beside it that
   /// did not help before.
   std::vector<Found> findRivals();
@@ -189,6 +191,11 @@ void StructureSearch::addEffects(int stage) {
   }
 }
 
+void StructureSearch::reduce() {
+  mergeForms(service_, selection_, calibration_.calibrated);
+  dropRedundant(service_, selection_, calibration_.calibrated);
+}
+
 std::vector<Found> StructureSearch::findRivals() {
   const auto namesNow = [&] {
     std::set<std::string> names;
@@ -232,8 +239,7 @@ SearchResult StructureSearch::run() {
   }
   beginFrom(calibration);
   addEffects(0);
-  mergeForms(service_, selection_, calibration_.calibrated);
-  dropRedundant(service_, selection_, calibration_.calibrated);
+  reduce();
   if (takeApart(service_, selection_, calibration_.calibrated)) refine();
   dropRedundant(service_, selection_, calibration_.calibrated);
   std::vector<Found> effects = findRivals();

@@ -233,6 +233,7 @@ struct SearchThresholds {
                                 ///< [case: friction by load with shares of 0 to 0.03]
     double nothingShows = 5;    ///< the same of one none of whose sizes shows [case: dry friction of filtered torques
                                 ///< as friction that fades at once with any coefficient]
+    double ofMuchLeft = 0.1;    ///< of the excess: so much more may a simpler form leave [hand]
     double clearlyBetterGain = 0.01;  ///< to replace what was found, with confirmation.leastT [prototype]
     int rounds = 2;                   ///< of rivals, and of effects beside what took a place [time]
     int replaced = 3;                 ///< times at most that one takes another's place [time]

@@ -55,7 +55,8 @@ struct Try {
   Values effect;
   VectorXd change;            ///< of the residuals, initial states taken out
   VectorXd left;              ///< fitted parameters taken out too
-  double step = 0, gain = 0;  ///< of its own size that would do best if all were linear, and what that would take
+  double wanted = 0;          ///< of its own size that would do best if all were linear
+  double step = 0, gain = 0;  ///< the same, no larger than is believed, and what that would take
   double gainAsIs = 0;        ///< what it takes at its own size
 };
 
@@ -112,6 +113,7 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
       attempt.left = -attempt.left;
       step = -step;
     }
+    attempt.wanted = step;
     attempt.step = std::clamp(step, 0.0, limits.largestStep);
     attempt.gain = gainOf(attempt.step * attempt.left);
     attempt.gainAsIs = gainOf(attempt.left);
@@ -127,6 +129,13 @@ std::vector<double> screenOne(const FitProblem& problem, const Fit& fit, const L
     for (const double size : limits.insensitiveSizes)
       for (std::size_t i = 0; i < std::min(limits.insensitiveVariants, candidate.variants.size()); ++i)
         atAnySize = std::max(atAnySize, tryOut(scaledVariant(candidate, candidate.variants[i], size)));
+  // A usual size is one of a servo's joint; what another machine has may be thousands of times as large, which a linear
+  // step is not believed.
+  const std::vector<Try> usual = tries;
+  for (const Try& attempt : usual)
+    if (attempt.wanted > limits.largestStep)
+      for (const double size : {std::sqrt(limits.largestStep * attempt.wanted), attempt.wanted})
+        tryOut(scaledVariant(candidate, attempt.effect, size));
   if (atAnySize <= leastChange(linear, limits)) tries.clear();
   const double total = linear.profiled.squaredNorm();
   struct Found {

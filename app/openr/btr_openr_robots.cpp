@@ -88,8 +88,8 @@ void EyeProcesses::set(const std::string& robot, const Values& numbers) {
     eye->second.process->send(nlohmann::json{{"camera", numbers}}.dump());
 }
 
-OpenrRobots::OpenrRobots(Session& session, Watchdog* dog)
-    : eyes_(session), programs_(session, openr::startRobot, &eyes_, dog) {}
+OpenrRobots::OpenrRobots(Session& session, Watchdog* dog, double patience_s)
+    : eyes_(session), programs_(session, openr::robotStarter(patience_s), &eyes_, dog) {}
 
 std::vector<openr::LivePrograms::Line> OpenrRobots::takeLines() {
   auto lines = programs_.takeLines();

@@ -6,6 +6,7 @@
 #include "app/live/btr_camera_process.h"
 #include "core/live/session.h"
 #include "core/openr/live_programs.h"
+#include "core/openr/robot_process.h"
 
 namespace btr::cli {
 
@@ -39,8 +40,8 @@ class EyeProcesses final : public openr::RobotCameras {
 /// The OPEN-R programs of a running world's robots, each in a process of its own, with their cameras.
 class OpenrRobots {
  public:
-  /// `dog`, which outlives it, sees whether programs answer.
-  explicit OpenrRobots(Session& session, Watchdog* dog = nullptr);
+  /// `dog`, which outlives it, sees whether programs answer; one that has not after `patience_s` is ended.
+  explicit OpenrRobots(Session& session, Watchdog* dog = nullptr, double patience_s = openr::RobotProcess::patience_s);
 
   /// Before each period.
   void step() { programs_.step(); }
@@ -54,6 +55,8 @@ class OpenrRobots {
   /// One sentence for each program that ended otherwise than by its own shutdown.
   std::vector<std::string> failures() const;
   long changes() const { return programs_.changes(); }
+  /// See LivePrograms.
+  const std::map<std::string, std::optional<openr::Ended>>& ended() const { return programs_.ended(); }
 
  private:
   EyeProcesses eyes_;

@@ -11,6 +11,7 @@
 
 #include "app/btr_commands.h"
 #include "app/live/btr_camera_eye.h"
+#include "app/serve/served_programs.h"
 #include "core/remote/server.h"
 #include "core/spec/error.h"
 
@@ -54,6 +55,7 @@ void serve(ServeArguments& a, Shell& shell) {
   if (!a.database.empty()) options.database = fs::absolute(a.database).lexically_normal().string();
   options.jobs = a.jobs;
   options.cameras = cameraMaker();
+  options.programs = stickProgramsMaker();
   options.mostWorlds = a.worlds;
   options.idle_s = a.idle_s;
   if (a.tls.size() == 2) {

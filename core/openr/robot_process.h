@@ -19,6 +19,8 @@ class RobotProcess {
     std::string program;           ///< empty: openr_robot beside this program
   };
 
+  static constexpr double patience_s = 60;
+
   /// Starts it. Throws InputError if the stick has no OBJECT.CFG, or the process cannot be started.
   explicit RobotProcess(const Options& options);
   ~RobotProcess();  ///< ends it at once
@@ -28,7 +30,7 @@ class RobotProcess {
   /// One frame of 8 ms: what the robot senses, and what the program orders. If the process dies, or has not taken the
   /// frame and answered all of it within `deadline_s` of real time, the answer says so in `ended`; so do all answers
   /// after an end, with nothing else.
-  OrderFrame exchange(const SensorFrame& frame, double deadline_s = 60);
+  OrderFrame exchange(const SensorFrame& frame, double deadline_s = patience_s);
 
   const std::optional<Ended>& ended() const { return ended_; }
   void kill();

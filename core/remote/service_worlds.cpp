@@ -121,8 +121,10 @@ grpc::Status WorldsService::Watch(grpc::ServerContext* context, const v1::WatchR
       const std::array<std::int64_t, 3> now{state.episode(), state.period(), state.channels_version()};
       // A client that does not read holds up nobody but this stream.
       if (now != told && !writer->Write(state)) return;
-      if (now != told && state.channels_version() != get.wanted().channels_known()) {
+      // What was told is not told again.
+      if (now != told) {
         get.mutable_wanted()->set_channels_known(state.channels_version());
+        if (!state.lines().empty()) get.mutable_wanted()->set_lines_after(state.lines().rbegin()->number());
         call = callOf(Method::get, get.SerializeAsString());
       }
       told = now;

@@ -51,7 +51,7 @@ Nursery::Life lifeOf(const Switchboard::Options& options, const PluginHost& host
       serve(desk, Nursery::socketOfChild, beat_s, Child::isToLeave);
     };
     if (kind == 'w') limitMemory();
-    if (kind == 'w') answer(WorldDesk(host, options.folder, options.cameras));
+    if (kind == 'w') answer(WorldDesk(host, options.folder, options.cameras, options.programs));
     if (kind == 'e') answer(EvaluationDesk(host, options.folder, options.database, options.jobs));
     if (kind == 'd') answer(RecordsDesk(host, options.folder, options.database));
     if (kind == 'r') answer(RunDesk(host, options.database, options.jobs));

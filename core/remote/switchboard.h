@@ -15,6 +15,7 @@
 #include "core/remote/games_folder.h"
 #include "core/remote/nursery.h"
 #include "core/remote/run_keeper.h"
+#include "core/remote/stick_programs.h"
 
 namespace btr::remote {
 
@@ -27,9 +28,10 @@ class Switchboard {
     std::string database{};  ///< "" for none
     int jobs = 0;            ///< worker processes of an evaluator, a run; 0: as many as processors
     int mostWorlds = 16;
-    double patience_s = 60;  ///< of a call to a world, since it last said that it is at work
-    CameraMaker cameras{};   ///< called in a world's process
-    double idle_s = 600;     ///< a world that nobody has called for so long is closed
+    double patience_s = 60;         ///< of a call to a world, since it last said that it is at work
+    CameraMaker cameras{};          ///< called in a world's process
+    StickProgramsMaker programs{};  ///< the same
+    double idle_s = 600;            ///< a world that nobody has called for so long is closed
   };
   using Cancelled = std::function<bool()>;
 

@@ -95,10 +95,42 @@ std::string WorldDesk::open(const v1::OpenRequest& request) {
   return world.SerializeAsString();
 }
 
+std::unique_ptr<StickPrograms> WorldDesk::programsOf(Session& session) const {
+  for (const auto& [name, player] : session.game().robots)
+    if (player.hasStick()) {
+      if (makePrograms_) return makePrograms_(session);
+      throw InputError("robots " + name + "/controller", "openr",
+                       "a controller plugin: this server runs no OPEN-R programs");
+    }
+  return nullptr;
+}
+
+void WorldDesk::keepLines() {
+  if (!programs_) return;
+  const auto bytesOf = [](const StickPrograms::Line& line) {
+    return line.robot.size() + line.object.size() + line.text.size();
+  };
+  for (StickPrograms::Line& line : programs_->takeLines()) {
+    saidBytes_ += bytesOf(line);
+    ++lastLine_;
+    said_.push_back({session().periods(), std::move(line)});
+    while (said_.size() > mostLines || (said_.size() > 1 && saidBytes_ > mostLineBytes)) {
+      saidBytes_ -= bytesOf(said_.front().line);
+      said_.pop_front();
+    }
+  }
+}
+
 // Files are written only for a game that can be played.
 void WorldDesk::begin() {
   end();
-  session_ = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
+  auto session = std::make_unique<Session>(*game_, host_, nullptr, makeCamera_);
+  programs_ = programsOf(*session);
+  session_ = std::move(session);
+  session_->onAct([this](long period, const Act& act) {
+    if (log_) log_->act(period, act);
+    if (programs_) programs_->acted(act);
+  });
   ++episode_;
   speed_ = 0;
   for (auto& [robot, camera] : cameras_) camera = {nullptr, {}, camera.number, 0, {}, nullptr};
@@ -114,11 +146,13 @@ void WorldDesk::begin() {
   logFile_ = fs::path(gameFile_).replace_extension(".log").string();
   writeFile(gameFile_, toJsonText(*game_));
   log_ = std::make_unique<SessionLogWriter>(logFile_, *game_);
-  session_->onAct([this](long period, const Act& act) { log_->act(period, act); });
 }
 
 std::string WorldDesk::end() {
   if (!session_) return "";
+  if (programs_) programs_->end();
+  keepLines();
+  programs_.reset();
   const std::string sha = session_->traceSha256();
   const long periods = session_->periods();
   session_.reset();
@@ -196,6 +230,8 @@ void WorldDesk::step(const v1::StepRequest& request) {
 }
 
 bool WorldDesk::onePeriod() {
+  if (programs_) programs_->step();
+  keepLines();
   session().step();
   if (log_ && session().periods() % SessionLog::markEvery == 0) log_->mark(session().periods(), session().mark());
   bool pictures = false;

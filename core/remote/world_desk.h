@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "core/remote/desk.h"
 #include "core/remote/games_folder.h"
 #include "core/remote/picture_ring.h"
+#include "core/remote/stick_programs.h"
 
 namespace uchilsim::v1 {
 class OpenRequest;
@@ -38,9 +40,12 @@ class WorldDesk final : public Desk {
 
   static constexpr std::size_t mostCameras = 8;
 
-  /// The first two must outlive it.
-  WorldDesk(const PluginHost& host, const GamesFolder& folder, CameraMaker cameras = {})
-      : host_(host), folder_(folder), makeCamera_(std::move(cameras)) {}
+  static constexpr std::size_t mostLines = 1000, mostLineBytes = 1 << 20;  ///< of programs, that are kept
+
+  /// The first two must outlive it. Without `programs` a game with an OPEN-R stick is refused.
+  WorldDesk(const PluginHost& host, const GamesFolder& folder, CameraMaker cameras = {},
+            StickProgramsMaker programs = {})
+      : host_(host), folder_(folder), makeCamera_(std::move(cameras)), makePrograms_(std::move(programs)) {}
   ~WorldDesk() override;
 
   std::string answer(Method method, std::string_view message) override;
@@ -51,6 +56,9 @@ class WorldDesk final : public Desk {
   std::string open(const uchilsim::v1::OpenRequest& request);
   Game gameOf(const uchilsim::v1::OpenRequest& request) const;
   void begin();  ///< an episode
+  std::unique_ptr<StickPrograms> programsOf(Session& session) const;
+  void keepLines();
+  void tellPrograms(const uchilsim::v1::Wanted& wanted, uchilsim::v1::State& state) const;
   std::string end();
   Session& session();
   void apply(const Act& act);
@@ -73,7 +81,15 @@ class WorldDesk final : public Desk {
   bool logged_ = false;
   std::string gameFile_, logFile_;  ///< of this episode, full paths
   std::unique_ptr<Session> session_;
+  std::unique_ptr<StickPrograms> programs_;  ///< none: no robot has a stick
   std::unique_ptr<SessionLogWriter> log_;
+  struct Said {
+    long period;
+    StickPrograms::Line line;
+  };
+  std::deque<Said> said_;  ///< the last ones
+  long lastLine_ = 0;      ///< number of the last one
+  std::size_t saidBytes_ = 0;
   std::vector<std::string> channels_;
   long channelsVersion_ = 0, channelsTold_ = 0;  ///< which they are; which whoever does not say was told last
   std::vector<std::string> chosen_;              ///< the channels that were wanted last …
@@ -89,6 +105,7 @@ class WorldDesk final : public Desk {
   /// The camera of a robot, which looks. Throws InputError, Refusal.
   Camera& camera(const std::string& robot);
   const CameraMaker makeCamera_;
+  const StickProgramsMaker makePrograms_;
   std::map<std::string, Camera> cameras_;  ///< by robot
   long episode_ = 0;
   double speed_ = 0;  ///< 0: it waits for steps

@@ -43,7 +43,9 @@ void describeRobot(const Session& session, const SceneRobot& robot, const Plugin
   }
   for (const Link& link : robot.model.links) out.add_links(link.name);
   const auto player = session.game().robots.find(robot.name);
-  if (player == session.game().robots.end() || !player->second.hasPlugin()) return;
+  if (player == session.game().robots.end()) return;
+  if (player->second.hasStick()) out.set_controller("openr");
+  if (!player->second.hasPlugin()) return;
   const GameController& controller = *player->second.controller;
   out.set_controller(controller.plugin);
   const std::vector<Parameter> genotype = host.controller(controller.plugin)->genotype();
@@ -143,7 +145,29 @@ std::string WorldDesk::state(const v1::Wanted& wanted) {
     out.mutable_score()->set_half(referee->half);
     out.mutable_score()->set_over(referee->over);
   }
+  tellPrograms(wanted, out);
   return out.SerializeAsString();
+}
+
+void WorldDesk::tellPrograms(const v1::Wanted& wanted, v1::State& out) const {
+  if (programs_)
+    for (const auto& [robot, why] : programs_->whyEnded()) {
+      v1::Program& program = *out.add_programs();
+      program.set_robot(robot);
+      program.set_running(why.empty());
+      program.set_why(why);
+    }
+  if (!wanted.has_lines_after()) return;
+  long number = lastLine_ - static_cast<long>(said_.size());
+  for (const auto& [period, line] : said_) {
+    if (++number <= wanted.lines_after()) continue;
+    v1::Line& told = *out.add_lines();
+    told.set_number(number);
+    told.set_period(period);
+    told.set_robot(line.robot);
+    told.set_object(line.object);
+    told.set_text(line.text);
+  }
 }
 
 std::string WorldDesk::robot(const std::string& name) {

@@ -251,6 +251,66 @@ class Mistakes(WithServer):
         self.refused("127.0.0.1:1: no server answers there", uchilsim.Client("127.0.0.1:1").info, uchilsim.Unreachable)
 
 
+class Programs(unittest.TestCase):
+    """Robots whose games have an OPEN-R stick in them."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server()
+        games = cls.server.folder / "games"
+        built = subprocess.run([BTR, "openr", "build", str(RESOURCES / "openr/PanPath"), "--out", str(games / "PanPath")],
+                               capture_output=True, text=True)
+        assert built.returncode == 0, built.stderr
+        for name, stick in (("pan", "PanPath"), ("none", "nowhere")):
+            scene = {"format": "uchilsim-scene-1", "step_s": 0.004, "control_period_s": 0.008, "floor": {"friction": 1},
+                     "robots": [{"name": "red1", "model": DOG}]}
+            (games / f"{name}.json").write_text(json.dumps(
+                {"format": "uchilsim-game-1", "scene": scene,
+                 "robots": {"red1": {"controller": {"openr": {"stick": stick}}}}}))
+        cls.client = uchilsim.Client(cls.server.address)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.client.close()
+        cls.server.close()
+
+    def test_a_program_moves_its_robot_as_without_a_server(self):
+        with self.client.open("pan.json") as world:
+            self.assertEqual("openr", world.robots["red1"].controller)
+            state = world.step(250)
+            self.assertEqual({"red1": ""}, state.programs)
+            said = world.lines()
+            self.assertIn("pan gains 8 2 4, 0 ms ahead", [line.text for line in said])
+            self.assertEqual([], world.lines())
+            world.reset()
+            world.step(250)
+            self.assertEqual(said, world.lines()[-len(said):])
+            trace = world.close()
+        alone = subprocess.run([BTR, "--json", "live", str(self.server.folder / "games/pan.json"), "--seconds", "2"],
+                               capture_output=True, text=True)
+        self.assertEqual(trace, json.loads(alone.stdout)["trace_sha256"])
+
+    def test_without_its_controller_a_robot_has_no_program(self):
+        with self.client.open("pan.json", without_controller=["red1"]) as world:
+            self.assertEqual(({}, ""), (world.step(2).programs, world.robots["red1"].controller))
+
+    def test_a_stick_that_is_not_there_is_refused(self):
+        with self.assertRaisesRegex(uchilsim.Refused, "robots red1/controller/openr: .*nowhere: no folder"):
+            self.client.open("none.json")
+
+    def test_a_module_that_cannot_be_loaded_is_said(self):
+        games = self.server.folder / "games"
+        shutil.copytree(games / "PanPath", games / "nowhere")
+        try:
+            for module in (games / "nowhere/OPEN-R/MW/OBJS").iterdir():
+                module.write_text("no module")
+            with self.client.open("none.json") as world:
+                world.step(2)
+                self.assertTrue(world.lines())
+        finally:
+            shutil.rmtree(games / "nowhere")
+
+
 class Cameras(WithServer):
     def setUp(self):
         if not os.path.exists(os.path.join(os.path.dirname(BTR), "btr-camera")):

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "core/spec/error.h"
 #include "core/spec/json_reader.h"
 #include "tests/remote/remote_folder.h"
 #include "uchilsim.pb.h"
@@ -509,6 +510,110 @@ TEST_F(WorldDeskTest, AllCamerasOfAWorldDrawBeforeTheFirstIsWaitedFor) {
   notes.clear();
   answered<v1::State>(seeing, Method::step, step);
   EXPECT_EQ(notes, "ask blue1; ask red1; look blue1; look red1; ");
+}
+
+/// A program that says what it is called for; it ends with its third period.
+class NotedPrograms final : public StickPrograms {
+ public:
+  explicit NotedPrograms(Session& session) : session_(session) { note("begins"); }
+  void step() override {
+    note("step");
+    session_.apply(OrdersAct{"red1", {{"HEAD_PAN", 0.2}}, {}});
+    if (session_.periods() == 2) why_ = "PanPath crashed";
+  }
+  void acted(const Act& act) override { note(std::holds_alternative<OrdersAct>(act) ? "orders" : "act"); }
+  void end() override { note("end"); }
+  std::vector<Line> takeLines() override { return std::exchange(lines_, {}); }
+  std::map<std::string, std::string> whyEnded() const override { return {{"red1", why_}}; }
+
+ private:
+  void note(const std::string& what) { lines_.push_back({"red1", "PanPath", what}); }
+  Session& session_;
+  std::vector<Line> lines_;
+  std::string why_;
+};
+
+class SticksTest : public WorldDeskTest {
+ protected:
+  void SetUp() override {
+    nlohmann::json game = nlohmann::json::parse(RemoteFolder::dogGame());
+    game["robots"]["red1"] = {{"controller", {{"openr", {{"stick", "MS"}, {"motor_power", true}}}}}};
+    files.write("stick.json", game.dump());
+    request.set_game("stick.json");
+  }
+  /// The lines with a larger number, with their periods.
+  static std::string lines(WorldDesk& of, long after) {
+    v1::GetRequest get;
+    get.mutable_wanted()->set_lines_after(after);
+    std::string all;
+    const v1::State state = answered<v1::State>(of, Method::get, get);
+    for (const v1::Line& line : state.lines())
+      all += std::to_string(line.number()) + "@" + std::to_string(line.period()) + " " + line.text() + "; ";
+    return all;
+  }
+  v1::OpenRequest request;
+};
+
+TEST_F(SticksTest, AServerWithoutProgramsRefusesAStick) {
+  const std::string listing = files.listing();
+  EXPECT_THAT(refused(desk, Method::open, request, worldName), HasSubstr("robots red1/controller"));
+  request.add_without_controller("red1");
+  EXPECT_EQ("accepted", refused(desk, Method::open, request, worldName));
+  EXPECT_NE(listing, files.listing());
+}
+
+TEST_F(SticksTest, AProgramThatCannotBeStartedIsRefusedAndNothingIsWritten) {
+  const std::string listing = files.listing();
+  WorldDesk other(plugins(), folder, {}, [](Session&) -> std::unique_ptr<StickPrograms> {
+    throw InputError("robots red1/controller/openr: MS: no folder");
+  });
+  EXPECT_THAT(refused(other, Method::open, request, worldName), HasSubstr("MS: no folder"));
+  EXPECT_EQ("this world is not open", refused(other, Method::step, v1::StepRequest()));
+  EXPECT_EQ(listing, files.listing());
+}
+
+TEST_F(SticksTest, AProgramMovesItsRobotAndIsHeard) {
+  WorldDesk running(plugins(), folder, {}, [](Session& session) { return std::make_unique<NotedPrograms>(session); });
+  world = answered<v1::World>(running, Method::open, request, worldName);
+  EXPECT_EQ("openr", world.robots(0).controller());
+  v1::StepRequest step;
+  step.set_periods(2);
+  step.add_acts()->set_json(R"({"act": "add", "ball": {"name": "b2"}})");
+  v1::State state = answered<v1::State>(running, Method::step, step);
+  ASSERT_EQ(1, state.programs_size());
+  EXPECT_TRUE(state.programs(0).running());
+  EXPECT_EQ(0, state.lines_size());
+  EXPECT_EQ("1@0 begins; 2@0 act; 3@0 step; 4@0 orders; 5@1 step; 6@1 orders; ", lines(running, 0));
+  EXPECT_EQ("6@1 orders; ", lines(running, 5));
+  step.clear_acts();
+  state = answered<v1::State>(running, Method::step, step);
+  EXPECT_EQ("red1", state.programs(0).robot());
+  EXPECT_FALSE(state.programs(0).running());
+  EXPECT_EQ("PanPath crashed", state.programs(0).why());
+  EXPECT_EQ("", state.fault());
+
+  const std::string log = (files.server() / world.log()).string();
+  answered<v1::State>(running, Method::reset, v1::ResetRequest());
+  EXPECT_EQ("11@4 end; ", lines(running, 10));
+  answered<v1::State>(running, Method::step, step);
+  EXPECT_EQ("11@4 end; 12@0 begins; 13@0 step; 14@0 orders; 15@1 step; 16@1 orders; ", lines(running, 10));
+  // What it ordered is in the log, which plays again without it.
+  answered<v1::CloseReply>(running, Method::close, v1::CloseRequest());
+  replayed(fs::path(log).replace_extension(".json"), log);
+}
+
+TEST_F(SticksTest, OfManyLinesTheLastAreKept) {
+  WorldDesk running(plugins(), folder, {}, [](Session& session) { return std::make_unique<NotedPrograms>(session); });
+  answered<v1::World>(running, Method::open, request, worldName);
+  v1::StepRequest step;
+  step.set_periods(600);
+  answered<v1::State>(running, Method::step, step);
+  v1::GetRequest get;
+  get.mutable_wanted()->set_lines_after(0);
+  const v1::State state = answered<v1::State>(running, Method::get, get);
+  ASSERT_EQ(static_cast<int>(WorldDesk::mostLines), state.lines_size());
+  EXPECT_EQ(1201, state.lines(state.lines_size() - 1).number());
+  EXPECT_EQ("1201@599 orders; ", lines(running, 1200));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ from .errors import Error, NoAccess, NotFound, NotNow, Refused, TooLate, TooMuch
 from .learning import Question, Run, Task
 from .numbers import Number
 from .spaces import Box
-from .world import PoseStream, Robot, State, World
+from .world import Line, PoseStream, Robot, State, World
 
 
 def evaluate(population, experiment="experiments/kick-short.json", seed=None, address="127.0.0.1:50051", token=None,
@@ -40,6 +40,6 @@ def evaluate(population, experiment="experiments/kick-short.json", seed=None, ad
         return client.experiment(experiment).evaluate(population, seed=seed).fitness
 
 
-__all__ = ["Box", "Client", "Env", "Error", "Evaluation", "Experiment", "Info", "NoAccess", "NotFound", "NotNow",
+__all__ = ["Box", "Client", "Env", "Error", "Evaluation", "Experiment", "Info", "Line", "NoAccess", "NotFound", "NotNow",
            "Number", "PoseStream", "Question", "Refused", "Robot", "Run", "State", "Task", "TooLate", "TooMuch",
            "Unreachable", "VectorEnv", "World", "evaluate"]

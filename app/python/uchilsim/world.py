@@ -34,8 +34,18 @@ class Robot:
     upper: np.ndarray
     drives: tuple[str, ...]       #: "servo": targets are positions; "torque": targets are N·m or N; …
     links: tuple[str, ...]
-    controller: str               #: "" if it has none
+    controller: str               #: "" if it has none, "openr" for a program on an OPEN-R stick
     parameters: tuple[Number, ...] = ()  #: of its controller, with their values
+
+
+@dataclass(frozen=True)
+class Line:
+    """What a robot's OPEN-R program said."""
+
+    period: int  #: the control period before which it was said
+    robot: str
+    object: str  #: of the program; "" of its start and end, and of its camera
+    text: str
 
 
 class State:
@@ -45,6 +55,7 @@ class State:
     contacts: array (contacts, 6), x, y, z [m] and force [N] in the world's axes, where they were wanted.
     links: by robot array (links, 7), x, y, z [m], qw, qx, qy, qz, where they were wanted.
     fault: why the world no longer goes on, "" while it does.
+    programs: by robot with an OPEN-R stick: "" while its program runs, else why it ended.
     """
 
     __slots__ = ("world", "channels", "row", "time_s", "period", "episode", "fault", "playing", "score", "_message",
@@ -89,6 +100,10 @@ class State:
     @property
     def contacts(self) -> np.ndarray:
         return np.array([(c.x_m, c.y_m, c.z_m, c.fx_n, c.fy_n, c.fz_n) for c in self._message.contacts]).reshape(-1, 6)
+
+    @property
+    def programs(self) -> dict[str, str]:
+        return {program.robot: program.why for program in self._message.programs}
 
     @property
     def links(self) -> list[np.ndarray]:
@@ -170,6 +185,7 @@ class World:
     def __post_init__(self):
         self._steps: _Steps | None = None
         self._cameras: dict[str, Camera] = {}
+        self._last_line = 0
         self._take(self._message)
 
     def _take(self, message) -> None:
@@ -223,6 +239,17 @@ class World:
                     yield self._state(message, channels)
         finally:
             stream.cancel()
+
+    def lines(self) -> list[Line]:
+        """What robots' OPEN-R programs said since the last call; of many lines the last 1000."""
+        wanted = made(pb.Wanted, channels_known=self._version, lines_after=self._last_line)
+        request = made(pb.GetRequest, world=self.name, wanted=wanted)
+        message = self._client._call(self._client._worlds.Get, request)
+        if message.channels:
+            self._know(list(message.channels), message.channels_version)
+        if message.lines:
+            self._last_line = message.lines[-1].number
+        return [Line(line.period, line.robot, line.object, line.text) for line in message.lines]
 
     def game(self) -> dict:
         """The game as it is now, as in a game file, without its state."""

@@ -30,6 +30,19 @@ echo 'class Thing { this is no C++ };' > "$folder/wrong/Thing/Thing.h"
 expect 1 "wrong sources" "$btr" openr build "$folder/wrong" --out "$folder/out_ms"
 says err "Thing.h:1:"
 says err "not built; mend what the compiler says above"
+
+# What is mended is not complained about.
+cp -r "$programs/names" "$folder/mistaken"
+cat > "$folder/mistaken/Names/old.cc" <<'CC'
+int old() {
+  for (int i = 0; i < 5; i++) if (i == 3) break;
+  int least = i <? 4;
+  return least + mistaken;
+}
+CC
+expect 1 "one mistake among what is mended" "$btr" openr build "$folder/mistaken" --out "$folder/out_ms"
+says err "old.cc:4:18: error: 'mistaken' was not declared"
+[ "$(grep -c error: "$folder/err")" = 1 ] || fail "errors of what is mended: $(grep error: "$folder/err")"
 expect 1 "nothing to build" "$btr" openr build "$folder/empty" --out "$folder/out_ms"
 says err "has no OPEN-R object"
 expect 1 "no list" "$btr" openr try --stick "$folder/empty"

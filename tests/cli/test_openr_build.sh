@@ -43,6 +43,12 @@ CC
 expect 1 "one mistake among what is mended" "$btr" openr build "$folder/mistaken" --out "$folder/out_ms"
 says err "old.cc:4:18: error: 'mistaken' was not declared"
 [ "$(grep -c error: "$folder/err")" = 1 ] || fail "errors of what is mended: $(grep error: "$folder/err")"
+rm "$folder/mistaken/Names/old.cc"
+printf '# settings\nobject Names 3072 16384 128 cache tlb user\nfoo bar\n' > "$folder/mistaken/Names/Names.ocf"
+expect 1 "a line that no .ocf has" "$btr" openr build "$folder/mistaken" --out "$folder/out_ms"
+says err 'Names.ocf:3: "foo bar" is not allowed; object NAME STACK HEAP PRIORITY cache tlb user'
+sed -i /foo/d "$folder/mistaken/Names/Names.ocf"
+expect 0 "comments in an .ocf" "$btr" openr build "$folder/mistaken" --out "$folder/out_ms"
 expect 1 "nothing to build" "$btr" openr build "$folder/empty" --out "$folder/out_ms"
 says err "has no OPEN-R object"
 expect 1 "no list" "$btr" openr try --stick "$folder/empty"

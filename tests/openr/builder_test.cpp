@@ -8,6 +8,7 @@
 #include "core/openr/builder/build_hint.h"
 #include "core/openr/builder/kit_paths.h"
 #include "core/openr/builder/merged_config.h"
+#include "core/openr/builder/object_settings.h"
 #include "core/openr/builder/stick_builder.h"
 #include "core/openr/builder/stub_generator.h"
 #include "core/openr/robot_design.h"
@@ -22,6 +23,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const char* const good = R"(// a comment
+# and another one
+
 ObjectName : Thing
 NumOfOSubject : 1
 NumOfObserver : 2
@@ -29,7 +32,6 @@ Service : "Other.Out.Type.S", null, Ready()
 Service : "Thing.In.Type.O", Connect(), Notify()
 Service : "Thing.Out.Type.O", null, null
 Extra : Timer()
-something else
 )";
 
 std::string refusal(const std::string& text) {
@@ -75,16 +77,39 @@ TEST(StubGenerator, NumbersEntriesInOrder) {
 
 TEST(StubGenerator, RefusesWithLineValueAndWhatIsAllowed) {
   EXPECT_THAT(refusal(changed("Ready()", "Ready")),
-              HasSubstr("stub.cfg:5: Service: \"Ready\" is not allowed; null or"));
+              HasSubstr("stub.cfg:7: Service: \"Ready\" is not allowed; null or"));
   EXPECT_THAT(refusal(changed("NumOfOSubject : 1", "NumOfOSubject : 0")),
-              HasSubstr("stub.cfg:3: NumOfOSubject: \"0\""));
+              HasSubstr("stub.cfg:5: NumOfOSubject: \"0\""));
   EXPECT_THAT(refusal(changed("NumOfOSubject : 1", "NumOfOSubject : 2")),
               HasSubstr("NumOfOSubject: 2 is not allowed; 1"));
-  EXPECT_THAT(refusal(changed("Thing.In.Type.O", "Thing.In.O")), HasSubstr("stub.cfg:6: Service: \"Thing.In.O\""));
+  EXPECT_THAT(refusal(changed("Thing.In.Type.O", "Thing.In.O")), HasSubstr("stub.cfg:8: Service: \"Thing.In.O\""));
   EXPECT_THAT(refusal(changed("ObjectName : Thing", "")), HasSubstr("ObjectName is missing"));
   EXPECT_THAT(refusal(changed("Thing.Out.Type.O", "Thing.In.Type.O")), HasSubstr("that no other one has"));
-  EXPECT_THAT(refusal(changed("Extra : Timer()", "Extra : null")), HasSubstr("stub.cfg:8: Extra"));
+  EXPECT_THAT(refusal(changed("Extra : Timer()", "Extra : null")), HasSubstr("stub.cfg:10: Extra"));
+  const char* const lines = "is not allowed; ObjectName, NumOfOSubject, NumOfOObserver, Service or Extra";
+  EXPECT_THAT(refusal(changed("NumOfObserver", "NumOfObservers")),
+              HasSubstr("stub.cfg:6: \"NumOfObservers\" " + std::string(lines)));
+  EXPECT_THAT(refusal(good + std::string("something else\n")),
+              HasSubstr("stub.cfg:11: \"something else\" " + std::string(lines)));
   EXPECT_EQ(refusal(good), "");
+}
+
+TEST(ObjectSettings, AreOneLineBesideComments) {
+  const auto said = [](const std::string& text) {
+    try {
+      return objectLineOf(text, "thing.ocf");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string line = "object Thing 3072 16384 128 cache tlb user";
+  EXPECT_EQ(said("# of Thing\n\n" + line + "\n// end\n"), line);
+  EXPECT_EQ(said("object \"Thing\" 3072 16384 128 cache tlb user\r\n"), line);
+  EXPECT_EQ(said(""), "");
+  EXPECT_THAT(said(line + "\nfoo bar\n"),
+              HasSubstr("thing.ocf:2: \"foo bar\" is not allowed; object NAME STACK HEAP PRIORITY"));
+  EXPECT_THAT(said("object Thing 3072 big 128\n"), HasSubstr("thing.ocf:1: \"object Thing 3072 big 128\""));
+  EXPECT_THAT(said(line + "\n" + line), HasSubstr("thing.ocf:2: a second object is not allowed; one is"));
 }
 
 TEST(RobotDesigns, EveryPlaceOfTheSensorVectorIsAJointOrSensor) {

@@ -39,10 +39,10 @@ class StubReader {
     std::string line;
     while (std::getline(in_, line)) {
       ++line_;
-      const auto comment = line.find("//");
-      if (comment != std::string::npos) line.resize(comment);
+      line.resize(std::min({line.size(), line.find("//"), line.find('#')}));
+      if (trimmed(line).empty()) continue;
       const auto colon = line.find(':');
-      if (colon == std::string::npos) continue;
+      if (colon == std::string::npos) refuseLine(trimmed(line));
       take(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
     }
     check();
@@ -63,6 +63,8 @@ class StubReader {
     } else if (key == "Extra") {
       config_.extras.push_back(method("Extra", value));
       if (config_.extras.back().empty()) refuse("Extra", value, "a method as Name() is");
+    } else {
+      refuseLine(key);
     }
   }
 
@@ -121,8 +123,15 @@ class StubReader {
   }
 
   [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& allowed) {
-    throw InputError(file_ + ":" + std::to_string(line_) + ": " + key, "\"" + value + "\"", allowed);
+    throw InputError(here() + ": " + key, "\"" + value + "\"", allowed);
   }
+  [[noreturn]] void refuseLine(const std::string& begin) {
+    throw InputError(
+        here(), "\"" + begin + "\"",
+        "ObjectName, NumOfOSubject, NumOfOObserver, Service or Extra, a colon and its value, or a comment, "
+        "is");
+  }
+  std::string here() const { return file_ + ":" + std::to_string(line_); }
 
   std::istringstream in_;
   std::string file_;

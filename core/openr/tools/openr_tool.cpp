@@ -1,5 +1,6 @@
 // What the tools of the OPEN-R folder cannot do in a shell.
 //   openr_tool stub FILE FOLDER     makes the stub that a stub.cfg asks for
+//   openr_tool object FILE          says the line of an .ocf
 //   openr_tool cure FILE.ii ERRORS  writes what the compiler's errors name as it wants it; 3 if there is nothing to do
 //   openr_tool longs FILE.ii KIT    makes a `long` 32 bits wide but in headers of the system and KIT; 3: there is none
 //   openr_tool headers ERRORS       says which headers are missing by the compiler's errors
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/openr/builder/object_settings.h"
 #include "core/openr/builder/robot_longs.h"
 #include "core/openr/builder/source_cure.h"
 #include "core/openr/builder/stub_generator.h"
@@ -37,6 +39,10 @@ int main(int argc, char** argv) {
         btr::openr::writeContent(std::string(argv[3]) + "/" + name, text);
       return 0;
     }
+    if (what == "object" && argc == 3) {
+      std::printf("%s\n", btr::openr::objectLineOf(content(argv[2]), argv[2]).c_str());
+      return 0;
+    }
     if (what == "cure" && argc == 4) {
       const std::string source = content(argv[2]), cured = btr::openr::curedSource(source, content(argv[3]));
       if (cured == source) return nothingToDo;
@@ -59,7 +65,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::fprintf(stderr,
-               "openr_tool stub FILE FOLDER | openr_tool cure FILE.ii ERRORS | openr_tool longs FILE.ii KIT | "
-               "openr_tool headers ERRORS\n");
+               "openr_tool stub FILE FOLDER | openr_tool object FILE | openr_tool cure FILE.ii ERRORS | "
+               "openr_tool longs FILE.ii KIT | openr_tool headers ERRORS\n");
   return 2;
 }

@@ -53,6 +53,12 @@ expect 1 "nothing to build" "$btr" openr build "$folder/empty" --out "$folder/ou
 says err "has no OPEN-R object"
 expect 1 "no list" "$btr" openr try --stick "$folder/empty"
 says err "OBJECT.CFG is missing"
+cp -r "$folder/MS" "$folder/broken"
+for module in "$folder"/broken/OPEN-R/MW/OBJS/*; do echo "no module" > "$module"; done
+expect 1 "no object starts" "$btr" openr try --stick "$folder/broken" --seconds 1
+says err "no object could be started: /MS/OPEN-R/MW/OBJS/NAMES.BIN is no module that"
+expect 1 "no object starts in a game" "$btr" openr run --game "$root/resources/robots/ers7.wrl" --robot robot --stick "$folder/broken" --seconds 0.1
+says err "robot's program ended: no object could be started: /MS/OPEN-R/MW/OBJS/NAMES.BIN"
 expect 1 "no such robot" "$btr" openr try --stick "$folder/MS" --design ERS-8
 says err "ERS-7, ERS-210 or ERS-220"
 finish

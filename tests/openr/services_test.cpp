@@ -308,9 +308,24 @@ TEST(Process, WhatIsNoModuleIsLeftOut) {
   std::ofstream(stick + "/OPEN-R/MW/CONF/OBJECT.CFG", std::ios::app) << "/MS/OPEN-R/MW/OBJS/MIPS.BIN\n/MS/ABSENT.BIN\n";
   writeText(stick + "/OPEN-R/MW/OBJS/MIPS.BIN", "this is no module");
   const StickRun run = runStick(stick, 3);
-  EXPECT_THAT(run.all(), HasSubstr("MIPS.BIN is no module"));
+  EXPECT_THAT(run.all(),
+              HasSubstr("MIPS.BIN is no module that `btr openr build` has made for this computer (file too short): "));
   EXPECT_THAT(run.all(), HasSubstr("/MS/ABSENT.BIN is not on the stick"));
   EXPECT_THAT(run.all(), HasSubstr("named 1"));
+}
+
+TEST(Process, AStickOfWhichNoObjectStartsIsRefused) {
+  const std::string stick = stickOf("names"), list = stick + "/OPEN-R/MW/CONF/OBJECT.CFG";
+  writeText(list, "/MS/OPEN-R/MW/OBJS/MIPS.BIN\n/MS/ABSENT.BIN\n");
+  writeText(stick + "/OPEN-R/MW/OBJS/MIPS.BIN", "this is no module");
+  StickRun run = runStick(stick, 3);
+  EXPECT_EQ(run.ended.why, Ended::Why::refused);
+  EXPECT_THAT(run.ended.what,
+              testing::StartsWith("no object could be started: /MS/OPEN-R/MW/OBJS/MIPS.BIN is no module"));
+  EXPECT_THAT(run.ended.what, testing::EndsWith("; /MS/ABSENT.BIN is not on the stick"));
+  EXPECT_EQ(run.orders.size(), 1u);
+  writeText(list, "[ERS-210]\n/MS/OPEN-R/MW/OBJS/MIPS.BIN\n");
+  EXPECT_EQ(runStick(stick, 3).ended.what, "OBJECT.CFG lists no object for the ERS-7");
 }
 
 TEST(Process, AWrongConnectionSaysWhatThereIs) {

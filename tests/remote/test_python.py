@@ -305,8 +305,9 @@ class Programs(unittest.TestCase):
             for module in (games / "nowhere/OPEN-R/MW/OBJS").iterdir():
                 module.write_text("no module")
             with self.client.open("none.json") as world:
-                world.step(2)
-                self.assertTrue(world.lines())
+                said = "PANPATH.BIN is no module"
+                self.assertIn(said, world.step(2).programs["red1"])
+                self.assertTrue(any(said in line.text for line in world.lines()))
         finally:
             shutil.rmtree(games / "nowhere")
 

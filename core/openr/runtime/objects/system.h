@@ -121,6 +121,7 @@ class System {
  private:
   static OID oidOf(int index);  ///< made up, the same each time
   void loadObject(const std::string& path);
+  void leaveOut(const std::string& why);
   void addStack(RunningObject& object);
   static void objectMain();
   void run(RunningObject& object);
@@ -163,6 +164,7 @@ class System {
   int stopFrames_ = 0;
   std::optional<Ended> ended_;
   std::string modules_;  ///< folder of the private copies
+  std::string leftOut_;  ///< why objects could not be loaded
   FILE *stdin_ = nullptr, *stdout_ = nullptr, *stderr_ = nullptr;
 };
 

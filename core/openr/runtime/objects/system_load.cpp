@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <sstream>
 #include <string_view>
 
@@ -29,10 +30,15 @@ void* openCopy(const std::vector<char>& bytes, std::string& error) {
     if (file >= 0) close(file);
     return nullptr;
   }
-  void* handle = dlopen(("/proc/self/fd/" + std::to_string(file)).c_str(), RTLD_NOW | RTLD_LOCAL);
+  const std::string copy = "/proc/self/fd/" + std::to_string(file);
+  void* handle = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL);
   // It stays open: the loader would take another file of this number for the same module.
-  if (handle == nullptr) error = dlerror();
-  return handle;
+  if (handle != nullptr) return handle;
+  error = dlerror();
+  // Whoever reads it knows the module, not the copy.
+  const std::string prefix = copy + ": ";
+  for (auto at = error.find(prefix); at != std::string::npos; at = error.find(prefix)) error.erase(at, prefix.size());
+  return nullptr;
 }
 
 /// Whether all that was compiled into the module had the headers that this run-time has. Looked at before any of its
@@ -85,15 +91,25 @@ void System::load() {
     if (ended_) return;
     loadObject(path);
   }
+  const bool none = std::all_of(objects_.begin(), objects_.end(),
+                                [](const auto& object) { return object->native || object->entries.empty(); });
+  if (none && !ended_)
+    end(Ended::Why::refused, "", "",
+        leftOut_.empty() ? "OBJECT.CFG lists no object for the " + design.name
+                         : "no object could be started: " + leftOut_);
+}
+
+void System::leaveOut(const std::string& why) {
+  leftOut_ += (leftOut_.empty() ? "" : "; ") + why;
+  say("", why + ": started without it");
 }
 
 void System::loadObject(const std::string& path) {
   const std::string file = onStick(stick, path);
   std::vector<char> bytes;
-  if (file.empty() || !unpackedFile(file, bytes)) {
-    say("", path + " is not on the stick: started without it");
-    return;
-  }
+  std::error_code missing;
+  if (file.empty() || !std::filesystem::exists(file, missing)) return leaveOut(path + " is not on the stick");
+  if (!unpackedFile(file, bytes)) return leaveOut(path + " cannot be unpacked: the file is damaged");
   auto added = std::make_unique<RunningObject>();
   RunningObject& object = *added;
   object.index = static_cast<int>(objects_.size());
@@ -129,8 +145,8 @@ void System::loadObject(const std::string& path) {
   }
   const auto* table = handle == nullptr ? nullptr : static_cast<const ObjectEntry*>(dlsym(handle, "ObjectEntryTable"));
   if (table == nullptr) {
-    say("", path + " is no module that `btr openr build` has made for this computer (" +
-                (error.empty() ? "it has no ObjectEntryTable" : error) + "): started without it");
+    leaveOut(path + " is no module that `btr openr build` has made for this computer (" +
+             (error.empty() ? "it has no ObjectEntryTable" : error) + ")");
     object.entries.clear();
     object.name.clear();
     return;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -35,6 +36,32 @@ TEST(Console, FilesThatAreNotOnTheRobotAreSaidOnceEach) {
       "Filer: \"/etc/passwd\" is not on the robot: its files are those below /MS, without \"..\"\n";
   EXPECT_THAT(all, HasSubstr(said));
   EXPECT_EQ(all.find(said, all.find(said) + 1), std::string::npos);
+}
+
+// The Effector is ready again after each.
+TEST(Console, EachKindOfWrongVectorIsSaidOnceAndTheNextOneIsPlayed) {
+  const StickRun run = runStick(stickOf("clumsy"), 40);
+  const std::string all = run.all();
+  for (const char* said :
+       {"Clumsy: a command was left out, which has the primitiveID 4711: the ERS-7 has none of that number\n",
+        "Clumsy: a command was left out, which has the primitiveID of acceleration_front, which is neither a joint nor "
+        "a "
+        "lamp\n",
+        "Clumsy: a command was left out, which has odataJOINT_COMMAND2 for the lamp face_1: odataLED_COMMAND2 or 3 is "
+        "allowed\n",
+        "Clumsy: a command was left out, which has numFrames 0 for HEAD_PAN: 1 to 16 are allowed\n",
+        "Clumsy: a command was left out, which has data of HEAD_PAN that lie outside of its region\n",
+        "Clumsy: a command vector has numData 5, but room for 1: the others are left out\n",
+        "Clumsy: a region of 10 bytes was sent to the robot: a vector begins with ",
+        "Clumsy: what was sent to the Effector is no command vector (type 1431655765): OPENR::NewCommandVectorData "
+        "makes "
+        "one\n"}) {
+    const auto at = all.find(said);
+    EXPECT_NE(at, std::string::npos) << said << all;
+    EXPECT_EQ(all.find(said, at + 1), std::string::npos) << said;
+  }
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 8) << all;
+  EXPECT_THAT(run.targets(robotDesign("ERS-7"), "HEAD_PAN"), testing::ElementsAre(100000, 100000));
 }
 
 TEST(Objects, ShareAnObjectInARegionAndTheFirstNoticeOfThePower) {

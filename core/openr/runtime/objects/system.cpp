@@ -272,9 +272,11 @@ void System::say(const std::string& object, const std::string& text) {
   orders_.lines.push_back({object, text});
 }
 
-void System::sayOnce(const std::string& about, const std::string& text) {
-  constexpr std::ptrdiff_t most = 8;
-  const std::string object = current_ == nullptr ? "" : current_->name;
+void System::sayOnce(const std::string& about, const std::string& text) { sayOnce(current_, about, text); }
+
+void System::sayOnce(const RunningObject* of, const std::string& about, const std::string& text) {
+  constexpr std::ptrdiff_t most = 16;
+  const std::string object = of == nullptr ? "" : of->name;
   const auto ofObject =
       std::count_if(saidOnce_.begin(), saidOnce_.end(), [&object](const auto& said) { return said.first == object; });
   if (ofObject < most && saidOnce_.insert({object, about}).second) say(object, text);

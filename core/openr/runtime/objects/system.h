@@ -96,6 +96,7 @@ class System {
   void say(const std::string& object, const std::string& text);
   /// What the object that runs may wonder about, said once for each thing, and of a few things alone.
   void sayOnce(const std::string& about, const std::string& text);
+  void sayOnce(const RunningObject* object, const std::string& about, const std::string& text);
   /// Takes a typed line (or what there is of it, if `limit` is less); waits for it.
   std::size_t readTyped(char* to, std::size_t limit);
   /// All objects stop; the robot is off.

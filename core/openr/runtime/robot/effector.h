@@ -9,8 +9,8 @@ namespace btr::openr {
 /// Commands to joints and lamps.
 class Effector : public VectorPlayer {
  public:
-  Effector(const ObserverID& id, const RobotDesign& design, const Primitives& primitives)
-      : VectorPlayer(id), design_(design), primitives_(primitives), lamps_(design.lamps.size()) {}
+  Effector(const ObserverID& id, const RobotDesign& design, const Primitives& primitives, Complain complain)
+      : VectorPlayer(id, std::move(complain)), design_(design), primitives_(primitives), lamps_(design.lamps.size()) {}
 
   /// What the frame that was stepped last asks for, added to `orders`.
   void addTo(OrderFrame& orders);
@@ -43,7 +43,12 @@ class Effector : public VectorPlayer {
 
   bool read(Vector& vector) override;
   void play(const Vector& vector) override;
-  bool readTrack(const OCommandInfo& info, const OCommandValue* values, Track& track, std::size_t& length) const;
+  void readTrack(const OCommandInfo& info, const OCommandValue* values, Track& track, std::size_t& length) const;
+  /// What is wrong with a command; its kind is empty if nothing is.
+  struct Wrong {
+    std::string kind, what;
+  };
+  Wrong wrongIn(const OCommandInfo& info, std::size_t size) const;
 
   const RobotDesign& design_;
   const Primitives& primitives_;

@@ -73,8 +73,11 @@ Services::Services(System& system) : primitives(system.design), system_(system),
 
   effectorID_ = OServiceEntry(robot.oid, effectorNotify);
   speakerID_ = OServiceEntry(audio.oid, speakerNotify);
-  effector_ = std::make_unique<Effector>(effectorID_, system.design, primitives);
-  speaker_ = std::make_unique<SoundOut>(speakerID_, soundFile(system.stick));
+  const auto complain = [&system](const SubjectID& from, const std::string& kind, const std::string& text) {
+    system.sayOnce(system.objectOf(from.oid), kind, text);
+  };
+  effector_ = std::make_unique<Effector>(effectorID_, system.design, primitives, complain);
+  speaker_ = std::make_unique<SoundOut>(speakerID_, soundFile(system.stick), complain);
   system.bufferControl[effectorID_] = system.bufferControl[speakerID_] = {0, 1, vectorsAtOnce};
   robot.observers.push_back(
       {"OVirtualRobotComm.Effector.OCommandVectorData.O", OServiceEntry(robot.oid, effectorConnect)});

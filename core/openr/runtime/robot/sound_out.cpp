@@ -49,9 +49,15 @@ OStatus SoundOut::setType(OSpeakerSoundType type) {
 bool SoundOut::read(Vector& vector) {
   auto* data = reinterpret_cast<OSoundVectorData*>(vector.region->Base());
   const std::size_t size = vector.region->Size();
-  if (size < sizeof(ODataVectorInfo) + sizeof(OSoundInfo)) return false;
-  const OSoundInfo& info = *data->GetInfo(0);
-  if (data->vectorInfo.numData < 1 || info.dataOffset > size || info.dataSize > size - info.dataOffset) return false;
+  const bool large = size >= sizeof(ODataVectorInfo) + sizeof(OSoundInfo);
+  const OSoundInfo info = large ? *data->GetInfo(0) : OSoundInfo{};
+  if (!large || data->vectorInfo.numData < 1 || info.dataOffset > size || info.dataSize > size - info.dataOffset) {
+    complain_(
+        vector.from, "sound",
+        "what was sent to the Speaker is no sound vector with data in its region: OPENR::NewSoundVectorData makes "
+        "one, SetNumData(1) and the info's dataSize say what is in it");
+    return false;
+  }
   vector.wait = data->vectorInfo.wait;
   vector.key = data->vectorInfo.syncKey;
   const Form form = formOf(type_);

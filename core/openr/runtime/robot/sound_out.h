@@ -12,7 +12,8 @@ namespace btr::openr {
 /// pauses between.
 class SoundOut : public VectorPlayer {
  public:
-  SoundOut(const ObserverID& id, std::string file) : VectorPlayer(id), file_(std::move(file)) {}
+  SoundOut(const ObserverID& id, std::string file, Complain complain)
+      : VectorPlayer(id, std::move(complain)), file_(std::move(file)) {}
   ~SoundOut() override;
 
   void setTime(std::int64_t time_us) { time_us_ = time_us; }

@@ -52,6 +52,7 @@ void VectorPlayer::take(ONotifyMessage& message) {
   message.numData = 0;
   for (int i = 0; i < count; ++i) {
     Vector vector;
+    vector.from = message.subject;
     vector.region = message.data[i];
     const auto queue =
         std::find_if(queues_.begin(), queues_.end(), [&](const Queue& q) { return q.from == message.subject; });
@@ -59,7 +60,12 @@ void VectorPlayer::take(ONotifyMessage& message) {
       vector.region->RemoveReference();
       continue;
     }
-    if (vector.region->Size() < sizeof(ODataVectorInfo) || !read(vector)) {
+    const bool large = vector.region->Size() >= sizeof(ODataVectorInfo);
+    if (!large)
+      complain_(vector.from, "region",
+                "a region of " + std::to_string(vector.region->Size()) +
+                    " bytes was sent to the robot: a vector begins with " + std::to_string(sizeof(ODataVectorInfo)));
+    if (!large || !read(vector)) {
       sendReady(queue->from, id_, objcommASSERT_READY, {vector.region});
       continue;
     }

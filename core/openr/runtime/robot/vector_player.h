@@ -3,9 +3,11 @@
 #include <OPENR/ObjcommTypes.h>
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace btr::openr {
@@ -31,7 +33,10 @@ class SyncKeys {
 /// told that more is wanted when it has been played.
 class VectorPlayer {
  public:
-  VectorPlayer(const ObserverID& id) : id_(id) {}
+  /// Told what is wrong with a vector of a subject, and of which kind that is.
+  using Complain = std::function<void(const SubjectID& from, const std::string& kind, const std::string& text)>;
+
+  VectorPlayer(const ObserverID& id, Complain complain) : complain_(std::move(complain)), id_(id) {}
   virtual ~VectorPlayer() = default;
 
   void connect(const SubjectID& subject) { queues_.push_back({subject, {}}); }
@@ -46,6 +51,7 @@ class VectorPlayer {
 
  protected:
   struct Vector {
+    SubjectID from;
     RCRegion* region = nullptr;
     longword wait = 0;
     OVRSyncKey key = ovrsynckeyUNDEF;
@@ -57,6 +63,8 @@ class VectorPlayer {
   virtual bool read(Vector& vector) = 0;
   /// Frame `vector.frame` begins.
   virtual void play(const Vector& vector) = 0;
+
+  const Complain complain_;
 
  private:
   struct Queue {

@@ -200,6 +200,9 @@ class Mistakes(WithServer):
             self.assertNotIn("dog.x", state)
             self.assertEqual((len(state), list(state)), (len(world.channels), world.channels))
             self.assertEqual(state["dog.base.z_m"], dict(state)["dog.base.z_m"])
+            for kind in (uchilsim.Error, uchilsim.NotFound, KeyError):
+                self.refused("^'nope' is no channel of this state$", lambda: state["nope"], kind)
+                self.refused("^'nope' is no channel of this state$", lambda: state.indices(["nope"]), kind)
 
     def test_populations_of_another_shape_and_of_any_size(self):
         kick = self.client.experiment("experiments/kick-short.json")

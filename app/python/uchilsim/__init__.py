@@ -22,7 +22,7 @@ except ImportError as error:
 
 from .client import Client, Evaluation, Experiment, Info
 from .env import Env, VectorEnv
-from .errors import Error, NoAccess, NotFound, NotNow, Refused, TooLate, TooMuch, Unreachable
+from .errors import Error, NoAccess, NoChannel, NotFound, NotNow, Refused, TooLate, TooMuch, Unreachable
 from .learning import Question, Run, Task
 from .numbers import Number
 from .spaces import Box
@@ -40,6 +40,6 @@ def evaluate(population, experiment="experiments/kick-short.json", seed=None, ad
         return client.experiment(experiment).evaluate(population, seed=seed).fitness
 
 
-__all__ = ["Box", "Client", "Env", "Error", "Evaluation", "Experiment", "Info", "Line", "NoAccess", "NotFound", "NotNow",
-           "Number", "PoseStream", "Question", "Refused", "Robot", "Run", "State", "Task", "TooLate", "TooMuch",
-           "Unreachable", "VectorEnv", "World", "evaluate"]
+__all__ = ["Box", "Client", "Env", "Error", "Evaluation", "Experiment", "Info", "Line", "NoAccess", "NoChannel",
+           "NotFound", "NotNow", "Number", "PoseStream", "Question", "Refused", "Robot", "Run", "State", "Task", "TooLate",
+           "TooMuch", "Unreachable", "VectorEnv", "World", "evaluate"]

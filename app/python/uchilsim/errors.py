@@ -20,6 +20,12 @@ class NotFound(Error, LookupError):
     """No such world, run or individual."""
 
 
+class NoChannel(NotFound, KeyError):
+    """A state has no number of that name."""
+
+    __str__ = Exception.__str__  # KeyError's quotes a sentence
+
+
 class NotNow(Error):
     """Right in itself, but not now."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from . import checks
 from . import uchilsim_pb2 as pb
 from .checks import made
-from .errors import Error, Refused, error_of, sentences
+from .errors import Error, NoChannel, Refused, error_of, sentences
 from .numbers import Number
 from .pictures import Camera
 
@@ -75,10 +75,13 @@ class State:
         self.score = (message.score.red, message.score.blue) if message.HasField("score") else None
 
     def __getitem__(self, channel: str) -> float:
+        return float(self.row[self._place(channel)])
+
+    def _place(self, channel: str) -> int:
         try:
-            return float(self.row[self._index[channel]])
-        except KeyError:
-            raise KeyError(f"{channel}: no channel of this state") from None
+            return self._index[channel]
+        except (KeyError, TypeError):
+            raise NoChannel(f"{checks.short(channel)} is no channel of this state") from None
 
     def __contains__(self, channel: object) -> bool:
         return channel in self._index
@@ -95,7 +98,7 @@ class State:
 
     def indices(self, channels: Iterable[str]) -> np.ndarray:
         """Where these channels are in the row."""
-        return np.array([self._index[channel] for channel in channels], dtype=int)
+        return np.array([self._place(channel) for channel in channels], dtype=int)
 
     @property
     def contacts(self) -> np.ndarray:

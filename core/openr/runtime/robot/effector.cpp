@@ -123,6 +123,8 @@ bool Effector::read(Vector& vector) {
                   std::to_string(most) + ": the others are left out");
   for (std::size_t i = 0; i < std::min<std::size_t>(head.numData, most); ++i) {
     const OCommandInfo info = *data->GetInfo(static_cast<int>(i));
+    const bool asItWasMade = info.type == odataUNDEF && info.primitiveID == oprimitiveID_UNDEF;
+    if (asItWasMade) continue;
     if (const Wrong wrong = wrongIn(info, size); !wrong.kind.empty()) {
       complain_(vector.from, wrong.kind, "a command was left out, which has " + wrong.what);
       continue;

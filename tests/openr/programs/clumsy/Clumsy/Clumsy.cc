@@ -1,4 +1,5 @@
-// Sends the robot one wrong vector after the other, each of them twice, then one that moves the head.
+// Sends the robot one wrong vector after the other, each of them twice, then one with nothing in it, and one that moves
+// the head.
 #include "Clumsy.h"
 
 #include <OPENR/OPENRAPI.h>
@@ -56,7 +57,8 @@ void Clumsy::Ready(const OReadyEvent& event) {
     case 7: vector(odataJOINT_COMMAND2, pan, 0)->SetNumData(5); break;
     case 8: region = new RCRegion(10); break;
     case 9: region = new RCRegion(sizeof(junk)); memcpy(region->Base(), junk, sizeof(junk)); break;
-    case 10: vector(odataJOINT_COMMAND2, pan, 1); break;
+    case 10: vector(odataUNDEF, oprimitiveID_UNDEF, 0); break;
+    case 11: vector(odataJOINT_COMMAND2, pan, 1); break;
     default: return;
   }
   subject[sbjMove]->SetData(region);

@@ -261,10 +261,15 @@ class Programs(unittest.TestCase):
     def setUpClass(cls):
         cls.server = Server()
         games = cls.server.folder / "games"
-        built = subprocess.run([BTR, "openr", "build", str(RESOURCES / "openr/PanPath"), "--out", str(games / "PanPath")],
-                               capture_output=True, text=True)
-        assert built.returncode == 0, built.stderr
-        for name, stick in (("pan", "PanPath"), ("none", "nowhere")):
+        crashing = cls.server.folder / "crashing"
+        shutil.copytree(RESOURCES.parent / "tests/openr/programs/clumsy", crashing)
+        source = crashing / "Clumsy/Clumsy.cc"
+        source.write_text(source.read_text().replace("switch (readies++", "*(int*)0 = 1;\n  switch (readies++"))
+        for program in (RESOURCES / "openr/PanPath", crashing):
+            built = subprocess.run([BTR, "openr", "build", str(program), "--out", str(games / program.name)],
+                                   capture_output=True, text=True)
+            assert built.returncode == 0, built.stderr
+        for name, stick in (("pan", "PanPath"), ("crash", "crashing"), ("none", "nowhere")):
             scene = {"format": "uchilsim-scene-1", "step_s": 0.004, "control_period_s": 0.008, "floor": {"friction": 1},
                      "robots": [{"name": "red1", "model": DOG}]}
             (games / f"{name}.json").write_text(json.dumps(
@@ -296,6 +301,14 @@ class Programs(unittest.TestCase):
     def test_without_its_controller_a_robot_has_no_program(self):
         with self.client.open("pan.json", without_controller=["red1"]) as world:
             self.assertEqual(({}, ""), (world.step(2).programs, world.robots["red1"].controller))
+
+    def test_a_crash_is_said_and_the_world_goes_on(self):
+        with self.client.open("crash.json") as world:
+            state = world.step(3)
+            self.assertEqual({"red1": "Clumsy crashed in Ready: it wrote at address 0"}, state.programs)
+            self.assertEqual((3, ""), (state.period, state.fault))
+            self.assertEqual([("", "the program ended: Clumsy crashed in Ready: it wrote at address 0")],
+                             [(line.object, line.text) for line in world.lines()])
 
     def test_a_stick_that_is_not_there_is_refused(self):
         with self.assertRaisesRegex(uchilsim.Refused, "robots red1/controller/openr: .*nowhere: no folder"):

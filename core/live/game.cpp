@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/live/memory_json.h"
+#include "core/model/joint_range.h"
 #include "core/model/kinematics.h"
 #include "core/model/load_model.h"
 #include "core/sim/contact/collision.h"
@@ -134,10 +135,10 @@ void addField(SceneSpec& scene, const SceneSpec& field, const std::string& path)
   if (field.floor) scene.floor = field.floor;
 }
 
-/// So that the lowest point of what collides just touches the floor, joints at zero.
+/// So that the lowest point of what collides just touches the floor, joints where they start.
 double standingHeight(const RobotModel& model) {
   const std::vector<Eigen::Isometry3d> poses =
-      forwardKinematics(model, Eigen::Isometry3d::Identity(), std::vector<double>(model.joints.size(), 0.0));
+      forwardKinematics(model, Eigen::Isometry3d::Identity(), startPositions(model));
   double lowest = 0;
   bool any = false;
   std::vector<ContactPoint> points;

@@ -1,6 +1,9 @@
 #include "core/live/moment.h"
 
+#include <algorithm>
+
 #include "core/live/session.h"
+#include "core/model/joint_range.h"
 
 namespace btr {
 namespace {
@@ -25,7 +28,9 @@ void bend(RobotSpec& spec, const RobotModel& model, const RobotMemory& memory, c
     // Not what its sensors say.
     const JointMemory& at = memory.joints.at(moving++);
     if (joint.mimic) continue;
-    spec.jointStart[joint.name] = at.position;
+    // A stop that is pressed yields; a scene begins at it.
+    const auto [lower, upper] = stopsOf(joint);
+    spec.jointStart[joint.name] = std::clamp(at.position, lower, upper);
     if (at.driveRate != 0) spec.jointRate[joint.name] = at.driveRate;
   }
   if (spec.base != "free") return;

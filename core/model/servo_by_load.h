@@ -3,6 +3,9 @@
 
 namespace btr {
 
+/// The gains of a servo whose file gives none and whose load it can hold: those of the ERS-7's legs.
+inline constexpr double defaultServoP_nm_rad = 7.5, defaultServoD_nm_s_rad = 0.05;
+
 /// Gives gains and a torque limit to joints whose file names none and whose load an ERS-7's servo
 /// (defaultServoLimit()) could not hold: without them a large robot sags like a rope. To slide joints always.
 ///

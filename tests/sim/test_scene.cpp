@@ -71,6 +71,62 @@ TEST(SceneServo, TakesItsNoLoadSpeedFromTheModelAndFromTheScene) {
   EXPECT_EQ(0, makeScene(spec, models, {}, {}).robots[0].drives[0].noLoadSpeed_rad_s);
 }
 
+RobotModel kneeFrom(double lower, double upper) {
+  RobotModel model = pendulumModel(0.5, 0.2, 0.001);
+  model.joints[0].lower = lower;
+  model.joints[0].upper = upper;
+  return model;
+}
+
+Scene startedAt(const RobotModel& model, const std::string& joint, double start) {
+  SceneSpec spec;
+  RobotSpec robot;
+  robot.name = "rig";
+  robot.model = "rig.urdf";
+  robot.base = "fixed";
+  robot.jointStart = {{joint, start}};
+  spec.robots = {robot};
+  return makeScene(spec, {{"rig.urdf", std::make_shared<const RobotModel>(model)}}, {}, {});
+}
+
+TEST(SceneStart, AJointWhoseStopExcludesZeroStartsAtItsNearestLimitAndStaysThere) {
+  const Scene scene = made(kneeFrom(-2.7, -0.92), "fixed");
+  EXPECT_EQ(-0.92, scene.robots[0].jointStart[0]);
+  EXPECT_EQ(0.5, made(kneeFrom(0.5, 2), "fixed").robots[0].jointStart[0]);
+  // Zero beyond the limit, but before the stop, is where it always was: an ERS-7's mouth.
+  EXPECT_EQ(0, made(kneeFrom(-0.96, -0.0524), "fixed").robots[0].jointStart[0]);
+  EXPECT_EQ(0, made(kneeFrom(-1, 1), "fixed").robots[0].jointStart[0]);
+
+  World world(weightless(scene), 1);
+  for (int i = 0; i < 20; ++i) world.advance(commands(scene, scene.robots[0].jointStart[0]), 0.008);
+  EXPECT_NEAR(-0.92, world.robot(0).position[0], 1e-9);
+  EXPECT_NEAR(0, world.robot(0).rate[0], 1e-9);
+}
+
+TEST(SceneStart, AFollowerStartsWhereItsLeaderPutsIt) {
+  RobotModel model = kneeFrom(0.5, 2);
+  model.links.push_back(link("tip", 0.1, {0, 0, -0.1}, {1e-4, 1e-4, 1e-4}));
+  model.joints.push_back(joint("tip", 1, {0, 1, 0}));
+  model.joints[1].mimic = Mimic{0, 2, 0.1};
+  EXPECT_EQ(std::vector<double>({0.5, 1.1}), made(model, "fixed").robots[0].jointStart);
+}
+
+TEST(SceneStart, BeyondAStopIsRefusedAndBetweenLimitAndStopIsNot) {
+  const RobotModel knee = kneeFrom(-2.7, -0.92);
+  EXPECT_EQ(-0.85, startedAt(knee, "hinge", -0.85).robots[0].jointStart[0]);
+  EXPECT_EQ("accepted", test::refusal([&] { startedAt(knee, "hinge", -2.7873); }));
+  EXPECT_EQ(
+      "scene robots.rig.joint_start.hinge: 0 is not allowed; -2.7873 to -0.8327 rad, where the mechanical stops "
+      "of the model rig are",
+      test::refusal([&] { startedAt(knee, "hinge", 0); }));
+  RobotModel rail = carriageModel(1);
+  rail.joints[0].lower = 0;
+  rail.joints[0].upper = 0.04;
+  EXPECT_EQ("accepted", test::refusal([&] { startedAt(rail, "rail", 0.04); }));
+  EXPECT_THAT(test::refusal([&] { startedAt(rail, "rail", 0.05); }),
+              AllOf(HasSubstr("joint_start.rail: 0.05 is not allowed"), HasSubstr("0 to 0.04 m")));
+}
+
 }  // namespace
 TEST(ScenePaths, LeadToLimitsOfJointsAndToObstacles) {
   RobotModel model = pendulumModel(0.5, 0.2, 0.001);

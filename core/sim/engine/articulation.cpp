@@ -55,6 +55,7 @@ void Articulation::makeBodies() {
     }
     RobotBody body;
     body.firstLink = link;
+    if (link > 0) body.carrier = bodyOfLink_[modelJoints[link - 1].parentLink];
     bodyOfLink_[link] = static_cast<int>(bodies.size());
     bodies.push_back(body);
   }

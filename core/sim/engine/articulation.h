@@ -11,9 +11,7 @@
 
 namespace btr {
 
-/// Joint stops lie this far beyond a rotary joint's limits (ERS-7: mechanical stop 5° beyond the software limit), and
-/// at the limits of a slide joint. A stop is a spring and a critical damper for the inertia it holds, this fast:
-inline constexpr double stopBeyond_rad = 0.0873;
+/// A joint's stop is a spring and a critical damper for the inertia it holds, this fast:
 inline constexpr double stopFrequency_rad_s = 300;
 
 /// A rigid body of a robot: the links that fixed joints hold together. Its frame has the first link's axes and the
@@ -21,6 +19,7 @@ inline constexpr double stopFrequency_rad_s = 300;
 struct RobotBody {
   dBodyID id = nullptr;
   int firstLink = 0;
+  int carrier = -1;  ///< the body at which it hangs; it comes before this one
   double mass_kg = 0;
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of mass, in the first link's frame

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/model/joint_range.h"
 #include "core/sim/engine/articulation.h"
 #include "core/sim/engine/ode_body.h"
 
@@ -199,9 +200,9 @@ void Articulation::makeUniversal(int first, int second, const std::vector<LinkSt
 
 void Articulation::finishJoint(RobotJoint& joint, const std::vector<LinkState>& zero) {
   const Joint& model = robot_.model.joints[joint.modelJoint];
-  const double beyond = joint.slides ? 0 : stopBeyond_rad;
-  joint.lowStop = model.lower - beyond;
-  joint.highStop = model.upper + beyond;
+  const JointRange stops = stopsOf(model);
+  joint.lowStop = stops.lower;
+  joint.highStop = stops.upper;
   joint.heldInertia = inertiaHeldBy(joint, zero);
   joint.axis = rotationOf(joint.parent) * joint.axisInParent;
   jointOfModel[joint.modelJoint] = static_cast<int>(joints.size());

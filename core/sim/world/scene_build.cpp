@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/model/joint_range.h"
 #include "core/model/load_model.h"
+#include "core/model/servo_by_load.h"
 #include "core/sim/contact/collision.h"
 #include "core/spec/error.h"
 
@@ -17,9 +19,9 @@ Drive driveFromModel(const Joint& joint) {
   drive.kind = joint.type == Joint::Type::fixed || joint.mimic ? Drive::Kind::none : Drive::Kind::servo;
   if (joint.type == Joint::Type::fixed) return drive;
   const ServoData& servo = joint.servo;
-  drive.p = servo.p_nm_rad.value_or(7.5);
+  drive.p = servo.p_nm_rad.value_or(defaultServoP_nm_rad);
   drive.i = servo.i_nm_rad_s.value_or(0);
-  drive.d = servo.d_nm_s_rad.value_or(0.05);
+  drive.d = servo.d_nm_s_rad.value_or(defaultServoD_nm_s_rad);
   drive.maxTorque = servo.maxTorque_nm.value_or(defaultServoLimit(joint.type));
   drive.noLoadSpeed_rad_s = servo.noLoadSpeed_rad_s.value_or(0);
   drive.coulombFriction = servo.coulombFriction_nm.value_or(0);
@@ -66,6 +68,30 @@ void needMass(const RobotSpec& spec, const RobotModel& model) {
   if (!(mass > 0))
     throw InputError("scene robots." + spec.name + ".base", "free",
                      "fixed: the root link " + model.links[0].name + " of the model " + model.name + " has no mass");
+}
+
+/// Beyond its stop a joint would be thrown off it. (A stop yields a little, and files have rounded numbers.)
+void setStarts(SceneRobot& robot, const RobotSpec& spec, const std::string& place) {
+  constexpr double yields_rad = 1e-3, yields_m = 1e-4;
+  const RobotModel& model = robot.model;
+  robot.jointStart = startPositions(model);
+  for (const auto& [name, start] : spec.jointStart) {
+    const auto index = static_cast<std::size_t>(jointOf(robot, name, place));
+    const Joint& joint = model.joints[index];
+    if (joint.mimic) throw InputError(place, name, "no joint that " + followsOf(model, index));
+    const bool slides = joint.type == Joint::Type::slide;
+    const auto [lower, upper] = stopsOf(joint);
+    const double yields = slides ? yields_m : yields_rad;
+    if (start < lower - yields || start > upper + yields)
+      throw InputError(place + "." + name, toText(start),
+                       toText(lower) + " to " + toText(upper) + (slides ? " m" : " rad") +
+                           ", where the mechanical stops of the model " + model.name + " are");
+    robot.jointStart[index] = start;
+  }
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    if (const auto& mimic = model.joints[i].mimic)
+      robot.jointStart[i] =
+          mimic->multiplier * robot.jointStart[static_cast<std::size_t>(mimic->leader)] + mimic->offset;
 }
 
 void setRates(SceneRobot& robot, const RobotSpec& spec, const std::string& place) {
@@ -115,20 +141,11 @@ SceneRobot robotFrom(const RobotSpec& spec, const RobotModel& model) {
                 Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   robot.startVelocity_m_s << spec.velocity_m_s[0], spec.velocity_m_s[1], spec.velocity_m_s[2];
   robot.startSpin_rad_s << spec.spin_rad_s[0], spec.spin_rad_s[1], spec.spin_rad_s[2];
-  robot.jointStart.assign(model.joints.size(), 0);
   robot.jointStartRate.assign(model.joints.size(), 0);
   for (const Joint& joint : model.joints) robot.drives.push_back(driveFromModel(joint));
 
   const std::string place = "scene robots." + spec.name;
-  for (const auto& [name, start] : spec.jointStart)
-    robot.jointStart[static_cast<std::size_t>(jointOf(robot, name, place + ".joint_start"))] = start;
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    if (const auto& mimic = model.joints[i].mimic) {
-      robot.jointStart[i] =
-          mimic->multiplier * robot.jointStart[static_cast<std::size_t>(mimic->leader)] + mimic->offset;
-      if (spec.jointStart.contains(model.joints[i].name))
-        throw InputError(place + ".joint_start", model.joints[i].name, "no joint that " + followsOf(model, i));
-    }
+  setStarts(robot, spec, place + ".joint_start");
   setRates(robot, spec, place + ".joint_velocity");
   for (const auto& [name, servo] : spec.servos) {
     const auto joint = static_cast<std::size_t>(jointOf(robot, name, place + ".servos"));

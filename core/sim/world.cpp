@@ -126,6 +126,8 @@ void World::Impl::driveRobots(const std::vector<std::vector<JointInput>>& inputs
   }
   for (auto& robot : robots)
     if (robot.hasEffects || robot.alone) weighLoads(robot);
+  for (auto& robot : robots)
+    if (robot.couples && !robot.alone) robot.coupled.prepare(*robot.body);
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (std::size_t j = 0; j < robots[i].drives.size(); ++j)
       driveJoint(robots[i], j, inputs[i][static_cast<std::size_t>(robots[i].body->joints[j].modelJoint)], now, h);
@@ -186,15 +188,13 @@ bool World::Impl::takeRobots(double h) {
     if (!robot.touches && !robot.body->fixedBase()) robot.body->shift(-h * h / 2 * scene.gravity_m_s2);
     robot.body->updateRings();
     robot.allDrives = 0;
+    if (robot.couples && !robot.alone) loadLeaders(robot, h);
     for (std::size_t j = 0; j < robot.drives.size(); ++j) {
       const RobotJoint& joint = robot.body->joints[j];
       JointDrive& drive = robot.drives[j];
       drive.torque = drive.row.torqueAt(joint.solvedRate);
       if (drive.gear.elastic()) drive.torque = drive.gear.turn(drive.motorAhead, drive.motorRate, joint.solvedRate);
       robot.allDrives += std::abs(drive.torque);
-      if (joint.leader >= 0)
-        drive.couplingLoad =
-            drive.coupling.torqueAt(joint.solvedRate) - joint.heldInertia * (joint.solvedRate - drive.rateBefore) / h;
       drive.rate = joint.rate;
       if (!robot.body->fixedBase()) continue;
       // From the step's middle to its end, unless that would turn the motion round.

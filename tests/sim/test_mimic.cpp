@@ -143,6 +143,71 @@ TEST(Mimic, InOdeItMovesAsBesideIt) {
   EXPECT_NEAR(exact, after(true, 2e-4), 5e-3);
 }
 
+/// A finger: three phalanges one behind the other; the second and third follow the first.
+Scene finger(double multiplier, double tipMass, bool inOde, double step) {
+  const std::vector<Shape> shapes = inOde ? std::vector<Shape>{sphere(0.005)} : std::vector<Shape>{};
+  RobotModel model;
+  model.name = "finger";
+  model.links = {link("palm", 1, {0, 0, 0}, {1, 1, 1}), link("first", 0.05, {0, 0, 0.02}, {1e-5, 1e-5, 1e-5}, shapes),
+                 link("second", 0.03, {0, 0, 0.015}, {5e-6, 5e-6, 5e-6}, shapes),
+                 link("tip", tipMass, {0, 0, 0.01}, {2e-6, 2e-6, 2e-6}, shapes)};
+  model.joints = {joint("leader", 0, {0, 1, 0}), joint("middle", 1, {0, 1, 0}, {0, 0, 0.04}),
+                  joint("end", 2, {0, 1, 0}, {0, 0, 0.03})};
+  model.joints[1].mimic = Mimic{0, multiplier, 0};
+  model.joints[2].mimic = Mimic{0, multiplier, 0.1};
+  SceneRobot rig = robot(std::move(model), false);
+  rig.drives[0] = {.p = 1, .d = 0.02, .maxTorque = 1};
+  Scene scene = sceneOf(std::move(rig), step);
+  scene.robots[0].jointStart[0] = 0.5;
+  return scene;
+}
+
+TEST(Mimic, AFingersPhalangesMoveInOdeAsBesideIt) {
+  // Each follower is carried by its leader: what couples them in the mass matrix counts, whatever the step.
+  for (const double multiplier : {1.0, 1.5, -0.5})
+    for (const double tipMass : {0.02, 0.2}) {
+      const auto path = [&](bool inOde, double step) {
+        const Scene scene = finger(multiplier, tipMass, inOde, step);
+        EXPECT_EQ(!inOde, JointSpace::suits(scene.robots[0]));
+        World world(scene, 1);
+        std::vector<double> positions;
+        for (int i = 0; i < 40; ++i) {
+          world.advance(commands(scene, 0.5 + 0.4 * std::sin(0.3 * i)), 0.02);
+          const RobotReadings now = world.robot(0);
+          positions.push_back(now.position[0]);
+          EXPECT_NEAR(multiplier * now.position[0] + 0.1, now.position[2], 3e-3);
+        }
+        EXPECT_EQ("", world.fault());
+        return positions;
+      };
+      const std::vector<double> exact = path(false, 1e-4);
+      const auto farthest = [&](const std::vector<double>& positions) {
+        double most = 0;
+        for (std::size_t i = 0; i < exact.size(); ++i) most = std::max(most, std::abs(positions[i] - exact[i]));
+        return most;
+      };
+      const double coarse = farthest(path(true, 1e-3)), fine = farthest(path(true, 2.5e-4));
+      EXPECT_LT(coarse, 0.03) << multiplier << " " << tipMass;
+      EXPECT_LT(farthest(path(true, 5e-4)), 0.015) << multiplier << " " << tipMass;
+      EXPECT_LT(fine, std::max(1e-3, coarse / 2)) << multiplier << " " << tipMass;
+    }
+}
+
+TEST(Mimic, AHeavyFollowerOfALightLeaderIsHeld) {
+  // The leader feels late what holds the follower, which is fifty times as heavy.
+  for (const double step : {1e-3, 2.5e-4}) {
+    RobotModel arms = twoArms(1, 0, true);
+    arms.links[1] = link("light", 0.01, {0, 0, -0.1}, {1e-5, 1e-5, 1e-5}, {sphere(0.005)});
+    Scene scene = fixedScene(arms, step, {.p = 8, .d = 0.1, .maxTorque = 5});
+    scene.robots[0].jointStart[0] = 0.5;
+    World world(scene, 1);
+    world.advance(commands(scene, 0.5), 2);
+    EXPECT_EQ("", world.fault());
+    EXPECT_NEAR(0, world.robot(0).rate[0], 1e-3) << step;
+    EXPECT_NEAR(world.robot(0).position[0], world.robot(0).position[1], 1e-4) << step;
+  }
+}
+
 TEST(Mimic, AGripperThatStandsOnTheFloorStaysThere) {
   // A free body whose legs are geared: the floor pushes the follower, which pushes the leader.
   RobotModel model;

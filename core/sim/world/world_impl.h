@@ -4,6 +4,7 @@
 #include "core/sim/drive_law.h"
 #include "core/sim/elastic_gear.h"
 #include "core/sim/engine/articulation.h"
+#include "core/sim/engine/coupled_inertia.h"
 #include "core/sim/engine/joint_space.h"
 #include "core/sim/engine/ode_session.h"
 #include "core/sim/world.h"
@@ -29,7 +30,7 @@ struct JointDrive {
   double motorAhead = 0;  ///< rotor behind an elastic gear: its angle relative to the joint, and its rate
   double motorRate = 0;
   DriveRow coupling;        ///< of a joint in ODE that follows another one: what made it do so in the last step
-  double couplingLoad = 0;  ///< of that, what did not accelerate the joint [N·m or N]
+  double couplingLoad = 0;  ///< of that, what the leader's inertia does not stand for [N·m or N]
   GearRow gear;             ///< of the last step
 };
 
@@ -47,6 +48,7 @@ struct WorldRobot {
   std::vector<JointRows> rows;        ///< of this step, by moving joint; for `alone`
   std::vector<JointDrive> drives;     ///< by moving joint
   std::vector<Carried> carried;       ///< by body, scratch of weighLoads()
+  CoupledInertia coupled;             ///< of this step, where a joint follows another one in ODE
   std::vector<char> contact;          ///< by link
   /// By body, colliders as they meet other solids; the last ones are the fixed base's. Empty where there are none.
   std::vector<std::vector<SolidGeom>> solids;
@@ -130,6 +132,7 @@ struct World::Impl {
   void weighOwnLoads(WorldRobot& robot) const;
   void setRows(WorldRobot& robot, std::size_t joint, const JointRows& rows);
   DriveRow followLeader(WorldRobot& robot, std::size_t joint, double h);
+  void loadLeaders(WorldRobot& robot, double h) const;
   void leadOthers(DriveRow& passive, const WorldRobot& robot, std::size_t joint, double h) const;
   void addStop(DriveRow& passive, const RobotJoint& joint, double h) const;
   // world_contacts.cpp

@@ -236,7 +236,7 @@ void World::Impl::driveJoint(WorldRobot& robot, std::size_t index, const JointIn
 
 // ODE has no rows between more than two bodies. A joint that follows another one is moved there by a row of its own,
 // where its leader will be at its present rate; the leader feels what that took in the step before, and, in this step,
-// the inertia that hangs at it.
+// the inertia that hangs at it: see CoupledInertia.
 DriveRow World::Impl::followLeader(WorldRobot& robot, std::size_t index, double h) {
   const RobotJoint& joint = robot.body->joints[index];
   const RobotJoint& leader = robot.body->joints[static_cast<std::size_t>(joint.leader)];
@@ -249,14 +249,23 @@ DriveRow World::Impl::followLeader(WorldRobot& robot, std::size_t index, double 
 }
 
 void World::Impl::leadOthers(DriveRow& passive, const WorldRobot& robot, std::size_t index, double h) const {
-  const RobotJoint& leader = robot.body->joints[index];
-  for (std::size_t j = 0; j < robot.drives.size(); ++j) {
-    const RobotJoint& joint = robot.body->joints[j];
-    if (joint.leader != static_cast<int>(index)) continue;
-    const double inertia = joint.multiplier * joint.multiplier * joint.heldInertia;
-    passive.d += inertia / h;
-    passive.p += inertia / h * leader.rate - joint.multiplier * robot.drives[j].couplingLoad;
-  }
+  const double inertia = robot.coupled.ofLeader(index);
+  passive.d += inertia / h;
+  passive.p += inertia / h * robot.body->joints[index].rate;
+  for (std::size_t j = 0; j < robot.drives.size(); ++j)
+    if (const RobotJoint& joint = robot.body->joints[j]; joint.leader == static_cast<int>(index))
+      passive.p -= joint.multiplier * robot.drives[j].couplingLoad;
+}
+
+/// After a step.
+void World::Impl::loadLeaders(WorldRobot& robot, double h) const {
+  const auto accelerationOf = [&](std::size_t j) {
+    return (robot.body->joints[j].solvedRate - robot.drives[j].rateBefore) / h;
+  };
+  for (std::size_t j = 0; j < robot.drives.size(); ++j)
+    if (const RobotJoint& joint = robot.body->joints[j]; joint.leader >= 0)
+      robot.drives[j].couplingLoad =
+          robot.drives[j].coupling.torqueAt(joint.solvedRate) - robot.coupled.taken(*robot.body, j, accelerationOf);
 }
 
 /// As rows of ODE's solver. A limited servo and passive terms do not fit into one.

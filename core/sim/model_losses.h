@@ -11,4 +11,8 @@ namespace btr {
 /// scene makes good (a servo's own torque limit) or does not ask for (collisions) is left out.
 std::vector<std::string> modelLosses(const SceneSpec& spec, const ModelSet& models);
 
+/// What of the models cannot be shown as their files say, a sentence a model: "burger.urdf: 5 visual shapes cannot be
+/// read: 4 drawn by their collision shapes, 1 not drawn".
+std::vector<std::string> drawingLosses(const SceneSpec& spec, const ModelSet& models);
+
 }  // namespace btr

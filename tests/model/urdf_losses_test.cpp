@@ -76,7 +76,24 @@ TEST(UrdfLosses, AShapeThatIsNotKnownCollidesWithNothing) {
   EXPECT_THAT(model.warnings, ElementsAre(warns(3, Loss::collision, "b",
                                                 "link b: the geometry <cone> is not known; it "
                                                 "collides with nothing"),
-                                          warns(3, Loss::none, "", "it is not drawn")));
+                                          warns(3, Loss::none, "b", "it is not drawn")));
+}
+
+TEST(UrdfLosses, CollisionShapesAreDrawnWhereNoVisualOfTheLinkCanBeRead) {
+  const std::string lost =
+      "<visual><geometry><mesh filename='a.stl'/></geometry><material name='red'><color rgba='1 0 0 1'/></material>"
+      "</visual>";
+  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  const auto model = read({linkOf("b", lost + ball), jointOf("j", "continuous", ""),
+                           linkOf("c", lost + ball + "<visual><geometry><box size='1 1 1'/></geometry></visual>"),
+                           jointOf("k", "continuous", "", "c")});
+  ASSERT_EQ(1u, model.links[1].shapes.size());
+  EXPECT_TRUE(model.links[1].shapes[0].drawn && model.links[1].shapes[0].collides);
+  EXPECT_EQ((std::array<float, 4>{1, 0, 0, 1}), model.links[1].shapes[0].colour);
+  ASSERT_EQ(2u, model.links[2].shapes.size());
+  EXPECT_FALSE(model.links[2].shapes[0].drawn);
+  EXPECT_THAT(model.warnings, ElementsAre(warns(3, Loss::none, "b", "; its collision shapes are drawn"),
+                                          warns(5, Loss::none, "c", "; it is not drawn")));
 }
 
 TEST(UrdfLosses, LossesAreListedHoweverManyOtherWarningsThereAre) {

@@ -122,6 +122,22 @@ TEST(ModelLosses, AreSaidWhereTheSceneAsksForThem) {
   EXPECT_THAT(lossesOf(cone, untouched), IsEmpty());
 }
 
+TEST(DrawingLosses, ShapesThatCannotBeReadAreCountedOnceAModel) {
+  const auto drawingLossesOf = [](const std::string& inside) {
+    SceneSpec spec;
+    spec.robots.resize(2);
+    for (RobotSpec& robot : spec.robots) robot.model = "r.urdf";
+    return drawingLosses(spec, {{"r.urdf", std::make_shared<const RobotModel>(urdf(inside))}});
+  };
+  const std::string lost = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
+  const std::string ball = "<collision><geometry><sphere radius='1'/></geometry></collision>";
+  const std::string flat = "<visual><geometry><box size='1 1 0'/></geometry></visual>";
+  EXPECT_THAT(drawingLossesOf(ball + flat), IsEmpty());
+  EXPECT_THAT(drawingLossesOf(lost + lost + ball),
+              ElementsAre("r.urdf: 2 visual shapes cannot be read: 2 drawn by their collision shapes"));
+  EXPECT_THAT(drawingLossesOf(lost), ElementsAre("r.urdf: 1 visual shape cannot be read: 1 not drawn"));
+}
+
 TEST(ModelLosses, ARobotThatTheFloorCannotHoldIsNamed) {
   RobotSpec free;
   free.base = "free";

@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -192,7 +193,9 @@ void LiveProcess::tellGame(const json& line) {
   if (first && contacts_) setContacts(true);
   if (first && speed_ != 1) setSpeed(speed_);
   emit gameTold(game, models, line.at("channels").get<std::vector<std::string>>());
-  tellLosses(modelLosses(game.scene, models));
+  std::vector<std::string> losses = drawingLosses(game.scene, models);
+  std::ranges::move(modelLosses(game.scene, models), std::back_inserter(losses));
+  tellLosses(std::move(losses));
 }
 
 void LiveProcess::tellLosses(std::vector<std::string> losses) {

@@ -129,6 +129,7 @@ class UrdfReader {
       else
         xml_.ignore(*each);
     }
+    shapes_.finish(link.name, link.shapes);
     if (!tree_.linkNumber.try_emplace(link.name, tree_.links.size()).second)
       xml_.fail(element, "a second link \"" + UrdfXml::shown(link.name) + "\" is not allowed");
     tree_.links.push_back(std::move(made));

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/model/drawing_loss.h"
 #include "core/spec/error.h"
 #include "core/spec/parameter.h"
 
@@ -62,11 +64,28 @@ void UrdfShapes::read(const UrdfXml::Element& element, const std::string& link, 
     const double radius = length("radius");
     shape.size_m = {radius, length("length"), 0};
     shape.pose.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
+  } else if (shape.drawn) {
+    unseen_.push_back({body, who + "is not known", colour});
+    return;
   } else {
     return leaveOut("is not known");
   }
   if (!extends) return leaveOut("has a size of 0");
   shapes.push_back(std::move(shape));
+}
+
+void UrdfShapes::finish(const std::string& link, std::vector<Shape>& shapes) {
+  const std::vector<Unseen> unseen = std::exchange(unseen_, {});
+  if (unseen.empty()) return;
+  const bool stands = std::ranges::none_of(shapes, &Shape::drawn) && !shapes.empty();
+  for (Shape& shape : shapes) {
+    if (!stands) break;
+    shape.drawn = true;
+    if (unseen.front().colour) shape.colour = *unseen.front().colour;
+  }
+  for (const Unseen& each : unseen)
+    xml_.warn(*each.element, each.why + std::string(stands ? drawingLoss::byCollision : drawingLoss::notDrawn),
+              Warning::Loss::none, link);
 }
 
 const std::vector<MeshPart>& UrdfShapes::partsOf(const std::string& name, const Vector3d& scale) {
@@ -90,8 +109,11 @@ void UrdfShapes::addMesh(const UrdfXml::Element& mesh, const std::string& link, 
     parts = &partsOf(name, scale);
   } catch (const InputError& error) {
     const std::string text = "link " + UrdfXml::shown(link) + ": " + error.what();
-    return shape.drawn ? xml_.warn(mesh, text + "; it is not drawn")
-                       : xml_.warn(mesh, text + "; it collides with nothing", Warning::Loss::collision, link);
+    if (shape.drawn)
+      unseen_.push_back({&mesh, text, colour});
+    else
+      xml_.warn(mesh, text + "; it collides with nothing", Warning::Loss::collision, link);
+    return;
   }
   if (shape.drawn) {
     for (const MeshPart& part : *parts) {

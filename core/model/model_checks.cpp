@@ -12,7 +12,7 @@ namespace btr {
 namespace {
 
 // As in scene files: far beyond every robot, and the squares and products of such numbers stay finite.
-constexpr double lightest_kg = 1e-6, largestNumber = 1e6;
+constexpr double lightest_kg = 1e-6, largestNumber = 1e6;  // 0.000001 to 1000000 below
 
 void checkLargest(double value, const std::string& what, int line, const std::string& place) {
   if (!(std::abs(value) <= largestNumber))
@@ -81,8 +81,8 @@ void checkLink(const Link& link, bool mayBeMassless, const std::string& place, s
   if (mayBeMassless && inertial.mass_kg == 0) return;
   if (!(inertial.mass_kg >= lightest_kg && inertial.mass_kg <= largestNumber))
     throw InputError(place, link.line,
-                     "link " + link.name + ": mass " + toText(inertial.mass_kg) + " kg is not allowed; " +
-                         toText(lightest_kg) + " to " + toText(largestNumber) + " kg is expected" +
+                     "link " + link.name + ": mass " + toText(inertial.mass_kg) +
+                         " kg is not allowed; 0.000001 to 1000000 kg is expected" +
                          (inertial.mass_kg == 0 ? " of what moves (a mass of its own, or a fixed joint)" : ""));
   if (!inertial.centreOfMass_m.allFinite())
     throw InputError(place, link.line, "link " + link.name + ": centre of mass must be finite");

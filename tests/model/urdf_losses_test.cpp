@@ -120,12 +120,31 @@ TEST(Urdf, FramesOfMassZeroAreJoinedLikeFramesWithoutMass) {
 TEST(HostileUrdf, MassZeroMayNotMove) {
   const std::string massless =
       "<link name='b'><inertial><mass value='0'/><inertia ixx='0' iyy='0' izz='0'/></inertial></link>";
-  EXPECT_THAT(refused({massless, jointOf("j", "continuous", "")}),
+  // Unless it is nothing but a place: see below.
+  EXPECT_THAT(refused({massless, jointOf("j", "continuous", ""), linkOf("c"), jointOf("k", "fixed", "", "c", "b")}),
+              HasSubstr("r.urdf:3: link b: mass 0 kg is not allowed; 0.000001 to 1000000 kg"));
+  EXPECT_THAT(refused({"<link name='b'><visual><geometry><sphere radius='0.1'/></geometry></visual></link>",
+                       jointOf("j", "continuous", "")}),
+              HasSubstr("r.urdf:3: link b: mass 0 kg is not allowed"));
+  EXPECT_THAT(refused({massless, jointOf("j", "continuous", ""), linkOf("c"),
+                       jointOf("k", "continuous", "<mimic joint='j'/>", "c")}),
               HasSubstr("r.urdf:3: link b: mass 0 kg is not allowed"));
   EXPECT_THAT(
       refused({"<link name='b'><inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>",
                jointOf("j", "fixed", "")}),
       HasSubstr("r.urdf:3: value -1 is not allowed"));
+}
+
+TEST(UrdfLosses, AMovingPlaceAtTheEndOfTheTreeIsLeftOut) {
+  // PR2: a prismatic joint for the simulator of its time, which moves a link without anything.
+  const auto model =
+      read({"<link name='dummy'/>",
+            jointOf("slider", "prismatic", "<limit lower='0' upper='1' effort='1' velocity='1'/>", "dummy"),
+            linkOf("b"), jointOf("j", "continuous", "")});
+  ASSERT_EQ(2u, model.links.size());
+  EXPECT_EQ("j", model.joints[0].name);
+  EXPECT_THAT(model.warnings,
+              ElementsAre(warns(4, Loss::limits, "slider", "joint slider and link dummy are left out")));
 }
 
 TEST(Urdf, CapsulesLieAlongZAndKeepTheirEndsApart) {

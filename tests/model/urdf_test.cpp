@@ -167,7 +167,8 @@ TEST(HostileUrdf, MassAndInertiaAreChecked) {
               HasSubstr("needs <mass> and <inertia>"));
   EXPECT_THAT(refused("<link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='0' izz='0'/></inertial></link>"),
               HasSubstr("positive definite"));
-  EXPECT_THAT(refused(link("a") + "<link name='b'/>" + joint("j", "a", "b")), HasSubstr("link b: mass 0"));
+  EXPECT_THAT(refused(link("a") + "<link name='b'/>" + joint("j", "a", "b") + link("c") + joint("k", "b", "c")),
+              HasSubstr("link b: mass 0"));
 }
 
 TEST(HostileUrdf, TheLinksMustFormOneTree) {

@@ -81,6 +81,7 @@ class TreeMaker {
                          "link \"" + joint.child.substr(0, 40) + "\" has a second parent; the first is in line " +
                              std::to_string(tree_.joints[parentJoint_[child]].joint.line));
       parentJoint_[child] = i;
+      if (joint.mimic) leads_.insert(joint.mimic->joint);
     }
   }
 
@@ -142,10 +143,16 @@ class TreeMaker {
       }
       parent.inertial = combined(parent.inertial, carried(child.link.inertial, origin));
       if (model_.warnings.size() < 200)
-        model_.warnings.push_back({child.link.line, "link " + child.link.name.substr(0, 40) + " was joined to " +
-                                                        parent.name.substr(0, 40) +
+        model_.warnings.push_back({child.link.line, "link " + child.link.name + " was joined to " + parent.name +
                                                         ": a fixed part without mass of its own"});
       return push(number, step.parent, origin, open);
+    }
+    if (isNothing(number)) {
+      model_.warnings.push_back({source.joint.line,
+                                 "joint " + source.joint.name + " and link " + child.link.name +
+                                     " are left out: the joint moves nothing that has a mass or a shape",
+                                 Warning::Loss::limits, source.joint.name});
+      return;
     }
     jointNumber_[source.joint.name] = static_cast<int>(model_.joints.size());
     sourceOf_.push_back(step.joint);
@@ -154,6 +161,14 @@ class TreeMaker {
     model_.joints.push_back(source.joint);
     model_.links.push_back(std::move(child.link));
     push(number, static_cast<int>(model_.links.size()) - 1, Eigen::Isometry3d::Identity(), open);
+  }
+
+  /// A link at the end of the tree that moves as nothing more than a place, by a joint that leads no other one.
+  bool isNothing(std::size_t number) const {
+    const UrdfLink& link = tree_.links[number];
+    const UrdfJoint& by = tree_.joints[parentJoint_[number]];
+    return by.joint.type != Joint::Type::fixed && !link.hasInertial && link.link.shapes.empty() &&
+           below_[number].empty() && !leads_.contains(by.joint.name);
   }
 
   /// Mimic joints get the joint that really leads them.
@@ -186,6 +201,7 @@ class TreeMaker {
   std::vector<std::vector<std::size_t>> below_;  // joints by parent link
   std::vector<std::size_t> parentJoint_;         // by link
   std::unordered_set<std::size_t> reached_;
+  std::unordered_set<std::string> leads_;             // joints that others mimic
   std::unordered_map<std::string, int> jointNumber_;  // in the model, by name
   std::vector<std::size_t> sourceOf_;                 // in the file, by joint of the model
   bool rootIsWorld_ = false;

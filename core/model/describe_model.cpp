@@ -5,6 +5,7 @@
 
 #include "core/model/kinematics.h"
 #include "core/model/load_model.h"
+#include "core/model/servo_by_load.h"
 #include "core/spec/parameter.h"
 
 namespace btr {
@@ -69,9 +70,9 @@ const char* sensorName(Sensor::Kind kind) {
 std::string limitsOf(const Joint& joint) {
   if (joint.type == Joint::Type::fixed) return "";
   if (joint.lower < -1e8 && joint.upper > 1e8) return "no limits";
-  if (joint.type == Joint::Type::slide) return fixed(joint.lower, 4, 8) + " to" + fixed(joint.upper, 4, 8) + " m";
-  return fixed(joint.lower, 4, 8) + " to" + fixed(joint.upper, 4, 8) + " rad (" + fixed(joint.lower * degrees, 1, 6) +
-         " to" + fixed(joint.upper * degrees, 1, 6) + " deg)";
+  if (joint.type == Joint::Type::slide) return fixed(joint.lower, 4, 8) + " to " + fixed(joint.upper, 4, 7) + " m";
+  return fixed(joint.lower, 4, 8) + " to " + fixed(joint.upper, 4, 7) + " rad (" + fixed(joint.lower * degrees, 1, 6) +
+         " to " + fixed(joint.upper * degrees, 1, 5) + " deg)";
 }
 
 /// ", follows left_finger: -0.5 times it plus 0.002", "" for a joint that follows none.
@@ -83,20 +84,43 @@ std::string followed(const RobotModel& model, const Joint& joint) {
 
 std::string servoOf(const Joint& joint) {
   const ServoData& servo = joint.servo;
+  const bool slides = joint.type == Joint::Type::slide;
   std::string text;
-  const auto add = [&text](const char* name, const std::optional<double>& value, int decimals) {
-    if (value) text += (text.empty() ? "" : "  ") + std::string(name) + " " + fixed(*value, decimals, 0);
+  const auto say = [&text](const char* name, const std::string& value) {
+    text += (text.empty() ? "" : "  ") + std::string(name) + " " + value;
+  };
+  const auto add = [&say](const char* name, const std::optional<double>& value, int decimals) {
+    if (value) say(name, fixed(*value, decimals, 0));
   };
   add("p", servo.p_nm_rad, 3);
   add("i", servo.i_nm_rad_s, 3);
   add("d", servo.d_nm_s_rad, 3);
-  add("max_torque_nm", servo.maxTorque_nm, 3);
-  add("no_load_speed_rad_s", servo.noLoadSpeed_rad_s, 3);
-  add("coulomb_friction_nm", servo.coulombFriction_nm, 4);
-  add("viscous_friction_nm_s_rad", servo.viscousFriction_nm_s_rad, 4);
-  add("backlash_rad", servo.backlash_rad, 4);
+  add(slides ? "max_force_n" : "max_torque_nm", servo.maxTorque_nm, 3);
+  add(slides ? "no_load_speed_m_s" : "no_load_speed_rad_s", servo.noLoadSpeed_rad_s, 3);
+  add(slides ? "coulomb_friction_n" : "coulomb_friction_nm", servo.coulombFriction_nm, 4);
+  add(slides ? "viscous_friction_n_s_m" : "viscous_friction_nm_s_rad", servo.viscousFriction_nm_s_rad, 4);
+  add(slides ? "backlash_m" : "backlash_rad", servo.backlash_rad, 4);
   add("command_delay_s", servo.commandDelay_s, 3);
+  if (servo.rotorInertia_kg_m2) say("rotor_inertia_kg_m2", toText(*servo.rotorInertia_kg_m2));
+  if (servo.gearRatio) say("gear_ratio", toText(*servo.gearRatio));
   return text;
+}
+
+/// "2 joints have no gains in the file and get the default servo's, …: hip, knee"; "" where none does.
+std::string defaultServos(const RobotModel& model) {
+  constexpr int mostNames = 20;
+  std::string names;
+  int count = 0;
+  for (const Joint& joint : model.joints) {
+    if (joint.type == Joint::Type::fixed || joint.mimic || joint.servo.p_nm_rad) continue;
+    if (++count <= mostNames) names += (names.empty() ? "" : ", ") + joint.name;
+  }
+  if (count == 0) return "";
+  if (count > mostNames) names += " and " + std::to_string(count - mostNames) + " more";
+  return std::to_string(count) +
+         (count == 1 ? " joint has no gains in the file and gets" : " joints have no gains in the file and get") +
+         " the default servo's, p " + toText(defaultServoP_nm_rad) + " and d " + toText(defaultServoD_nm_s_rad) + ": " +
+         names;
 }
 
 std::size_t widestName(const RobotModel& model) {
@@ -165,9 +189,11 @@ std::string describeModel(const RobotModel& model) {
           fixed(total.centreOfMass_m.z(), 4, 0) + ") m at joint positions 0\n       " + std::to_string(triangles) +
           " triangles, " + std::to_string(colliding) + " colliding shapes\n";
 
-  text += model.warnings.empty() ? "\nno warnings\n" : "\nwarnings\n";
+  const std::string servos = defaultServos(model);
+  text += model.warnings.empty() && servos.empty() ? "\nno warnings\n" : "\nwarnings\n";
   for (const Warning& warning : model.warnings)
     text += "  line " + std::to_string(warning.line) + ": " + warning.text + "\n";
+  if (!servos.empty()) text += "  " + servos + "\n";
   return text;
 }
 

@@ -1,5 +1,6 @@
 // What must hold of every robot, whatever file it came from.
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -91,6 +92,15 @@ void checkLink(const Link& link, bool mayBeMassless, const std::string& place, s
   checkInertia(link, place, warnings);
 }
 
+/// More than a turn is rare, and ±1000 and more are a program's "none".
+void checkUnits(const Joint& joint, std::vector<Warning>& warnings) {
+  constexpr double turn_rad = 7, none_rad = 1000;
+  const double farthest = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  if (joint.type == Joint::Type::rotate && farthest > turn_rad && farthest < none_rad)
+    warnings.push_back({joint.line, "joint " + joint.name + ": the limits " + toText(joint.lower) + " to " +
+                                        toText(joint.upper) + " look like degrees; they are taken as radians"});
+}
+
 void checkJoint(const Joint& joint, std::size_t number, const std::string& place) {
   const std::string name = "joint " + joint.name + ": ";
   if (joint.parentLink < 0 || static_cast<std::size_t>(joint.parentLink) > number)
@@ -154,6 +164,7 @@ void checkModel(RobotModel& model, const std::string& place) {
     joints.add(joint.name, joint.line);
     if (joint.id >= 0) ids.add(std::to_string(joint.id), joint.line);
     checkJoint(joint, i, place);
+    checkUnits(joint, model.warnings);
   }
   for (const Sensor& sensor : model.sensors)
     if (!sensor.name.empty()) sensors.add(sensor.name, model.links[static_cast<std::size_t>(sensor.link)].line);

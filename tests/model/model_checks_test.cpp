@@ -176,5 +176,33 @@ TEST(DescribeModel, ListsLinksJointsMassesAndWarningsWithLines) {
   EXPECT_THAT(table, HasSubstr("line 5: the node Odd is not known"));
 }
 
+  EXPECT_THAT(table, testing::Not(HasSubstr("default servo")));
+}
+
+TEST(DescribeModel, NamesTheJointsThatGetTheDefaultServo) {
+  EXPECT_THAT(describeModel(parseVrml(robotWithJoint("jointType \"rotate\""), "robot.wrl")),
+              HasSubstr("1 joint has no gains in the file and gets the default servo's, p 7.5 and d 0.05: HINGE"));
+}
+
+TEST(DescribeModel, NamesNumbersOfSlideJointsInTheirUnitsAndShowsRotors) {
+  const std::string table = describeModel(parseVrml(
+      robotWithJoint("jointType \"slide\" llimit -1 ulimit 1 pGain 2 maxTorque 3 coulombFriction 0.5 rotorInertia 2e-7 "
+                     "gearRatio 100"),
+      "robot.wrl"));
+  EXPECT_THAT(table, HasSubstr("-1.0000 to  1.0000 m"));
+  for (const char* number :
+       {"max_force_n 3.000", "coulomb_friction_n 0.5000", "rotor_inertia_kg_m2 2e-07", "gear_ratio 100"})
+    EXPECT_THAT(table, HasSubstr(number));
+}
+
+TEST(Model, LimitsThatLookLikeDegreesAreSaid) {
+  const RobotModel model = parseVrml(robotWithJoint("jointType \"rotate\" llimit -46 ulimit 46 pGain 2"), "robot.wrl");
+  EXPECT_THAT(describeModel(model), HasSubstr("-46.0000 to 46.0000 rad (-2635.6 to 2635.6 deg)"));
+  EXPECT_THAT(describeModel(model), HasSubstr("joint HINGE: the limits -46 to 46 look like degrees; they are taken as "
+                                              "radians"));
+  for (const char* limits : {"llimit -7 ulimit 7", "llimit -10000 ulimit 10000", ""})
+    EXPECT_TRUE(
+        parseVrml(robotWithJoint("jointType \"rotate\" pGain 2 " + std::string(limits)), "r.wrl").warnings.empty())
+        << limits;
 }  // namespace
 }  // namespace btr::test

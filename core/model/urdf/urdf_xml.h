@@ -32,7 +32,7 @@ class UrdfXml {
 
   /// A text of the file as a message may hold it.
   static std::string shown(const std::string& text) {
-    constexpr std::size_t most = 40;
+    constexpr std::size_t most = 100;
     return text.size() > most ? std::string(text, 0, most).append("...") : text;
   }
 

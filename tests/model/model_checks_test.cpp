@@ -43,6 +43,8 @@ TEST(ModelChecks, NumbersAreThoseOfRobots) {
 
 TEST(ModelChecks, ABaseThatStandsInTheWorldNeedsNoMass) {
   EXPECT_EQ("accepted", vrmlRefusal(vrmlHeader + "Humanoid { humanoidBody DEF A Joint { jointType \"fixed\" } }"));
+  EXPECT_THAT(vrmlRefusal(vrmlHeader + "Humanoid { skeleton DEF A Joint { jointType \"fixed\" } }"),
+              testing::AllOf(HasSubstr("\"skeleton\", which is not allowed"), HasSubstr("\"humanoidBody\"")));
   EXPECT_THAT(vrmlRefusal(vrmlHeader + "Humanoid { humanoidBody DEF A Joint { jointType \"free\" } }"),
               HasSubstr("link A: mass 0"));
 }
@@ -174,8 +176,6 @@ TEST(DescribeModel, ListsLinksJointsMassesAndWarningsWithLines) {
   // (1·0 + 0.25·(-2)) / 1.25
   EXPECT_THAT(table, HasSubstr("2 links, 1 joints (1 moving), 1.2500 kg, centre of mass (0.0000, 0.0000, -0.4000) m"));
   EXPECT_THAT(table, HasSubstr("line 5: the node Odd is not known"));
-}
-
   EXPECT_THAT(table, testing::Not(HasSubstr("default servo")));
 }
 
@@ -204,5 +204,7 @@ TEST(Model, LimitsThatLookLikeDegreesAreSaid) {
     EXPECT_TRUE(
         parseVrml(robotWithJoint("jointType \"rotate\" pGain 2 " + std::string(limits)), "r.wrl").warnings.empty())
         << limits;
+}
+
 }  // namespace
 }  // namespace btr::test

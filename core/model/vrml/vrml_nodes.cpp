@@ -99,7 +99,7 @@ const Line table[] = {
     {"ScalarInterpolator", "MFFloat key keyValue"},
     // OpenHRP and Choreonoid, with our optional fields
     {"Humanoid", BTR_PLACED BTR_BOUNDED
-     "MFNode humanoidBody joints segments sites viewpoints skinCoord skin skinNormal;SFString name "
+     "MFNode humanoidBody skeleton joints segments sites viewpoints skinCoord skin skinNormal;SFString name "
      "version;MFString info"},
     {"Joint", BTR_PLACED
      "MFNode children;SFString name jointType primitive;SFInt32 jointId;SFVec3f jointAxis;MFFloat llimit ulimit "

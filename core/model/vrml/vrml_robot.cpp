@@ -38,11 +38,21 @@ class RobotBuilder {
     model_.name = textField(*humanoid, "name");
     if (model_.name.empty()) model_.name = humanoid->def;
     children(*humanoid, "humanoidBody", Place{});
-    if (model_.links.empty()) document_.fail(*humanoid, "the Humanoid has no Joint in its humanoidBody");
+    if (model_.links.empty()) refuseBody(*humanoid);
     return std::move(model_);
   }
 
  private:
+  /// A Humanoid without a Joint.
+  [[noreturn]] void refuseBody(const Node& humanoid) const {
+    if (humanoid.find("skeleton"))
+      document_.fail(
+          humanoid,
+          "the Humanoid has a \"skeleton\", which is not allowed; its Joints are expected in \"humanoidBody\", "
+          "as OpenHRP and H-Anim 1.1 have them");
+    document_.fail(humanoid, "the Humanoid has no Joint in its humanoidBody");
+  }
+
   /// Nodes that are used several times (USE) are visited several times: this is what bounds the work.
   void visit(const Node& node) {
     if (++visits_ > budget_.nodes)

@@ -117,6 +117,12 @@ TEST(Recording, ReadsWordsForWhatIsMissingAsEmptyCells) {
   for (std::size_t row = 1; row < 7; ++row) EXPECT_TRUE(std::isnan(recording.columns[1][row])) << row;
   EXPECT_THAT(recording.notes, Contains(HasSubstr("6 of 8 cells of \"ball.x_m\" say that there is no number")));
   EXPECT_THAT(refusalOf("time_s,ball.x_m\n0,1\nnan,2\n"), HasSubstr("line 3, column 1 (time_s): \"nan\""));
+  for (const std::string word : {"#N/A", "#DIV/0!", "#VALUE!", "#NUM!", "#REF!", "NULL"}) {
+    const Recording sheet = recordingOf("time_s,ball.x_m\n0,1\n0.1," + word + "\n0.2,2\n");
+    ASSERT_EQ(3u, sheet.rows()) << word;
+    EXPECT_TRUE(std::isnan(sheet.columns[1][1])) << word;
+    EXPECT_THAT(sheet.notes, Contains(HasSubstr("1 of 3 cells of \"ball.x_m\" say that there is no number"))) << word;
+  }
 }
 
 TEST(Recording, ReadsColumnsThatBlanksSeparate) {

@@ -137,7 +137,9 @@ std::string trimmed(std::string_view text) {
 bool saysMissing(std::string_view cell) {
   std::string word = trimmed(cell);
   for (char& c : word) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-  return word == "nan" || word == "na" || word == "n/a" || word == "null" || word == "none" || word == "-";
+  constexpr std::array words{"nan",     "na",      "n/a",   "null",  "none",   "-",     "#n/a",
+                             "#div/0!", "#value!", "#num!", "#ref!", "#null!", "#name?"};
+  return std::ranges::find(words, word) != words.end();
 }
 
 std::string shownCell(std::string_view text) {

@@ -37,7 +37,8 @@ void joinBlanks(std::vector<std::string>& cells);
 /// Without blanks at either end.
 std::string trimmed(std::string_view text);
 
-/// A word that programs write where there is no number: "nan", "NA", "null", "None" in any case, or "-".
+/// A word that programs write where there is no number: "nan", "NA", "null", "None" in any case, "-", or what
+/// spreadsheets say of an error ("#N/A", "#DIV/0!").
 bool saysMissing(std::string_view cell);
 
 /// A cell in a message: in quotes, short and printable whatever the file holds.

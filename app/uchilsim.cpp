@@ -69,7 +69,8 @@ int main(int argc, char** argv) {
     btr::ui::MainWindow window(host, theme);
     const QString database = chooseDatabase(arguments, window.bench().settings());
     if (!arguments.screenshot.empty() && !QFileInfo::exists(database))
-      throw btr::InputError(database.toStdString() + ": there is no such database");
+      throw btr::InputError(database.toStdString() + ": there is no such database; \"btr run EXPERIMENT --db " +
+                            database.toStdString() + "\" makes one, and no name opens the last one");
     if (!arguments.look.empty()) theme.apply(btr::ui::lookFromText(QString::fromStdString(arguments.look)));
     if (!arguments.screenshot.empty()) window.resize(arguments.width, arguments.height);
     window.show();

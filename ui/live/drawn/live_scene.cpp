@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/model/joint_range.h"
 #include "core/model/kinematics.h"
 #include "core/sim/contact/obstacle_shape.h"
 #include "ui/live/free_place.h"
@@ -51,8 +50,8 @@ LiveScene::LiveScene(const Game& game, const ModelSet& models, const std::vector
     const auto player = game.robots.find(robot.name);
     jackets_.push_back(player == game.robots.end() || player->second.team.empty() ? "red" : player->second.team);
     boxes_.push_back(btr::ui::linkBoxes(*model));
-    const Eigen::AlignedBox3d box =
-        boxOf(boxes_.back(), forwardKinematics(*model, Isometry3d::Identity(), startPositions(*model)));
+    const std::vector<double> atZero(model->joints.size(), 0.0);
+    const Eigen::AlignedBox3d box = boxOf(boxes_.back(), forwardKinematics(*model, Isometry3d::Identity(), atZero));
     // What holds a dog with its head and paws, and most of it; a larger robot in proportion.
     constexpr double dog_m = 0.13;
     double covers_m = dogRadius_m;

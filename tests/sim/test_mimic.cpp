@@ -208,6 +208,45 @@ TEST(Mimic, AHeavyFollowerOfALightLeaderIsHeld) {
   }
 }
 
+TEST(Mimic, AParallelGripperHoldsABoxStill) {
+  // What the box does to the follower the leader feels a step later: in long steps it hammers.
+  for (const double step : {2.5e-4, 1e-4}) {
+    RobotModel model;
+    model.name = "gripper";
+    const Shape finger = box({0.01, 0.02, 0.06}, {0, 0, -0.03});
+    model.links = {link("hand", 0.5, {0, 0, 0}, {1e-3, 1e-3, 1e-3}),
+                   link("left", 0.05, {0, 0, -0.03}, {1e-5, 1e-5, 1e-5}, {finger}),
+                   link("right", 0.05, {0, 0, -0.03}, {1e-5, 1e-5, 1e-5}, {finger})};
+    model.joints = {joint("leader", 0, {1, 0, 0}, {0, 0, 0}, Joint::Type::slide),
+                    joint("follower", 0, {-1, 0, 0}, {0, 0, 0}, Joint::Type::slide)};
+    model.joints[1].mimic = Mimic{0, 1, 0};
+    SceneRobot gripper = robot(model, false);
+    gripper.drives[0] = {.p = 2000, .d = 20, .maxTorque = 10};
+    gripper.jointStart = {0.04, 0.04};
+    gripper.start.translation().z() = 0.07;
+    Scene scene = sceneOf(gripper, step);
+    scene.floor = FloorSpec{};
+    ObstacleSpec cube;
+    cube.name = "cube";
+    cube.size_m = {0.04, 0.04, 0.04};
+    cube.position_m = {0, 0, 0.02};
+    cube.mass_kg = 0.05;
+    scene.obstacles = {cube};
+    World world(scene, 1);
+    world.advance(commands(scene, 0.01), 1.0);
+    EXPECT_EQ("", world.fault());
+    const double held = world.robot(0).position[0];
+    EXPECT_NEAR(0.025, held, 2e-3) << step;
+    double farthest = 0;
+    for (int i = 0; i < 100; ++i) {
+      world.advance(commands(scene, 0.01), 0.008);
+      farthest = std::max(farthest, std::abs(world.robot(0).position[0] - held));
+    }
+    EXPECT_LT(farthest, 1e-4) << step;
+    EXPECT_NEAR(0.02, world.obstacle(0).pose.translation().z(), 2e-3) << step;
+  }
+}
+
 TEST(Mimic, AGripperThatStandsOnTheFloorStaysThere) {
   // A free body whose legs are geared: the floor pushes the follower, which pushes the leader.
   RobotModel model;

@@ -271,6 +271,24 @@ TEST(Games, OfARobotFileStandOnTheFloor) {
   EXPECT_NEAR(session.world().robot(0).base.translation().z(), 0.05, 0.005);
 }
 
+TEST(Games, OfARobotFileWhoseKneeCannotBeStraightHoldItBent) {
+  const TemporaryFolder folder;
+  const std::string body = "<inertial><mass value='1'/><inertia ixx='0.01' iyy='0.01' izz='0.01'/></inertial>";
+  const std::string path = folder.write(
+      "frog.urdf",
+      "<robot name='frog'><link name='trunk'>" + body +
+          "<collision><geometry><box size='0.2 0.2 0.1'/></geometry></collision></link><link name='shank'>" + body +
+          "</link><joint name='knee' type='revolute'><parent link='trunk'/><child link='shank'/>" +
+          "<axis xyz='0 1 0'/><limit lower='-2.7' upper='-0.9' effort='30' velocity='20'/></joint></robot>");
+  Session session(loadGame(path), host());
+  EXPECT_EQ(-0.9, session.inputs()[0][0].command);
+  for (int i = 0; i < 125; ++i) {
+    run(session, 1);
+    ASSERT_NEAR(-0.9, session.world().robot(0).position[0], 0.02) << i;
+  }
+  EXPECT_EQ(session.fault(), "");
+}
+
 TEST(Games, OfASceneHaveItsRobotsHoldStill) {
   Session session(loadGame(SOURCE_DIR "/resources/scenes/kick.json"), host());
   run(session, 125);

@@ -132,9 +132,9 @@ double windowOfImpacts(const FitTrial& trial) {
 
 constexpr double windowOfSwings_s = 1;
 
-/// Where the simulator as given loses the recorded path under its torques within that, half or a quarter of it, in
-/// which it does not: there what is missing is still in proportion. (A cart of 2 kg on a spring of 120 N/m that nobody
-/// knows of turns round in 0.4 s.)
+/// Where the simulator as given loses the recorded path under its torques within that, the half, quarter or eighth of
+/// it in which it does not: there what is missing is still in proportion. (A cart of 2 kg on a spring of 120 N/m that
+/// nobody knows of turns round in 0.4 s.)
 double windowUnderTorques(FitProblem& problem) {
   constexpr double shortest_s = windowOfSwings_s / 8;
   for (double window_s = windowOfSwings_s; window_s >= shortest_s; window_s /= 2) {

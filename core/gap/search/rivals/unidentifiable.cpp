@@ -9,6 +9,7 @@
 #include "core/gap/fit/uncertainty.h"
 #include "core/gap/search/model_comparison.h"
 #include "core/gap/search/thresholds.h"
+#include "core/spec/error.h"
 
 namespace btr {
 namespace {
@@ -70,6 +71,33 @@ bool mayBeUnreached(const FitParameter& p, const SearchThresholds::Candidates& l
   return p.effect >= 0 && !p.hasNeutral && p.minimum > 0 && p.maximum / p.minimum > limits.wideRange;
 }
 
+/// Sizes of effects that are known from below only, as friction that holds a joint: half as large again they do the
+/// same. Where a number just reaches that, its sensitivity is of one side and says how large it is at least.
+std::vector<std::size_t> knownFromBelow(const FitProblem& problem, const Fit& fit,
+                                        const SearchThresholds::Confirmation& limits) {
+  std::vector<std::size_t> found;
+  std::optional<double> here;
+  for (std::size_t i = 0; i < fit.model.parameters.size(); ++i) {
+    const FitParameter& p = fit.model.parameters[i];
+    const double size = fit.model.values[i] - p.given;
+    if (p.effect < 0 || !p.hasNeutral || size == 0) continue;
+    const auto costAt = [&](double value) {
+      FitModel model = fit.model;
+      model.values[i] = value;
+      return residualsOf(problem, model, fit.shifts).squaredNorm();
+    };
+    const double larger = p.inRange(p.given + limits.largerSize * size);
+    if (larger == fit.model.values[i]) continue;  // at its bound: nobody knows
+    if (!here) here = costAt(fit.model.values[i]);
+    try {
+      if (std::abs(costAt(larger) - *here) < limits.flat * (costAt(p.given) - *here)) found.push_back(i);
+    } catch (const InputError&) {
+      continue;  // no scene can be that large, or do without it: it is known from above, too
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 void raiseUnreached(const FitService& service, Fit& fit) {
@@ -91,6 +119,8 @@ Measurement measure(const FitService& service, const Fit& fit) {
   measured.stepChange = service.stepChange(fit);
   measured.linear = linearise(service.problem(), fit);
   measured.uncertainty = uncertaintyOf(service.problem(), fit, measured.linear);
+  for (const std::size_t i : knownFromBelow(service.problem(), fit, service.thresholds().confirmation))
+    measured.uncertainty.standardError[i] = INFINITY;
   measured.uncertainty.unsettled = unsettled(service.problem(), fit, measured.linear, measured.stepChange);
   return measured;
 }

@@ -44,8 +44,7 @@ bool Confirmer::isAtLeast(const Fit& fit) const {
   const auto costAt = [&](double size) {
     return residualsOf(service_.problem(), resized(fit.model, size), fit.shifts).squaredNorm();
   };
-  const double here = costAt(1);
-  return std::abs(costAt(limits.largerSize) - here) < limits.flat * (costAt(0) - here);
+  return isKnownFromBelow(costAt(0), costAt(1), costAt(limits.largerSize), limits);
 }
 
 Acceptance Confirmer::judge(const Scored& without, const Scored& with, std::size_t newEffect) const {

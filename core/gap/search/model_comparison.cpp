@@ -1,6 +1,7 @@
 #include "core/gap/search/model_comparison.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace btr {
 
@@ -32,6 +33,10 @@ bool isRefuted(const Scored& other, const Scored& by, const SearchThresholds::Ri
 
 bool isDistinguished(const Scored& other, const Scored& final, const SearchThresholds::Rivals& limits) {
   return isRefuted(other, final, limits) && other.fit.cost > limits.fitsWorse * final.fit.cost;
+}
+
+bool isKnownFromBelow(double without, double fitted, double larger, const SearchThresholds::Confirmation& limits) {
+  return std::abs(larger - fitted) < limits.flat * (without - fitted);
 }
 
 }  // namespace btr

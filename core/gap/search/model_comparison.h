@@ -27,4 +27,8 @@ bool isRefuted(const Scored& other, const Scored& by, const SearchThresholds::Ri
 /// explains as well do not distinguish it from the final model.
 bool isDistinguished(const Scored& other, const Scored& final, const SearchThresholds::Rivals& limits);
 
+/// Whether a size is known from below only, as of friction that holds a joint: one `largerSize` times as large costs
+/// the same, by what it takes. Costs without it, as fitted, and larger.
+bool isKnownFromBelow(double without, double fitted, double larger, const SearchThresholds::Confirmation& limits);
+
 }  // namespace btr

@@ -90,7 +90,7 @@ std::vector<std::size_t> knownFromBelow(const FitProblem& problem, const Fit& fi
     if (larger == fit.model.values[i]) continue;  // at its bound: nobody knows
     if (!here) here = costAt(fit.model.values[i]);
     try {
-      if (std::abs(costAt(larger) - *here) < limits.flat * (costAt(p.given) - *here)) found.push_back(i);
+      if (isKnownFromBelow(costAt(p.given), *here, costAt(larger), limits)) found.push_back(i);
     } catch (const InputError&) {
       continue;  // no scene can be that large, or do without it: it is known from above, too
     }

@@ -172,13 +172,13 @@ void Screener::fitKinds(Screening& screening, const std::vector<std::size_t>& al
 std::vector<std::size_t> Screener::fitBesideHeld(Screening& screening, const std::string& stage, double at) const {
   const SearchThresholds::Screening& limits = service_.thresholds().screening;
   const FitProblem& problem = service_.problem();
+  std::vector<EffectCandidate> candidates;
+  for (const TriedCandidate& each : screening.tried) candidates.push_back(each.attempt.candidate);
   std::vector<std::size_t> fitted;
   for (std::size_t b = 1; b < screening.bases.size(); ++b) {
     const Fit& free = screening.bases[b].fit;
     // No effects yet: what its simulator has without parameters are the numbers as given.
     const Fit held{FitModel{}, free.shifts, 0};
-    std::vector<EffectCandidate> candidates;
-    for (const TriedCandidate& each : screening.tried) candidates.push_back(each.attempt.candidate);
     const std::vector<Screened> screened =
         screen(problem, held, linearise(problem, held), candidates, service_.options().jobs,
                service_.reporter(stage, candidates.size(), at, at), limits);

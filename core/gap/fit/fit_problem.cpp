@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/gap/fit/gap_problem.h"
-#include "core/gap/fit/motion_noise.h"
+#include "core/gap/fit/input_noise.h"
 #include "core/gap/fit/noise_sharing.h"
 #include "core/gap/fit/segments.h"
 #include "core/gap/fit/torques_lead_away.h"
@@ -251,7 +251,7 @@ FitProblem makeFitProblem(const GapProblem& problem, const std::vector<Recording
   if (ready.walks && window_s == 0) keepFirstSteps(ready, problem.firstSteps_s);
   if (prepareFilteredMotions(ready, window_s == 0)) shareNoiseFloors(ready.trials, ready.notes);
   cutSegments(ready, window_s);
-  addMotionNoise(ready);
+  addInputNoise(ready);
   sayIfTorquesLeadAway(ready);
   if (ready.mayCoarsen) chooseStep(ready);
   return ready;

@@ -1,4 +1,4 @@
-#include "core/gap/fit/motion_noise.h"
+#include "core/gap/fit/input_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +31,32 @@ std::vector<std::size_t> followed(const FitTrial& trial) {
 
 bool followsMotion(const FitTrial& trial) { return !followed(trial).empty(); }
 
-bool isComparedTorque(const FitTrial& trial, std::size_t channel) {
-  return trial.binding.measured[channel].what == Measured::What::torque && trial.noiseFloor[channel] > 0;
+/// A recorded torque that drives a joint. A command is known exactly.
+bool isMeasuredTorque(const FitTrial& trial, const Input& input) {
+  const auto name = parseChannel(trial.recording.channels[input.column]);
+  return input.what == Input::What::command && name &&
+         (name->quantity == "torque_nm" || name->quantity == "torque_n" || name->quantity == "force_n");
 }
 
-/// What noise in the positions makes of torques, by channel.
+bool isDrivenByTorques(const FitTrial& trial) {
+  return std::ranges::any_of(trial.binding.inputs, [&](const Input& input) { return isMeasuredTorque(trial, input); });
+}
+
+/// Columns of inputs that a sensor told.
+std::vector<std::size_t> recordedInputs(const FitTrial& trial) {
+  std::vector<std::size_t> columns = followed(trial);
+  for (const Input& input : trial.binding.inputs)
+    if (isMeasuredTorque(trial, input)) columns.push_back(input.column);
+  return columns;
+}
+
+/// Whether a channel is compared and has noise of recorded inputs in it.
+bool hasInputNoise(const FitTrial& trial, std::size_t channel) {
+  if (!(trial.noiseFloor[channel] > 0)) return false;
+  return isDrivenByTorques(trial) || trial.binding.measured[channel].what == Measured::What::torque;
+}
+
+/// What noise of recorded inputs makes of what is compared, by channel.
 using Spreads = std::map<std::string, Squares>;
 
 void addSpread(const FitProblem& problem, const Segment& segment, const Recording& noisy, Spreads& spreads) {
@@ -46,7 +67,7 @@ void addSpread(const FitProblem& problem, const Segment& segment, const Recordin
   };
   const ReplayedRecording once = replayed(trial.recording), again = replayed(noisy);
   for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
-    if (!isComparedTorque(trial, channel)) continue;
+    if (!hasInputNoise(trial, channel)) continue;
     const std::size_t column = trial.binding.measured[channel].column;
     Squares& spread = spreads[trial.recording.channels[column]];
     for (std::size_t row = segment.scored; row < segment.last; ++row) {
@@ -89,6 +110,10 @@ std::string remedy(const FitProblem& problem) {
          "} filters both, and takes nothing but noise from these motions";
 }
 
+constexpr const char* remedyUnderTorques =
+    "; let the joints follow the recorded motion, \"drive\": \"motion\" in the scene, and torques are compared; or, if "
+    "the torques are exact, name them command_nm (on a slide joint command_n)";
+
 }  // namespace
 
 bool prepareFilteredMotions(FitProblem& problem, bool whole) {
@@ -118,14 +143,14 @@ bool prepareFilteredMotions(FitProblem& problem, bool whole) {
   return prepared;
 }
 
-void addMotionNoise(FitProblem& problem) {
+void addInputNoise(FitProblem& problem) {
   constexpr std::uint64_t seed = 1;
   constexpr double most = 3;  // times the floor without it: then it is nearly all of it
-  if (!std::ranges::any_of(problem.trials, followsMotion)) return;
+  if (std::ranges::all_of(problem.trials, [](const FitTrial& trial) { return recordedInputs(trial).empty(); })) return;
   std::vector<Recording> noisy;
   for (std::size_t t = 0; t < problem.trials.size(); ++t) {
     noisy.push_back(problem.trials[t].recording);
-    for (const std::size_t column : followed(problem.trials[t])) {
+    for (const std::size_t column : recordedInputs(problem.trials[t])) {
       Random random = Random::forPurpose(seed, "noise of a followed motion", t * 1000 + column);
       const std::vector<double> noise = noiseDrawn(problem.trials[t].recording, column, random);
       for (std::size_t row = 0; row < noise.size(); ++row) noisy.back().columns[column][row] += noise[row];
@@ -137,15 +162,19 @@ void addMotionNoise(FitProblem& problem) {
   std::set<std::string> mostly;
   for (FitTrial& trial : problem.trials)
     for (std::size_t channel = 0; channel < trial.binding.measured.size(); ++channel) {
-      if (!isComparedTorque(trial, channel)) continue;
-      const std::string& name = trial.recording.channels[trial.binding.measured[channel].column];
-      const double ofMotion = spreads[name].rms();
-      if (ofMotion > most * trial.noiseFloor[channel] && mostly.insert(name).second)
-        problem.notes.push_back(name + ": the noise of the recorded positions, which the motion is made of, adds " +
-                                digits(ofMotion, 2) + " " + unitOfChannel(name) + " to a floor of " +
-                                digits(trial.noiseFloor[channel], 2) + remedy(problem));
-      trial.noiseFloor[channel] = std::hypot(trial.noiseFloor[channel], ofMotion);
-      for (double& floor : trial.sampleFloor[channel]) floor = std::hypot(floor, ofMotion);
+      if (!hasInputNoise(trial, channel)) continue;
+      const Measured& measured = trial.binding.measured[channel];
+      const bool isTorque = measured.what == Measured::What::torque;
+      const std::string& name = trial.recording.channels[measured.column];
+      const double ofInputs = spreads[name].rms();
+      if (ofInputs > most * trial.noiseFloor[channel] && mostly.insert(name).second)
+        problem.notes.push_back(
+            name + ": the noise of the recorded " +
+            (isTorque ? "positions, which the motion is made of" : "torques, which drive the joints") + ", adds " +
+            digits(ofInputs, 2) + " " + unitOfChannel(name) + " to a floor of " + digits(trial.noiseFloor[channel], 2) +
+            (isTorque ? remedy(problem) : remedyUnderTorques));
+      trial.noiseFloor[channel] = std::hypot(trial.noiseFloor[channel], ofInputs);
+      for (double& floor : trial.sampleFloor[channel]) floor = std::hypot(floor, ofInputs);
     }
 }
 

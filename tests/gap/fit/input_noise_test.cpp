@@ -1,5 +1,6 @@
-// A joint that follows its recorded motion: what the noise of the positions makes of the torque that this takes.
-#include "core/gap/fit/motion_noise.h"
+// What noise of recorded inputs makes of what is compared: of positions that a joint follows in the torque that this
+// takes, of torques that drive it in its positions.
+#include "core/gap/fit/input_noise.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 #include "tests/gap/recorded_hinge.h"
 
 namespace btr {
-namespace motion_noise {
+namespace input_noise {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -118,5 +119,56 @@ TEST(MotionNoise, ATorqueHalfARowLaterIsNoPhysics) {
   EXPECT_NEAR(rootMeanSquare(residuals), 1, 0.2);
 }
 
-}  // namespace motion_noise
+/// The hinge swings a little, by a torque of three sines that is held from row to row. The torque is recorded, or
+/// commanded, with noise of which the hinge knows nothing.
+Recording swingUnderTorque(std::uint64_t number, const std::string& torque) {
+  constexpr double recordedNoise = 5e-3, finePosition = 2e-5;
+  constexpr int substeps = 100;
+  Random random = Random::forPurpose(12, "swing", number);
+  Recording recording;
+  recording.source = "swing_" + std::to_string(number) + ".csv";
+  recording.channels = {"time_s", "rig.hinge.position_rad", "rig.hinge." + torque};
+  recording.columns.resize(3);
+  const double phase = random.uniform(0, 6), h = period_s / substeps;
+  double q = 0, rate = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = i * period_s;
+    double sum = 0;
+    for (const double hertz : {0.4, 0.7, 1.7}) sum += 0.03 * std::sin(2 * M_PI * hertz * t + phase * hertz);
+    recording.columns[0].push_back(t);
+    recording.columns[1].push_back(q + finePosition * random.normal());
+    recording.columns[2].push_back(sum + recordedNoise * random.normal());
+    for (int k = 0; k < substeps; ++k) {
+      rate += h * (sum - weight * std::sin(q)) / inertia;
+      q += h * rate;
+    }
+  }
+  return recording;
+}
+
+FitProblem drivenBy(const std::string& torque) {
+  GapProblem problem = hingeProblem();
+  problem.scene.step_s = problem.scene.controlPeriod_s = period_s;
+  problem.scene.robots[0].servos["hinge"] = {"torque", {}};
+  problem.scene.calibrate.clear();
+  std::vector<Recording> recordings;
+  for (std::uint64_t trial = 0; trial < 6; ++trial) recordings.push_back(swingUnderTorque(trial, torque));
+  return makeFitProblem(problem, recordings, library(), 1);
+}
+
+TEST(TorqueNoise, IsTheSecondIntegralOfTheTorquesNoise) {
+  const FitProblem problem = drivenBy("torque_nm");
+  // White noise a of the acceleration, held for h, on a pendulum of frequency ω: a²·h/(2ω²)·(t − sin(2ωt)/2ω) after t.
+  const double noise = 5e-3 / inertia, omega = std::sqrt(weight / inertia);
+  const double meanSquare =
+      noise * noise * period_s / (2 * omega * omega) * (0.5 - (1 - std::cos(2 * omega)) / (4 * omega * omega));
+  EXPECT_NEAR(problem.trials[0].noiseFloor[0] / std::sqrt(meanSquare), 1, 0.25);
+  EXPECT_NEAR(rootMeanSquareOf(problem), 1, 0.25);
+  EXPECT_THAT(problem.notes, Contains(AllOf(HasSubstr("position_rad: the noise of the recorded torques"),
+                                            HasSubstr("\"drive\": \"motion\""))));
+}
+
+TEST(TorqueNoise, IsNotInACommand) { EXPECT_LT(drivenBy("command_nm").trials[0].noiseFloor[0], 4e-5); }
+
+}  // namespace input_noise
 }  // namespace btr

@@ -81,13 +81,14 @@ struct FitProblem {
   EffectLibrary library;
   std::vector<FitTrial> trials;
   std::vector<Segment> segments;
-  int blocks = 0;           ///< number of scoring blocks over all trials
-  double block_s = 0.5;     ///< their length
-  double window_s = 0;      ///< length of a segment; 0: whole trials run freely
-  double givenStep_s = 0;   ///< the scene's own; `scene` has that of the fits
-  bool impacts = false;     ///< of a tossed body: windows begin between them, where its motion tells its state
-  bool walks = false;       ///< a robot with a free base and joints: free runs, compared over their first steps
-  bool mayCoarsen = false;  ///< no contacts of a free body: a coarser step was tried
+  int blocks = 0;             ///< number of scoring blocks over all trials
+  double block_s = 0.5;       ///< their length
+  double window_s = 0;        ///< length of a segment; 0: whole trials run freely
+  double givenStep_s = 0;     ///< the scene's own; `scene` has that of the fits
+  bool impacts = false;       ///< of a tossed body: windows begin between them, where its motion tells its state
+  bool walks = false;         ///< a robot with a free base and joints: free runs, compared over their first steps
+  bool noisyTorques = false;  ///< those that were recorded and drive joints: of some floor, their noise is nearly all
+  bool mayCoarsen = false;    ///< no contacts of a free body: a coarser step was tried
   /// Of a parameter's scale, for derivatives. Where feet land, small differences show only the landing's roughness.
   double differenceStep = 1e-2;
   /// Of the scene's step, the finest that fits go to: an eighth, as a servo in and out of saturation needs it. (Of

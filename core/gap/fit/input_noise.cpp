@@ -167,12 +167,14 @@ void addInputNoise(FitProblem& problem) {
       const bool isTorque = measured.what == Measured::What::torque;
       const std::string& name = trial.recording.channels[measured.column];
       const double ofInputs = spreads[name].rms();
-      if (ofInputs > most * trial.noiseFloor[channel] && mostly.insert(name).second)
+      if (ofInputs > most * trial.noiseFloor[channel] && mostly.insert(name).second) {
+        problem.noisyTorques = problem.noisyTorques || !isTorque;
         problem.notes.push_back(
             name + ": the noise of the recorded " +
             (isTorque ? "positions, which the motion is made of" : "torques, which drive the joints") + ", adds " +
             digits(ofInputs, 2) + " " + unitOfChannel(name) + " to a floor of " + digits(trial.noiseFloor[channel], 2) +
             (isTorque ? remedy(problem) : remedyUnderTorques));
+      }
       trial.noiseFloor[channel] = std::hypot(trial.noiseFloor[channel], ofInputs);
       for (double& floor : trial.sampleFloor[channel]) floor = std::hypot(floor, ofInputs);
     }

@@ -171,7 +171,8 @@ std::string toJsonText(const GapReport& report) {
   json document{{"format", "uchilsim-gap-report-1"},
                 {"verdict", toText(report.verdict)},
                 {"explained_share", finite(report.explainedShare)},
-                {"sentence", report.sentence}};
+                {"sentence", report.sentence},
+                {"next_step", report.nextStep}};
   for (const char* list : {"located", "effects"}) document[list] = json::array();
   for (const GapReport::Located& located : report.located) document["located"].push_back(toJson(located));
   for (const GapReport::Effect& effect : report.tried)

@@ -175,7 +175,8 @@ void addNext(ReportLead& lead, const GapReport& report) {
   };
   switch (report.verdict) {
     case Verdict::notExcited:
-      say("Record larger and faster motions, with reversals, then analyse again.");
+      say(report.nextStep.empty() ? "Record larger and faster motions, with reversals, then analyse again."
+                                  : report.nextStep);
       break;
     case Verdict::noMismatch:
       say("Nothing to adopt. If the task goes further than these recordings (speed, load, ground), record that, too.");

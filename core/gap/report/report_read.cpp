@@ -250,6 +250,7 @@ GapReport reportFromJson(const std::string& text, const std::string& place, std:
   report.verdict = verdictOf(r);
   if (r.any("explained_share")) report.explainedShare = numberOf(r, "explained_share");
   report.sentence = r.text("sentence");
+  report.nextStep = r.text("next_step", "");
   r.array("located", [&](JsonReader entry) { report.located.push_back(locatedFrom(entry)); });
   // The accepted ones stand among all that were tried.
   r.array("effects", [](JsonReader) {});

@@ -155,6 +155,7 @@ struct GapReport {
 
   Verdict verdict = Verdict::notExcited;
   std::string sentence;                         ///< the whole finding in a few sentences
+  std::string nextStep;                         ///< what to do first, where the verdict alone does not tell it; or ""
   std::vector<Located> located;                 ///< largest share first
   std::vector<Effect> tried;                    ///< accepted first, then by held-out gain
   std::vector<Number> calibrated;               ///< names are the scene's paths

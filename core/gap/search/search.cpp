@@ -125,8 +125,9 @@ std::optional<std::size_t> StructureSearch::winnerOf(std::vector<TriedCandidate>
 bool StructureSearch::isNothingLeft(double ofLaws) const {
   // What the integration itself is wrong by, ours or the recording's, is not physics that was left out.
   const double ofOthers = selection_.final.aligned.numericalFloor(service_.thresholds().shift.ofTaken);
-  return selection_.final.mean() < service_.thresholds().screening.nothingLeft + ofLaws + ofOthers +
-                                       stepErrorOf(service_.stepChange(selection_.final.fit));
+  const SearchThresholds::Screening& limits = service_.thresholds().screening;
+  const double nothing = service_.problem().noisyTorques ? limits.nothingUnderTorques : limits.nothingLeft;
+  return selection_.final.mean() < nothing + ofLaws + ofOthers + stepErrorOf(service_.stepChange(selection_.final.fit));
 }
 
 void StructureSearch::refine() {

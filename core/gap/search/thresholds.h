@@ -168,6 +168,8 @@ struct SearchThresholds {
     double aboutAsMuch = 0.25;            ///< promise of those, of the best one's, where the best is found and leaves
                                           ///< more than lastChanceExcess [case: a sensor's lag of 48 ms]
     double nothingLeft = 1.03;            ///< error, less that of the integration: nothing is looked for [hand]
+    double nothingUnderTorques = 1.5;     ///< the same where floors are the noise of recorded torques, which a few
+                                          ///< windows tell to a quarter [arithmetic]
     double imperfect = 1e-3;              ///< of what the effects take, and no more than
     double imperfectMost = 0.8;           ///< may be left of it: their laws are not the plant's in every detail [case:
                                           ///< dry friction that another integrator smooths]

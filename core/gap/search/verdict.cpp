@@ -192,11 +192,20 @@ bool tellsNothing(const Findings& e, const SearchThresholds::Verdict& limits) {
   return e.calibrated <= limits.unexplained && !e.calibrationHelps && !e.identifiable && (!e.moves || e.tried);
 }
 
-std::string tellsNothingText(const Findings& e, const SearchThresholds::Verdict& limits) {
-  return (e.moves
-              ? "These recordings are sensitive to none of the calibrated numbers, and to no effect of a typical size"
-              : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
-         ": they cannot tell the simulator from reality. Record larger and faster motions, with reversals.";
+void judgeUntold(GapReport& report, const FitProblem& problem, const Findings& e,
+                 const SearchThresholds::Verdict& limits) {
+  report.verdict = Verdict::notExcited;
+  if (problem.noisyTorques)
+    report.nextStep =
+        "Let the joints follow the recorded motion (\"drive\": \"motion\" in the scene), then analyse again: torques "
+        "are "
+        "compared then, which noise in them disturbs less.";
+  report.sentence =
+      (e.moves ? "These recordings are sensitive to none of the calibrated numbers, and to no effect of a typical size"
+               : "Nothing in these recordings moves by more than " + toText(limits.leastMotion) + noiseFloors) +
+      (problem.noisyTorques ? ", as the noise of the recorded torques moves the joints by about as much" : "") +
+      ": they cannot tell the simulator from reality. " +
+      (problem.noisyTorques ? report.nextStep : "Record larger and faster motions, with reversals.");
 }
 
 std::string errorText(const Findings& e) {
@@ -363,8 +372,7 @@ void judge(GapReport& report, const FitProblem& problem, const SearchResult& fou
   report.remainder.explainedShare = e.excess > 0 ? std::clamp(1 - std::max(0.0, e.final - 1) / e.excess, 0.0, 1.0) : 1;
   if (e.given > 0) report.explainedShare = std::clamp(1 - e.final / e.given, 0.0, 1.0);
   if (tellsNothing(e, limits)) {
-    report.verdict = Verdict::notExcited;
-    report.sentence = tellsNothingText(e, limits);
+    judgeUntold(report, problem, e, limits);
     return;
   }
   const bool hasUntestedShape =

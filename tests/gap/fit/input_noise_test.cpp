@@ -121,8 +121,8 @@ TEST(MotionNoise, ATorqueHalfARowLaterIsNoPhysics) {
 
 /// The hinge swings a little, by a torque of three sines that is held from row to row. The torque is recorded, or
 /// commanded, with noise of which the hinge knows nothing.
-Recording swingUnderTorque(std::uint64_t number, const std::string& torque) {
-  constexpr double recordedNoise = 5e-3, finePosition = 2e-5;
+Recording swingUnderTorque(std::uint64_t number, const std::string& torque, double recordedNoise) {
+  constexpr double finePosition = 2e-5;
   constexpr int substeps = 100;
   Random random = Random::forPurpose(12, "swing", number);
   Recording recording;
@@ -146,20 +146,27 @@ Recording swingUnderTorque(std::uint64_t number, const std::string& torque) {
   return recording;
 }
 
-FitProblem drivenBy(const std::string& torque) {
+constexpr double littleNoise = 5e-3, muchNoise = 0.5;
+
+GapProblem drivenBy(const std::string& torque, double recordedNoise) {
   GapProblem problem = hingeProblem();
   problem.scene.step_s = problem.scene.controlPeriod_s = period_s;
   problem.scene.robots[0].servos["hinge"] = {"torque", {}};
   problem.scene.calibrate.clear();
-  std::vector<Recording> recordings;
-  for (std::uint64_t trial = 0; trial < 6; ++trial) recordings.push_back(swingUnderTorque(trial, torque));
-  return makeFitProblem(problem, recordings, library(), 1);
+  for (std::uint64_t trial = 0; trial < 6; ++trial)
+    problem.recordings.push_back(swingUnderTorque(trial, torque, recordedNoise));
+  return problem;
+}
+
+FitProblem preparedUnder(const std::string& torque) {
+  const GapProblem problem = drivenBy(torque, littleNoise);
+  return makeFitProblem(problem, problem.recordings, library(), 1);
 }
 
 TEST(TorqueNoise, IsTheSecondIntegralOfTheTorquesNoise) {
-  const FitProblem problem = drivenBy("torque_nm");
+  const FitProblem problem = preparedUnder("torque_nm");
   // White noise a of the acceleration, held for h, on a pendulum of frequency ω: a²·h/(2ω²)·(t − sin(2ωt)/2ω) after t.
-  const double noise = 5e-3 / inertia, omega = std::sqrt(weight / inertia);
+  const double noise = littleNoise / inertia, omega = std::sqrt(weight / inertia);
   const double meanSquare =
       noise * noise * period_s / (2 * omega * omega) * (0.5 - (1 - std::cos(2 * omega)) / (4 * omega * omega));
   EXPECT_NEAR(problem.trials[0].noiseFloor[0] / std::sqrt(meanSquare), 1, 0.25);
@@ -168,7 +175,13 @@ TEST(TorqueNoise, IsTheSecondIntegralOfTheTorquesNoise) {
                                             HasSubstr("\"drive\": \"motion\""))));
 }
 
-TEST(TorqueNoise, IsNotInACommand) { EXPECT_LT(drivenBy("command_nm").trials[0].noiseFloor[0], 4e-5); }
+TEST(TorqueNoise, IsNotInACommand) { EXPECT_LT(preparedUnder("command_nm").trials[0].noiseFloor[0], 4e-5); }
+
+TEST(TorqueNoise, ThatHidesTheMotionNamesNothingAndTheWayRoundIt) {
+  const GapReport report = analyse(drivenBy("torque_nm", muchNoise), library(), {});
+  EXPECT_EQ(report.verdict, GapReport::Verdict::notExcited) << report.sentence;
+  EXPECT_THAT(report.nextStep, HasSubstr("\"drive\": \"motion\""));
+}
 
 }  // namespace input_noise
 }  // namespace btr

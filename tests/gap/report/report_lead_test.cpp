@@ -106,6 +106,8 @@ TEST(ReportLead, SaysWhatStandsInTheWay) {
   GapReport report = sampleReport();
   report.verdict = GapReport::Verdict::notExcited;
   EXPECT_THAT(leadOf(report).next.at(0), HasSubstr("Record larger and faster motions"));
+  report.nextStep = "Let the joints follow the recorded motion.";
+  EXPECT_EQ(leadOf(report).next.at(0), report.nextStep);
   EXPECT_THAT(leadOf(sampleReport()).next, testing::Contains(HasSubstr("next_command.csv")));
   EXPECT_THAT(leadOf(sampleReport()).next, testing::Contains(HasSubstr("links.lower.mass_kg ends at its bound")));
 }

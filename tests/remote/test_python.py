@@ -2,8 +2,11 @@
    python3 test_python.py BTR RESOURCES"""
 import itertools
 import json
+import multiprocessing
 import os
 import pathlib
+import pickle
+import queue
 import resource
 import shutil
 import subprocess
@@ -253,6 +256,24 @@ class Mistakes(WithServer):
         self.refused("the client is closed", client.info, uchilsim.NotNow)
         self.refused("127.0.0.1:1: no server answers there", uchilsim.Client("127.0.0.1:1").info, uchilsim.Unreachable)
 
+    def test_tokens_and_certificates(self):
+        for token in (5, "two words", "line\nline", "é", " "):
+            self.refused("token: what was given is not allowed", lambda: uchilsim.Client(self.server.address, token))
+        with uchilsim.Client(self.server.address, "0123456789abcdef\n") as client:  # as a file has it
+            self.assertEqual("drive", client.info().role)
+        for file in ("/nowhere/cert.pem", __file__, 5):
+            self.refused(f"certificate: {file!r}"[:50], lambda: uchilsim.Client("127.0.0.1:1", certificate=file))
+
+    def test_what_cannot_be_copied_says_so(self):
+        with uchilsim.Env(self.client, DOG) as env:
+            for thing in (self.client, env, env.world):
+                self.refused("cannot be copied or sent to another process", lambda: pickle.dumps(thing))
+
+    def test_an_answer_that_does_not_come_in_time(self):
+        experiment = self.client.experiment("experiments/kick-short.json")
+        self.refused("no answer in the time that the call had",
+                     lambda: experiment.evaluate(np.tile(experiment.start, (100, 1)), timeout=0.01), uchilsim.TooLate)
+
 
 class Programs(unittest.TestCase):
     """Robots whose games have an OPEN-R stick in them."""
@@ -393,6 +414,14 @@ class Cameras(WithServer):
             world.play(1)
             self.assertEqual(3, len(list(itertools.islice(world.pictures("robot"), 3))))
 
+    def test_a_frame_is_the_callers_own(self):
+        with self.client.open(DOG) as world:
+            for shared in (True, False):
+                with uchilsim.Client(self.server.address, shared_pictures=shared) as client:
+                    picture = client.world(world.name).picture("robot")
+                    picture[:] = 0
+                    self.assertGreater(client.world(world.name).picture("robot").max(), 0)
+
     def test_memory_with_frames_is_gone_with_its_world_however_that_ends(self):
         server = Server()
         client = uchilsim.Client(server.address)
@@ -521,6 +550,32 @@ class Environments(WithServer):
             self.assertEqual(env.world.state().period, env.state.period)
         vector.close()
 
+    def test_a_world_that_is_opened_when_ctrl_c_comes_is_closed(self):
+        closed = queue.SimpleQueue()
+        close_opened = self.client._close_opened
+
+        class Interrupted:
+            """Ctrl-C while the answer is on its way."""
+
+            def __init__(self, call):
+                self.add_done_callback = call.add_done_callback
+
+            def result(self):
+                raise KeyboardInterrupt
+
+        begin = self.client._worlds.Open.future
+        before = self.client.worlds()
+        closing = mock.patch.object(self.client, "_close_opened", lambda call: closed.put(close_opened(call)))
+        with closing, mock.patch.object(self.client._worlds, "Open") as Open, self.assertRaises(KeyboardInterrupt):
+            Open.future = lambda *args, **more: Interrupted(begin(*args, **more))
+            self.client.open(DOG)
+        closed.get(timeout=60).result()
+        with closing, mock.patch("uchilsim.client.World", side_effect=KeyboardInterrupt):  # it has just come
+            with self.assertRaises(KeyboardInterrupt):
+                self.client.open(DOG)
+        closed.get(timeout=60).result()
+        self.assertEqual(before, self.client.worlds())
+
     def test_what_cannot_be_made_leaves_no_world_behind(self):
         before = self.client.worlds()
         for make in (lambda: uchilsim.Env(self.client, DOG, joints=["WING"]),
@@ -559,6 +614,73 @@ class Environments(WithServer):
         self.assertFalse(box.contains(np.array([2, 0, 0], np.float32)))
         self.assertFalse(box.contains(np.zeros(2, np.float32)))
         self.assertEqual(box, _Box([-1, 0, -np.inf], [1, np.inf, np.inf], dtype=np.float32))
+        self.assertEqual([True, True, False], box.bounded_below.tolist())
+        self.assertEqual([True, False, False], box.bounded_above.tolist())
+        self.assertEqual([False, False, False], [box.is_bounded(m) for m in ("below", "above", "both")])
+        self.assertTrue(_Box(0, 1, (2,)).is_bounded())
+        with self.assertRaises(uchilsim.Refused):
+            box.is_bounded("sideways")
+        self.assertIsInstance(box.np_random, np.random.Generator)
+
+    def test_numbers_of_a_vector_are_those_of_its_seed_and_options_a_dictionary(self):
+        with uchilsim.Env(self.client, DOG, joints=[]) as env:
+            self.assertEqual((0,), env.action_space.shape)
+            env.reset(options={})
+            env.step(env.action_space.sample())
+            with self.assertRaisesRegex(uchilsim.Refused, "options: .* is not allowed; a dictionary"):
+                env.reset(options=[1])
+        vector = uchilsim.VectorEnv(1, self.client, DOG)
+        vector.reset(seed=3)
+        self.assertEqual(3, vector.np_random_seed)
+        self.assertEqual(np.random.default_rng(3).integers(1000), vector.np_random.integers(1000))
+        vector.close()
+
+
+class Forks(WithServer):
+    """Processes that are forked, as multiprocessing does it by itself."""
+
+    def test_one_that_is_forked_has_a_connection_of_its_own_and_its_parent_keeps_its(self):
+        context = multiprocessing.get_context("fork")
+        answers = context.SimpleQueue()
+
+        def work(env):
+            try:
+                env.step(np.zeros(18))
+            except uchilsim.NotNow as error:
+                answers.put(str(error))
+            with uchilsim.Env(self.server.address, DOG) as own:
+                own.reset(seed=1)
+                answers.put(own.step(np.zeros(18))[0].tolist())
+
+        with uchilsim.Env(self.client, DOG) as env:
+            env.reset(seed=1)
+            expected = env.step(np.zeros(18))[0].tolist()
+            child = context.Process(target=work, args=(env,))
+            child.start()
+            self.assertIn("make a Client in each process", answers.get())
+            self.assertEqual(expected, answers.get())
+            child.join()
+            self.assertEqual(0, child.exitcode)
+            env.step(np.zeros(18))
+            with uchilsim.Client(self.server.address) as fresh:
+                self.assertEqual("drive", fresh.info().role)
+
+    def test_where_grpc_came_first_a_forked_process_says_what_to_do(self):
+        program = """
+import grpc, os, sys, uchilsim
+uchilsim.Client(sys.argv[1]).info()
+if os.fork() == 0:
+    try:
+        uchilsim.Client(sys.argv[1])
+    except uchilsim.NotNow as error:
+        print(error, flush=True)
+    os._exit(0)
+os.wait()
+"""
+        own = {name: value for name, value in os.environ.items() if name != "GRPC_ENABLE_FORK_SUPPORT"}
+        said = subprocess.run([sys.executable, "-c", program, self.server.address], env=own, capture_output=True, text=True,
+                              check=True)
+        self.assertIn("import uchilsim first", said.stdout)
 
 
 class Learning(WithServer):
@@ -642,7 +764,8 @@ class Kills(unittest.TestCase):
             log = server.folder / "games" / world.log_file
             replay = subprocess.run([BTR, "--json", "live", str(log.with_suffix(".json")), "--replay", str(log)],
                                     capture_output=True, text=True, check=True)
-            self.assertEqual(9, json.loads(replay.stdout)["periods"])  # up to its last act
+            # Up to its last act, or to the end where the world still saw that the server was gone.
+            self.assertIn(json.loads(replay.stdout)["periods"], (9, 10))
             db = str(server.folder / "a.db")
             subprocess.run([BTR, "check", "--db", db], capture_output=True, check=True)
             # Nobody works on it any more, so that it could go on at once.
@@ -676,9 +799,16 @@ class Access(unittest.TestCase):
             for token, given in (("0123456789abcdef012345678", certificate), (None, certificate)):
                 with uchilsim.Client(server.address, token, given) as client, self.assertRaises(uchilsim.NoAccess):
                     client.info()
-            with uchilsim.Client(server.address, "0123456789abcdef0123456789") as client:
-                with self.assertRaises(uchilsim.Unreachable):
-                    client.info()
+            subprocess.run(["openssl", "req", "-x509", "-key", str(folder / "key.pem"), "-days", "1", "-subj", "/CN=other",
+                            "-addext", "subjectAltName=IP:127.0.0.2", "-out", str(folder / "other.pem")], check=True,
+                           capture_output=True)
+            port = server.said["port"]
+            for address, given, why in ((server.address, None, "wants certificate=FILE"),
+                                        (f"localhost:{port}", certificate, "connect to one of its subjectAltName"),
+                                        (server.address, folder / "other.pem", "the server's certificate is another one")):
+                with uchilsim.Client(address, "0123456789abcdef0123456789", given) as client:
+                    with self.assertRaisesRegex(uchilsim.Unreachable, why):
+                        client.info()
             with uchilsim.Client(server.address, "abcdef0123456789abcdef", certificate) as client:
                 client.shut_down()
             self.assertEqual(0, server.process.wait(30))

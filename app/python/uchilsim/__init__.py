@@ -9,6 +9,8 @@
 All quantities are SI: m, kg, s, rad, N, N·m; quaternions are w, x, y, z. Needs grpcio, protobuf and numpy.
 """
 
+from . import forks  # noqa: F401  before gRPC
+
 try:
     import google.protobuf  # noqa: F401
     import grpc  # noqa: F401

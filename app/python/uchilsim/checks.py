@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import pathlib
 from typing import Any, Sequence
 
 import numpy as np
@@ -62,6 +63,25 @@ def targets(robot: str, values: Any, joints: int | None, periods: int) -> np.nda
         if array.shape not in ((joints,), (periods, joints), (periods * joints,)):
             raise Refused(f"targets of {robot}: shape {array.shape} is not allowed; {allowed}")
     return array.ravel()
+
+
+def token_of(value: Any) -> str:
+    """A token as it is sent; what a file has around it does not count. No sentence shows it."""
+    text = value.strip() if isinstance(value, str) else ""
+    if not text or not text.isascii() or not text.isprintable() or " " in text:
+        raise Refused("token: what was given is not allowed; the text behind the role in the server's token file")
+    return text
+
+
+def certificate_of(file: Any) -> bytes:
+    """What a file with a certificate contains."""
+    try:
+        contents = pathlib.Path(file).read_bytes()
+    except (OSError, TypeError) as error:
+        raise Refused(f"certificate: {short(file)} is not allowed; a file that can be read ({error})") from None
+    if b"BEGIN CERTIFICATE" not in contents:
+        raise Refused(f"certificate: {short(file)} is not allowed; a file with a certificate (PEM)")
+    return contents
 
 
 def finite(what: str, value: Any) -> float:

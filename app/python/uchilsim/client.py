@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 from dataclasses import dataclass
 from typing import Mapping, Sequence
@@ -10,9 +11,10 @@ from typing import Mapping, Sequence
 import grpc
 import numpy as np
 
+from . import forks
 from . import uchilsim_pb2 as pb
 from . import uchilsim_pb2_grpc as services
-from .checks import made, numbers, short
+from .checks import certificate_of, made, numbers, short, token_of
 from .errors import NotFound, Refused, Unreachable, sentences
 from .learning import Run
 from .numbers import Number, clipped, lower_of, upper_of
@@ -139,17 +141,19 @@ class Client:
                  certificate: str | pathlib.Path | None = None, timeout: float = 60.0, shared_pictures: bool = True):
         if not isinstance(address, str):
             raise Refused(f"address: {short(address)} is not allowed; \"HOST:PORT\" or \"unix:PATH\"")
+        forks.check_new()
+        self._process = os.getpid()
         options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0),
                    # A server that vanishes without a word is noticed, however long a call may take.
                    ("grpc.keepalive_time_ms", 60000), ("grpc.keepalive_timeout_ms", 20000)]
         if certificate is None:
             self._channel = grpc.insecure_channel(address, options)
         else:
-            credentials = grpc.ssl_channel_credentials(pathlib.Path(certificate).read_bytes())
+            credentials = grpc.ssl_channel_credentials(certificate_of(certificate))
             self._channel = grpc.secure_channel(address, credentials, options)
         self._timeout = timeout
         self.shared_pictures = shared_pictures
-        self._metadata = (("authorization", "Bearer " + token),) if token else ()
+        self._metadata = (("authorization", "Bearer " + token_of(token)),) if token else ()
         self._worlds = services.WorldsStub(self._channel)
         self._learning = services.LearningStub(self._channel)
         self.address = address
@@ -158,7 +162,15 @@ class Client:
     def timeout(self) -> float:
         return self._timeout
 
+    def check_process(self) -> None:
+        """Raises NotNow in a process that was forked from the one that made this."""
+        forks.check_made(self._process)
+
+    def __reduce__(self):
+        raise Refused("a Client, and who has one, cannot be copied or sent to another process; make one there")
+
     def _call(self, method, request, timeout: float | None = ...):
+        self.check_process()
         with sentences(self.address):
             return method(request, timeout=self._timeout if timeout is ... else timeout, metadata=self._metadata)
 
@@ -194,7 +206,19 @@ class Client:
             request.game_json, request.directory = _json("game", game), directory
         else:
             raise Refused(f"game: {short(game)} is not allowed; a file below the server's folder, or a dictionary")
-        return World(self, self._call(self._worlds.Open, request))
+        self.check_process()
+        with sentences(self.address):
+            call = self._worlds.Open.future(request, timeout=self._timeout, metadata=self._metadata)
+            try:
+                return World(self, call.result())
+            except BaseException:  # Ctrl-C: nobody else could close what is still opened
+                call.add_done_callback(self._close_opened)
+                raise
+
+    def _close_opened(self, call: grpc.Future) -> grpc.Future | None:
+        if not call.cancelled() and call.exception() is None:
+            return self._worlds.Close.future(pb.CloseRequest(world=call.result().world), metadata=self._metadata)
+        return None
 
     def worlds(self) -> list[str]:
         """Names of all worlds that run."""

@@ -40,7 +40,7 @@ class _Task:
             if joint not in self.robot.joints:
                 raise NotFound(f"joints: {joint!r} is not allowed; one of {list(self.robot.joints)}")
         self.joints = chosen
-        self.at = np.array([self.robot.joints.index(joint) for joint in chosen])
+        self.at = np.array([self.robot.joints.index(joint) for joint in chosen], dtype=int)
         self.base = [f"{name}.base.{q}" for q in ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")]
         self.observed = checks.names("observation", observation) if observation is not None else self._usual(world, name)
         for channel in self.observed:
@@ -97,7 +97,34 @@ class _Task:
         return 1 - 2 * (qx * qx + qy * qy) < 0.5
 
 
-class Env(EnvBase):
+class _Seeded:
+    """An environment's random numbers, from the seed of reset()."""
+
+    _np_random: np.random.Generator | None = None
+    _np_random_seed: int | None = None
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        if self._np_random is None:
+            self._np_random = np.random.default_rng()
+        return self._np_random
+
+    @np_random.setter
+    def np_random(self, value: np.random.Generator) -> None:
+        self._np_random, self._np_random_seed = value, -1
+
+    @property
+    def np_random_seed(self) -> int | None:
+        """The seed of reset(); None: none was given, -1: the numbers were set."""
+        return self._np_random_seed
+
+    def _seed(self, seed: int | None) -> None:
+        if seed is not None:
+            self._np_random_seed = checks.whole("seed", seed, 0)
+            self._np_random = np.random.default_rng(self._np_random_seed)
+
+
+class Env(_Seeded, EnvBase):
     """One robot of one world. step(action): what its joints are told, for frame_skip control periods.
 
     client: a Client, or the address of a server. game: see Client.open().
@@ -135,8 +162,6 @@ class Env(EnvBase):
             raise
         self.observation_space = self._task.observation_space
         self.action_space = self._task.action_space
-        self._np_random = np.random.default_rng()
-        self._np_random_seed: int | None = None
         self._state: State | None = None
         self._steps = 0
         self._begun = 0      # the period in which the episode began
@@ -145,19 +170,6 @@ class Env(EnvBase):
     @property
     def unwrapped(self) -> "Env":
         return self
-
-    @property
-    def np_random(self) -> np.random.Generator:
-        return self._np_random
-
-    @np_random.setter
-    def np_random(self, value: np.random.Generator) -> None:
-        self._np_random, self._np_random_seed = value, -1
-
-    @property
-    def np_random_seed(self) -> int | None:
-        """The seed of reset(); None: none was given, -1: the numbers were set."""
-        return self._np_random_seed
 
     @property
     def state(self) -> State | None:
@@ -170,11 +182,11 @@ class Env(EnvBase):
         options: {"acts": […]}, what reaches into the world before it begins, see World.act()."""
         if self.world is None:
             raise NotNow("reset() after close(); make a new environment")
-        if seed is not None:
-            seed = checks.whole("seed", seed, 0)
-            self._np_random, self._np_random_seed = np.random.default_rng(seed), seed
+        self._seed(seed)
+        if options is not None and not isinstance(options, Mapping):
+            raise Refused(f"options: {checks.short(options)} is not allowed; a dictionary")
         acts = (options or {}).get("acts", ())
-        self._state = self.world.reset(seed=_random_seed(self._np_random), acts=acts)
+        self._state = self.world.reset(seed=_random_seed(self.np_random), acts=acts)
         self._task.begin(self._state)
         self._steps, self._begun, self._lost = 0, self._state.period, False
         return self._task.observe(self._state), {"time_s": self._state.time_s}
@@ -234,7 +246,7 @@ class Env(EnvBase):
         return f"<Env of {self._task.robot.name}>"
 
 
-class VectorEnv(VectorEnvBase):
+class VectorEnv(_Seeded, VectorEnvBase):
     """num_envs such environments, each with a world and a process of its own, that step side by side.
 
     Arrays have the environments first: observations (num_envs, channels), rewards, terminations, truncations
@@ -290,6 +302,8 @@ class VectorEnv(VectorEnvBase):
         if self.closed:
             raise NotNow("reset() after close(); make new environments")
         seeds = checks.seeds(seed, self.num_envs)
+        if np.ndim(seed) == 0:
+            self._seed(seed)
         results = [env.reset(seed=s, options=options) for env, s in zip(self.envs, seeds)]
         self._over[:] = False
         return np.stack([observation for observation, _ in results]), self._gathered([info for _, info in results])

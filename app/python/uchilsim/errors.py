@@ -60,14 +60,33 @@ _KINDS = {
 
 _NOBODY = ("failed to connect", "DNS resolution failed", "Endpoint closing", "Socket closed", "recvmsg:")
 
+# Somebody is there, but the connection is not made: what gRPC says of it, and what to do.
+_NOT_LET_IN = {
+    "Socket closed": "who listens there lets nobody in without TLS, or is no server; one with --tls wants certificate=FILE",
+    "wrong version number": "the server there does without TLS; leave out certificate",
+    "is not in peer certificate": "the server's certificate is for another name; connect to one of its subjectAltName",
+    "certificate verify failed": "the server's certificate is another one; copy the file that it has as --tls",
+}
+
+
+def _why_not(details: str) -> str:
+    if details.startswith("failed to connect"):
+        for said, why in _NOT_LET_IN.items():
+            if details.endswith(said):
+                return why
+    return "no server answers there; start one with btr serve"
+
 
 def error_of(error: grpc.RpcError, address: str = "") -> Error:
     """The package's error for one of gRPC's. address: of the server, for the sentence that it does not answer."""
-    if address and error.code() == grpc.StatusCode.UNAVAILABLE and (error.details() or "").startswith(_NOBODY):
-        return Unreachable(f"{address}: no server answers there; start one with btr serve")
-    if "channel closed" in (error.details() or "").lower():
+    details = error.details() or ""
+    if address and error.code() == grpc.StatusCode.UNAVAILABLE and details.startswith(_NOBODY):
+        return Unreachable(f"{address}: {_why_not(details)}")
+    if error.code() == grpc.StatusCode.DEADLINE_EXCEEDED and details == "Deadline Exceeded":
+        return TooLate(f"{address}: no answer in the time that the call had; see timeout")
+    if "channel closed" in details.lower():
         return NotNow("the client was closed while it waited for an answer")
-    return _KINDS.get(error.code(), Error)(error.details() or str(error.code()))
+    return _KINDS.get(error.code(), Error)(details or str(error.code()))
 
 
 @contextlib.contextmanager

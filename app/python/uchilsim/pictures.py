@@ -173,5 +173,5 @@ class Camera:
 
     @staticmethod
     def _frame(reply) -> Frame:
-        picture = np.frombuffer(reply.rgb, np.uint8).reshape(reply.height, reply.width, 3)
+        picture = np.frombuffer(reply.rgb, np.uint8).reshape(reply.height, reply.width, 3).copy()  # the caller's own
         return Frame(reply.number, reply.period, picture)

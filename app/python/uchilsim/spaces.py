@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from .checks import short
+from .errors import Refused
+
 
 class _Box:
     """All arrays x of a shape with low ≤ x ≤ high, number by number."""
@@ -16,6 +19,26 @@ class _Box:
         self.low = np.broadcast_to(np.asarray(low, self.dtype), self.shape).copy()
         self.high = np.broadcast_to(np.asarray(high, self.dtype), self.shape).copy()
         self._random = np.random.default_rng(seed)
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        return self._random
+
+    @property
+    def bounded_below(self) -> np.ndarray:
+        return self.low > -np.inf
+
+    @property
+    def bounded_above(self) -> np.ndarray:
+        return self.high < np.inf
+
+    def is_bounded(self, manner: str = "both") -> bool:
+        """manner: "below", "above" or "both"."""
+        bounded = {"below": self.bounded_below, "above": self.bounded_above,
+                   "both": self.bounded_below & self.bounded_above}
+        if manner not in bounded:
+            raise Refused(f"manner: {short(manner)} is not allowed; one of {list(bounded)}")
+        return bool(np.all(bounded[manner]))
 
     def seed(self, seed=None):
         self._random = np.random.default_rng(seed)

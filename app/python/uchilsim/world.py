@@ -93,6 +93,10 @@ class State:
     def __len__(self) -> int:
         return len(self.channels)
 
+    def __repr__(self) -> str:
+        fault = f", {self.fault}" if self.fault else ""
+        return f"<state of {self.world!r} at {self.time_s:g} s, {len(self)} channels{fault}>"
+
     def keys(self) -> Sequence[str]:
         return self.channels
 
@@ -179,11 +183,11 @@ class PoseStream:
 class World:
     """A running world of the server. Made by Client.open() and Client.world(); closed by close() or `with`."""
 
-    _client: "Client"
-    _message: Any
+    _client: "Client" = field(repr=False)
+    _message: Any = field(repr=False)
     name: str = field(init=False)
-    channels: list[str] = field(init=False)
-    robots: dict[str, Robot] = field(init=False)
+    channels: list[str] = field(init=False, repr=False)
+    robots: dict[str, Robot] = field(init=False, repr=False)
 
     def __post_init__(self):
         self._steps: _Steps | None = None
@@ -292,6 +296,7 @@ class World:
 
     # ---- time
     def _request(self, periods, targets, acts, channels, links, contacts):
+        self._client.check_process()
         request = made(pb.StepRequest, world=self.name, periods=periods, acts=acts)
         if targets is not None and not isinstance(targets, Mapping):
             raise Refused(f"targets: {checks.short(targets)} is not allowed; a dictionary by robot")

@@ -33,6 +33,7 @@ struct RunKeeper::Work {
   bool answering = false;              ///< an answer is on its way to the learner
   std::optional<std::string> refused;  ///< what the learner said of it; "" if it was taken
   Clock::time_point asked;
+  std::string stopping;  ///< why it is to stop; "" while it is not
   bool endTold = false, over = false;
   RunNews::What end = RunNews::What::stopped;
   std::string message;
@@ -55,6 +56,7 @@ struct RunKeeper::Work {
       number = object.at("ask").get<long>();
       question = line;
       asked = Clock::now();
+      if (!stopping.empty()) tellEnd(stopping);  // it had not looked yet whether it is to stop
     } else if (object.contains("taken")) {
       taken = number;
       question.clear();
@@ -160,6 +162,8 @@ void RunKeeper::begin(Id run, double patience_s) {
   for (const auto& [id, work] : works_) {
     const std::lock_guard each(work->mutex);
     if (work->over) continue;
+    if (id == run && !work->stopping.empty())
+      throw Refusal(Code::notNow, "run " + std::to_string(run) + " is still about to stop; continue it when it has");
     if (id == run) return;
     ++active;
   }
@@ -198,6 +202,13 @@ bool RunKeeper::isHere(Id run) const {
   if (!work) return false;
   const std::lock_guard lock(work->mutex);
   return !work->over;
+}
+
+bool RunKeeper::isToStop(Id run) const {
+  const auto work = find(run);
+  if (!work) return false;
+  const std::lock_guard lock(work->mutex);
+  return !work->over && !work->stopping.empty();
 }
 
 void RunKeeper::awaitEnd(Id run, double patience_s) const {
@@ -259,6 +270,7 @@ void RunKeeper::end(Id run, const std::string& why) {
   const auto work = find(run);
   if (!work) return;
   const std::lock_guard lock(work->mutex);
+  work->stopping = why;
   if (!work->question.empty()) work->tellEnd(why);
 }
 

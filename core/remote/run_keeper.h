@@ -34,10 +34,12 @@ class RunKeeper {
   RunKeeper(const RunKeeper&) = delete;
   RunKeeper& operator=(const RunKeeper&) = delete;
 
-  /// Nothing happens if it is worked on already. Throws Refusal.
+  /// Nothing happens if it is worked on already. Throws Refusal, also for one that is still about to stop.
   void begin(Id run, double patience_s);
   bool isHere(Id run) const;
-  /// Waits for the end of a run whose process has stored that it rests and is about to leave, at most `patience_s`.
+  /// end() was called, and its process is still there.
+  bool isToStop(Id run) const;
+  /// Waits for the end of a run whose process is about to leave, at most `patience_s`.
   void awaitEnd(Id run, double patience_s) const;
   /// Waits until there is something to say, at most `wait_s`, or until `cancelled`.
   RunNews news(Id run, double wait_s, const std::function<bool()>& cancelled);
@@ -47,7 +49,7 @@ class RunKeeper {
   /// All runs stop: those that wait for their learner at once, of the others it is asked by `request`, and waited for
   /// until `patience_s` is over.
   void stopAll(const std::function<void(Id)>& request, double patience_s);
-  /// The learner is asked no longer: its run stops, with why.
+  /// The learner is asked no longer, now and from now on: its run stops, with why.
   void end(Id run, const std::string& why);
 
  private:

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/remote/services.h"
+#include "core/spec/parameter.h"
 #include "core/spec/simulator_spec.h"
 
 namespace btr::remote {
@@ -63,6 +64,13 @@ std::string answerOf(const v1::TellRequest& request) {
     vectors.push_back(std::move(vector));
   }
   return json{{"vectors", std::move(vectors)}, {"state", request.state()}}.dump();
+}
+
+void checkPatience(double patience_s) {
+  if (!(patience_s >= 0))
+    throw Refusal(Code::invalid,
+                  "patience_s: " + (std::isnan(patience_s) ? std::string("no number") : toText(patience_s)) +
+                      " is not allowed; a number of seconds, 0: 600");
 }
 
 }  // namespace
@@ -128,6 +136,7 @@ grpc::Status LearningService::Individuals(grpc::ServerContext* context, const v1
 
 grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::StartRequest* request, v1::Run* reply) {
   return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
+    checkPatience(request->patience_s());
     take(desks_.switchboard.records(callOf(Method::start, request->SerializeAsString())), *reply);
     desks_.switchboard.runs().begin(reply->run(), request->patience_s());
     *reply = runOf(reply->run());
@@ -137,10 +146,12 @@ grpc::Status LearningService::Start(grpc::ServerContext* context, const v1::Star
 grpc::Status LearningService::Continue(grpc::ServerContext* context, const v1::ContinueRequest* request,
                                        v1::Run* reply) {
   return guardedCall(desks_, context, Role::drive, [&](const Gate::Caller&) {
-    // That a run rests is stored before its process has left.
+    checkPatience(request->patience_s());
+    // That a run rests is stored before its process has left; one that is to stop first ends a generation.
     constexpr double leaving_s = 10;
     const std::string state = runOf(request->run()).state();
-    if (state == "waiting" || state == "stopped" || state == "failed")
+    if (state == "waiting" || state == "stopped" || state == "failed" ||
+        desks_.switchboard.runs().isToStop(request->run()))
       desks_.switchboard.runs().awaitEnd(request->run(), leaving_s);
     desks_.switchboard.runs().begin(request->run(), request->patience_s());
     *reply = runOf(request->run());

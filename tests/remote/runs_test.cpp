@@ -255,6 +255,52 @@ TEST_F(RemoteRun, ALearnerThatIsLateIsSaidAndTheRunStops) {
   EXPECT_EQ(v1::Question::VECTORS, question.what());
 }
 
+TEST_F(RemoteRun, ARunThatIsStoppedWhileItEvaluatesAsksNoMoreAndGoesOnWhenItIsContinued) {
+  begin();
+  const Caller caller(address);
+  const std::int64_t run = start(caller, experiment());
+  const v1::Question first = ask(caller, run);
+  ASSERT_EQ(v1::Question::VECTORS, first.what()) << first.message();
+  ASSERT_TRUE(tell(caller, run, first, vectorsFor(first)).ok());
+  v1::StopRequest request;
+  request.set_run(run);
+  v1::Run reply;
+  EXPECT_TRUE(caller.learning->Stop(caller.context().get(), request, &reply).ok());
+  EXPECT_EQ(v1::Question::STOPPED, ask(caller, run).what());
+  goOn(caller, run);
+  const v1::Question second = ask(caller, run);
+  ASSERT_EQ(v1::Question::VECTORS, second.what()) << second.message();
+  EXPECT_TRUE(tell(caller, run, second, vectorsFor(second)).ok());
+}
+
+TEST_F(RemoteRun, ARunThatIsContinuedAtOnceAfterItWasStoppedGoesOn) {
+  begin();
+  const Caller caller(address);
+  const std::int64_t run = start(caller, experiment());
+  ASSERT_EQ(v1::Question::VECTORS, ask(caller, run).what());
+  v1::StopRequest request;
+  request.set_run(run);
+  v1::Run reply;
+  EXPECT_TRUE(caller.learning->Stop(caller.context().get(), request, &reply).ok());
+  goOn(caller, run);
+  EXPECT_EQ(v1::Question::VECTORS, ask(caller, run).what());
+}
+
+TEST_F(RemoteRun, PatienceIsATime) {
+  begin();
+  const Caller caller(address);
+  v1::StartRequest request;
+  request.mutable_experiment()->set_json(experiment());
+  request.mutable_experiment()->set_directory("experiments");
+  for (const double patience_s : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    request.set_patience_s(patience_s);
+    v1::Run run;
+    const grpc::Status status = caller.learning->Start(caller.context().get(), request, &run);
+    EXPECT_EQ(grpc::StatusCode::INVALID_ARGUMENT, status.error_code());
+    EXPECT_THAT(status.error_message(), HasSubstr("patience_s: "));
+  }
+}
+
 TEST_F(RemoteRun, AServerThatEndsStopsItsRunsWhereTheyAre) {
   begin();
   std::int64_t run = 0;

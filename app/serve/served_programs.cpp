@@ -23,6 +23,7 @@ class ServedPrograms final : public remote::StickPrograms {
 
   void step() override { robots_.step(); }
   void acted(const Act& act) override { robots_.acted(act); }
+  void type(const std::string& robot, const std::string& text) override { robots_.type(robot, text); }
   void end() override { robots_.end(); }
 
   std::vector<Line> takeLines() override {

@@ -213,7 +213,12 @@ void LivePrograms::acted(const Act& act) {
 void LivePrograms::type(const std::string& robot, const std::string& text) {
   const auto found = robots_.find(robot);
   if (found == robots_.end()) throw InputError("robot", "\"" + robot + "\"", "a robot whose OPEN-R program runs");
-  found->second.typed += text;
+  constexpr std::size_t most = 1 << 20;  // as much as the robot keeps for a program that does not read
+  std::string& typed = found->second.typed;
+  if (typed.size() + text.size() > most)
+    throw InputError("text", std::to_string(typed.size() + text.size()) + " bytes between two periods",
+                     "at most " + std::to_string(most));
+  typed += text;
 }
 
 void LivePrograms::end() {

@@ -18,6 +18,7 @@ enum class Method : char {
   step = 's',
   pose = 'p',
   play = 'y',
+  type = 't',
   save = 'v',
   close = 'c',
   logFiles = 'l',

@@ -251,6 +251,10 @@ grpc::Status WorldsService::Play(grpc::ServerContext* context, const v1::PlayReq
   return pass(context, Role::drive, Method::play, *request, *reply);
 }
 
+grpc::Status WorldsService::Type(grpc::ServerContext* context, const v1::TypeRequest* request, v1::TypeReply* reply) {
+  return pass(context, Role::drive, Method::type, *request, *reply);
+}
+
 grpc::Status WorldsService::Save(grpc::ServerContext* context, const v1::SaveRequest* request, v1::SaveReply* reply) {
   return pass(context, Role::drive, Method::save, *request, *reply);
 }

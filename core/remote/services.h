@@ -146,6 +146,7 @@ class WorldsService final : public v1::Worlds::Service {
   grpc::Status Steps(grpc::ServerContext*, grpc::ServerReaderWriter<v1::State, v1::StepRequest>*) override;
   grpc::Status Poses(grpc::ServerContext*, grpc::ServerReader<v1::PoseRequest>*, v1::PosesReply*) override;
   grpc::Status Play(grpc::ServerContext*, const v1::PlayRequest*, v1::State*) override;
+  grpc::Status Type(grpc::ServerContext*, const v1::TypeRequest*, v1::TypeReply*) override;
   grpc::Status Save(grpc::ServerContext*, const v1::SaveRequest*, v1::SaveReply*) override;
   grpc::Status ShutDown(grpc::ServerContext*, const v1::ShutDownRequest*, v1::ShutDownReply*) override;
 

@@ -22,6 +22,8 @@ class StickPrograms {
   virtual void step() = 0;
   /// Told of each act that the session took.
   virtual void acted(const Act& act) = 0;
+  /// On a robot's console; its program reads it in the next period. Throws InputError if none runs there.
+  virtual void type(const std::string& robot, const std::string& text) = 0;
   /// Switches the robots off.
   virtual void end() = 0;
   /// What was said since the last call, as UTF-8.

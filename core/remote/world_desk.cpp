@@ -105,6 +105,15 @@ std::unique_ptr<StickPrograms> WorldDesk::programsOf(Session& session) const {
   return nullptr;
 }
 
+void WorldDesk::type(const v1::TypeRequest& request) {
+  session();
+  if (request.text().size() > mostTypedBytes)
+    throw InputError("text", std::to_string(request.text().size()) + " bytes",
+                     "at most " + std::to_string(mostTypedBytes));
+  if (!programs_) throw InputError("robot", "\"" + request.robot() + "\"", "a robot whose OPEN-R program runs");
+  programs_->type(request.robot(), request.text());
+}
+
 void WorldDesk::keepLines() {
   if (!programs_) return;
   const auto bytesOf = [](const StickPrograms::Line& line) {
@@ -290,6 +299,9 @@ std::string WorldDesk::answer(Method method, std::string_view message) {
       speed_ = request.speed();
       return state({});
     }
+    case Method::type:
+      type(messageOf<v1::TypeRequest>(message));
+      return v1::TypeReply().SerializeAsString();
     case Method::save: {
       const auto request = messageOf<v1::SaveRequest>(message);
       v1::SaveReply reply;

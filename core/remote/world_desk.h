@@ -21,6 +21,7 @@ class PictureRequest;
 class State;
 class StepRequest;
 class Targets;
+class TypeRequest;
 class Wanted;
 class World;
 }  // namespace uchilsim::v1
@@ -40,6 +41,8 @@ class WorldDesk final : public Desk {
 
   static constexpr std::size_t mostCameras = 8;
 
+  static constexpr std::size_t mostTypedBytes = 64 << 10;  ///< of one call
+
   static constexpr std::size_t mostLines = 1000, mostLineBytes = 1 << 20;  ///< of programs, that are kept
 
   /// The first two must outlive it. Without `programs` a game with an OPEN-R stick is refused.
@@ -58,6 +61,7 @@ class WorldDesk final : public Desk {
   void begin();  ///< an episode
   std::unique_ptr<StickPrograms> programsOf(Session& session) const;
   void keepLines();
+  void type(const uchilsim::v1::TypeRequest& request);
   void tellPrograms(const uchilsim::v1::Wanted& wanted, uchilsim::v1::State& state) const;
   std::string end();
   Session& session();

@@ -369,6 +369,8 @@ TEST_F(OpenrLive, FramesTellWhatTheRobotSensesInUnitsOfOpenR) {
                                                               return OrderFrame{};
                                                             }}}));
   programs.type("red1", "typed\n");
+  EXPECT_THAT(refusal([&] { programs.type("red1", std::string(1 << 20, 'x')); }),
+              HasSubstr("text: 1048582 bytes between two periods is not allowed"));
   programs.step();
   EXPECT_EQ(last.number, 1u);
   EXPECT_EQ(last.time_us, 0);

@@ -286,11 +286,12 @@ class Programs(unittest.TestCase):
         shutil.copytree(RESOURCES.parent / "tests/openr/programs/clumsy", crashing)
         source = crashing / "Clumsy/Clumsy.cc"
         source.write_text(source.read_text().replace("switch (readies++", "*(int*)0 = 1;\n  switch (readies++"))
-        for program in (RESOURCES / "openr/PanPath", crashing):
+        reading = RESOURCES.parent / "tests/openr/programs/filer"
+        for program in (RESOURCES / "openr/PanPath", crashing, reading):
             built = subprocess.run([BTR, "openr", "build", str(program), "--out", str(games / program.name)],
                                    capture_output=True, text=True)
             assert built.returncode == 0, built.stderr
-        for name, stick in (("pan", "PanPath"), ("crash", "crashing"), ("none", "nowhere")):
+        for name, stick in (("pan", "PanPath"), ("crash", "crashing"), ("read", "filer"), ("none", "nowhere")):
             scene = {"format": "uchilsim-scene-1", "step_s": 0.004, "control_period_s": 0.008, "floor": {"friction": 1},
                      "robots": [{"name": "red1", "model": DOG}]}
             (games / f"{name}.json").write_text(json.dumps(
@@ -318,6 +319,17 @@ class Programs(unittest.TestCase):
         alone = subprocess.run([BTR, "--json", "live", str(self.server.folder / "games/pan.json"), "--seconds", "2"],
                                capture_output=True, text=True)
         self.assertEqual(trace, json.loads(alone.stdout)["trace_sha256"])
+
+    def test_a_program_reads_what_is_typed_on_its_console(self):
+        with self.client.open("read.json") as world:
+            world.type("red1", "Ada\n")
+            world.type("red1", "7 dogs\n")
+            world.step(5)
+            said = [line.text for line in world.lines()]
+            self.assertIn("name? hello Ada", said)
+            self.assertIn("7 dogs", said)
+            with self.assertRaisesRegex(uchilsim.Refused, "robot: .*blue1.* is not allowed"):
+                world.type("blue1", "Ada\n")
 
     def test_without_its_controller_a_robot_has_no_program(self):
         with self.client.open("pan.json", without_controller=["red1"]) as world:

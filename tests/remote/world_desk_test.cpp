@@ -522,6 +522,10 @@ class NotedPrograms final : public StickPrograms {
     if (session_.periods() == 2) why_ = "PanPath crashed";
   }
   void acted(const Act& act) override { note(std::holds_alternative<OrdersAct>(act) ? "orders" : "act"); }
+  void type(const std::string& robot, const std::string& text) override {
+    if (robot != "red1") throw InputError("robot", "\"" + robot + "\"", "a robot whose OPEN-R program runs");
+    note("typed " + text);
+  }
   void end() override { note("end"); }
   std::vector<Line> takeLines() override { return std::exchange(lines_, {}); }
   std::map<std::string, std::string> whyEnded() const override { return {{"red1", why_}}; }
@@ -570,6 +574,33 @@ TEST_F(SticksTest, AProgramThatCannotBeStartedIsRefusedAndNothingIsWritten) {
   EXPECT_THAT(refused(other, Method::open, request, worldName), HasSubstr("MS: no folder"));
   EXPECT_EQ("this world is not open", refused(other, Method::step, v1::StepRequest()));
   EXPECT_EQ(listing, files.listing());
+}
+
+TEST_F(SticksTest, AClientTypesOnAProgramsConsole) {
+  WorldDesk running(plugins(), folder, {}, [](Session& session) { return std::make_unique<NotedPrograms>(session); });
+  v1::TypeRequest type;
+  type.set_robot("red1");
+  type.set_text("go");
+  EXPECT_EQ("this world is not open", refused(running, Method::type, type));
+  answered<v1::World>(running, Method::open, request, worldName);
+  answered<v1::TypeReply>(running, Method::type, type);
+  v1::StepRequest step;
+  step.set_periods(1);
+  answered<v1::State>(running, Method::step, step);
+  EXPECT_EQ("1@0 begins; 2@0 typed go; 3@0 step; 4@0 orders; ", lines(running, 0));
+  type.set_robot("blue1");
+  EXPECT_THAT(refused(running, Method::type, type), HasSubstr("robot: \"blue1\" is not allowed"));
+  type.set_robot("red1");
+  type.set_text(std::string(WorldDesk::mostTypedBytes + 1, 'x'));
+  EXPECT_THAT(refused(running, Method::type, type), HasSubstr("text: 65537 bytes is not allowed"));
+}
+
+TEST_F(SticksTest, WhereNoProgramRunsNobodyTypes) {
+  request.add_without_controller("red1");
+  answered<v1::World>(desk, Method::open, request, worldName);
+  v1::TypeRequest type;
+  type.set_robot("red1");
+  EXPECT_THAT(refused(desk, Method::type, type), HasSubstr("a robot whose OPEN-R program runs"));
 }
 
 TEST_F(SticksTest, AProgramMovesItsRobotAndIsHeard) {

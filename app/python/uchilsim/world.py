@@ -258,6 +258,10 @@ class World:
             self._last_line = message.lines[-1].number
         return [Line(line.period, line.robot, line.object, line.text) for line in message.lines]
 
+    def type(self, robot: str, text: str) -> None:
+        """On the console of a robot's OPEN-R program, which reads it in the next period; a line ends with \\n."""
+        self._client._call(self._client._worlds.Type, made(pb.TypeRequest, world=self.name, robot=robot, text=text))
+
     def game(self) -> dict:
         """The game as it is now, as in a game file, without its state."""
         return json.loads(self._client._call(self._client._worlds.Describe,

@@ -107,6 +107,8 @@ TEST(Objects, ManyObserversOfOneSubject) {
   // A shared region is held by both until they are ready again.
   EXPECT_THAT(all, HasSubstr("Pub: reg refs 3\n"));
   EXPECT_THAT(all, HasSubstr("Pub: reg ready refs 2\nPub: reg ready refs 1\n"));
+  // Its memory has a number, by which others hold it, too.
+  EXPECT_THAT(all, HasSubstr("Pub: by number 1 1 kept 8\n"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <OPENR/RCRegion.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "core/openr/runtime/objects/regions.h"
 
@@ -9,11 +8,13 @@ RCRegion::RCRegion() : references_(0), base_(nullptr), size_(0), memID_(0), offs
 
 RCRegion::RCRegion(std::size_t size)
     : references_(1),
-      base_(static_cast<char*>(std::calloc(1, std::max<std::size_t>(size, 1)))),
+      base_(nullptr),
       size_(size),
-      memID_(0),
+      memID_(btr::openr::newRegion(size)),
       offset_(0),
-      type_(SELF_ALLOCATED) {}
+      type_(SELF_ALLOCATED) {
+  base_ = static_cast<char*>(btr::openr::regionMemory(memID_).address);
+}
 
 RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::size_t size)
     : references_(1),
@@ -33,7 +34,7 @@ RCRegion::RCRegion(MemoryRegionID memID, offset_t offset, void* baseAddr, std::s
 }
 
 RCRegion::~RCRegion() {
-  if (type_ == SELF_ALLOCATED) std::free(base_);
+  if (type_ == SELF_ALLOCATED) btr::openr::deleteRegion(memID_);
   if (type_ == REFERENCE_V20) btr::openr::releaseRegion(memID_);
 }
 

@@ -15,6 +15,8 @@ void Pub::Tick(const ONotifyEvent& e) {
   n++;
   if (n <= 6) { char b[20]; sprintf(b, "m%d", n); OSYSPRINT(("set %d", subject[0]->SetData(b, sizeof b))); OSYSPRINT((" notify %d remain %d\n", subject[0]->NotifyObservers(), subject[0]->RemainBuffer())); }
   if (n == 7) { reg = new RCRegion(64); strcpy(reg->Base(), "shared"); subject[1]->SetData(reg); subject[1]->NotifyObservers(); OSYSPRINT(("reg refs %d\n", reg->NumberOfReference())); }
-  if (n == 10) { OSYSPRINT(("reg refs later %d\n", reg->NumberOfReference())); ObserverConstIterator i = subject[0]->begin(); char b[20] = "only first"; subject[0]->SetData(*i, b, sizeof b); subject[0]->NotifyObserver(*i); ++i; subject[0]->ClearBuffer(*i); }
+  if (n == 10) { OSYSPRINT(("reg refs later %d\n", reg->NumberOfReference()));
+    RCRegion* made = new RCRegion(8); strcpy(made->Base(), "kept"); RCRegion* same = new RCRegion(made->MemID(), made->Offset()); bool one = same->Base() == made->Base(); made->RemoveReference(); OSYSPRINT(("by number %d %d %s %u\n", one, same->MemID() != reg->MemID(), same->Base(), same->Size())); same->RemoveReference();
+    ObserverConstIterator i = subject[0]->begin(); char b[20] = "only first"; subject[0]->SetData(*i, b, sizeof b); subject[0]->NotifyObserver(*i); ++i; subject[0]->ClearBuffer(*i); }
   observer[0]->AssertReady();
 }

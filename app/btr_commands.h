@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/number_options.h"
 #include "core/plugin/plugin_host.h"
 #include "core/run/reality/spread.h"
 #include "core/spec/figures.h"
+#include "core/spec/number_options.h"
 
 // Commands of btr. Each function adds its subcommands to the parser; their callbacks do the work and set the exit code.
 namespace btr::cli {

@@ -6,9 +6,9 @@
 #include <QTimer>
 #include <cstdio>
 
-#include "app/number_options.h"
 #include "core/plugin/plugin_host.h"
 #include "core/spec/error.h"
+#include "core/spec/number_options.h"
 #include "core/spec/system/process.h"
 #include "ui/common/numbers/plain_numbers.h"
 #include "ui/controllers/grid_controller.h"

@@ -119,6 +119,10 @@ refused "another world" "no such world" "${stroll[@]}" --world abc --robot red1
 refused "neither game nor world" "--game" "${stroll[@]}" --robot red1
 refused "a parameter out of its bounds" "stop_m: 3 is not allowed" "${stroll[@]}" --game ex/wall.json --robot red1 --parameter stop_m=3
 refused "a parameter that it does not have" '"stop" is not allowed' "${stroll[@]}" --game ex/wall.json --robot red1 --parameter stop=3
+for number in "--seconds nan" "--seconds -1" "--seed -1" "--seed 0x10" "--seed 18446744073709551616"; do
+  expect 2 "$number" "${stroll[@]}" --game ex/wall.json --robot red1 $number
+  says err "\"${number#* }\" is not allowed"
+done
 refused "another machine without TLS" "--ca" "$programs/stroll" --server "192.0.2.1:$port" --game ex/wall.json --robot red1
 refused "nobody there" "no UCHILSIM answers there" "$programs/stroll" --server 127.0.0.1:1 --game ex/wall.json --robot red1
 "$python" - "$port" "${stroll[0]}" <<'P' || fail "worlds that a program cannot play in"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/remote/program/program_world.h"
+#include "core/spec/number_options.h"
 
 namespace {
 
@@ -83,10 +84,10 @@ int uchilsim::runProgram(int argc, char** argv, const BehaviourController& contr
   app.add_option("--parameter", parameters, "NAME=NUMBER of one of its parameters");
   app.add_option("--setting", settings, "NAME=NUMBER of one of its settings");
   app.add_option("--seconds", plan.seconds, "how long, simulated; 0: until it is over or stopped")
-      ->check(CLI::Range(0.0, 1e9))
+      ->transform(btr::cli::decimalNumber(0, 1e9))
       ->capture_default_str();
   app.add_flag("--once", once, "it does not begin again when it is over");
-  app.add_option("--seed", plan.seed, "of the game (default: its own)");
+  app.add_option("--seed", plan.seed, "of the game (default: its own)")->transform(btr::cli::seedNumber());
   app.add_flag("--unlogged", unlogged, "the server writes no log of the game");
   app.add_option("--token-file", address.tokenFile, "a file with the token alone, where the server wants one")
       ->check(CLI::ExistingFile);

@@ -92,6 +92,7 @@ TEST(StubGenerator, RefusesWithLineValueAndWhatIsAllowed) {
   EXPECT_THAT(refusal(good + std::string("something else\n")),
               HasSubstr("stub.cfg:11: \"something else\" " + std::string(lines)));
   EXPECT_EQ(refusal(good), "");
+  EXPECT_EQ(refusal("/* Copyright: ours\n * Extra : no\n */\n" + std::string(good) + "/* Extra : neither"), "");
 }
 
 TEST(ObjectSettings, AreOneLineBesideComments) {
@@ -104,6 +105,8 @@ TEST(ObjectSettings, AreOneLineBesideComments) {
   };
   const std::string line = "object Thing 3072 16384 128 cache tlb user";
   EXPECT_EQ(said("# of Thing\n\n" + line + "\n// end\n"), line);
+  EXPECT_EQ(said("/* of\n Thing */" + line + "/**/// end"), line);
+  EXPECT_THAT(said("/* two\n lines */\nfoo\n"), HasSubstr("thing.ocf:3: \"foo\""));
   EXPECT_EQ(said("object \"Thing\" 3072 16384 128 cache tlb user\r\n"), line);
   EXPECT_EQ(said(""), "");
   EXPECT_THAT(said(line + "\nfoo bar\n"),

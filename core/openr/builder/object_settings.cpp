@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/openr/builder/comments.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
@@ -25,11 +26,10 @@ bool isObjectLine(const std::vector<std::string>& words) {
 
 std::string objectLineOf(const std::string& ocf, const std::string& file) {
   std::string found;
-  std::istringstream in(ocf);
+  std::istringstream in(withoutComments(ocf));
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
-    line.resize(std::min({line.size(), line.find('#'), line.find("//")}));
     // Quotes are around the name, backslashes and returns at the end.
     line.erase(std::remove_if(line.begin(), line.end(), [](char c) { return c == '"' || c == '\\' || c == '\r'; }),
                line.end());

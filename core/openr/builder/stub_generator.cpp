@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/openr/builder/comments.h"
 #include "core/spec/error.h"
 
 namespace btr::openr {
@@ -33,13 +34,12 @@ std::vector<std::string> split(const std::string& text, char at) {
 
 class StubReader {
  public:
-  StubReader(const std::string& text, const std::string& file) : in_(text), file_(file) {}
+  StubReader(const std::string& text, const std::string& file) : in_(withoutComments(text)), file_(file) {}
 
   StubConfig read() {
     std::string line;
     while (std::getline(in_, line)) {
       ++line_;
-      line.resize(std::min({line.size(), line.find("//"), line.find('#')}));
       if (trimmed(line).empty()) continue;
       const auto colon = line.find(':');
       if (colon == std::string::npos) refuseLine(trimmed(line));

@@ -141,7 +141,7 @@ class Client:
                  certificate: str | pathlib.Path | None = None, timeout: float = 60.0, shared_pictures: bool = True):
         if not isinstance(address, str):
             raise Refused(f"address: {short(address)} is not allowed; \"HOST:PORT\" or \"unix:PATH\"")
-        forks.check_new()
+        forks.begin()
         self._process = os.getpid()
         options = [("grpc.max_receive_message_length", _LARGEST), ("grpc.enable_http_proxy", 0),
                    # A server that vanishes without a word is noticed, however long a call may take.
@@ -151,6 +151,7 @@ class Client:
         else:
             credentials = grpc.ssl_channel_credentials(certificate_of(certificate))
             self._channel = grpc.secure_channel(address, credentials, options)
+        forks.keep(self._channel)
         self._timeout = timeout
         self.shared_pictures = shared_pictures
         self._metadata = (("authorization", "Bearer " + token_of(token)),) if token else ()
@@ -162,9 +163,14 @@ class Client:
     def timeout(self) -> float:
         return self._timeout
 
+    @property
+    def is_own(self) -> bool:
+        """False in a process that was forked from the one that made this."""
+        return forks.is_own(self._process)
+
     def check_process(self) -> None:
         """Raises NotNow in a process that was forked from the one that made this."""
-        forks.check_made(self._process)
+        forks.check(self._process)
 
     def __reduce__(self):
         raise Refused("a Client, and who has one, cannot be copied or sent to another process; make one there")
@@ -245,7 +251,8 @@ class Client:
 
     # ---- the end
     def close(self) -> None:
-        self._channel.close()
+        if self.is_own:
+            self._channel.close()
 
     def __enter__(self) -> "Client":
         return self

@@ -84,6 +84,8 @@ def error_of(error: grpc.RpcError, address: str = "") -> Error:
         return Unreachable(f"{address}: {_why_not(details)}")
     if error.code() == grpc.StatusCode.DEADLINE_EXCEEDED and details == "Deadline Exceeded":
         return TooLate(f"{address}: no answer in the time that the call had; see timeout")
+    if error.code() == grpc.StatusCode.UNIMPLEMENTED and not details:
+        return Error(f"{address}: this server does not know this call: it has another version than this package")
     if "channel closed" in details.lower():
         return NotNow("the client was closed while it waited for an answer")
     return _KINDS.get(error.code(), Error)(details or str(error.code()))

@@ -1,35 +1,58 @@
-"""Processes that are forked, as multiprocessing does it on Linux by itself. gRPC can begin anew in one, but only if it was
-told so before it was imported; else whatever is asked there waits for ever, and spoils the parent's connection."""
+"""Processes that are forked, as multiprocessing does it on Linux by itself. gRPC's threads are not in the new process, and
+its locks may be held for ever; its own remedy can stop the old one, too. So a connection stays with the process that made
+it, and in one that was forked behind it the next call says what to do instead of waiting without end.
+"""
 
 from __future__ import annotations
 
+import ctypes
 import os
-import sys
+import weakref
+from typing import Any
 
+# Read by gRPC as it begins. Who sets it to 1 has chosen gRPC's remedy.
 _SWITCH = "GRPC_ENABLE_FORK_SUPPORT"
-_came_in_time = "grpc" not in sys.modules or _SWITCH in os.environ
-_begins_anew = _came_in_time and os.environ.setdefault(_SWITCH, "1").lower() in ("1", "yes", "true")
-_forked = False
+_remedied = os.environ.setdefault(_SWITCH, "0").lower() in ("1", "yes", "true")
+
+_connections: weakref.WeakSet = weakref.WeakSet()  # also what is under way on them
+_used = False     # in this process
+_spoiled = False  # this one was forked from one in which gRPC was at work
 
 
-def _mark() -> None:
-    global _forked
-    _forked = True
+def _begin_anew() -> None:
+    global _spoiled
+    _spoiled = _used and not _remedied
+    if _spoiled:
+        for each in list(_connections):  # their ends would speak to the server in the old process's name
+            ctypes.pythonapi.Py_IncRef(ctypes.py_object(each))
 
 
-os.register_at_fork(after_in_child=_mark)
+os.register_at_fork(after_in_child=_begin_anew)
 
 
-def check_new() -> None:
+def begin() -> None:
     """Before a connection is made. Raises NotNow where it could not work."""
-    if _forked and not _begins_anew:
+    global _used
+    if _spoiled:
         from .errors import NotNow  # which imports gRPC
-        raise NotNow("gRPC was imported before uchilsim and does not work in a process that was forked; import uchilsim "
-                     "first, or start processes with multiprocessing.get_context(\"spawn\")")
+        raise NotNow("gRPC does not work in a process that was forked from one that uses it; start processes with "
+                     "multiprocessing.get_context(\"spawn\"), or before the first Client")
+    _used = True
 
 
-def check_made(process: int) -> None:
-    """Before a connection is used; process: os.getpid() as it was made."""
-    if process != os.getpid():
+def keep(connection: Any) -> None:
+    """A connection, or what is under way on one, that a forked process must not end."""
+    _connections.add(connection)
+
+
+def is_own(process: int) -> bool:
+    """process: os.getpid() as a connection was made."""
+    return process == os.getpid()
+
+
+def check(process: int) -> None:
+    """Before a connection is used; process: as above."""
+    if not is_own(process):
         from .errors import NotNow
-        raise NotNow("this client belongs to the process that this one was forked from; make a Client in each process")
+        raise NotNow("this client belongs to the process that this one was forked from; make a Client in each process, "
+                     "started with multiprocessing.get_context(\"spawn\")")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Iterator
 
 import numpy as np
 
+from . import forks
 from . import uchilsim_pb2 as pb
 from .errors import Error, NotNow, sentences
 
@@ -164,6 +165,7 @@ class Camera:
     def _streamed(self, after: int) -> Iterator[Frame]:
         stream = self._client._worlds.Pictures(
             pb.PictureRequest(world=self._world, robot=self._robot, after=after), metadata=self._client._metadata)
+        forks.keep(stream)
         try:
             with sentences(self._client.address):
                 for reply in stream:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Sequence
 import grpc
 import numpy as np
 
-from . import checks
+from . import checks, forks
 from . import uchilsim_pb2 as pb
 from .checks import made
 from .errors import Error, NoChannel, Refused, error_of, sentences
@@ -124,6 +124,7 @@ class _Steps:
         self._address = client.address
         self._requests: queue.SimpleQueue = queue.SimpleQueue()
         self._answers = client._worlds.Steps(iter(self._requests.get, None), metadata=client._metadata)
+        forks.keep(self._answers)
 
     def send(self, request) -> None:
         self._requests.put(request)
@@ -151,6 +152,7 @@ class PoseStream:
         self._name, self._world = name, world
         self._requests: queue.SimpleQueue = queue.SimpleQueue()
         self._reply = world._client._worlds.Poses.future(iter(self._requests.get, None), metadata=world._client._metadata)
+        forks.keep(self._reply)
 
     def send(self, position_m: Vector, orientation_wxyz: Vector | None = None, velocity_m_s: Vector | None = None,
              spin_rad_s: Vector | None = None, joints: Mapping[str, float] | None = None) -> None:
@@ -228,7 +230,8 @@ class World:
 
     # ---- what it is
     def _wanted(self, channels=None, links=False, contacts=False):
-        return made(pb.Wanted, channels=channels or (), links=links, contacts=contacts, channels_known=self._version)
+        chosen = () if channels is None else checks.names("channels", channels)
+        return made(pb.Wanted, channels=chosen, links=links, contacts=contacts, channels_known=self._version)
 
     def state(self, channels: Sequence[str] | None = None, links: bool = False, contacts: bool = False) -> State:
         """The state now; `channels`: only these."""
@@ -240,6 +243,7 @@ class World:
         """States as they come, at most so many a second, until the world is closed or the caller stops."""
         request = made(pb.WatchRequest, world=self.name, rate_hz=rate_hz, wanted=self._wanted(channels, links, contacts))
         stream = self._client._worlds.Watch(request, metadata=self._client._metadata)
+        forks.keep(stream)
         try:
             with sentences(self._client.address):
                 for message in stream:
@@ -323,9 +327,10 @@ class World:
 
     def send_step(self, periods: int, targets: Mapping[str, Vector]) -> None:
         """The same on a stream, without waiting: receive_step() has the answer. Several worlds step side by side."""
+        request = self._request(periods, targets, (), None, False, False)
         if self._steps is None:
             self._steps = _Steps(self._client)
-        self._steps.send(self._request(periods, targets, (), None, False, False))
+        self._steps.send(request)
 
     def receive_step(self) -> State:
         if self._steps is None:
@@ -338,9 +343,9 @@ class World:
 
     def forget_steps(self) -> None:
         """Nothing that send_step() sent is answered any more; state() says what became of it."""
-        if self._steps is not None:
+        if self._steps is not None and self._client.is_own:
             self._steps.close()
-            self._steps = None
+        self._steps = None
 
     def reset(self, seed: int | None = None, acts: Sequence[Any] = ()) -> State:
         """The game from its beginning, with another seed if one is given; a log of its own begins."""

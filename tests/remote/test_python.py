@@ -254,6 +254,7 @@ class Mistakes(WithServer):
         client = uchilsim.Client(self.server.address)
         client.close()
         self.refused("the client is closed", client.info, uchilsim.NotNow)
+        self.refused("the client is closed", client.wait, uchilsim.NotNow)
         self.refused("127.0.0.1:1: no server answers there", uchilsim.Client("127.0.0.1:1").info, uchilsim.Unreachable)
 
     def test_tokens_and_certificates(self):
@@ -832,8 +833,9 @@ class Access(unittest.TestCase):
                                         (f"localhost:{port}", certificate, "connect to one of its subjectAltName"),
                                         (server.address, folder / "other.pem", "the server's certificate is another one")):
                 with uchilsim.Client(address, "0123456789abcdef0123456789", given) as client:
-                    with self.assertRaisesRegex(uchilsim.Unreachable, why):
-                        client.info()
+                    for ask in (client.info, lambda: client.wait(0.2)):
+                        with self.assertRaisesRegex(uchilsim.Unreachable, why):
+                            ask()
             with uchilsim.Client(server.address, "abcdef0123456789abcdef", certificate) as client:
                 client.shut_down()
             self.assertEqual(0, server.process.wait(30))

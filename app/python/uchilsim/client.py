@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import pathlib
@@ -15,7 +16,7 @@ from . import forks
 from . import uchilsim_pb2 as pb
 from . import uchilsim_pb2_grpc as services
 from .checks import certificate_of, made, numbers, short, token_of
-from .errors import NotFound, Refused, Unreachable, sentences
+from .errors import NotFound, Refused, client_closed, sentences
 from .learning import Run
 from .numbers import Number, clipped, lower_of, upper_of
 from .world import World
@@ -152,6 +153,7 @@ class Client:
             credentials = grpc.ssl_channel_credentials(certificate_of(certificate))
             self._channel = grpc.secure_channel(address, credentials, options)
         forks.keep(self._channel)
+        self._closed = False
         self._timeout = timeout
         self.shared_pictures = shared_pictures
         self._metadata = (("authorization", "Bearer " + token_of(token)),) if token else ()
@@ -168,15 +170,17 @@ class Client:
         """False in a process that was forked from the one that made this."""
         return forks.is_own(self._process)
 
-    def check_process(self) -> None:
-        """Raises NotNow in a process that was forked from the one that made this."""
+    def check_usable(self) -> None:
+        """Raises NotNow once it is closed, and in a process that was forked from the one that made this."""
         forks.check(self._process)
+        if self._closed:
+            raise client_closed()
 
     def __reduce__(self):
         raise Refused("a Client, and who has one, cannot be copied or sent to another process; make one there")
 
     def _call(self, method, request, timeout: float | None = ...):
-        self.check_process()
+        self.check_usable()
         with sentences(self.address):
             return method(request, timeout=self._timeout if timeout is ... else timeout, metadata=self._metadata)
 
@@ -188,11 +192,10 @@ class Client:
                     m.most_streams, m.most_evaluations)
 
     def wait(self, timeout: float = 10.0) -> Info:
-        """Waits until the server is there."""
-        try:
+        """Waits until the server is there; raises Unreachable with why it is not."""
+        self.check_usable()
+        with contextlib.suppress(grpc.FutureTimeoutError):  # then the call says why
             grpc.channel_ready_future(self._channel).result(timeout)
-        except grpc.FutureTimeoutError:
-            raise Unreachable(f"{self.address}: no server has answered for {timeout:g} s") from None
         return self.info()
 
     def shut_down(self) -> None:
@@ -212,7 +215,7 @@ class Client:
             request.game_json, request.directory = _json("game", game), directory
         else:
             raise Refused(f"game: {short(game)} is not allowed; a file below the server's folder, or a dictionary")
-        self.check_process()
+        self.check_usable()
         with sentences(self.address):
             call = self._worlds.Open.future(request, timeout=self._timeout, metadata=self._metadata)
             try:
@@ -251,6 +254,7 @@ class Client:
 
     # ---- the end
     def close(self) -> None:
+        self._closed = True
         if self.is_own:
             self._channel.close()
 

@@ -91,6 +91,10 @@ def error_of(error: grpc.RpcError, address: str = "") -> Error:
     return _KINDS.get(error.code(), Error)(details or str(error.code()))
 
 
+def client_closed() -> NotNow:
+    return NotNow("the client is closed; make a new Client")
+
+
 @contextlib.contextmanager
 def sentences(address: str = "") -> Iterator[None]:
     """gRPC's errors inside become this package's; see error_of()."""
@@ -101,4 +105,4 @@ def sentences(address: str = "") -> Iterator[None]:
     except ValueError as error:
         if "closed channel" not in str(error).lower() and "channel closed" not in str(error).lower():
             raise
-        raise NotNow("the client is closed; make a new Client") from None
+        raise client_closed() from None

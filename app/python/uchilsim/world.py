@@ -304,7 +304,7 @@ class World:
 
     # ---- time
     def _request(self, periods, targets, acts, channels, links, contacts):
-        self._client.check_process()
+        self._client.check_usable()
         request = made(pb.StepRequest, world=self.name, periods=periods, acts=acts)
         if targets is not None and not isinstance(targets, Mapping):
             raise Refused(f"targets: {checks.short(targets)} is not allowed; a dictionary by robot")

@@ -102,17 +102,9 @@ void requirePlausible(const Database& db, const FitnessArguments& a, Shell& shel
   const RunRecord run = db.run(a.run);
   const PreparedExperiment prepared = prepareFromRun(run, shell.plugins());
   const Fitness& fitness = *prepared.fitness;
-  const std::vector<Doubt> all =
-      doubts({db.measurementTasks(a.run), db.measurements(a.run), fitness.unit(), fitness.canBeNegative()}, entered);
-  std::string said;
-  bool isImpossible = false;
-  for (const Doubt& doubt : all) {
-    if (a.yes && !doubt.isImpossible) continue;
-    said += (said.empty() ? "" : "; ") + places[doubt.index] + ": " + doubt.sentence;
-    isImpossible = isImpossible || doubt.isImpossible;
-  }
-  if (said.empty()) return;
-  throw InputError(said + (isImpossible ? "" : "; nothing was stored; with --yes it counts as it is"));
+  const KnownFitness known{db.measurementTasks(a.run), db.measurements(a.run), fitness.unit(), fitness.canBeNegative()};
+  const std::string refusal = whyRefused(doubts(known, entered), a.yes, "with --yes it counts as it is", places);
+  if (!refusal.empty()) throw InputError(refusal);
 }
 
 /// L3 has taken the value in already: a version of the simulator rests on it.

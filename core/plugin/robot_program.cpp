@@ -134,8 +134,10 @@ std::optional<RealAnswer> RobotProgram::measure(const RealTask& task) {
   if (!line) return std::nullopt;
   JsonReader answer = JsonReader::parse(*line, "answer of " + impl_->options.name);
   if (answer.has("error")) throw InputError(impl_->options.name + ": " + answer.text("error"));
-  return RealAnswer{answer.number("fitness", -largestAnswer, largestAnswer), answer.flag("void", false),
-                    answer.text("note", "")};
+  const bool isVoid = answer.flag("void", false);
+  // Of a trial that failed there is no number.
+  const double fitness = isVoid && !answer.has("fitness") ? 0 : answer.number("fitness", -largestAnswer, largestAnswer);
+  return RealAnswer{fitness, isVoid, answer.text("note", "")};
 }
 
 }  // namespace btr

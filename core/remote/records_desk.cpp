@@ -170,17 +170,10 @@ std::string RecordsDesk::measured(const v1::MeasuredRequest& request) {
   }
   if (request.values().empty()) all.push_back(m);
   const PreparedExperiment prepared = prepareFromRun(run, host_);
-  std::string said;
-  bool isImpossible = false;
-  for (const Doubt& doubt : doubts({db.measurementTasks(run.id), db.measurements(run.id), prepared.fitness->unit(),
-                                    prepared.fitness->canBeNegative()},
-                                   all)) {
-    if (request.sure() && !doubt.isImpossible) continue;
-    said += (said.empty() ? "" : "; ") + doubt.sentence;
-    isImpossible = isImpossible || doubt.isImpossible;
-  }
-  if (!said.empty())
-    throw InputError(said + (isImpossible ? "" : "; nothing was stored; if it is right, send it as sure"));
+  const KnownFitness known{db.measurementTasks(run.id), db.measurements(run.id), prepared.fitness->unit(),
+                           prepared.fitness->canBeNegative()};
+  const std::string refusal = whyRefused(doubts(known, all), request.sure(), "if it is right, send it as sure");
+  if (!refusal.empty()) throw InputError(refusal);
   v1::MeasuredReply reply;
   for (const Id id : db.addMeasurements(all)) reply.add_measurements(id);
   db.moveLogIntoFile();

@@ -75,6 +75,13 @@ TEST_F(Realities, AProgramGetsTheRequestAndGivesTheAnswer) {
   EXPECT_EQ(0, request.integer("repeat", 0, 100));
 }
 
+TEST_F(Realities, AVoidTrialOfAProgramNeedsNoNumber) {
+  const auto answer = robot("echo '{\"void\": true, \"note\": \"it fell\"}'")->measure(task_);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->isVoid);
+  EXPECT_EQ("it fell", answer->note);
+}
+
 TEST_F(Realities, AProgramThatDiesIsSaidWithItsExitCode) {
   EXPECT_THAT(refusalOf("exit 3"), HasSubstr("robot.sh has ended without an answer (exit code 3)"));
 }

@@ -114,5 +114,18 @@ TEST(Plausibility, RealKicksOfAFinishedRunRaiseNoDoubt) {
   }
 }
 
+TEST(Plausibility, ConfirmingADoubtLetsTheValueCountAndAnImpossibleOneNever) {
+  const std::vector<Doubt> doubtful = doubts(kicks({0.4}), values({0.4, 41}));
+  EXPECT_EQ("", whyRefused({}, false, "say so"));
+  EXPECT_EQ("", whyRefused(doubtful, true, "say so"));
+  const std::string said = whyRefused(doubtful, false, "say so", {"line 2", "line 3"});
+  EXPECT_TRUE(said.starts_with("line 3: 41 m is about")) << said;
+  EXPECT_TRUE(said.ends_with("; nothing was stored; say so")) << said;
+
+  const std::vector<Doubt> both = doubts(kicks({0.4}), values({-1, 41}));
+  EXPECT_EQ("-1 m is not possible: this fitness is never negative", whyRefused(both, true, "say so"));
+  EXPECT_THAT(whyRefused(both, false, "say so"), testing::Not(HasSubstr("say so")));
+}
+
 }  // namespace
 }  // namespace btr

@@ -8,6 +8,7 @@
 #include "core/run/loop/robot.h"
 #include "core/run/loop/run_context.h"
 #include "core/run/loop/waiting.h"
+#include "core/run/reality/plausibility.h"
 #include "core/run/reality/reality_gap.h"
 #include "core/spec/error.h"
 
@@ -105,6 +106,23 @@ std::map<Id, int> repeatsBefore(const Database& db, const std::vector<Measuremen
   return before;
 }
 
+/// Refuses a robot's value that is not possible, or doubtful: nobody looks at it before L3 does. A person who finds a
+/// doubtful one right enters it. A stand-in's noise may lie below 0, and its values are in no other unit.
+void requirePlausible(const RunContext& context, const std::vector<MeasurementRecord>& done,
+                      const MeasurementRecord& measured) {
+  if (context.record.reality == "stand_in") return;
+  const Database& db = context.database;
+  const Fitness& fitness = *context.prepared.fitness;
+  const KnownFitness known{db.measurementTasks(measured.run), done, fitness.unit(), fitness.canBeNegative()};
+  const std::string run = std::to_string(measured.run), individual = std::to_string(measured.individual);
+  const std::string refusal =
+      whyRefused(doubts(known, {measured}), false,
+                 "if it is right: btr fitness enter --db " + db.path() + " --run " + run + " --individual " +
+                     individual + " --value " + toText(measured.value) + " --yes",
+                 {"individual " + individual + ", measured by " + measured.who});
+  if (!refusal.empty()) throw InputError(refusal);
+}
+
 /// Asks for all trials that are still missing and stores each answer at once; who has no answer yet is passed over.
 /// False if stopped.
 bool askRobot(RunContext& context, RealRobot& robot, const std::vector<MeasurementTask>& tasks,
@@ -130,6 +148,7 @@ bool askRobot(RunContext& context, RealRobot& robot, const std::vector<Measureme
       measurement.who = context.prepared.reality->who();
       measurement.source = context.record.reality;
       measurement.enteredAt = utcNow();
+      requirePlausible(context, done, measurement);
       db.addMeasurement(measurement);
       done.push_back(measurement);
     }

@@ -117,4 +117,16 @@ std::vector<Doubt> doubts(const KnownFitness& known, const std::vector<Measureme
   return all;
 }
 
+std::string whyRefused(const std::vector<Doubt>& doubts, bool isConfirmed, const std::string& otherwise,
+                       const std::vector<std::string>& places) {
+  std::string said;
+  bool isImpossible = false;
+  for (const Doubt& doubt : doubts) {
+    if (isConfirmed && !doubt.isImpossible) continue;
+    said += (said.empty() ? "" : "; ") + (places.empty() ? "" : places[doubt.index] + ": ") + doubt.sentence;
+    isImpossible = isImpossible || doubt.isImpossible;
+  }
+  return said.empty() || isImpossible ? said : said + "; nothing was stored; " + otherwise;
+}
+
 }  // namespace btr

@@ -35,6 +35,12 @@ struct Doubt {
 /// The sentences name measured values only: the simulated ones stay blind.
 std::vector<Doubt> doubts(const KnownFitness& known, const std::vector<MeasurementRecord>& entered);
 
+/// Why values with these doubts are not taken: one clause for each, where a doubtful value was confirmed only for the
+/// impossible ones; "" where all are taken. `places`, unless empty, says for each value where it came from;
+/// `otherwise`, how a doubtful value counts all the same, ends the sentence unless one is impossible.
+std::string whyRefused(const std::vector<Doubt>& doubts, bool isConfirmed, const std::string& otherwise,
+                       const std::vector<std::string>& places = {});
+
 /// The thresholds. A slip is a factor of 10 or more, kicks of one run differ by less. Downwards a real kick may fail
 /// where the simulated one went well, so that only another unit (a factor of 100) is asked about.
 struct DoubtLimits {

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "core/run/setup/evaluator.h"
 #include "core/sim/contact/collision.h"
 #include "core/spec/error.h"
 #include "core/spec/json_reader.h"
@@ -55,6 +57,29 @@ TEST(RunRecord, ItsHashTellsSpecificationsSceneAndModelsApartAndSeedsNot) {
   other = kick();
   other.files[0].sha256 = sha256("another robot");
   EXPECT_NE(makeRunRecord(other, 1, 1).specSha256, hash);
+}
+
+/// A fitness whose formula divides by nothing.
+class NoNumber final : public Fitness {
+  std::string unit() const override { return "m"; }
+  std::string meaning() const override { return "nothing"; }
+  std::vector<Parameter> settings() const override { return {}; }
+  double evaluate(const TrialResult&, const Values&, const Values&) const override { return std::nan(""); }
+  double ofFailure() const override { return -3; }
+};
+
+TEST(PreparedExperiment, ATrialWhoseFitnessIsNoNumberHasFailedAndSaysSo) {
+  PreparedExperiment prepared = kick();
+  prepared.fitness = std::make_shared<NoNumber>();
+  prepared.spec.fitness = {"torn", {}};
+  std::vector<double> usual;
+  for (const Parameter& p : prepared.genotype) usual.push_back(p.byDefault);
+  for (const bool fitnessOnly : {false, true}) {
+    const TrialReply reply = runTrialJob(prepared, {prepared.spec.simulator, usual, 1, false, {}, fitnessOnly});
+    EXPECT_EQ("no fitness", reply.outcome);
+    EXPECT_EQ("the fitness plugin \"torn\" gave no finite number", reply.detail);
+    EXPECT_EQ(-3, reply.fitness);
+  }
 }
 
 ExperimentSpec ownRobot() { return loadExperiment(SOURCE_DIR "/resources/experiments/own-robot-walk.json"); }

@@ -54,19 +54,21 @@ TrialReply decodeReply(const std::string& bytes) {
           j.at("figures").get<Values>()};
 }
 
+/// The outcome of a trial that came to its end and whose fitness is no number: it failed as others do.
+constexpr const char* withoutNumber = "no fitness";
+
 TrialReply evaluateIn(const PreparedExperiment& prepared, const Scene& scene, const TrialJob& job) {
   const TrialResult result = job.fitnessOnly ? prepared.trialForFitness(scene, job.parameters, job.seed)
                                              : prepared.trial(scene, job.parameters, job.seed, true);
+  const std::optional<double> number = prepared.numberOf(result);
   TrialReply reply;
-  reply.outcome = toText(result.outcome);
-  if (job.fitnessOnly) {
-    reply.detail = result.detail;
-    reply.fitness = prepared.fitnessOf(result);
-    return reply;
-  }
-  reply.detail = prepared.detailOf(result);
-  reply.figures = prepared.figuresOf(result);
-  reply.fitness = prepared.fitnessOf(result);
+  reply.fitness = number.value_or(prepared.fitness->ofFailure());
+  reply.outcome = number ? toText(result.outcome) : withoutNumber;
+  reply.detail = !number           ? "the fitness plugin \"" + prepared.spec.fitness.name + "\" gave no finite number"
+                 : job.fitnessOnly ? result.detail
+                                   : prepared.detailOf(result);
+  if (job.fitnessOnly) return reply;
+  if (number) reply.figures = prepared.figuresOf(result);
   reply.traceSha256 = result.trace.sha256();
   if (job.wantTrace) reply.packedTrace = result.trace.pack();
   return reply;

@@ -26,7 +26,7 @@ struct TrialJob {
 /// What a trial was worth. A trial that failed in any way has the fitness of a failure and says why.
 struct TrialReply {
   double fitness = 0;
-  std::string outcome = "finished";  ///< toText(TrialResult::Outcome)
+  std::string outcome = "finished";  ///< toText(TrialResult::Outcome), or "no fitness"
   std::string detail;                ///< why it failed, or what else the fitness tells: "falls 0, straightness 0.97"
   std::string traceSha256;           ///< "" if a worker died, or none was wanted
   std::string packedTrace;           ///< if wanted

@@ -257,10 +257,14 @@ TrialResult PreparedExperiment::trial(const Scene& arranged, std::span<const dou
   return runTrial(arranged, *controller, spec.controller.settings, parameters, seed, options);
 }
 
-double PreparedExperiment::fitnessOf(const TrialResult& result) const {
+std::optional<double> PreparedExperiment::numberOf(const TrialResult& result) const {
   if (result.outcome != TrialResult::Outcome::finished) return fitness->ofFailure();
   const double value = fitness->evaluate(result, spec.fitness.settings, task());
-  return std::isfinite(value) ? value : fitness->ofFailure();
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+double PreparedExperiment::fitnessOf(const TrialResult& result) const {
+  return numberOf(result).value_or(fitness->ofFailure());
 }
 
 std::string PreparedExperiment::detailOf(const TrialResult& result) const {

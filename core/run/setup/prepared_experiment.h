@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,10 @@ struct PreparedExperiment {
   /// The same for fitnessOf() alone, which gets the same value: no trace, and robots are simulated only as long as the
   /// fitness may depend on them (see BallFitness).
   TrialResult trialForFitness(const Scene& arranged, std::span<const double> parameters, std::uint64_t seed) const;
-  /// The fitness plugin's value; ofFailure() for a trial that did not finish or a value that is not finite.
+  /// The fitness plugin's value, ofFailure() for a trial that did not finish; nothing where the value is no finite
+  /// number.
+  std::optional<double> numberOf(const TrialResult& result) const;
+  /// The same, ofFailure() where it is no number.
   double fitnessOf(const TrialResult& result) const;
   /// Why a trial failed; of a finished one what else the fitness plugin tells, "falls 0, straightness 0.97".
   std::string detailOf(const TrialResult& result) const;

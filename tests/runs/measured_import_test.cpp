@@ -50,6 +50,20 @@ TEST(MeasuredImport, TakesTablesAsSpreadsheetsWriteThem) {
   EXPECT_EQ(0.75, all[1].value);
 }
 
+TEST(MeasuredImport, TakesTablesWithSemicolonsAndDecimalCommas) {
+  const auto all = read("\r\nindividual;value;note;void\r\n7;0,5;53;\r\n12;0.75;\"a; b\";\r\n7;1;;\r\n;;;\r\n");
+  ASSERT_EQ(3u, all.size());
+  EXPECT_EQ(0.5, all[0].value);
+  EXPECT_EQ("53", all[0].note);
+  EXPECT_EQ(0.75, all[1].value);
+  EXPECT_EQ("a; b", all[1].note);
+  EXPECT_EQ(1, all[2].value);
+  for (const char* value : {"1.234,5", "1,234,5", "1,234.5", "0,5 m"})
+    EXPECT_EQ("measured.csv line 2, column 2: the value \"" + std::string(value) + "\" is not allowed; a finite number",
+              refusalOf("individual;value\n7;" + std::string(value) + "\n"));
+  EXPECT_THAT(refusalOf("individual;value,note\n7;1;\n"), HasSubstr("or by semicolons"));
+}
+
 TEST(MeasuredImport, NamesLineAndColumnOfTheFirstWrongCell) {
   EXPECT_EQ("measured.csv line 3, column 2: the value \"half\" is not allowed; a finite number with a decimal point",
             refusalOf("individual,value\n7,0.5\n12,half\n"));
@@ -102,9 +116,9 @@ TEST(MeasuredImport, ChecksTheHeader) {
   EXPECT_EQ(
       "measured.csv line 1, column 3: the column \"colour\" is not allowed; columns are "
       "individual,value[,note][,void], "
-      "separated by commas",
+      "separated by commas, or by semicolons where decimals have a comma",
       refusalOf("individual,value,colour\n"));
-  EXPECT_THAT(refusalOf("individual;value\n7;1\n"), HasSubstr("the column \"individual;value\" is not allowed"));
+  EXPECT_THAT(refusalOf("individual|value\n7|1\n"), HasSubstr("the column \"individual|value\" is not allowed"));
   EXPECT_THAT(refusalOf("individual,value,value\n"), HasSubstr("column 3: a second column \"value\""));
   EXPECT_THAT(refusalOf("individual,note\n"), HasSubstr("line 1: a table without the column \"value\""));
   EXPECT_THAT(refusalOf(""), HasSubstr("measured.csv: is empty"));

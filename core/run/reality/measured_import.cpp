@@ -19,7 +19,9 @@ namespace {
 
 constexpr std::array<const char*, 4> known{"individual", "value", "note", "void"};
 enum Column { individualColumn, valueColumn, noteColumn, voidColumn };
-constexpr const char* columnsAllowed = "columns are individual,value[,note][,void], separated by commas";
+constexpr std::size_t longestCell = 1u << 16;
+constexpr const char* columnsAllowed =
+    "columns are individual,value[,note][,void], separated by commas, or by semicolons where decimals have a comma";
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
@@ -122,12 +124,35 @@ bool readVoid(const std::string& place, const std::string& cell) {
   throw InputError(place, quoted(cell), "1, yes, true (does not count) or 0, no, false or nothing");
 }
 
-double readValue(const std::string& place, const std::string& cell, bool isVoid) {
+/// What stands between the cells: spreadsheets whose decimals have a comma write semicolons. The stream stays where it
+/// is.
+char separatorIn(std::istream& stream) {
+  const std::istream::pos_type begin = stream.tellg();
+  std::string header(longestCell, '\0');
+  stream.read(header.data(), static_cast<std::streamsize>(header.size()));
+  header.resize(static_cast<std::size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(begin);
+  const std::size_t first = std::min(header.find_first_not_of(" \t\r\n"), header.size());
+  header = header.substr(first, header.find_first_of("\r\n", first) - first);
+  return header.find(';') != std::string::npos && header.find(',') == std::string::npos ? ';' : ',';
+}
+
+/// A number with a decimal comma as one with a point; a text with several marks stays as it is, and is none.
+std::string withPoint(std::string number) {
+  const auto comma = number.find(',');
+  if (comma != std::string::npos && number.find_first_of(".,", comma + 1) == std::string::npos &&
+      number.find('.') == std::string::npos)
+    number[comma] = '.';
+  return number;
+}
+
+double readValue(const std::string& place, const std::string& cell, bool isVoid, bool hasCommas) {
   if (cell.empty() && isVoid) return 0;
-  const std::optional<double> value = toNumber(cell);
+  const std::optional<double> value = toNumber(hasCommas ? withPoint(cell) : cell);
   if (!value)
     throw InputError(place, cell.empty() ? "an empty value" : "the value " + quoted(cell),
-                     "a finite number with a decimal point");
+                     hasCommas ? "a finite number" : "a finite number with a decimal point");
   return *value;
 }
 
@@ -145,7 +170,9 @@ bool mayBeDecimalComma(const std::string& value, const std::string& note) {
 std::vector<MeasurementRecord> readMeasuredCsv(std::istream& stream, const std::string& place,
                                                const std::vector<MeasurementTask>* tasks, const std::string& unit,
                                                std::vector<std::string>* places) {
-  CsvReader table(stream, place, ',', {.bytes = 64u << 20, .fieldBytes = 1u << 16, .fields = 100});
+  const char separator = separatorIn(stream);
+  const bool hasCommas = separator == ';';  // as decimals
+  CsvReader table(stream, place, separator, {.bytes = 64u << 20, .fieldBytes = longestCell, .fields = 100});
   std::vector<std::string> cells;
   if (!table.next(cells)) throw InputError(place + ": is empty; " + columnsAllowed);
   const std::size_t width = cells.size();
@@ -164,13 +191,14 @@ std::vector<MeasurementRecord> readMeasuredCsv(std::istream& stream, const std::
     if (cells.size() != width)
       throw InputError(table.at(), "a row of " + std::to_string(cells.size()) + " cells",
                        std::to_string(width) + " as in the header");
-    if (columns[noteColumn] == columns[valueColumn] + 1 && mayBeDecimalComma(cell(valueColumn), cell(noteColumn)))
+    if (!hasCommas && columns[noteColumn] == columns[valueColumn] + 1 &&
+        mayBeDecimalComma(cell(valueColumn), cell(noteColumn)))
       throw InputError(at(valueColumn), quoted(cell(valueColumn) + "," + cell(noteColumn)),
                        "a value with a decimal point, and a note that is more than digits");
     MeasurementRecord& m = all.emplace_back();
     m.individual = readIndividual(at(individualColumn), cell(individualColumn), tasks);
     m.isVoid = readVoid(at(voidColumn), cell(voidColumn));
-    m.value = conversion(readValue(at(valueColumn), cell(valueColumn), m.isVoid));
+    m.value = conversion(readValue(at(valueColumn), cell(valueColumn), m.isVoid, hasCommas));
     if (places) places->push_back("line " + std::to_string(table.line()));
     m.note = cell(noteColumn);
   }

@@ -1,6 +1,8 @@
 // Comparing runs: what differs between their specs, and their fitness in one chart.
 #include <QCheckBox>
+#include <QHeaderView>
 #include <QLabel>
+#include <QStyle>
 #include <QTableWidget>
 #include <QTest>
 #include <QTreeWidget>
@@ -133,6 +135,25 @@ class TestComparePage : public QObject {
     QCOMPARE(read.size(), 3);
     page.refresh();
     QCOMPARE(read.size(), 6);
+  }
+
+  // As wide as its dock in a small window, and in a large one.
+  void theNamesOfTheRunsAreReadAtAnyWidth() {
+    ComparePage page;
+    page.setRuns({run(1, 7, 30, "stand_in"), run(12, 8, 30, "stand_in")},
+                 {{1, "Learning to kick, short, with a stand-in reality"}});
+    const auto* tree = page.findChild<QTreeWidget*>();
+    for (const int width : {320, 700, 1200}) {
+      page.resize(width, 520);
+      page.show();
+      QCoreApplication::processEvents();
+      const QTreeWidgetItem* of = tree->topLevelItem(0)->child(1);
+      const QRect cell = tree->visualItemRect(of) & tree->viewport()->rect();
+      const int room = qMin(cell.right(), tree->header()->sectionSize(0)) - cell.left();
+      const int box = page.style()->pixelMetric(QStyle::PM_IndicatorWidth);
+      QVERIFY2(room >= box + tree->fontMetrics().horizontalAdvance(of->text(0)), qPrintable(QString::number(width)));
+      QVERIFY2(page.minimumSizeHint().width() <= width, qPrintable(QString::number(page.minimumSizeHint().width())));
+    }
   }
 
   void gapAndRealFitnessOfRunsThatDifferInTheirSeedBecomeMeansWithIntervals() {

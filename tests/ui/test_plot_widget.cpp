@@ -9,6 +9,7 @@
 #include <QTest>
 #include <QWheelEvent>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/run/reality/spread.h"
 #include "core/spec/error.h"
@@ -42,6 +43,12 @@ PlotData example() {
 QByteArray read(const QString& path) {
   QFile file(path);
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+const PlotLegend& legendOf(const PlotWidget& plot) {
+  for (const QGraphicsItem* item : plot.findChild<QGraphicsView*>()->scene()->items())
+    if (const auto* found = dynamic_cast<const PlotLegend*>(item)) return *found;
+  throw std::logic_error("a plot without a legend");
 }
 
 }  // namespace
@@ -178,11 +185,8 @@ class TestPlotWidget : public QObject {
     plot.show();
     QVERIFY(QTest::qWaitForWindowExposed(&plot));
     auto* view = plot.findChild<QGraphicsView*>();
-    PlotLegend* legend = nullptr;
-    for (QGraphicsItem* item : view->scene()->items())
-      if (auto* found = dynamic_cast<PlotLegend*>(item)) legend = found;
-    QVERIFY(legend);
-    const QPoint name = view->mapFromScene(legend->mapToScene(legend->placeOf("measured").center()));
+    const PlotLegend& legend = legendOf(plot);
+    const QPoint name = view->mapFromScene(legend.mapToScene(legend.placeOf("measured").center()));
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
     QVERIFY(!plot.isSeriesShown("measured"));
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, name);
@@ -392,6 +396,22 @@ class TestPlotWidget : public QObject {
         labels += isNumber && value > 0.3 && value < 1.25;
       }
     QVERIFY2(labels >= 2, qPrintable(QString::number(labels)));
+  }
+
+  void aNameLongerThanItsPlotIsCutInItsMiddle() {
+    PlotWidget plot;
+    plot.resize(420, 300);
+    plot.show();
+    PlotData data = example();
+    const QString name = QString("Learning to kick ").repeated(8) + ": maximum";
+    data.series = {{name, 0, PlotSeries::Style::line, {{1, 0.1}, {2, 0.2}}, {}, false}};
+    plot.setData(data);
+    plot.grab();
+    const auto* view = plot.findChild<QGraphicsView*>();
+    const PlotLegend& legend = legendOf(plot);
+    const QRectF place = legend.mapRectToScene(legend.placeOf(name));
+    QVERIFY(place.left() >= 0);
+    QVERIFY2(place.right() <= view->sceneRect().right(), qPrintable(QString::number(place.right())));
   }
 
   void manyLongNamesLeaveThePlotMostOfTheRoom() {

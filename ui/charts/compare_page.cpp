@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QResizeEvent>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -13,12 +14,16 @@
 #include "ui/charts/plot_widget.h"
 #include "ui/charts/stage_plot.h"
 #include "ui/common/database/reading_table.h"
+#include "ui/common/look/plain_tip.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/numbers/format.h"
 
 namespace btr::ui {
 namespace {
 constexpr int runRole = Qt::UserRole;
+constexpr int listWidth = 340, chartsWidth = 860;    ///< of the room that they share side by side
+constexpr int leastBeside = 2 * listWidth;           ///< narrower, the list stands above
+constexpr int listHeight = 170, chartsHeight = 430;  ///< of the room that they share one above the other
 
 /// Runs that differ only in their seed as one arm, in the order in which the first of each comes; by seed.
 std::vector<ComparedArm> armsOf(const std::vector<FitnessRun>& curves, const std::vector<RunRecord>& records,
@@ -53,6 +58,7 @@ std::vector<ComparedArm> armsOf(const std::vector<FitnessRun>& curves, const std
 
 ComparePage::ComparePage(QWidget* parent)
     : QWidget(parent),
+      parts_(new QSplitter(this)),
       tree_(new QTreeWidget(this)),
       plot_(new PlotWidget(this)),
       stages_(new PlotWidget(this)),
@@ -79,6 +85,7 @@ ComparePage::ComparePage(QWidget* parent)
   leftOut_ = new QLabel(this);
   leftOut_->setObjectName("leftOut");
   leftOut_->setWordWrap(true);
+  leftOut_->setTextFormat(Qt::PlainText);  // names are people's
 
   auto* below = new QWidget(this);
   auto* belowLayout = new QVBoxLayout(below);
@@ -97,16 +104,28 @@ ComparePage::ComparePage(QWidget* parent)
   right->addWidget(below);
   right->setStretchFactor(0, 3);
   right->setStretchFactor(1, 2);
-  auto* all = new QSplitter(this);
-  all->addWidget(tree_);
-  all->addWidget(right);
-  all->setStretchFactor(0, 1);
-  all->setStretchFactor(1, 3);
-  all->setSizes({340, 860});
+  parts_->addWidget(tree_);
+  parts_->addWidget(right);
+  parts_->setStretchFactor(0, 1);
+  parts_->setStretchFactor(1, 3);
+  arrange(Qt::Horizontal);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(8, 8, 8, 8);
-  layout->addWidget(all);
+  layout->addWidget(parts_);
   draw();
+}
+
+void ComparePage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const auto wanted = width() < leastBeside ? Qt::Vertical : Qt::Horizontal;
+  if (parts_->orientation() != wanted) arrange(wanted);
+}
+
+void ComparePage::arrange(Qt::Orientation orientation) {
+  const bool isBeside = orientation == Qt::Horizontal;
+  parts_->setOrientation(orientation);
+  tree_->setMinimumWidth(isBeside ? listWidth : 0);
+  parts_->setSizes(isBeside ? QList{listWidth, chartsWidth} : QList{listHeight, chartsHeight});
 }
 
 QWidget* ComparePage::makeOptions() {
@@ -168,6 +187,7 @@ void ComparePage::listRuns() {
       parent = new QTreeWidgetItem(tree_, {experimentOf(run)});
       parent->setFlags(parent->flags() | Qt::ItemIsUserCheckable | Qt::ItemIsAutoTristate);
       parent->setExpanded(true);
+      parent->setFirstColumnSpanned(true);
     }
     QString text = tr("Run %1").arg(run.id);
     if (run.reality == "stand_in") text += tr(" (stand-in)");
@@ -176,7 +196,7 @@ void ComparePage::listRuns() {
     item->setCheckState(0, Qt::Unchecked);
     item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     item->setTextAlignment(2, Qt::AlignRight | Qt::AlignVCenter);
-    item->setToolTip(0, run.note.empty() ? text : text + '\n' + QString::fromStdString(run.note));
+    item->setToolTip(0, plainTip(run.note.empty() ? text : text + '\n' + QString::fromStdString(run.note)));
   }
   tree_->resizeColumnToContents(1);
   tree_->resizeColumnToContents(2);

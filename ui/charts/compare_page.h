@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QLabel;
+class QSplitter;
 class QTabWidget;
 class QTableWidget;
 class QTreeWidget;
@@ -62,7 +63,12 @@ class ComparePage : public QWidget {
   /// The chosen runs that are not known, or no longer; answered by setHistories().
   void wanted(const std::vector<btr::Id>& runs);
 
+ protected:
+  /// The list stands beside the charts, or above them where both have no room side by side.
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void arrange(Qt::Orientation orientation);
   QWidget* makeOptions();
   void ask();
   QString experimentOf(const RunRecord& run) const;
@@ -73,6 +79,7 @@ class ComparePage : public QWidget {
   void fillReached(const std::vector<ComparedArm>& arms, const QString& unit);
   void fillDifferences(const std::vector<RunRecord>& runs);
 
+  QSplitter* parts_;  ///< the list of runs, and all that is shown of them
   QTreeWidget* tree_;
   PlotWidget *plot_, *stages_, *real_;
   QTabWidget* charts_;

@@ -71,8 +71,7 @@ double PlotLegend::place(double width, double widest) {
   const QFontMetricsF metrics(font_);
   const double rowHeight = metrics.height() + 5;
   const double room = widest - symbolWidth - symbolGap;
-  for (Entry& entry : arranged_)
-    entry.shown = widest < width ? metrics.elidedText(entry.name, Qt::ElideMiddle, room) : entry.name;
+  for (Entry& entry : arranged_) entry.shown = metrics.elidedText(entry.name, Qt::ElideMiddle, room);
   double y = 0;
   for (auto first = arranged_.begin(); first != arranged_.end(); y += rowHeight) {
     // Fill a row, then centre it.

@@ -305,6 +305,24 @@ class TestWindowEntry : public QObject {
     QVERIFY(!start->isVisible());
   }
 
+  void aNameIsShownAsItWasTypedAndNotAsHtml() {
+    ExperimentRecord experiment;
+    experiment.id = 1;
+    experiment.name = "Kick with a <small> ball & socks";
+    RunRecord run;
+    run.id = 1;
+    run.experiment = 1;
+    run.state = RunState::finished;
+    StartPage page;
+    page.setRuns({experiment}, {run});
+    const QString name = QString::fromStdString(experiment.name);
+    const auto labels = page.findChildren<QLabel*>();
+    const auto shown = std::ranges::find(labels, name, &QLabel::text);
+    QVERIFY(shown != labels.end());
+    QCOMPARE((*shown)->textFormat(), Qt::PlainText);
+    QVERIFY(page.findChild<QPushButton*>("run1")->toolTip().contains("a &lt;small&gt; ball &amp; socks"));
+  }
+
   // The window may have been made light before the user's dark look is known.
   void thePicturesOfTheStartPageAreSeenOnItsWindowWhateverItsLook() {
     Desk desk;

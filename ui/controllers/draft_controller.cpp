@@ -42,6 +42,7 @@ bool DraftController::mayReplace() {
   box.setObjectName("replaceDraft");
   box.setIcon(QMessageBox::Question);
   box.setWindowTitle(tr("The experiment is not saved"));
+  box.setTextFormat(Qt::PlainText);
   box.setText(tr("“%1” in the form has changes that are not saved.").arg(QString::fromStdString(draft_.spec().name)));
   box.setInformativeText(tr("If it is replaced, the changes are lost."));
   auto* save = box.addButton(tr("Save…"), QMessageBox::AcceptRole);

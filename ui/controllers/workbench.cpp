@@ -47,6 +47,7 @@ bool Workbench::mayMake(const QString& path) {
   box.setObjectName("makeDatabase");
   box.setIcon(QMessageBox::Question);
   box.setWindowTitle(tr("No such database"));
+  box.setTextFormat(Qt::PlainText);
   box.setText(tr("There is no database %1.").arg(QDir::toNativeSeparators(path)));
   box.setInformativeText(tr("A new, empty one can be made there."));
   auto* make = box.addButton(tr("Make a new database"), QMessageBox::AcceptRole);

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/run/reality/adoption.h"
+#include "ui/common/look/plain_tip.h"
 #include "ui/common/look/theme.h"
 #include "ui/experiment/badge_delegate.h"
 #include "ui/experiment/run_text.h"
@@ -204,8 +205,8 @@ void ExperimentTree::setContent(const std::vector<ExperimentRecord>& experiments
     const bool isNew = root.rowCount() > before;
     item->setText(text(experiment.name));
     if (isNew) item->setIcon(themeIcon("folder-open"));
-    item->setToolTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
-                     (experiment.note.empty() ? QString() : "\n" + text(experiment.note)));
+    item->setToolTip(plainTip(tr("Experiment %1, stored %2").arg(text(experiment.name), text(experiment.createdAt)) +
+                              (experiment.note.empty() ? QString() : "\n" + text(experiment.note))));
     if (isNew) view_->expand(item->index());
   }
   runs_.clear();
@@ -255,7 +256,7 @@ void ExperimentTree::showGroup(QStandardItem& item, const RunGroup& group) {
   item.setText(group.name);
   item.setIcon(themeIcon("view-grid"));
   item.setData(tr("%1 cells").arg(group.cells.size()), BadgeDelegate::DetailRole);
-  item.setToolTip(tr("Grid %1: %2\nEnter opens it in “The whole kick”").arg(group.grid).arg(group.name));
+  item.setToolTip(plainTip(tr("Grid %1: %2\nEnter opens it in “The whole kick”").arg(group.grid).arg(group.name)));
 }
 
 void ExperimentTree::setSimulators(Id run, const std::vector<SimulatorRecord>& simulators) {
@@ -369,10 +370,11 @@ void ExperimentTree::showRun(QStandardItem& item, const RunRecord& run) {
                  (run.note.empty() ? QString() : QStringLiteral(" — ") + text(run.note)));
   item.setIcon(themeIcon(iconName(face)));
   item.setData(isStandIn(run) ? tr("stand-in") : QString(), BadgeDelegate::BadgeRole);
-  item.setToolTip(tr("%1\n%2\nStarted %3, version %4")
-                      .arg(runName(run), stageText(face, progress), text(run.startedAt), text(run.programVersion)) +
-                  (isStandIn(run) ? tr("\nStand-in reality: no real robot was measured") : QString()) +
-                  (run.note.empty() ? QString() : "\n" + text(run.note)));
+  item.setToolTip(
+      plainTip(tr("%1\n%2\nStarted %3, version %4")
+                   .arg(runName(run), stageText(face, progress), text(run.startedAt), text(run.programVersion)) +
+               (isStandIn(run) ? tr("\nStand-in reality: no real robot was measured") : QString()) +
+               (run.note.empty() ? QString() : "\n" + text(run.note))));
   QStandardItem& parent = *item.parent();
   set(parent.child(item.row(), 1), progress.totalGenerations > 0
                                        ? QStringLiteral("%1 / %2").arg(run.generation).arg(progress.totalGenerations)

@@ -50,6 +50,7 @@ RunPanel::RunPanel(QWidget* parent)
   stage_->setFont(large);
   next_->setWordWrap(true);
   message_->setWordWrap(true);
+  message_->setTextFormat(Qt::PlainText);
   message_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   jobs_->setRange(0, 1024);
   jobs_->setSpecialValueText(tr("all cores"));

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "ui/common/look/plain_tip.h"
 #include "ui/common/look/theme.h"
 #include "ui/common/numbers/format.h"
 #include "ui/common/resources.h"
@@ -149,8 +150,9 @@ void StartPage::setRuns(const std::vector<ExperimentRecord>& experiments, const 
     for (const ExperimentRecord& experiment : experiments)
       if (experiment.id == run->experiment) name = QString::fromStdString(experiment.name);
     auto* entry = button(QStringLiteral("run%1").arg(run->id), "emblem-checked", runName(*run), this);
-    entry->setToolTip(name);
+    entry->setToolTip(plainTip(name));
     auto* of = new QLabel(name, this);
+    of->setTextFormat(Qt::PlainText);  // a name is a person's
     of->setWordWrap(true);
     finished_->addWidget(of);
     finished_->addWidget(entry);

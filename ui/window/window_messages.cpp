@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 
 #include "ui/common/look/message_banner.h"
+#include "ui/common/look/plain_tip.h"
 #include "ui/controllers/workbench.h"
 
 namespace btr::ui {
@@ -35,6 +36,7 @@ WindowMessages::WindowMessages(QMainWindow& window, Workbench& bench)
       database_(new QLabel(&window)),
       active_(new QLabel(&window)),
       reading_(new QLabel(&window)) {
+  database_->setTextFormat(Qt::PlainText);
   makeBar();
   makeStatusLine();
   showDatabase();
@@ -107,7 +109,7 @@ void WindowMessages::showDatabase() {
   window_.setWindowTitle(name.isEmpty() ? QStringLiteral("UCHILSIM") : shown + QStringLiteral(" — UCHILSIM"));
   window_.setWindowFilePath(QString());
   database_->setText(name.isEmpty() ? tr("No database") : shown);
-  database_->setToolTip(bench_.path());
+  database_->setToolTip(plainTip(bench_.path()));
 }
 
 }  // namespace btr::ui

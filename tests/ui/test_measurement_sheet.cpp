@@ -818,7 +818,15 @@ class TestMeasurementSheet : public QObject {
     QCOMPARE(again.model().draft(), s.model().draft());
     QCOMPARE(again.text(0, first), QString("0.5"));
     QCOMPARE(again.text(0, first + 1), QString("void"));
-    QVERIFY(again.sheet.findChild<MessageBanner*>()->text().contains("not saved yet"));
+    auto* banner = again.sheet.findChild<MessageBanner*>();
+    QVERIFY(banner->text().contains("not saved yet"));
+    // In another stage nothing stands.
+    auto all = tasks(2, 2);
+    all.push_back(all.back());
+    all.back().stage = 3;
+    all.back().individual = 201;
+    again.sheet.setTasks(all);
+    QVERIFY(!banner->isVisible());
     QVERIFY(draftFromText("{\"rows\": 3").empty());
     QCOMPARE(toText(MeasurementDraft()), QString());
   }

@@ -123,7 +123,17 @@ class TestRunPanel : public QObject {
     show(panel, aRun(RunState::waiting), progressIn("measuring"), false);
     panel.setMeasuring({7, 10});
     QCOMPARE(panel.findChild<ShortLabel*>("stage")->whole(), QString("Waiting for real fitness"));
-    QVERIFY(panel.findChild<QLabel*>("next")->text().contains("7 of 10"));
+    auto* next = panel.findChild<QLabel*>("next");
+    QVERIFY(next->text().contains("7 of 10"));
+    QVERIFY(next->text().startsWith("Measure on the real robot"));
+    RunRecord byFolder = aRun(RunState::waiting);
+    byFolder.reality = "csv_folder";
+    show(panel, byFolder, progressIn("measuring"), false);
+    panel.setMeasuring({7, 10});
+    QVERIFY2(next->text().startsWith("“csv_folder” measures"), qPrintable(next->text()));
+    QVERIFY(next->text().contains("7 of 10"));
+    show(panel, aRun(RunState::waiting), progressIn("measuring"), false);
+    panel.setMeasuring({7, 10});
     QCOMPARE(panel.findChild<QProgressBar*>("within")->value(), 7);
     panel.setMeasuring({10, 10});
     QVERIFY(panel.findChild<QLabel*>("next")->text().contains("press Continue to adapt the simulator"));

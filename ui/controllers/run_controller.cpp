@@ -83,12 +83,14 @@ void RunController::resume(Id run) {
 void RunController::sayWhatItWaitsFor(const Standing& standing) {
   const auto& [run, count] = standing;
   if (count.settled >= count.wanted) return;
-  bench_.note(
-      tr("%1 waits for real fitness: %2 of %3 are measured. Enter the other values in the measurement sheet; the run "
-         "goes on then.")
-          .arg(runName(run))
-          .arg(count.settled)
-          .arg(count.wanted));
+  const QString waits =
+      tr("%1 waits for real fitness: %2 of %3 are measured.").arg(runName(run)).arg(count.settled).arg(count.wanted);
+  bench_.note(waits + ' ' +
+              (isMeasuredByPerson(run)
+                   ? tr("Enter the other values in the measurement sheet; the run goes on then.")
+                   : tr("“%1” is asked for the others each time that the run goes on; values entered in the "
+                        "measurement sheet count as well.")
+                         .arg(QString::fromStdString(run.reality))));
   if (run.id == bench_.run().id) emit bench_.dockWanted("sheet");
 }
 

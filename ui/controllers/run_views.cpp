@@ -71,7 +71,9 @@ RunViews::RunViews(Workbench& bench, const Pages& pages) : QObject(&bench), benc
 void RunViews::clear() {
   pages_.panel.clear();
   pages_.fitness.setRun({});
+  pages_.fitness.setUnit({});
   pages_.gap.setGaps({}, {});
+  pages_.gap.setUnit({});
   pages_.versions.clear();
   pages_.individuals.clear();
 }

@@ -14,6 +14,14 @@ QString generations(int count) {
   return count == 1 ? RunTexts::tr("1 generation") : RunTexts::tr("%1 generations").arg(count);
 }
 
+// What a waiting run needs next, a clause.
+QString whoMeasures(const RunRecord& run) {
+  if (isMeasuredByPerson(run))
+    return RunTexts::tr("Measure on the real robot and enter the values in the measurement sheet");
+  return RunTexts::tr("“%1” measures: press Continue once its values are there, or enter them in the measurement sheet")
+      .arg(QString::fromStdString(run.reality));
+}
+
 }  // namespace
 
 RunFace faceOf(const RunRecord& run, bool active) {
@@ -143,9 +151,7 @@ QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progre
         return (measuring.iteration > 0 ? RunTexts::tr("All %1 are measured: press Continue to take the step.")
                                         : RunTexts::tr("All %1 are measured: press Continue to adapt the simulator."))
             .arg(measuring.wanted);
-      return RunTexts::tr("Measure on the real robot and enter the values in the measurement sheet (%1 of %2 done).")
-          .arg(measuring.settled)
-          .arg(measuring.wanted);
+      return RunTexts::tr("%1 (%2 of %3 done).").arg(whoMeasures(run)).arg(measuring.settled).arg(measuring.wanted);
     case RunFace::stopping:
       return RunTexts::tr("The running trials end, then everything is stored.");
     case RunFace::interrupted:

@@ -29,5 +29,6 @@ QString nextAction(RunFace face, const RunRecord& run, const RunProgress& progre
 /// "Run 3 · seed 7".
 QString runName(const RunRecord& run);
 inline bool isStandIn(const RunRecord& run) { return run.reality == "stand_in"; }
+inline bool isMeasuredByPerson(const RunRecord& run) { return run.reality == "person"; }
 
 }  // namespace btr::ui

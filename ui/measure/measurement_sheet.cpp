@@ -203,6 +203,7 @@ void MeasurementSheet::fillStages(std::size_t shown) {
 void MeasurementSheet::showStage(std::size_t index) {
   finishEditing();
   question_->withdraw();
+  if (index != shown_) clearSaidOfEdit();  // it was about another stage
   shown_ = index;
   stage_->setCurrentIndex(stages_.empty() ? -1 : static_cast<int>(index));
   model_.setTasks(stages_.empty() ? std::vector<MeasurementTask>() : stages_[index]);
@@ -301,9 +302,13 @@ void MeasurementSheet::refresh() {
 // A message about an edit, or a question, ends with the next edit, undo or redo.
 void MeasurementSheet::editsChanged() {
   question_->withdraw();
+  clearSaidOfEdit();
+  refresh();
+}
+
+void MeasurementSheet::clearSaidOfEdit() {
   if (saysEdit_) banner_->clear();
   saysEdit_ = false;
-  refresh();
 }
 
 void MeasurementSheet::save() {

@@ -81,6 +81,7 @@ class MeasurementSheet : public QWidget {
   void sayLeftOut(const QStringList& texts);
   void sayUnclear(const QStringList& texts);
   void editsChanged();
+  void clearSaidOfEdit();
   bool completesStage() const;
   QAction* addKey(const QString& text, const char* icon, const QKeySequence& keys);
 

@@ -79,7 +79,11 @@ void printStatus(const Database& db, const std::vector<RunRecord>& runs, bool as
   std::vector<std::vector<std::string>> rows;
   for (const auto& r : all) {
     const bool standIn = r["reality"] == "stand_in";
-    std::string state = r["state"].get<std::string>() + (r["active"].get<bool>() ? " (working)" : "");
+    const bool isActive = r["active"].get<bool>();
+    std::string state = r["state"].get<std::string>();
+    // Of a run that no process works on: it was killed, or the machine was switched off.
+    const bool isCutOff = !isActive && (state == toText(RunState::learning) || state == toText(RunState::adapting));
+    state += isActive ? " (working)" : isCutOff ? " (interrupted)" : "";
     std::string gap, heldOut;
     if (!r["gaps"].empty()) {
       const auto& last = r["gaps"].back();

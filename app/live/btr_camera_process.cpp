@@ -111,10 +111,9 @@ void CameraProcess::finish() {
   }
   process_ = -1;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw InputError("camera",
-                   WIFSIGNALED(status) ? std::string("btr-camera crashed: ") + strsignal(WTERMSIG(status))
-                                       : "btr-camera ended with the error above",
-                   "frames up to the end of the session");
+  throw InputError(WIFSIGNALED(status)
+                       ? std::string("camera: btr-camera crashed: ") + strsignal(WTERMSIG(status))
+                       : "camera: btr-camera ended before the session did; it says why in the line above");
 }
 
 }  // namespace btr::cli

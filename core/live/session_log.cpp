@@ -114,7 +114,9 @@ SessionLog loadSessionLog(const std::string& path) {
     act.erase("period");
     log.acts.push_back({period, actFromJson(act.dump(), place)});
   }
-  if (log.gameSha256.empty()) throw InputError(path, "an empty file", "a log of btr live or of the scene page");
+  if (log.gameSha256.empty())
+    throw InputError(path, text.empty() ? "an empty file" : "a file that ends within its first line",
+                     "a log of btr live or of the scene page");
   return log;
 }
 

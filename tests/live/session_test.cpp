@@ -233,6 +233,8 @@ TEST(SessionLogs, OfAKilledSessionAreReadUpToTheirLastWholeLine) {
   EXPECT_THAT(refusal([&] { loadSessionLog(path); }), HasSubstr("killed.log:4"));
   std::ofstream(path) << "";
   EXPECT_THAT(refusal([&] { loadSessionLog(path); }), HasSubstr("an empty file"));
+  std::ofstream(path) << text.substr(0, text.find('\n') / 2);
+  EXPECT_THAT(refusal([&] { loadSessionLog(path); }), HasSubstr("a file that ends within its first line"));
 }
 
 TEST(Games, AreRefusedWithFileAndPlace) {

@@ -46,8 +46,10 @@ PYTHON
 expect 0 "the tests of all effects" "$test_plugin" --gtest_filter='*eutral*'
 unset UCHILSIM_PLUGINS
 
-# The experiment itself names the folder.
-expect 0 "run" "$btr" run "$examples/experiment.json" --db "$folder/first.db" --jobs 1
+# The experiment itself names the folder; copied as the manual says, with the scenes beside it.
+mkdir "$folder/copied"
+cp -r "$prefix"/share/uchilsim/{plugin-examples,scenes,robots} "$folder/copied"
+expect 0 "run" "$btr" run "$folder/copied/plugin-examples/experiment.json" --db "$folder/first.db" --jobs 1
 expect 0 "export" "$btr" export --db "$folder/first.db" --run 1 --what generations
 [ "$(wc -l < "$folder/out")" = 3 ] || fail "not two generations"
 

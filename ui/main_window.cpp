@@ -140,11 +140,13 @@ void MainWindow::compareRuns(const std::vector<Id>& runs) { comparing_->compare(
 
 void MainWindow::raise(const QString& dock) {
   if (layout_.isPage(layout_.dock(dock))) return layout_.showPage(dock);
+  // First: the layout that comes back from behind a page has its own say about which docks float.
+  layout_.raise(dock);
   if (dock == "compare" && !layout_.dock(dock)->isFloating()) {
     layout_.dock(dock)->setFloating(true);
     layout_.dock(dock)->resize(QSize(1200, 800).boundedTo(screen()->availableSize()));
+    layout_.dock(dock)->raise();
   }
-  layout_.raise(dock);
   // Who asks for the sheet wants to type into it.
   if (dock == "sheet") pages_.sheet->setFocus();
 }

@@ -323,6 +323,22 @@ class TestWindowEntry : public QObject {
     QVERIFY(page.findChild<QPushButton*>("run1")->toolTip().contains("a &lt;small&gt; ball &amp; socks"));
   }
 
+  // Behind a page the layout of before comes back, which knows nothing of that window.
+  void comparedRunsHaveAWindowOfTheirOwnFromThePagesToo() {
+    StoredRun stored;
+    const Id run = stored.addRun(stored.addExperiment());
+    stored.database.setRunState(run, RunState::finished, "");
+    Desk desk;
+    const auto window = desk.open(stored.qpath());
+    const auto* compare = window->findChild<QDockWidget*>("dock.compare");
+    for (const char* page : {"start", "analysis", "grid"}) {
+      window->showPage(page);
+      window->compareRuns({run});
+      QVERIFY2(compare->isVisible() && compare->isFloating(), page);
+      QVERIFY2(compare->width() > 2 * window->findChild<QDockWidget*>("dock.spec")->width(), page);
+    }
+  }
+
   // The window may have been made light before the user's dark look is known.
   void thePicturesOfTheStartPageAreSeenOnItsWindowWhateverItsLook() {
     Desk desk;
